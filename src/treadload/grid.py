@@ -1,0 +1,73 @@
+"""The grid: rectangular cells on a piece of road."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Cells of a rectangular piece of road.
+
+    nx, ny: number of cells along x (travel) and y (right).
+    dx, dy: cell size, m.
+    x0, y0: centre of the first cell, m.
+    """
+
+    nx: int
+    ny: int
+    dx: float
+    dy: float
+    x0: float
+    y0: float
+
+    def __post_init__(self) -> None:
+        if self.nx < 1 or self.ny < 1:
+            raise InputError(f"a grid needs at least one cell each way, got {self.nx} x {self.ny} (nx x ny)")
+        for name in ("dx", "dy"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0):
+                raise InputError(f"grid spacing {name} must be a positive number of metres, got {value}")
+        if not (math.isfinite(self.x0) and math.isfinite(self.y0)):
+            raise InputError(f"grid origin must be finite, got x0 = {self.x0}, y0 = {self.y0}")
+
+    @classmethod
+    def centred(cls, length: float, width: float, dx: float, dy: float | None = None) -> Grid:
+        """Smallest grid with the origin at its middle that covers length (x) by width (y), m."""
+        dy = dx if dy is None else dy
+        if not (length > 0 and width > 0 and dx > 0 and dy > 0):
+            raise InputError(
+                f"a grid needs a positive length, width and spacing, got {length} m, {width} m, {dx} m, {dy} m"
+            )
+        nx = max(1, math.ceil(length / dx - 1e-9))
+        ny = max(1, math.ceil(width / dy - 1e-9))
+        return cls(nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(ny, nx): x runs fastest."""
+        return self.ny, self.nx
+
+    @property
+    def cell_area(self) -> float:
+        """Area of a cell, m²."""
+        return self.dx * self.dy
+
+    @property
+    def x(self) -> Array:
+        """(nx,) cell centres along travel, m."""
+        return self.x0 + self.dx * np.arange(self.nx)
+
+    @property
+    def y(self) -> Array:
+        """(ny,) cell centres to the right, m."""
+        return self.y0 + self.dy * np.arange(self.ny)
+
+    def __str__(self) -> str:
+        return f"{self.nx} x {self.ny} cells of {self.dx * 1e3:g} x {self.dy * 1e3:g} mm"

@@ -1,0 +1,103 @@
+"""Linear convolution of gridded loads with influence coefficients by zero-padded FFT (DC-FFT).
+
+The rows that the padding adds are zero on the way in and unwanted on the way out; both are pruned.
+
+Source: Liu, Wang & Liu (2000), Wear 243, 101-111 (discrete convolution and FFT).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from treadload.kernels.arrays import Array, ComplexArray
+
+
+@dataclass(frozen=True)
+class Padding:
+    """Zero-padded Fourier space in which a product of spectra is a linear convolution.
+
+    load_shape: (ny, nx) of the load. field_shape: (ny, nx) of the result; None: as the load.
+    The first field cell lies `offset` cells from the first load cell only through the kernel that
+    `offsets` builds: the spaces themselves know no position.
+    """
+
+    load_shape: tuple[int, int]
+    field_shape: tuple[int, int]
+
+    @classmethod
+    def of(cls, load_shape: tuple[int, int], field_shape: tuple[int, int] | None = None) -> Padding:
+        """Padding for a load and a field of these shapes (ny, nx)."""
+        return cls(load_shape, load_shape if field_shape is None else field_shape)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Padded shape: at least load + field - 1 each way, rounded up to a fast FFT length."""
+        (ny, nx), (my, mx) = self.load_shape, self.field_shape
+        return int(fft.next_fast_len(ny + my - 1)), int(fft.next_fast_len(nx + mx - 1, real=True))
+
+    def offsets(self, dx: float, dy: float, x0: float = 0.0, y0: float = 0.0) -> tuple[Array, Array]:
+        """Distances field cell minus load cell, wrapped: X (1, mx), Y (my, 1), m.
+
+        x0, y0: position of the first field cell minus that of the first load cell, m.
+        Offsets that no pair of cells has are NaN; `spectrum` sets the kernel to zero there.
+        """
+        (my, mx) = self.shape
+        y = _wrapped(self.load_shape[0], self.field_shape[0], my)
+        x = _wrapped(self.load_shape[1], self.field_shape[1], mx)
+        return x0 + dx * x[None, :], y0 + dy * y[:, None]
+
+    def spectrum(self, kernel: Array) -> ComplexArray:
+        """Spectrum (my, mx // 2 + 1) of a kernel sampled at `offsets`; NaN counts as zero."""
+        spectrum: ComplexArray = fft.rfft2(np.nan_to_num(kernel, copy=True, nan=0.0))
+        return spectrum
+
+    def forward(self, load: Array) -> ComplexArray:
+        """Spectrum (my, mx // 2 + 1) of a load (ny, nx) padded with zeros."""
+        rows = fft.rfft(load, n=self.shape[1], axis=-1)
+        spectrum: ComplexArray = fft.fft(rows, n=self.shape[0], axis=-2, overwrite_x=True)
+        return spectrum
+
+    def inverse(self, spectrum: ComplexArray) -> Array:
+        """Field (ny, nx) of a spectrum: the inverse transform without its padding."""
+        (ny, nx), (_, mx) = self.field_shape, self.shape
+        rows = fft.ifft(spectrum, axis=-2)[..., :ny, :]
+        field: Array = fft.irfft(rows, n=mx, axis=-1)[..., :nx]
+        return field
+
+
+@dataclass(frozen=True)
+class Convolution:
+    """A scalar influence operator: field = Σ kernel(cell - load cell) · load.
+
+    padding: the padded space. spectrum: the kernel in it; real when the kernel is even.
+    """
+
+    padding: Padding
+    spectrum: ComplexArray | Array
+
+    @classmethod
+    def of_kernel(cls, padding: Padding, kernel: Array, *, even: bool = False) -> Convolution:
+        """Operator of a kernel sampled at `padding.offsets`.
+
+        even: the kernel is even in x and in y, so that its spectrum is real and is stored so.
+        """
+        spectrum = padding.spectrum(kernel)
+        return cls(padding, np.ascontiguousarray(spectrum.real) if even else spectrum)
+
+    def __call__(self, load: Array) -> Array:
+        """Field (ny, nx) under a load (ny, nx)."""
+        transformed = self.padding.forward(load)
+        transformed *= self.spectrum
+        return self.padding.inverse(transformed)
+
+
+def _wrapped(n_load: int, n_field: int, n_padded: int) -> Array:
+    """Offsets 0 … n_field - 1, then NaN, then -(n_load - 1) … -1."""
+    offsets = np.full(n_padded, np.nan)
+    offsets[:n_field] = np.arange(n_field)
+    if n_load > 1:
+        offsets[-(n_load - 1) :] = np.arange(-(n_load - 1), 0)
+    return offsets

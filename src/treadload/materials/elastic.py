@@ -1,0 +1,38 @@
+"""Isotropic linear elasticity."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from treadload.errors import InputError
+
+
+@dataclass(frozen=True)
+class Elastic:
+    """Isotropic linear elastic material.
+
+    modulus: Young's modulus, Pa, > 0.
+    poisson: Poisson's ratio, in (-1, 0.5].
+    """
+
+    modulus: float
+    poisson: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.modulus) and self.modulus > 0):
+            raise InputError(
+                f"modulus must be a positive number of Pa, got {self.modulus}; asphalt is near 5.4e9"
+            )
+        if not -1 < self.poisson <= 0.5:
+            raise InputError(
+                f"poisson must lie in (-1, 0.5], got {self.poisson}; rubber is near 0.5, asphalt near 0.35"
+            )
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / 2(1 + ν), Pa."""
+        return self.modulus / (2 * (1 + self.poisson))
+
+    def __str__(self) -> str:
+        return f"elastic, E = {self.modulus / 1e6:g} MPa, ν = {self.poisson:g}"

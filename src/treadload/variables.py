@@ -1,0 +1,94 @@
+"""Names, units and long names of every variable that a result can hold.
+
+The one place where they are said; signs are explained in docs/explanation/conventions.md.
+x: direction of travel. y: to the right. z: depth, positive down. Tension positive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+_COORDINATES = {
+    "x": ("m", "position along the direction of travel"),
+    "y": ("m", "position to the right of travel"),
+    "depth": ("m", "depth below the road surface, positive down"),
+}
+
+_CONTACT = {
+    "initial_gap": ("m", "separation before loading"),
+    "gap": ("m", "separation after loading"),
+    "pressure": ("Pa", "contact pressure"),
+    "traction_x": ("Pa", "shear exerted by the tire on the road along travel"),
+    "traction_y": ("Pa", "shear exerted by the tire on the road to the right"),
+    "state": ("1", "0 open, 1 stick, 2 slip"),
+    "slip_x": ("1", "slip velocity of the tire relative to the road along travel, over rolling speed"),
+    "slip_y": ("1", "slip velocity of the tire relative to the road to the right, over rolling speed"),
+    "displacement_x": ("m", "surface displacement of the road along travel"),
+    "displacement_y": ("m", "surface displacement of the road to the right"),
+    "displacement_z": ("m", "surface displacement of the road, down"),
+    "approach": ("m", "approach of tire and road"),
+    "creepage_x": ("1", "longitudinal creepage (V - ωR)/V, negative when driving"),
+    "creepage_y": ("1", "lateral creepage"),
+    "spin": ("rad/m", "spin creepage"),
+    "normal_load": ("N", "normal load"),
+    "tractive_force": ("N", "force of the road on the tire along travel, positive when driving"),
+    "lateral_force": ("N", "force of the road on the tire to the right"),
+    "aligning_moment": ("N m", "moment of the road on the tire about z through the origin of the grid"),
+    "friction": ("1", "coefficient of friction"),
+}
+
+_TENSOR = ("xx", "yy", "zz", "xy", "xz", "yz")
+
+_RESPONSE = {
+    **{f"stress_{c}": ("Pa", f"stress component {c}, tension positive") for c in _TENSOR},
+    **{f"strain_{c}": ("1", f"strain component {c}, extension positive, tensor shear") for c in _TENSOR},
+    "principal_strain_1": ("1", "largest principal strain (largest extension), three-dimensional"),
+    "principal_strain_2": ("1", "middle principal strain, three-dimensional"),
+    "principal_strain_3": ("1", "smallest principal strain, three-dimensional"),
+    "principal_direction_1": ("1", "unit vector of the largest extension"),
+    "in_plane_strain_1": ("1", "largest principal strain in the horizontal plane"),
+    "in_plane_angle_1": ("rad", "angle of the largest in-plane extension from travel towards the right"),
+    "von_mises_stress": ("Pa", "von Mises equivalent stress"),
+    "octahedral_shear_stress": ("Pa", "octahedral shear stress"),
+    "mean_stress": ("Pa", "mean stress, tension positive"),
+}
+
+_DAMAGE = {
+    "extension_strain": ("1", "largest extension strain that the criterion reads"),
+    "allowable_passes": ("1", "passes that the fatigue line allows at this strain"),
+    "crack_angle": ("rad", "angle of the crack's trace on the surface from travel towards the right"),
+    "crack_dip": ("rad", "angle of the crack plane from the horizontal, π/2 is vertical"),
+    "crack_orientation": ("1", "0 none, 1 longitudinal, 2 transverse, 3 oblique, 4 horizontal"),
+}
+
+VARIABLES: Mapping[str, tuple[str, str]] = {**_COORDINATES, **_CONTACT, **_RESPONSE, **_DAMAGE}
+
+
+def attributes(name: str) -> dict[str, str]:
+    """Attributes `units` and `long_name` of a variable."""
+    units, long_name = VARIABLES[name]
+    return {"units": units, "long_name": long_name}
+
+
+def dataset(
+    fields: Mapping[str, tuple[tuple[str, ...], Any]], coordinates: Mapping[str, Any], **attrs: Any
+) -> xr.Dataset:
+    """Dataset whose variables and coordinates carry their units and long names.
+
+    fields: name → (dimensions, array). coordinates: name → 1-D array (or list of labels).
+    """
+    coords = {
+        name: (name, np.asarray(values), attributes(name) if name in VARIABLES else {})
+        for name, values in coordinates.items()
+    }
+    variables = {name: (dims, np.asarray(data), attributes(name)) for name, (dims, data) in fields.items()}
+    return xr.Dataset(variables, coords, dict(attrs))
+
+
+def describe(names: Iterable[str]) -> str:
+    """One line a variable: name, unit, meaning."""
+    return "\n".join(f"{name:24s} {VARIABLES[name][0]:6s} {VARIABLES[name][1]}" for name in names)
