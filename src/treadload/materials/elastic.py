@@ -21,9 +21,7 @@ class Elastic:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.modulus) and self.modulus > 0):
-            raise InputError(
-                f"modulus must be a positive number of Pa, got {self.modulus}; asphalt is near 5.4e9"
-            )
+            raise InputError(f"modulus must be a positive number of Pa, got {self.modulus}; asphalt is near 5.4e9")
         if not -1 < self.poisson <= 0.5:
             raise InputError(
                 f"poisson must lie in (-1, 0.5], got {self.poisson}; rubber is near 0.5, asphalt near 0.35"
