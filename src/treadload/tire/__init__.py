@@ -1,1 +1,21 @@
-"""tire"""
+"""The tire: scans, height maps and parametric treads to the gap that the contact solver takes."""
+
+from treadload.tire.modulus import modulus_from_inflation
+from treadload.tire.quality import GrooveMeasure, ScanQuality
+from treadload.tire.surface import HeightMapSurface, Surface
+from treadload.tire.tire import Tire
+from treadload.tire.tread import Groove, LateralGrooves, ProfileSurface, TreadProfile, equal_ribs
+
+__all__ = [
+    "Groove",
+    "GrooveMeasure",
+    "HeightMapSurface",
+    "LateralGrooves",
+    "ProfileSurface",
+    "ScanQuality",
+    "Surface",
+    "Tire",
+    "TreadProfile",
+    "equal_ribs",
+    "modulus_from_inflation",
+]

@@ -1,0 +1,49 @@
+"""Modulus of the tire as an elastic half-space, from its inflation pressure."""
+
+from __future__ import annotations
+
+import math
+
+from treadload.errors import InputError
+
+LOWEST_PRESSURE = 10e3
+HIGHEST_PRESSURE = 3e6
+
+
+def check_inflation_pressure(inflation_pressure: float) -> float:
+    """Return the inflation pressure (Pa) as a float, or raise InputError when it cannot be one in Pa."""
+    try:
+        pressure = float(inflation_pressure)
+    except (TypeError, ValueError):
+        raise InputError(
+            f"inflation_pressure must be a number of Pa, got {inflation_pressure!r}; a truck tire is near 820e3"
+        ) from None
+    if not (math.isfinite(pressure) and pressure > 0):
+        raise InputError(f"inflation_pressure must be a positive number of Pa, got {pressure}; a truck is near 820e3")
+    if pressure < LOWEST_PRESSURE:
+        hint = (
+            f"{pressure:g} kPa is {pressure * 1e3:g} Pa"
+            if pressure > 50
+            else f"{pressure:g} bar is {pressure:g}e5 Pa"
+        )
+        raise InputError(
+            f"inflation_pressure is {pressure:g} Pa, below {LOWEST_PRESSURE:g} Pa; "
+            f"give it in Pa, not kPa or bar ({hint})"
+        )
+    if pressure > HIGHEST_PRESSURE:
+        raise InputError(
+            f"inflation_pressure is {pressure:g} Pa, above {HIGHEST_PRESSURE:g} Pa (30 bar); "
+            "give it in Pa, a truck tire is near 820e3"
+        )
+    return pressure
+
+
+def modulus_from_inflation(inflation_pressure: float) -> float:
+    """Young's modulus of the half-space that stands for an inflated tire.
+
+    inflation_pressure: Pa, gauge, between 10 kPa and 3 MPa. Returns Pa.
+    E [MPa] = 2.7e-3 p [kPa] + 0.7, so 820 kPa gives 2.914 MPa.
+    Raises InputError outside these bounds.
+    Source: Materials 2021, 14, 2117, equation 15.
+    """
+    return 2.7 * check_inflation_pressure(inflation_pressure) + 0.7e6

@@ -1,0 +1,69 @@
+"""What is known about a scan after it was read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class GrooveMeasure:
+    """One circumferential groove found in a scan.
+
+    centre: distance to the right of the middle of the tread, m. width: at half its depth, m.
+    depth: floor below the ribs beside it, m. floor: floor below the crown, m.
+    """
+
+    centre: float
+    width: float
+    depth: float
+    floor: float
+
+
+@dataclass(frozen=True)
+class ScanQuality:
+    """How a scan was understood and how good it is.
+
+    n_points, n_faces: after merging vertices and dropping degenerate faces.
+    units: unit of the file ("m", "mm", ..., or "scaled" when a nominal diameter set it). scale: m per file unit.
+    crown_radius: largest radius of the tread (99.5 % quantile), m. width: overall width along the axle, m.
+    facet_sag: how far the largest facets of the tread cut under the circle, m. axis_residual: rms over the
+    angle of the radius of the tread envelope, m; roundness in noise, facets and blocks together.
+    theta_spread: rms scatter over the angle of the radius about its median, m, on the tread.
+    coverage: fraction of the rays round the tread that met it. holes: number of connected regions without
+    a hit. hole_fraction: 1 - coverage. watertight: of the mesh.
+    revolved: True when the meridian was revolved in place of the facets. grooves: from left to right.
+    warnings: one sentence each.
+    """
+
+    n_points: int
+    n_faces: int
+    units: str
+    scale: float
+    crown_radius: float
+    width: float
+    facet_sag: float
+    axis_residual: float
+    theta_spread: float
+    coverage: float
+    holes: int
+    hole_fraction: float
+    watertight: bool
+    revolved: bool
+    grooves: tuple[GrooveMeasure, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        lines = [
+            f"{self.n_points} points, {self.n_faces} faces, {'closed' if self.watertight else 'open'} mesh, "
+            f"1 unit of the file = {self.scale:g} m ({self.units})",
+            f"crown radius {self.crown_radius * 1e3:.1f} mm, width {self.width * 1e3:.1f} mm, "
+            f"facet sag {self.facet_sag * 1e3:.2f} mm, axis residual {self.axis_residual * 1e3:.2f} mm",
+            f"coverage {self.coverage:.1%}, holes {self.holes}"
+            + (", revolved from its meridian" if self.revolved else ""),
+        ]
+        lines += [
+            f"groove at y = {g.centre * 1e3:+.1f} mm: {g.width * 1e3:.1f} mm wide, {g.depth * 1e3:.1f} mm deep"
+            for g in self.grooves
+        ]
+        lines += [f"warning: {text}" for text in self.warnings]
+        return "\n".join(lines)

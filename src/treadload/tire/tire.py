@@ -1,0 +1,156 @@
+"""The tire: a tread surface and what it is made of."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from treadload.errors import InputError
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array
+from treadload.materials import Elastic
+from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
+from treadload.tire.quality import ScanQuality
+from treadload.tire.surface import Surface, centred_height_map, read_height_map
+from treadload.tire.tread import ProfileSurface, TreadProfile
+
+POISSON_OF_RUBBER = 0.5
+
+
+@dataclass(frozen=True)
+class Tire:
+    """A tire, as the road meets it.
+
+    surface: of the tread. material: elastic half-space that stands for the tire; inflation_pressure: Pa, gives
+    its modulus when there is no material. name: free text.
+    Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
+    """
+
+    surface: Surface
+    material: Elastic | None = None
+    inflation_pressure: float | None = None
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.surface, Surface):
+            raise InputError(
+                f"a tire needs a surface, got {type(self.surface).__name__}; "
+                "use Tire.from_height_map, Tire.from_profile or Tire.from_scan"
+            )
+        if self.material is not None and not isinstance(self.material, Elastic):
+            raise InputError(f"material must be an Elastic, got {self.material!r}")
+        if self.inflation_pressure is not None:
+            object.__setattr__(self, "inflation_pressure", check_inflation_pressure(self.inflation_pressure))
+
+    @classmethod
+    def from_height_map(
+        cls,
+        gap: ArrayLike | str | PathLike[str],
+        spacing: float | Sequence[float] | None = None,
+        *,
+        material: Elastic | None = None,
+        inflation_pressure: float | None = None,
+        name: str = "",
+    ) -> Tire:
+        """Tire of a map of its initial gap.
+
+        gap: (ny, nx) in m, distance of the tread from the plane it touches, curvature included; NaN where there
+        is no material. Its minimum is shifted to 0, so heights above any horizontal plane will do. Or the path of
+        a NetCDF file (variable `initial_gap` or the only 2-D one, coordinates x and y in m), or of a matrix as
+        CSV, text, NPY or NPZ. spacing: cell size, m, or (dx, dy); a NetCDF file brings its own.
+        The map keeps its cells: the contact is solved on them.
+        Raises InputError for infinite values, a wrong shape or a missing spacing, GeometryError for NaN only.
+        """
+        cell = _cell(spacing)
+        if isinstance(gap, str | PathLike):
+            surface = read_height_map(Path(gap), cell)
+            return cls(surface, material, inflation_pressure, name or Path(gap).name)
+        if cell is None:
+            raise InputError("a height map needs the spacing of its cells in m, e.g. spacing=3e-3")
+        try:
+            values = np.asarray(gap, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"a height map must be a 2-D array of numbers in m: {error}") from error
+        return cls(centred_height_map(values, cell), material, inflation_pressure, name)
+
+    @classmethod
+    def from_profile(
+        cls,
+        profile: TreadProfile | str,
+        *,
+        material: Elastic | None = None,
+        inflation_pressure: float | None = None,
+        name: str = "",
+    ) -> Tire:
+        """Tire of a parametric tread.
+
+        profile: a TreadProfile, or the name of one in the library, e.g. "315/80R22.5".
+        Raises InputError when the library does not have it.
+        """
+        found = TreadProfile.from_library(profile) if isinstance(profile, str) else profile
+        if not isinstance(found, TreadProfile):
+            raise InputError(f"profile must be a TreadProfile or the name of one, got {profile!r}")
+        return cls(ProfileSurface(found), material, inflation_pressure, name or found.name)
+
+    @property
+    def elastic(self) -> Elastic:
+        """Elastic half-space that stands for the tire: the material, or else from the inflation pressure, ν = 0.5."""
+        if self.material is not None:
+            return self.material
+        if self.inflation_pressure is None:
+            raise InputError(
+                "the tire has neither a material nor an inflation pressure; give material=Elastic(3e6, 0.5) "
+                "or inflation_pressure=820e3 (Pa)"
+            )
+        return Elastic(modulus_from_inflation(self.inflation_pressure), POISSON_OF_RUBBER)
+
+    @property
+    def fixed_grid(self) -> Grid | None:
+        """The only grid that the tread is known on, or None when any grid will do."""
+        return self.surface.fixed_grid
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        """(length, width), m: the largest piece of road around the contact that the tread can describe."""
+        return self.surface.extent
+
+    @property
+    def quality(self) -> ScanQuality | None:
+        """How good the scan is; None when the tread was not scanned."""
+        return self.surface.quality
+
+    def height_map(self, grid: Grid) -> Array:
+        """(ny, nx) gap in m at the cell centres, ≥ 0, to the plane at first contact; NaN where there is no material.
+
+        Raises InputError when the tread is known on another grid only, GeometryError when it has no usable
+        surface there.
+        """
+        return self.surface.height_map(grid)
+
+    def __str__(self) -> str:
+        parts: list[Any] = [self.name or "tire", self.surface]
+        if self.material is not None:
+            parts.append(self.material)
+        if self.inflation_pressure is not None:
+            parts.append(f"inflated to {self.inflation_pressure / 1e3:g} kPa")
+        return "; ".join(str(part) for part in parts)
+
+
+def _cell(spacing: float | Sequence[float] | None) -> tuple[float, float] | None:
+    """(dx, dy) in m of a spacing given once or twice."""
+    if spacing is None:
+        return None
+    try:
+        values = tuple(float(value) for value in np.atleast_1d(np.asarray(spacing, dtype=np.float64)))
+    except (TypeError, ValueError):
+        values = ()
+    if len(values) not in (1, 2) or not all(math.isfinite(v) and v > 0 for v in values):
+        raise InputError(f"spacing must be a positive number of m, or (dx, dy), got {spacing!r}")
+    return values[0], values[-1]

@@ -1,0 +1,428 @@
+"""Parametric treads: a revolved meridian with grooves, known at every point."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import MISSING, asdict, dataclass, fields
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from treadload.errors import GeometryError, InputError
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array
+from treadload.tire.quality import ScanQuality
+
+LIBRARY = Path(__file__).parent / "library"
+EXTENT_HEIGHT = 0.060  # a contact never climbs this far up the tread, m
+EXTENT_MARGIN = 0.012  # bare road beside the tread, m
+
+# A wall that falls on a cell centre must fall on the same side left and right.
+_EDGE = 1e-9
+
+
+@dataclass(frozen=True)
+class Groove:
+    """A groove round the tire.
+
+    centre: distance to the right of the middle of the tread, m. width: between the walls where they would
+    meet the tread unrounded, m. depth: below the tread, m. wall_angle: of the walls from the vertical, rad,
+    opening outwards. edge_radius: rounding of the upper edges, m, tangent to tread and wall.
+    Raises InputError when the walls or the rounding do not fit.
+    """
+
+    centre: float
+    width: float
+    depth: float
+    wall_angle: float = 0.0
+    edge_radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_finite(self, "groove", ("centre",))
+        _check_trench("groove", self.width, self.depth, self.wall_angle, self.edge_radius)
+
+
+@dataclass(frozen=True)
+class LateralGrooves:
+    """Grooves across the tread, repeated round the tire.
+
+    pitch: distance between two of them along the circumference at the crown, m. width, depth, wall_angle,
+    edge_radius: as in Groove, width measured square to the groove. angle: from the axle towards travel on
+    the right-hand side, rad. y_range: (from, to) in m, for lugs on a part of the width; None for all of it.
+    offset: circumferential place of one of them at y = 0, m.
+    Raises InputError when the walls or the rounding do not fit.
+    """
+
+    pitch: float
+    width: float
+    depth: float
+    wall_angle: float = 0.0
+    edge_radius: float = 0.0
+    angle: float = 0.0
+    y_range: tuple[float, float] | None = None
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_finite(self, "lateral groove", ("pitch", "angle", "offset"))
+        _check_trench("lateral groove", self.width, self.depth, self.wall_angle, self.edge_radius)
+        if not abs(self.angle) < math.radians(80):
+            raise InputError(
+                f"lateral groove: angle must lie within ±1.39 rad (80°) of the axle, got {self.angle} rad"
+            )
+        land = self.pitch * math.cos(self.angle) - self.width - 2 * _tangent(self.wall_angle, self.edge_radius)
+        if not land > 0:
+            raise InputError(
+                f"lateral groove: no tread is left between grooves {self.width:g} m wide at a pitch of "
+                f"{self.pitch:g} m ({land:g} m); widen the pitch or narrow the grooves"
+            )
+        if self.y_range is not None:
+            low, high = (float(value) for value in self.y_range)
+            if not (math.isfinite(low) and math.isfinite(high) and low < high):
+                raise InputError(
+                    f"lateral groove: y_range must be (from, to) in m with from < to, got {self.y_range}"
+                )
+            object.__setattr__(self, "y_range", (low, high))
+
+
+@dataclass(frozen=True)
+class TreadProfile:
+    """A tread given by its radii and its grooves.
+
+    rolling_radius: of the unloaded crown in the plane of the wheel, m. crown_radius: of the tread arc across
+    the tire, m. width: of the tread, m; there is no material beyond. shoulder_radius: rounding where the
+    tread turns into a vertical sidewall, m, tangent to both; 0 for a square shoulder. grooves, lateral: cut
+    into it; where two meet, the deeper one counts. name, source, notes: free text.
+    Raises InputError when a number is out of bounds or a groove leaves the tread.
+    """
+
+    rolling_radius: float
+    crown_radius: float
+    width: float
+    shoulder_radius: float = 0.0
+    grooves: tuple[Groove, ...] = ()
+    lateral: tuple[LateralGrooves, ...] = ()
+    name: str = ""
+    source: str = ""
+    notes: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "grooves", tuple(self.grooves))
+        object.__setattr__(self, "lateral", tuple(self.lateral))
+        _check_finite(self, "tread profile", ("rolling_radius", "crown_radius", "width"))
+        for name, low, high in (("rolling_radius", 0.05, 3.0), ("width", 0.02, 2.0)):
+            if not low <= getattr(self, name) <= high:
+                raise InputError(
+                    f"tread profile: {name} must lie between {low} and {high} m, got {getattr(self, name):g}; "
+                    "lengths are in metres"
+                )
+        half = 0.5 * self.width
+        if not self.crown_radius > half:
+            raise InputError(
+                f"tread profile: crown_radius must exceed half the width ({half:g} m), got {self.crown_radius:g} m"
+            )
+        if not 0 <= self.shoulder_radius <= half:
+            raise InputError(
+                f"tread profile: shoulder_radius must lie between 0 and half the width ({half:g} m), "
+                f"got {self.shoulder_radius:g} m"
+            )
+        deepest = max([0.0, *(g.depth for g in self.grooves), *(g.depth for g in self.lateral)])
+        if self._arc(half) + self.shoulder_radius + deepest >= self.rolling_radius:
+            raise InputError(
+                f"tread profile: arc, shoulder and grooves together reach the axle ({self.rolling_radius:g} m); "
+                "check that all lengths are in metres"
+            )
+        for groove in self.grooves:
+            if abs(groove.centre) + 0.5 * groove.width > half:
+                raise InputError(
+                    f"tread profile: the groove at y = {groove.centre:g} m, {groove.width:g} m wide, leaves the "
+                    f"tread (half width {half:g} m)"
+                )
+
+    @classmethod
+    def from_library(cls, name: str) -> TreadProfile:
+        """Profile that comes with treadload, e.g. "315/80R22.5" (a slash may be written as underscore).
+
+        Raises InputError with the names there are.
+        """
+        known = library_names()
+        wanted = _plain(name)
+        for path in LIBRARY.glob("*.toml"):
+            if _plain(path.stem) == wanted:
+                return cls.from_toml(path)
+        close = difflib.get_close_matches(wanted, [_plain(k) for k in known], n=1, cutoff=0.4)
+        hint = next((f"; did you mean {k!r}?" for k in known if close and _plain(k) == close[0]), "")
+        raise InputError(f"no tread profile {name!r} in the library, which has {', '.join(known)}{hint}")
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> TreadProfile:
+        """Profile of a TOML file, lengths in m and angles in rad; the keys are the arguments of the class."""
+        path = Path(path)
+        if not path.is_file():
+            raise InputError(f"no tread profile file {str(path)!r}; library profiles: {', '.join(library_names())}")
+        try:
+            table = tomllib.loads(path.read_text(encoding="utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise InputError(f"{path.name!r} is not valid TOML: {error}") from error
+        return cls.from_dict(table)
+
+    @classmethod
+    def from_dict(cls, table: Mapping[str, Any]) -> TreadProfile:
+        """Profile of plain tables, as to_dict gives them. Raises InputError on unknown or missing keys."""
+        values = dict(table)
+        for key, part in (("grooves", Groove), ("lateral", LateralGrooves)):
+            values[key] = tuple(
+                item if isinstance(item, part) else part(**_checked(part, item, f"{key}[{number}]"))
+                for number, item in enumerate(values.get(key, ()))
+            )
+        return cls(**_checked(cls, values, "tread profile"))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain tables of numbers and text; from_dict reads them back."""
+        return {key: value for key, value in _plain_tables(asdict(self)).items() if value not in ("", [])}
+
+    def to_toml(self) -> str:
+        """TOML text; from_toml reads it back from a file."""
+        import tomli_w
+
+        return tomli_w.dumps(self.to_dict())
+
+    def drop(self, y: Array) -> Array:
+        """Meridian: how far the surface lies below the crown circle at y, grooves included but lateral ones not.
+
+        y: any shape, m to the right. Returns the same shape, m, ≥ 0; NaN beyond the width.
+        """
+        y = np.asarray(y, dtype=np.float64)
+        out = self._smooth_drop(y)
+        return np.asarray(out + self._groove_depth(y), dtype=np.float64)
+
+    def gap(self, x: Array, y: Array) -> Array:
+        """Gap from the tread to the plane that touches it at its lowest point.
+
+        x: (nx,), m along travel from below the axle. y: (ny,), m to the right of the middle of the tread.
+        Returns (ny, nx), m, ≥ 0; NaN beside the tread and beyond the wheel.
+        The wheel is a circle, not a parabola. Walls of lateral grooves stand square to the road, not to the
+        tread: below the ribs they are off by depth·x/radius, on the ribs they are exact.
+        """
+        x = np.atleast_1d(np.asarray(x, dtype=np.float64))
+        y = np.atleast_1d(np.asarray(y, dtype=np.float64))
+        return np.asarray(np.maximum(self._raw_gap(x, y) - self._lowest, 0.0), dtype=np.float64)
+
+    def __str__(self) -> str:
+        return (
+            f"tread {self.name or '(unnamed)'}: radius {self.rolling_radius * 1e3:g} mm, crown radius "
+            f"{self.crown_radius * 1e3:g} mm, width {self.width * 1e3:g} mm, {len(self.grooves)} grooves"
+            + (f", {len(self.lateral)} sets of lateral grooves" if self.lateral else "")
+        )
+
+    def _arc(self, y: Array | float) -> Any:
+        # x²/(R + √(R² − x²)) is R − √(R² − x²) without its loss of digits.
+        square = np.square(y)
+        return square / (self.crown_radius + np.sqrt(np.maximum(self.crown_radius**2 - square, 0.0)))
+
+    def _smooth_drop(self, y: Array) -> Array:
+        half, radius = 0.5 * self.width, self.shoulder_radius
+        into = np.clip(np.abs(y) - (half - radius), 0.0, radius)
+        drop = self._arc(np.minimum(np.abs(y), half)) + radius - np.sqrt(np.maximum(radius**2 - into**2, 0.0))
+        return np.asarray(np.where(np.abs(y) > half + _EDGE, np.nan, drop), dtype=np.float64)
+
+    def _groove_depth(self, y: Array) -> Array:
+        depth = np.zeros_like(y)
+        for g in self.grooves:
+            depth = np.maximum(depth, _trench(np.abs(y - g.centre), g.width, g.depth, g.wall_angle, g.edge_radius))
+        return depth
+
+    def _lateral_depth(self, along: Array, y: Array) -> Array:
+        """Depth of the lateral grooves at the arc length `along` (m) and y, same shapes."""
+        depth = np.zeros(np.broadcast_shapes(along.shape, y.shape))
+        for g in self.lateral:
+            place = along - y * math.tan(g.angle) - g.offset
+            away = np.abs((place + 0.5 * g.pitch) % g.pitch - 0.5 * g.pitch) * math.cos(g.angle)
+            cut = _trench(away, g.width, g.depth, g.wall_angle, g.edge_radius)
+            if g.y_range is not None:
+                low, high = g.y_range
+                ends = _trench(np.abs(y - 0.5 * (low + high)), high - low, g.depth, g.wall_angle, g.edge_radius)
+                cut = np.minimum(cut, ends)
+            depth = np.maximum(depth, cut)
+        return depth
+
+    def _raw_gap(self, x: Array, y: Array) -> Array:
+        """Gap to the plane below the crown circle."""
+        smooth = self._smooth_drop(y)[:, None]
+        depth = self._groove_depth(y)[:, None]
+        if self.lateral:
+            angle = np.arcsin(np.clip(x[None, :] / (self.rolling_radius - smooth), -1.0, 1.0))
+            depth = np.maximum(depth, self._lateral_depth(self.rolling_radius * angle, y[:, None]))
+        radius = self.rolling_radius - smooth - depth
+        square = radius**2 - np.square(x)[None, :]
+        with np.errstate(invalid="ignore"):
+            rise = np.square(x)[None, :] / (radius + np.sqrt(np.where(square > 0, square, np.nan)))
+        return np.asarray(smooth + depth + rise, dtype=np.float64)
+
+    @cached_property
+    def _lowest(self) -> float:
+        """Raw gap of the lowest point: above 0 when a groove takes the very crown away."""
+        edges = [
+            g.centre + side * (0.5 * g.width + _tangent(g.wall_angle, g.edge_radius) + 2 * _EDGE)
+            for g in self.grooves
+            for side in (-1, 1)
+        ]
+        y = np.union1d(np.linspace(-0.5, 0.5, 2001) * self.width, edges)
+        x = np.zeros(1)
+        if self.lateral:
+            reach = min(max(g.pitch for g in self.lateral), 0.5 * self.rolling_radius)
+            x = np.linspace(-reach, reach, 401)
+            y = y[::10]
+        with np.errstate(all="ignore"):
+            return float(np.nanmin(self._raw_gap(x, y)))
+
+
+@dataclass(frozen=True)
+class ProfileSurface:
+    """The surface of a parametric tread, sampled at cell centres."""
+
+    profile: TreadProfile
+
+    def __str__(self) -> str:
+        return str(self.profile)
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        """(length, width), m: where the tread is within 60 mm of the road, and its width with a margin."""
+        height = min(EXTENT_HEIGHT, 0.5 * self.profile.rolling_radius)
+        chord = 2 * math.sqrt(height * (2 * self.profile.rolling_radius - height))
+        return chord, self.profile.width + 2 * EXTENT_MARGIN
+
+    @property
+    def fixed_grid(self) -> Grid | None:
+        """None: any grid will do."""
+        return None
+
+    @property
+    def quality(self) -> ScanQuality | None:
+        """None: no scan."""
+        return None
+
+    def height_map(self, grid: Grid) -> Array:
+        """(ny, nx) gap at the cell centres, m; NaN beside the tread. Raises GeometryError if no cell meets it."""
+        gap = self.profile.gap(grid.x, grid.y)
+        if np.isnan(gap).all():
+            raise GeometryError(
+                f"no cell of the grid ({grid}) lies under the tread, which is {self.profile.width:g} m wide; "
+                "put the grid's origin under the axle"
+            )
+        return gap
+
+
+def equal_ribs(
+    tread_width: float,
+    number: int,
+    width: float,
+    depth: float,
+    wall_angle: float = 0.0,
+    edge_radius: float = 0.0,
+) -> tuple[Groove, ...]:
+    """`number` equal grooves that leave number + 1 equal ribs on a tread of `tread_width`.
+
+    Lengths in m, wall_angle in rad. Raises InputError when no rib is left.
+    """
+    rib = (tread_width - number * width) / (number + 1)
+    if number < 0 or not rib > 0:
+        raise InputError(
+            f"{number} grooves of {width:g} m leave no rib on a tread of {tread_width:g} m; "
+            "use fewer or narrower ones"
+        )
+    first = -0.5 * tread_width + rib + 0.5 * width
+    return tuple(Groove(first + i * (rib + width), width, depth, wall_angle, edge_radius) for i in range(number))
+
+
+def library_names() -> list[str]:
+    """Names of the tread profiles that come with treadload."""
+    return sorted(path.stem.replace("_", "/") for path in LIBRARY.glob("*.toml"))
+
+
+def _tangent(wall_angle: float, edge_radius: float) -> float:
+    """Distance from an unrounded edge to where its rounding starts, m."""
+    return edge_radius * math.tan(0.5 * (0.5 * math.pi - wall_angle))
+
+
+def _trench(away: Array, width: float, depth: float, wall_angle: float, edge_radius: float) -> Array:
+    """Depth (m, ≥ 0) of a trapezoidal trench with rounded upper edges, `away` (m, ≥ 0) from its middle."""
+    half, tangent = 0.5 * width, _tangent(wall_angle, edge_radius)
+    start = half + tangent
+    on_wall = half - tangent * math.sin(wall_angle)
+    slope = math.tan(wall_angle)
+    sloping = slope > 0
+    wall = np.clip((half - away) / slope, 0.0, depth) if sloping else np.where(away < half - _EDGE, depth, 0.0)
+    into = np.clip(start - away, 0.0, edge_radius)
+    rounded = edge_radius - np.sqrt(edge_radius**2 - into**2)
+    return np.asarray(np.where(away > on_wall - _EDGE, np.minimum(rounded, depth), wall), dtype=np.float64)
+
+
+def _check_finite(owner: object, what: str, names: tuple[str, ...]) -> None:
+    for name in names:
+        value = getattr(owner, name)
+        if isinstance(value, bool) or not isinstance(value, int | float | np.floating) or not math.isfinite(value):
+            raise InputError(f"{what}: {name} must be a finite number (m, rad), got {value!r}")
+
+
+def _check_trench(what: str, width: float, depth: float, wall_angle: float, edge_radius: float) -> None:
+    for name, value in (("width", width), ("depth", depth)):
+        if not (math.isfinite(value) and 0 < value < 0.5):
+            raise InputError(f"{what}: {name} must lie between 0 and 0.5 m, got {value:g}; lengths are in metres")
+    if not 0 <= wall_angle < 0.5 * math.pi:
+        raise InputError(f"{what}: wall_angle must lie in [0, π/2) rad from the vertical, got {wall_angle:g}")
+    if not (math.isfinite(edge_radius) and edge_radius >= 0):
+        raise InputError(f"{what}: edge_radius must be ≥ 0 m, got {edge_radius:g}")
+    if depth * math.tan(wall_angle) > 0.5 * width + 1e-12:
+        raise InputError(
+            f"{what}: walls at {wall_angle:g} rad meet before the floor at {depth:g} m; for a width of {width:g} m "
+            f"the angle can be at most {math.atan(0.5 * width / depth):.4g} rad"
+        )
+    if _tangent(wall_angle, edge_radius) * math.cos(wall_angle) > depth + 1e-12:
+        raise InputError(
+            f"{what}: edge_radius {edge_radius:g} m reaches below the floor at {depth:g} m; use a smaller one"
+        )
+
+
+def _checked(owner: Any, table: Any, where: str) -> dict[str, Any]:
+    """The table, when its keys are fields of the dataclass `owner` and no required one is missing."""
+    if not isinstance(table, Mapping):
+        raise InputError(f"{where} must be a table of keys and values, got {table!r}")
+    known = [field.name for field in fields(owner)]
+    for key in table:
+        if key not in known:
+            close = difflib.get_close_matches(str(key), known, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
+            raise InputError(f"{where}: unknown key {key!r}; {hint}")
+    values = dict(table)
+    for key, value in values.items():
+        if key == "y_range" and value is not None:
+            values[key] = tuple(value)
+        elif key not in ("name", "source", "notes", "grooves", "lateral", "y_range") and not (
+            isinstance(value, int | float | np.floating) and not isinstance(value, bool)
+        ):
+            raise InputError(f"{where}: {key} must be a number in m or rad, got {value!r}")
+    required = [field.name for field in fields(owner) if field.default is MISSING]
+    missing = [key for key in required if key not in values]
+    if missing:
+        raise InputError(f"{where}: missing {', '.join(missing)}")
+    return values
+
+
+def _plain(name: str) -> str:
+    """A name without what differs between spellings: case, slashes, underscores, blanks."""
+    return "".join(character for character in str(name).lower().removesuffix(".toml") if character.isalnum())
+
+
+def _plain_tables(value: Any) -> Any:
+    """Tuples as lists and without None, as TOML wants them."""
+    if isinstance(value, Mapping):
+        return {key: _plain_tables(item) for key, item in value.items() if item is not None}
+    if isinstance(value, tuple | list):
+        return [_plain_tables(item) for item in value]
+    return value
