@@ -1,0 +1,92 @@
+"""Symmetric second-order tensors: strain from stress, principal values and directions, invariants.
+
+A tensor field is an array (6, ...) of the components xx, yy, zz, xy, xz, yz; shear is the tensor's, not 2ε.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from treadload.kernels.arrays import Array
+
+# Where each entry of the 3 x 3 matrix stands in (xx, yy, zz, xy, xz, yz).
+_FULL = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
+# Components of a unit vector below this are zero when its sign is chosen: round-off of a unit vector.
+_ZERO = 1e-12
+
+
+def strain_from_stress(stress: Array, modulus: float, poisson: float) -> Array:
+    """Strain of an isotropic elastic body, ε = ((1 + ν) σ - ν tr σ 1) / E.
+
+    stress: (6, ...), Pa. modulus: E, Pa. poisson: ν. Returns (6, ...), extension positive, tensor shear.
+    """
+    strain: Array = stress * ((1 + poisson) / modulus)
+    strain[:3] -= poisson / modulus * stress[:3].sum(axis=0)
+    return strain
+
+
+def matrices(tensor: Array) -> Array:
+    """3 x 3 matrices (..., 3, 3) of a tensor field (6, ...)."""
+    full: Array = np.moveaxis(tensor, 0, -1)[..., _FULL]
+    return full
+
+
+def principal(tensor: Array) -> tuple[Array, Array]:
+    """Principal values, largest first, and the direction of the largest.
+
+    tensor: (6, ...). Returns values (3, ...) in the unit of the tensor and unit vectors (..., 3) in (x, y, z).
+    Of the two opposite vectors the one is given whose first non-zero component is positive. Where the
+    largest value is double, the direction is one of many. LAPACK's symmetric solver: 1.7 µs a point,
+    and orthogonal directions however close the values, which the trigonometric form does not give.
+    """
+    values, vectors = np.linalg.eigh(matrices(tensor))
+    return np.moveaxis(values[..., ::-1], -1, 0), _oriented(vectors[..., :, 2])
+
+
+def in_plane_principal(tensor: Array) -> tuple[Array, Array]:
+    """Largest principal value in the plane (x, y) and its angle from x towards y.
+
+    tensor: (6, ...). Returns the value (...) and the angle (...) in rad, in (-π/2, π/2]; 0 where all directions
+    are alike.
+    """
+    difference, shear = 0.5 * (tensor[0] - tensor[1]), tensor[3]
+    # + 0.0 turns -0.0 into 0.0, so that a field along y always answers +π/2.
+    angle = 0.5 * np.arctan2(shear + 0.0, difference)
+    return 0.5 * (tensor[0] + tensor[1]) + np.hypot(difference, shear), angle
+
+
+def mean(tensor: Array) -> Array:
+    """Mean of the normal components (...), tension positive."""
+    value: Array = (tensor[0] + tensor[1] + tensor[2]) / 3
+    return value
+
+
+def octahedral_shear(stress: Array) -> Array:
+    """Octahedral shear stress, √((σ₁-σ₂)² + (σ₂-σ₃)² + (σ₃-σ₁)²) / 3, from (6, ...)."""
+    xx, yy, zz, xy, xz, yz = stress
+    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    value: Array = np.sqrt(normal + 6 * (xy**2 + xz**2 + yz**2)) / 3
+    return value
+
+
+def von_mises(stress: Array) -> Array:
+    """Equivalent stress of von Mises (...), from (6, ...): 3/√2 of the octahedral shear stress."""
+    value: Array = 3 / np.sqrt(2.0) * octahedral_shear(stress)
+    return value
+
+
+def mazars(values: Array) -> Array:
+    """Equivalent strain √Σ⟨εᵢ⟩₊² of principal strains (3, ...).
+
+    Source: Mazars (1986), Eng. Fract. Mech. 25, 729-737.
+    """
+    value: Array = np.sqrt((np.maximum(values, 0.0) ** 2).sum(axis=0))
+    return value
+
+
+def _oriented(vectors: Array) -> Array:
+    """The same unit vectors (..., 3) with their first non-zero component positive."""
+    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
+    leading = np.where(np.abs(x) > _ZERO, x, np.where(np.abs(y) > _ZERO, y, z))
+    oriented: Array = np.where(leading[..., None] < 0, -vectors, vectors)
+    return oriented
