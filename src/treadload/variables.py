@@ -55,6 +55,7 @@ _RESPONSE = {
     "von_mises_stress": ("Pa", "von Mises equivalent stress"),
     "octahedral_shear_stress": ("Pa", "octahedral shear stress"),
     "mean_stress": ("Pa", "mean stress, tension positive"),
+    "mazars_strain": ("1", "equivalent strain of Mazars, from the extensions alone"),
 }
 
 _DAMAGE = {
@@ -63,6 +64,12 @@ _DAMAGE = {
     "crack_angle": ("rad", "angle of the crack's trace on the surface from travel towards the right"),
     "crack_dip": ("rad", "angle of the crack plane from the horizontal, π/2 is vertical"),
     "crack_orientation": ("1", "0 none, 1 longitudinal, 2 transverse, 3 oblique, 4 horizontal"),
+    "worst_x": ("m", "position along travel of the largest extension"),
+    "worst_y": ("m", "position to the right of travel of the largest extension"),
+    "worst_strain": ("1", "largest extension strain of the field"),
+    "worst_passes": ("1", "passes that the fatigue line allows at the largest extension"),
+    "worst_crack_angle": ("rad", "crack_angle at the largest extension"),
+    "worst_crack_dip": ("rad", "crack_dip at the largest extension"),
 }
 
 VARIABLES: Mapping[str, tuple[str, str]] = {**_COORDINATES, **_CONTACT, **_RESPONSE, **_DAMAGE}

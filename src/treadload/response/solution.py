@@ -1,0 +1,70 @@
+"""The response of a road: stress and strain, and what to read in them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from treadload.response.fields import angle_in_words, direction_in_words
+
+if TYPE_CHECKING:
+    from treadload.plots import ResponsePlots
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """Stress and strain in a road.
+
+    dataset: fields (depth, y, x) with the names of `treadload.variables`; its attributes hold the material.
+    stats: seconds spent, method ("fft", "direct", "none" without load), points evaluated.
+    """
+
+    dataset: xr.Dataset
+    stats: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def plot(self) -> ResponsePlots:
+        """Figures of this response."""
+        from treadload.plots import ResponsePlots
+
+        return ResponsePlots(self)
+
+    def summary(self) -> str:
+        """Largest extension at each depth, three-dimensional and in the horizontal plane, with its place."""
+        data = self.dataset
+        lines = [
+            f"response of a road, {data.attrs.get('road', 'unnamed')}; "
+            f"{data.sizes['depth']} depth(s) of {data.sizes['x']} x {data.sizes['y']} points"
+        ]
+        for depth in data["depth"].values:
+            plane = data.sel(depth=depth)
+            lines.append(f"depth {depth * 1e3:g} mm, largest extension strain")
+            where = _largest(plane["principal_strain_1"])
+            words = direction_in_words(plane["principal_direction_1"].isel(where).to_numpy())
+            lines.append(f"  three-dimensional: {_at(plane['principal_strain_1'].isel(where), words)}")
+            where = _largest(plane["in_plane_strain_1"])
+            words = angle_in_words(float(plane["in_plane_angle_1"].isel(where)))
+            lines.append(f"  horizontal plane:  {_at(plane['in_plane_strain_1'].isel(where), words)}")
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.summary()
+
+
+def _largest(values: xr.DataArray) -> dict[str, int]:
+    row, column = np.unravel_index(int(np.nanargmax(values.to_numpy())), values.shape)
+    return dict(zip(map(str, values.dims), (int(row), int(column)), strict=True))
+
+
+def _at(value: xr.DataArray, direction: str) -> str:
+    strain = float(value)
+    if strain <= 0:
+        return f"none (at most {strain * 1e6:.3g} microstrain)"
+    return (
+        f"{strain * 1e6:.1f} microstrain at x = {float(value['x']) * 1e3:.1f} mm, "
+        f"y = {float(value['y']) * 1e3:.1f} mm, {direction}"
+    )

@@ -1,0 +1,88 @@
+"""The verb: loads on a road give stress and strain."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.response.fields import response_dataset
+from treadload.response.half_space import half_space_response
+from treadload.response.loads import Load, common_grid, gather
+from treadload.response.solution import Response
+
+
+def solve_response(
+    loads: Load | Sequence[Load],
+    road: Pavement,
+    *,
+    depths: ArrayLike,
+    x: ArrayLike | None = None,
+    y: ArrayLike | None = None,
+    side: Literal["above", "below"] = "above",
+) -> Response:
+    """Stress and strain in a road under pressure and shear.
+
+    loads: a contact, a dataset with pressure, traction_x and traction_y (Pa) over y and x, a GridLoad, or a
+    list of these, whose responses add up. road: a road of one material. depths: m, >= 0, 0 is the surface.
+    x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
+    vertical slice. side: of an interface that a depth falls on, "above" or "below"; stress and strain of a
+    road of one material have no jump there.
+    Returns a Response with fields (depth, y, x), tension positive, tensor shear strain. At the surface
+    stress_zz = -pressure and stress_xz = -traction_x. Shear uniform on each cell leaves an error O(dx) in
+    the surface strain at the cell centres and shows the cells' edges down to half a cell of depth.
+    Raises InputError for a wrong value and for a layered road.
+    Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`.
+    """
+    start = time.perf_counter()
+    if not road.is_homogeneous:
+        raise InputError(
+            f"the road has {len(road.layers)} layers of different materials; this version computes the response of "
+            "a road of one material only: use Pavement.half_space(material), with the material of the top layer"
+        )
+    if side not in ("above", "below"):
+        raise InputError(f'side must be "above" or "below", got {side!r}')
+    at_depths = _coordinates("depths", depths)
+    if (at_depths < 0).any():
+        raise InputError(f"depths must not be negative, got {at_depths.min():g} m; depth counts downwards")
+    superposed = gather(loads)
+    grid = common_grid(superposed) if x is None or y is None else None
+    at_x = _coordinates("x", x if x is not None or grid is None else grid.x)
+    at_y = _coordinates("y", y if y is not None or grid is None else grid.y)
+
+    material = road.surface_material
+    stress, strain, method = half_space_response(superposed, material, at_depths, at_x, at_y)
+    dataset = response_dataset(
+        stress,
+        strain,
+        at_depths,
+        at_y,
+        at_x,
+        road=f"one material, {material}",
+        modulus=material.modulus,
+        poisson=material.poisson,
+    )
+    stats = {"seconds": time.perf_counter() - start, "method": method, "points": stress[0].size}
+    return Response(dataset, stats)
+
+
+def _coordinates(name: str, values: ArrayLike | None) -> Array:
+    """One-dimensional, finite, distinct coordinates in m."""
+    try:
+        array = np.atleast_1d(np.asarray(values, dtype=float))
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} must be numbers of metres, got {values!r}") from error
+    if array.ndim != 1 or not array.size:
+        raise InputError(f"{name} must be a list of at least one number of metres, got shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError(f"{name} must be finite, got {array[~np.isfinite(array)][0]}")
+    unique, counts = np.unique(array, return_counts=True)
+    if (counts > 1).any():
+        raise InputError(f"{name} must be distinct, got {unique[counts > 1][0]:g} m {counts.max()} times")
+    return array
