@@ -19,9 +19,8 @@ from treadload.kernels.arrays import Array, ComplexArray
 class Padding:
     """Zero-padded Fourier space in which a product of spectra is a linear convolution.
 
-    load_shape: (ny, nx) of the load. field_shape: (ny, nx) of the result; None: as the load.
-    The first field cell lies `offset` cells from the first load cell only through the kernel that
-    `offsets` builds: the spaces themselves know no position.
+    load_shape: (ny, nx) of the load. field_shape: (ny, nx) of the result.
+    Where the field lies relative to the load is said by the kernel, sampled at `offsets`.
     """
 
     load_shape: tuple[int, int]
@@ -34,9 +33,9 @@ class Padding:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Padded shape: at least load + field - 1 each way, rounded up to a fast FFT length."""
+        """Padded shape: load + field each way, rounded up to a fast FFT length."""
         (ny, nx), (my, mx) = self.load_shape, self.field_shape
-        return int(fft.next_fast_len(ny + my - 1)), int(fft.next_fast_len(nx + mx - 1, real=True))
+        return int(fft.next_fast_len(ny + my)), int(fft.next_fast_len(nx + mx, real=True))
 
     def offsets(self, dx: float, dy: float, x0: float = 0.0, y0: float = 0.0) -> tuple[Array, Array]:
         """Distances field cell minus load cell, wrapped: X (1, mx), Y (my, 1), m.
@@ -48,6 +47,24 @@ class Padding:
         y = _wrapped(self.load_shape[0], self.field_shape[0], my)
         x = _wrapped(self.load_shape[1], self.field_shape[1], mx)
         return x0 + dx * x[None, :], y0 + dy * y[:, None]
+
+    def wrap(self, quadrant: Array, parity_x: int = 1, parity_y: int = 1, shift: int = 0) -> Array:
+        """Kernel (my, mx) on the wrapped offsets from its values at offsets 0, 1, 2, … both ways.
+
+        quadrant: at least (ny, nx + |shift|) of the larger of load and field. parity_x, parity_y: +1 for a
+        kernel even in that direction, -1 for odd. shift: cells added to every x offset.
+        """
+        (my, mx) = self.shape
+        iy = _wrapped(self.load_shape[0], self.field_shape[0], my)
+        ix = _wrapped(self.load_shape[1], self.field_shape[1], mx) + shift
+        kernel = np.zeros(self.shape)
+        rows, columns = ~np.isnan(iy), ~np.isnan(ix)
+        jy, jx = iy[rows].astype(int), ix[columns].astype(int)
+        sign_y = np.where(jy < 0, parity_y, 1)
+        sign_x = np.where(jx < 0, parity_x, 1)
+        values = quadrant[np.ix_(np.abs(jy), np.abs(jx))] * sign_y[:, None] * sign_x[None, :]
+        kernel[np.ix_(rows, columns)] = values
+        return kernel
 
     def spectrum(self, kernel: Array) -> ComplexArray:
         """Spectrum (my, mx // 2 + 1) of a kernel sampled at `offsets`; NaN counts as zero."""

@@ -1,0 +1,23 @@
+"""Coarser and finer versions of a field, for starting a solve from the one on half the grid."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from treadload.kernels.arrays import Array
+
+
+def halve(field: Array) -> Array:
+    """Means of 2 x 2 cells (…, ⌈ny/2⌉, ⌈nx/2⌉); NaN cells do not count, and only NaN gives NaN."""
+    ny, nx = field.shape[-2:]
+    padded = np.pad(field, [(0, 0)] * (field.ndim - 2) + [(0, ny % 2), (0, nx % 2)], constant_values=np.nan)
+    blocks = padded.reshape(*field.shape[:-2], (ny + 1) // 2, 2, (nx + 1) // 2, 2)
+    known = ~np.isnan(blocks)
+    count = known.sum((-3, -1))
+    total = np.where(known, blocks, 0.0).sum((-3, -1))
+    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
+
+
+def double(field: Array, shape: tuple[int, int]) -> Array:
+    """Every cell repeated 2 x 2 and cut to (…, ny, nx)."""
+    return field.repeat(2, axis=-2).repeat(2, axis=-1)[..., : shape[0], : shape[1]]

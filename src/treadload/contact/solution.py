@@ -1,0 +1,76 @@
+"""The result of a contact: fields, scalars, and how they were found."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload.contact.wheel import Rolling
+from treadload.pavement import Pavement
+from treadload.tire import Tire
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Pressure and shear between a tire and a road, with the question that was asked.
+
+    dataset: fields on (y, x) and scalars, named and signed as docs/explanation/conventions.md says.
+    stats: iterations, residuals, seconds. warnings: sentences for the user.
+    """
+
+    dataset: xr.Dataset
+    tire: Tire
+    road: Pavement
+    rolling: Rolling
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def cell_area(self) -> float:
+        """Area of a cell, m²."""
+        return float(self.dataset.attrs["dx"] * self.dataset.attrs["dy"])
+
+    @property
+    def area(self) -> float:
+        """Area of the cells in contact, m²."""
+        return float((self.dataset.pressure > 0).sum()) * self.cell_area
+
+    @property
+    def slip_fraction(self) -> float:
+        """Share of the contact area that slips."""
+        state = self.dataset.state.values
+        return float((state == 2).sum() / max(1, (state > 0).sum()))
+
+    def summary(self) -> str:
+        """A screenful: load, area, peaks, creepages, stick and slip."""
+        d = self.dataset
+        shear = np.hypot(d.traction_x, d.traction_y)
+        dx, dy = d.attrs["dx"] * 1e3, d.attrs["dy"] * 1e3
+        mean = float(d.normal_load) / self.area / 1e3
+        lines = [
+            f"contact       {self.rolling}",
+            f"grid          {d.sizes['x']} x {d.sizes['y']} cells of {dx:g} x {dy:g} mm",
+            f"normal load   {float(d.normal_load) / 1e3:.3f} kN at an approach of {float(d.approach) * 1e3:.2f} mm",
+            f"contact area  {self.area * 1e6:.0f} mm², mean pressure {mean:.0f} kPa",
+            f"peak pressure {float(d.pressure.max()) / 1e3:.0f} kPa",
+            f"peak shear    {float(shear.max()) / 1e3:.0f} kPa",
+            f"forces        Qx = {float(d.tractive_force):.1f} N, Qy = {float(d.lateral_force):.1f} N, "
+            f"aligning moment {float(d.aligning_moment):.1f} N m",
+            f"creepage      x {float(d.creepage_x):.5f}, y {float(d.creepage_y):.5f}, spin {float(d.spin):g} rad/m",
+            f"slip zone     {100 * self.slip_fraction:.1f} % of the contact area",
+        ]
+        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+
+    @property
+    def plot(self) -> Any:
+        """Figures of this contact: see treadload.plots.ContactPlots."""
+        return importlib.import_module("treadload.plots").ContactPlots(self)
+
+    def __repr__(self) -> str:
+        peak = float(self.dataset.pressure.max()) / 1e3
+        return f"<Contact {self.rolling}: {self.area * 1e6:.0f} mm², {peak:.0f} kPa peak>"

@@ -1,0 +1,256 @@
+"""Tire on road: choose the grid, solve normal contact and rolling, couple them, report."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from treadload.contact.influence import Influence
+from treadload.contact.normal import NormalSolution, solve_normal
+from treadload.contact.rolling import RollingSolution, rigid_slip, solve_rolling
+from treadload.contact.solution import Contact
+from treadload.contact.wheel import Rolling
+from treadload.errors import ConvergenceError, GeometryError, InputError
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.rectangle import CombinedElasticity
+from treadload.materials import Elastic
+from treadload.pavement import Pavement
+from treadload.tire import Tire
+from treadload.variables import dataset
+
+DEFAULT_SPACING = 3e-3
+_LOCATING_CELLS = 64
+_MARGIN = 0.024
+_MOST_CELLS = 4_000_000
+_MOST_OUTER = 30
+
+Progress = Callable[[str], None]
+
+
+def solve_contact(
+    tire: Tire,
+    road: Pavement,
+    rolling: Rolling,
+    *,
+    spacing: float | None = None,
+    tolerance: float = 1e-6,
+    progress: Progress | None = None,
+) -> Contact:
+    """Contact pressure and shear, stick and slip, of a tire that rolls steadily on a road.
+
+    tire: its surface and material. road: the surface material deforms as a half-space (the layers below
+    matter little for the contact of a soft tire). rolling: load or approach, forces or creepages, friction.
+    spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
+    tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp,
+    and of the coupling between them. progress: called with a line of text at every stage.
+    Returns the fields on a grid that holds the whole contact patch.
+    Raises InputError for forces beyond friction, GeometryError if the contact is larger than the surface,
+    ConvergenceError with the residual reached.
+    Method: Kalker (1990) on half-spaces; Panagiotopoulos' loop for dissimilar materials.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda text: None)
+    if rolling.normal_load is not None:
+        rolling.check_friction_limit(rolling.normal_load)
+    bodies = combine(tire.elastic, road.surface_material)
+    tell("locating the contact")
+    grid, gap = _place(tire, rolling, bodies, spacing)
+    influence = Influence(grid.shape, grid.dx, grid.dy, bodies)
+    tell(f"normal contact on {grid}")
+    pair = _couple(influence, grid, gap, rolling, tolerance, tell)
+    seconds = time.perf_counter() - began
+    return _contact(tire, road, rolling, grid, gap, influence, pair, seconds)
+
+
+def combine(tire: Elastic, road: Elastic) -> CombinedElasticity:
+    """The elasticity of tire (body 1) and road (body 2) seen as one."""
+    return CombinedElasticity.of(tire.shear_modulus, tire.poisson, road.shear_modulus, road.poisson)
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """Normal and tangential solutions that fit each other, and how many rounds it took."""
+
+    normal: NormalSolution
+    tangential: RollingSolution
+    rounds: int
+    change: float
+    normal_iterations: int
+    newton: int
+    krylov: int
+
+
+def _place(tire: Tire, rolling: Rolling, bodies: CombinedElasticity, spacing: float | None) -> tuple[Grid, Array]:
+    """Grid that holds the contact with a margin, and the initial gap on it."""
+    if tire.fixed_grid is not None:
+        grid = tire.fixed_grid
+        if spacing is not None and not math.isclose(spacing, grid.dx, rel_tol=1e-9):
+            raise InputError(
+                f"the height map has cells of {grid.dx * 1e3:g} mm and keeps them, got spacing = "
+                f"{spacing * 1e3:g} mm; leave spacing out, or resample the map"
+            )
+        return grid, tire.height_map(grid)
+    step = DEFAULT_SPACING if spacing is None else spacing
+    if not (math.isfinite(step) and step > 0):
+        raise InputError(f"spacing must be a positive number of metres, got {step}")
+    length, width = tire.extent
+    cells = length * width / step**2
+    if cells > _MOST_CELLS:
+        raise InputError(
+            f"a spacing of {step * 1e3:g} mm makes {cells:.3g} cells of the {length:.2f} x {width:.2f} m tread, "
+            f"more than {_MOST_CELLS:.0e}; use {math.sqrt(length * width / _MOST_CELLS) * 1e3:.2g} mm or more"
+        )
+    if step > min(length, width) / 8:
+        raise InputError(
+            f"a spacing of {step * 1e3:g} mm leaves fewer than 8 cells across the tread of "
+            f"{min(length, width) * 1e3:.0f} mm; use {min(length, width) / 64 * 1e3:.2g} mm or less"
+        )
+    coarse = Grid.centred(length, width, max(step, max(length, width) / _LOCATING_CELLS))
+    first = solve_normal(
+        Influence(coarse.shape, coarse.dx, coarse.dy, bodies),
+        tire.height_map(coarse),
+        load=rolling.normal_load,
+        approach=rolling.approach,
+        tolerance=1e-2,
+    )
+    touching: BoolArray = first.pressure > 0
+    reach_x = _reach(coarse.x, np.any(touching, axis=0)) + coarse.dx
+    reach_y = _reach(coarse.y, np.any(touching, axis=1)) + coarse.dy
+    grid = Grid.centred(min(length, 2 * (reach_x + _MARGIN)), min(width + 2 * _MARGIN, 2 * (reach_y + _MARGIN)), step)
+    return grid, tire.height_map(grid)
+
+
+def _reach(positions: Array, touching: BoolArray) -> float:
+    return float(np.abs(positions[touching]).max(initial=0.0))
+
+
+def _couple(
+    influence: Influence, grid: Grid, gap: Array, rolling: Rolling, tolerance: float, tell: Progress
+) -> _Pair:
+    """Alternate normal and tangential contact until the pressure no longer changes."""
+    normal = solve_normal(influence, gap, load=rolling.normal_load, approach=rolling.approach, tolerance=tolerance)
+    _check_border(normal.pressure, grid)
+    load = float(normal.pressure.sum()) * grid.cell_area
+    if load <= 0:
+        raise InputError(
+            f"an approach of {(rolling.approach or 0) * 1e3:g} mm does not bring tire and road into contact; raise it"
+        )
+    rolling.check_friction_limit(load)
+    rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
+    coupled = influence.bodies.difference != 0
+    tangential: RollingSolution | None = None
+    iterations, newton, krylov = normal.iterations, 0, 0
+    change = 0.0
+    for rounds in range(1, _MOST_OUTER + 1):
+        tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
+        known = rigid + influence.slip_by_pressure(normal.pressure) / grid.dx if coupled else rigid
+        bound = rolling.friction * normal.pressure
+        tangential = solve_rolling(influence, bound, known, rolling.forces, start=tangential, tolerance=tolerance)
+        newton, krylov = newton + tangential.newton, krylov + tangential.krylov
+        if not coupled or not tangential.shear.any() or 0 < change <= tolerance:
+            return _Pair(normal, tangential, rounds, change, iterations, newton, krylov)
+        before = normal.pressure
+        normal = solve_normal(
+            influence,
+            gap + influence.gap_by_shear(tangential.shear),
+            load=rolling.normal_load,
+            approach=rolling.approach,
+            start=before,
+            tolerance=tolerance,
+        )
+        iterations += normal.iterations
+        change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
+    raise ConvergenceError(
+        f"normal and tangential contact did not settle in {_MOST_OUTER} rounds: the pressure still changes by "
+        f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.bodies.dundurs:.3f}); "
+        "lower the friction or raise the tolerance",
+        change,
+    )
+
+
+def _check_border(pressure: Array, grid: Grid) -> None:
+    """Refuse a contact that the grid cuts off."""
+    sides = {
+        "leading (x max)": pressure[:, -1],
+        "trailing (x min)": pressure[:, 0],
+        "right (y max)": pressure[-1],
+        "left (y min)": pressure[0],
+    }
+    cut = [f"{name}, {int((p > 0).sum())} cells" for name, p in sides.items() if (p > 0).any()]
+    if cut:
+        raise GeometryError(
+            f"the contact reaches the border of the surface ({'; '.join(cut)}): the surface known is only "
+            f"{grid.nx * grid.dx * 1e3:.0f} x {grid.ny * grid.dy * 1e3:.0f} mm. Give a larger height map or scan "
+            "(NaN where there is no material), lower the load, or raise the tire's modulus"
+        )
+
+
+def _contact(
+    tire: Tire,
+    road: Pavement,
+    rolling: Rolling,
+    grid: Grid,
+    gap: Array,
+    influence: Influence,
+    pair: _Pair,
+    seconds: float,
+) -> Contact:
+    normal, tangential = pair.normal, pair.tangential
+    # Shear acts on the tire inside the solver; results tell what the road feels.
+    traction = 0.0 - tangential.shear
+    state = np.where(normal.pressure > 0, np.where(tangential.stick, 1, 2), 0).astype(np.int8)
+    stiff = road.surface_material
+    alone = CombinedElasticity.of(math.inf, 0.0, stiff.shear_modulus, stiff.poisson)
+    road_only = Influence(influence.shape, influence.dx, influence.dy, alone)
+    displacement = road_only.displacement(normal.pressure, tangential.shear)
+    known = rolling.creepages
+    forces = tangential.shear.sum((1, 2)) * grid.cell_area
+    moment = (grid.x[None, :] * tangential.shear[1] - grid.y[:, None] * tangential.shear[0]).sum() * grid.cell_area
+    plane = ("y", "x")
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+        "initial_gap": (plane, gap),
+        "gap": (plane, normal.gap),
+        "pressure": (plane, normal.pressure),
+        "traction_x": (plane, traction[0]),
+        "traction_y": (plane, traction[1]),
+        "state": (plane, state),
+        "slip_x": (plane, tangential.slip[0]),
+        "slip_y": (plane, tangential.slip[1]),
+        # u = u_tire - u_road: with a rigid tire the road moves the other way.
+        "displacement_x": (plane, -displacement[0]),
+        "displacement_y": (plane, -displacement[1]),
+        "displacement_z": (plane, displacement[2]),
+        "approach": ((), normal.approach),
+        "creepage_x": ((), known[0] + tangential.creepage[0]),
+        "creepage_y": ((), known[1] + tangential.creepage[1]),
+        "spin": ((), rolling.spin),
+        "normal_load": ((), float(normal.pressure.sum()) * grid.cell_area),
+        "tractive_force": ((), float(forces[0])),
+        "lateral_force": ((), float(forces[1])),
+        "aligning_moment": ((), float(moment)),
+        "friction": ((), rolling.friction),
+    }
+    stats = {
+        "normal_iterations": pair.normal_iterations,
+        "normal_residual": normal.residual,
+        "newton_iterations": pair.newton,
+        "krylov_iterations": pair.krylov,
+        "splitting_iterations": tangential.splitting,
+        "rolling_residual": tangential.residual,
+        "coupling_rounds": pair.rounds,
+        "coupling_change": pair.change,
+        "dundurs": influence.bodies.dundurs,
+        "cells": grid.nx * grid.ny,
+        "seconds": seconds,
+    }
+    warnings = list(tire.quality.warnings) if tire.quality is not None else []
+    if tangential.splitting:
+        warnings.append(f"Newton's method stalled; {tangential.splitting} steps of the slower splitting helped it on")
+    data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)
+    return Contact(data, tire, road, rolling, stats, tuple(warnings))
