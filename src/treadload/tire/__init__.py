@@ -1,10 +1,11 @@
 """The tire: scans, height maps and parametric treads to the gap that the contact solver takes."""
 
+from treadload.tire.grooves import Groove, LateralGrooves, equal_ribs
 from treadload.tire.modulus import modulus_from_inflation
 from treadload.tire.quality import GrooveMeasure, ScanQuality
 from treadload.tire.surface import HeightMapSurface, Surface
 from treadload.tire.tire import Tire
-from treadload.tire.tread import Groove, LateralGrooves, ProfileSurface, TreadProfile, equal_ribs
+from treadload.tire.tread import ProfileSurface, TreadProfile, example_mesh
 
 __all__ = [
     "Groove",
@@ -17,5 +18,6 @@ __all__ = [
     "Tire",
     "TreadProfile",
     "equal_ribs",
+    "example_mesh",
     "modulus_from_inflation",
 ]

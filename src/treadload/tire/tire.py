@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -98,6 +98,44 @@ class Tire:
         if not isinstance(found, TreadProfile):
             raise InputError(f"profile must be a TreadProfile or the name of one, got {profile!r}")
         return cls(ProfileSurface(found), material, inflation_pressure, name or found.name)
+
+    @classmethod
+    def from_scan(
+        cls,
+        path: str | PathLike[str],
+        *,
+        units: str | None = None,
+        nominal_diameter: float | None = None,
+        rotation: float = 0.0,
+        camber: float = 0.0,
+        revolve: bool | Literal["auto"] = "auto",
+        fill_holes: bool | Literal["auto"] = "auto",
+        material: Elastic | None = None,
+        inflation_pressure: float | None = None,
+        name: str = "",
+    ) -> Tire:
+        """Tire of a scanned mesh in any pose.
+
+        path: OBJ, PLY, STL, GLB or OFF. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter: outer, m;
+        without either, the unit is the one that gives a diameter between 0.4 and 1.6 m. rotation: rad, brings the
+        tread that much ahead down to the road. camber: rad, positive when the top leans to the right.
+        revolve: replace the facets by their revolved meridian; "auto": when they are coarse and the tread does
+        not depend on the angle. fill_holes: by the median round the tire; "auto": when they are at most 2 %.
+        Raises InputError (file, units, trimesh missing) and GeometryError (no tire in it).
+        """
+        # Reading a scan needs trimesh, which is an extra.
+        from treadload.tire.scan import read_scan
+
+        surface = read_scan(
+            Path(path),
+            units=units,
+            nominal_diameter=nominal_diameter,
+            rotation=rotation,
+            camber=camber,
+            revolve=revolve,
+            fill_holes=fill_holes,
+        )
+        return cls(surface, material, inflation_pressure, name or Path(path).stem)
 
     @property
     def elastic(self) -> Elastic:

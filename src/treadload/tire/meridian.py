@@ -1,0 +1,130 @@
+"""What an unrolled tread says: meridian, crown radius, grooves, facets."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from treadload.kernels.arrays import Array
+from treadload.tire.quality import GrooveMeasure
+
+TOP_BAND = 0.003  # heights this near to the highest at a place across belong to the blocks, not to the voids, m
+SHALLOWEST = 0.002
+NARROWEST = 0.002
+WIDEST = 0.045
+
+
+def median_meridian(unrolled: Array) -> Array:
+    """(ny,) median over the angle of an unrolled tread (ny, nt), m; NaN where there is none."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        return np.asarray(np.nanmedian(unrolled, axis=1), dtype=np.float64)
+
+
+def top_meridian(unrolled: Array) -> Array:
+    """(ny,) median over the angle of the tops of the blocks, m: voids do not lower it and noise does not raise it."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        high = np.nanquantile(unrolled, 0.98, axis=1, keepdims=True)
+        with np.errstate(invalid="ignore"):
+            tops = np.where(unrolled > high - TOP_BAND, unrolled, np.nan)
+        return np.asarray(np.nanmedian(tops, axis=1), dtype=np.float64)
+
+
+def crown(top: Array, facet_sag: float) -> float:
+    """Outer radius of the tread, m, from the tops of its blocks.
+
+    Facets are chords of the circle: their median lies 3/4 of the sag inside it.
+    """
+    known = np.isfinite(top)
+    smooth = ndimage.median_filter(np.where(known, top, 0.0), size=5, mode="nearest")
+    return float(smooth.max()) + 0.75 * facet_sag
+
+
+def facet_sag(vertices: Array, faces: NDArray[np.int64], outer: float, floor: float) -> float:
+    """How far the facets of the tread cut under the circle through their corners, m.
+
+    vertices: (n, 3), m, in the frame of the wheel. outer, floor: radii between which the tread lies, m.
+    """
+    edge = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    a, b = vertices[edge[:, 0]][:, [0, 2]], vertices[edge[:, 1]][:, [0, 2]]
+    ra, rb = np.linalg.norm(a, axis=1), np.linalg.norm(b, axis=1)
+    tread = (np.minimum(ra, rb) > floor) & (np.maximum(ra, rb) <= outer)
+    sag = 0.5 * (ra + rb) - np.linalg.norm(0.5 * (a + b), axis=1)
+    # Weighted by length: a tread modelled in detail may have many short edges beside its long facets.
+    length = np.linalg.norm(a - b, axis=1)[tread]
+    if not length.sum() > 0:
+        return 0.0
+    order = np.argsort(sag[tread])
+    total = np.cumsum(length[order])
+    return float(sag[tread][order][np.searchsorted(total, 0.95 * total[-1])])
+
+
+def scatter(unrolled: Array, meridian: Array) -> Array:
+    """(ny, nt) height over the median meridian, m, outside groove walls; NaN on them and where nothing is known."""
+    slope = np.abs(np.gradient(meridian))
+    steep = ndimage.maximum_filter1d(np.where(np.isfinite(slope), slope, np.inf), 3) > 0.5e-3
+    out = unrolled - meridian[:, None]
+    out[steep] = np.nan
+    return np.asarray(out, dtype=np.float64)
+
+
+def reach(y: Array, meridian: Array, level: float) -> tuple[float, float]:
+    """Leftmost and rightmost place, m, where a meridian stands above a level, m."""
+    depth = np.where(np.isfinite(meridian), meridian, 0.0)
+    above = np.flatnonzero(depth > level)
+    first, last = int(above[0]), int(above[-1])
+    left = _crossing(y, depth, first - 1, level) if first > 0 and depth[first - 1] > 0 else float(y[first])
+    right = _crossing(y, depth, last, level) if last < len(y) - 1 and depth[last + 1] > 0 else float(y[last])
+    return left, right
+
+
+def groove_depth(y: Array, meridian: Array) -> Array:
+    """(ny,) depth below the ribs on both sides, m; 0 on ribs and outside the outermost ones.
+
+    y: (ny,) even steps, m. meridian: (ny,), m; NaN counts as void.
+    """
+    cells = 2 * int(np.ceil(0.5 * WIDEST / (y[1] - y[0]))) + 1
+    low = float(np.nanmin(meridian))
+    height = np.where(np.isfinite(meridian), meridian, low)
+    # A closing bridges what is narrower than its window and leaves the rounded crown as it is.
+    return np.asarray(ndimage.grey_closing(height, size=cells, mode="constant", cval=low) - height, dtype=np.float64)
+
+
+def find_grooves(y: Array, meridian: Array, crown_radius: float) -> tuple[GrooveMeasure, ...]:
+    """Circumferential grooves of a meridian, from left to right.
+
+    y: (ny,) even steps, m. meridian: (ny,), m. crown_radius: m. Width is taken at half the depth.
+    """
+    depth = groove_depth(y, meridian)
+    runs, count = ndimage.label(depth > SHALLOWEST)
+    found = []
+    beside = max(1, round(3e-3 / (y[1] - y[0])))
+    for piece in ndimage.find_objects(runs, max_label=count):
+        where = piece[0]
+        first, last = where.start, where.stop - 1
+        if first == 0 or last == len(y) - 1:
+            continue
+        deepest = float(np.quantile(depth[where], 0.75))
+        half = 0.5 * deepest
+        inside = first + np.flatnonzero(depth[where] > half)
+        left = _crossing(y, depth, inside[0] - 1, half)
+        right = _crossing(y, depth, inside[-1], half)
+        floor = float(np.median(meridian[where][depth[where] > 0.8 * deepest]))
+        if right - left > NARROWEST:
+            # The ribs beside a groove may differ in height: the depth counts from their mean.
+            ribs = 0.5 * (
+                np.nanmax(meridian[max(0, first - beside) : first]) + np.nanmax(meridian[last + 1 :][:beside])
+            )
+            found.append(GrooveMeasure(0.5 * (left + right), right - left, float(ribs) - floor, crown_radius - floor))
+    return tuple(found)
+
+
+def _crossing(y: Array, depth: Array, index: int, level: float) -> float:
+    """Where the depth passes the level between one sample and the next, m."""
+    a, b = float(depth[index]), float(depth[index + 1])
+    part = 0.5 if a == b else (level - a) / (b - a)
+    return float(y[index] + part * (y[index + 1] - y[index]))

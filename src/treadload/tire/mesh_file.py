@@ -1,0 +1,136 @@
+"""Triangles of a mesh file, checked and cleaned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadload.errors import GeometryError, InputError
+from treadload.kernels.arrays import Array
+
+FORMATS = (".obj", ".ply", ".stl", ".glb", ".off")
+FEWEST_FACES = 100
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles in the unit of their file.
+
+    vertices: (n, 3). faces: (m, 3) indices. watertight: every edge has two faces. dropped: degenerate faces left out.
+    """
+
+    vertices: Array
+    faces: NDArray[np.int64]
+    watertight: bool
+    dropped: int
+
+
+def import_trimesh() -> ModuleType:
+    """The trimesh package, or InputError that says how to get it."""
+    try:
+        import trimesh
+    except ImportError as error:
+        raise InputError(
+            'reading a scan needs trimesh, which is not installed; run  pip install "treadload[scan]"'
+        ) from error
+    module: ModuleType = trimesh
+    return module
+
+
+def read_mesh(path: str | Path) -> Mesh:
+    """Mesh of an OBJ, PLY, STL, GLB or OFF file, vertices merged and degenerate faces dropped.
+
+    Raises InputError for a missing, unknown or unreadable file, GeometryError for one without usable triangles.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"no scan file {str(path)!r}; give the path of an OBJ, PLY, STL, GLB or OFF mesh")
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        raise InputError(
+            f"scan file {path.name!r} has the unknown ending {suffix!r}; "
+            f"export the mesh as one of {', '.join(FORMATS)}"
+        )
+    if path.stat().st_size == 0:
+        raise InputError(f"scan file {path.name!r} is empty (0 bytes); export or copy it again")
+    trimesh = import_trimesh()
+    try:
+        loaded = trimesh.load_scene(path, process=False, skip_materials=True).to_mesh()
+        vertices = np.array(loaded.vertices, dtype=np.float64)
+        faces = np.array(loaded.faces, dtype=np.int64)
+    except MemoryError:
+        raise
+    except Exception as error:  # trimesh raises whatever its parsers stumble on
+        if _is_cloud(trimesh, path):
+            raise GeometryError(_no_faces(path)) from error
+        raise InputError(
+            f"scan file {path.name!r} could not be read as {suffix[1:].upper()} ({type(error).__name__}: {error}); "
+            "it may be truncated, export or copy it again"
+        ) from error
+    if len(faces) == 0:
+        raise GeometryError(_no_faces(path))
+    bad = int((~np.isfinite(vertices)).any(axis=1).sum())
+    if bad:
+        raise GeometryError(
+            f"scan file {path.name!r} has {bad} of {len(vertices)} vertices that are NaN or infinite; "
+            "remove them in the scanning software"
+        )
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise InputError(
+            f"scan file {path.name!r} has faces that name vertex {int(faces.max()) + 1} of {len(vertices)}; "
+            "it may be truncated, export or copy it again"
+        )
+    return _clean(trimesh, path, vertices, faces)
+
+
+def _clean(trimesh: ModuleType, path: Path, vertices: Array, faces: NDArray[np.int64]) -> Mesh:
+    middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
+    size = float(np.abs(vertices - middle).max())
+    if not size > 0:
+        raise GeometryError(f"all {len(vertices)} vertices of {path.name!r} are one point; it holds no surface")
+    # The merge tolerance of trimesh is absolute, so it gets a mesh of size 1.
+    unit = trimesh.Trimesh((vertices - middle) / size, faces, process=False)
+    unit.merge_vertices(merge_tex=True, merge_norm=True)
+    merged, faces = np.array(unit.vertices, dtype=np.float64), np.array(unit.faces, dtype=np.int64)
+    corner = merged[faces]
+    area = 0.5 * np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
+    good = area > 1e-14
+    dropped = int((~good).sum())
+    faces = faces[good]
+    if len(faces) < FEWEST_FACES:
+        raise GeometryError(
+            f"scan file {path.name!r} has {len(faces)} usable triangles, fewer than the {FEWEST_FACES} that a tire "
+            "needs; is it the right file?"
+        )
+    used, faces = np.unique(faces, return_inverse=True)
+    faces = faces.reshape(-1, 3)
+    merged = merged[used]
+    if np.linalg.svd(merged - merged.mean(axis=0), compute_uv=False, full_matrices=False)[2] < 1e-3 * np.sqrt(
+        len(merged)
+    ):
+        raise GeometryError(
+            f"the {len(merged)} points of {path.name!r} lie on a plane; a tire needs three dimensions"
+        )
+    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    shared = np.bincount(np.unique(edges[:, 0] * len(merged) + edges[:, 1], return_inverse=True)[1])
+    return Mesh(merged * size + middle, faces, bool((shared == 2).all()), dropped)
+
+
+def _is_cloud(trimesh: ModuleType, path: Path) -> bool:
+    """True when the file holds points without faces."""
+    try:
+        scene = trimesh.load_scene(path, process=False, skip_materials=True)
+        return bool(scene.geometry) and not any(hasattr(part, "faces") for part in scene.geometry.values())
+    except Exception:
+        return False
+
+
+def _no_faces(path: Path) -> str:
+    return (
+        f"scan file {path.name!r} has no triangles; mesh the points first "
+        "(for example by Poisson reconstruction) and export the mesh"
+    )

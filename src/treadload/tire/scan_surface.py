@@ -1,0 +1,181 @@
+"""The surface of a scanned tread, cast on to any grid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from treadload.errors import GeometryError
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.tire import meridian as unrolling
+from treadload.tire.quality import ScanQuality
+from treadload.tire.rays import Caster, revolved, vertical
+from treadload.tire.surface import fingerprint
+from treadload.tire.tread import EXTENT_HEIGHT, EXTENT_MARGIN
+
+Choice = bool | Literal["auto"]
+
+DEEPEST = 0.045  # a hit further below the crown went through a hole, m
+EXTENT_DROP = 0.030  # where the shoulder has fallen this far the tread ends, m
+CONTACT_GAP = 0.020  # a loaded tire flattens about this much, m
+RIB_BAND = 0.003
+SMALL_HOLES = 0.02
+SECTOR = math.radians(40)
+STANDARD_SPACING = 3e-3
+FIRST_CONTACT = 0.995
+
+
+@dataclass(frozen=True, eq=False)
+class ScanSurface:
+    """A scanned tread in the frame of its wheel.
+
+    vertices: (n, 3), m: x along travel, y along the axle to the right, z down, origin on the axle amid the tread,
+    already turned by the chosen rotation. faces: (m, 3). camber: rad, positive when the top leans to the right.
+    across: (k,) places across the tread, m; meridian: (k,) median radius there, m, NaN where unknown.
+    report: what was found. fill_holes: True, False or "auto" (only when they are at most 2 % of the tread).
+    """
+
+    vertices: Array
+    faces: NDArray[np.int64]
+    camber: float
+    across: Array
+    meridian: Array
+    report: ScanQuality
+    fill_holes: Choice = "auto"
+    source: str = ""
+
+    @cached_property
+    def _digest(self) -> str:
+        return fingerprint(self.vertices, self.faces, self.camber, self.meridian, self.report, self.fill_holes)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ScanSurface):
+            return NotImplemented
+        return self._digest == other._digest
+
+    def __hash__(self) -> int:
+        return hash(self._digest)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Ray casters do not travel between processes; they are built again where they are needed.
+        return {k: v for k, v in self.__dict__.items() if k in self.__dataclass_fields__}
+
+    def __repr__(self) -> str:
+        return f"ScanSurface({self.source!r}, radius {self.report.crown_radius:.4f} m)"
+
+    def __str__(self) -> str:
+        return (
+            f"scan {self.source}: radius {self.report.crown_radius * 1e3:.1f} mm, width "
+            f"{self.report.width * 1e3:.1f} mm, {len(self.report.grooves)} grooves"
+        )
+
+    @property
+    def fixed_grid(self) -> Grid | None:
+        """None: any grid will do."""
+        return None
+
+    @property
+    def quality(self) -> ScanQuality | None:
+        """What was found in the scan."""
+        return self.report
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        """(length, width), m: where the tread is within 60 mm of the road, and its width with a margin."""
+        radius = self.report.crown_radius
+        height = min(EXTENT_HEIGHT, 0.2 * radius)
+        with np.errstate(invalid="ignore"):
+            tread = self.across[self.meridian > radius - EXTENT_DROP]
+        width = 2 * float(np.abs(tread).max()) + 2 * EXTENT_MARGIN
+        return 2 * math.sqrt(height * (2 * radius - height)), width
+
+    def height_map(self, grid: Grid) -> Array:
+        """(ny, nx) gap, m, cast vertically from the cell centres to the tread.
+
+        The plane of first contact is the 99.5 % quantile of the crown (turned back by its own roundness, and
+        smoothed over five cells of 3 mm along travel), not its highest point, which is noise. What stands above it
+        counts as gap 0. Hits more than 45 mm below the crown are no tread. Holes take the median over the angle at
+        the same place across, as fill_holes says.
+        Raises GeometryError when holes remain where the contact will be, or when no cell meets the tread.
+        """
+        low, missing, predicted = self._cast(grid)
+        tread = np.isfinite(predicted)
+        if not np.isfinite(low).any():
+            raise GeometryError(
+                f"no cell of the grid ({grid}) meets the scanned tread, which is {self.extent[1]:.3f} m wide; "
+                "put the grid's origin under the axle"
+            )
+        share = missing.sum() / max(1, tread.sum())
+        if self.fill_holes is True or (self.fill_holes == "auto" and share <= SMALL_HOLES):
+            low = np.where(missing, predicted, low)
+        else:
+            self._refuse_holes(grid, missing, predicted)
+        return np.asarray(np.maximum(self.first_contact - low, 0.0), dtype=np.float64)
+
+    @cached_property
+    def first_contact(self) -> float:
+        """Height of the road below the axle at first contact, m."""
+        length, width = self.extent
+        grid = Grid.centred(0.5 * length, width, STANDARD_SPACING)
+        low, _, _ = self._cast(grid)
+        radius = self.report.crown_radius
+        level = np.where(np.isfinite(low), low + radius - np.sqrt(radius**2 - grid.x**2), -np.inf)
+        smooth = ndimage.median_filter(level, size=(1, 5), mode="nearest")
+        known = smooth[np.isfinite(smooth)]
+        if known.size == 0:
+            raise GeometryError(
+                "the scan has no tread below the axle; choose another rotation=, so that the scanned part "
+                "faces the road"
+            )
+        return float(np.quantile(known, FIRST_CONTACT))
+
+    @cached_property
+    def coverage(self) -> tuple[float, int]:
+        """Fraction of the tread in the extent that was met by rays from the road, and the number of holes."""
+        _, missing, predicted = self._cast(Grid.centred(*self.extent, STANDARD_SPACING))
+        tread = np.isfinite(predicted)
+        return 1 - float(missing.sum() / max(1, tread.sum())), int(ndimage.label(missing)[1])
+
+    @cached_property
+    def _floor(self) -> float:
+        return self.report.crown_radius - DEEPEST
+
+    @cached_property
+    def _caster(self) -> Caster:
+        return self._revolved if self.report.revolved else Caster(self.vertices, self.faces)
+
+    @cached_property
+    def _revolved(self) -> Caster:
+        return revolved(self.across, self.meridian, SECTOR)
+
+    def _cast(self, grid: Grid) -> tuple[Array, BoolArray, Array]:
+        """Lowest points of the tread, where they are missing, and what the revolved meridian has there."""
+        radius = self.report.crown_radius
+        predicted = vertical(self._revolved, grid.x, grid.y, radius, self.camber, self._floor)
+        if self.report.revolved:
+            return predicted, np.zeros(grid.shape, dtype=bool), predicted
+        low = vertical(self._caster, grid.x, grid.y, radius, self.camber, self._floor)
+        return low, np.isnan(low) & np.isfinite(predicted), predicted
+
+    def _refuse_holes(self, grid: Grid, missing: BoolArray, predicted: Array) -> None:
+        grooves = unrolling.groove_depth(self.across, self.meridian) > RIB_BAND
+        rib = np.interp(grid.y, self.across, (~grooves).astype(np.float64)) > 0.5
+        with np.errstate(invalid="ignore"):
+            contact = (self.first_contact - predicted < CONTACT_GAP) & rib[:, None]
+        holes = missing & contact
+        if holes.any():
+            share = holes.sum() / contact.sum()
+            x, y = grid.x[holes.any(axis=0)], grid.y[holes.any(axis=1)]
+            raise GeometryError(
+                f"the scan has holes in {share:.1%} of the area where the contact will be ({holes.sum()} of "
+                f"{contact.sum()} cells, x from {x.min() * 1e3:.0f} to {x.max() * 1e3:.0f} mm, y from "
+                f"{y.min() * 1e3:.0f} to {y.max() * 1e3:.0f} mm); turn the wheel with rotation=, or fill them "
+                "from the rest of the turn with fill_holes=True (right for circumferential grooves)"
+            )
