@@ -153,7 +153,7 @@ def _couple(
         bound = rolling.friction * normal.pressure
         tangential = solve_rolling(influence, bound, known, rolling.forces, start=tangential, tolerance=tolerance)
         newton, krylov = newton + tangential.newton, krylov + tangential.krylov
-        if not coupled or not tangential.shear.any() or 0 < change <= tolerance:
+        if not coupled or not tangential.shear.any() or (rounds > 1 and change <= tolerance):
             return _Pair(normal, tangential, rounds, change, iterations, newton, krylov)
         before = normal.pressure
         normal = solve_normal(
