@@ -35,8 +35,8 @@ def solve_response(
     vertical slice. side: of an interface that a depth falls on, "above" or "below"; stress and strain of a
     road of one material have no jump there.
     Returns a Response with fields (depth, y, x), tension positive, tensor shear strain. At the surface
-    stress_zz = -pressure and stress_xz = -traction_x. Shear uniform on each cell leaves an error O(dx) in
-    the surface strain at the cell centres and shows the cells' edges down to half a cell of depth.
+    stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear leaves an error
+    O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell of depth.
     Raises InputError for a wrong value and for a layered road.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`.
     """
