@@ -1,5 +1,74 @@
-"""treadload: what a tire does to a road."""
+"""treadload: what a tire does to a road.
+
+Public names are loaded when first used, so that importing the package stays quick.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
 
 from treadload._version import __version__
 
-__all__ = ["__version__"]
+if TYPE_CHECKING:
+    from treadload.case import Case
+    from treadload.contact import Contact, Rolling, solve_contact
+    from treadload.damage import FatigueLine, Verdict, assess
+    from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
+    from treadload.grid import Grid
+    from treadload.materials import Elastic
+    from treadload.pavement import Layer, Pavement
+    from treadload.report import report
+    from treadload.response import Response, solve_response
+    from treadload.results import load, save, to_tree
+    from treadload.study import Result, run_case
+    from treadload.tire import Groove, LateralGrooves, Tire, TreadProfile, example_mesh, modulus_from_inflation
+
+_HOME = {
+    "Case": "case",
+    "Contact": "contact",
+    "ConvergenceError": "errors",
+    "Elastic": "materials",
+    "FatigueLine": "damage",
+    "GeometryError": "errors",
+    "Grid": "grid",
+    "Groove": "tire",
+    "InputError": "errors",
+    "LateralGrooves": "tire",
+    "Layer": "pavement",
+    "Pavement": "pavement",
+    "Response": "response",
+    "Result": "study",
+    "Rolling": "contact",
+    "Tire": "tire",
+    "TreadProfile": "tire",
+    "TreadloadError": "errors",
+    "Verdict": "damage",
+    "assess": "damage",
+    "example_mesh": "tire",
+    "load": "results",
+    "modulus_from_inflation": "tire",
+    "report": "report",
+    "run_case": "study",
+    "save": "results",
+    "solve_contact": "contact",
+    "solve_response": "response",
+    "to_tree": "results",
+}
+
+__all__ = [  # noqa: RUF022, PLE0604
+    "__version__",
+    *_HOME,
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'treadload' has no attribute {name!r}")
+    value = getattr(importlib.import_module(f"treadload.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_HOME])
