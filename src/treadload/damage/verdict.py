@@ -163,9 +163,9 @@ def crack_plane(direction: Array) -> tuple[Array, Array]:
     """
     x, y, z = direction[..., 0], direction[..., 1], direction[..., 2]
     flat = np.hypot(x, y)
-    # The trace (-y, x) or its opposite, whichever points forward; + 0.0 keeps a trace across at +π/2.
-    sense = np.where((y > 0) | ((y == 0) & (x < 0)), -1.0, 1.0)
-    angle = np.arctan2(sense * x + 0.0, -sense * y + 0.0)
+    # The trace lies along (-y, x); a line has no sense, so the half turn that points backwards is folded.
+    angle = np.arctan2(x, -y)
+    angle = np.where(angle > np.pi / 2, angle - np.pi, np.where(angle <= -np.pi / 2, angle + np.pi, angle))
     return np.where(flat > 0, angle, np.nan), np.arctan2(flat, np.abs(z))
 
 

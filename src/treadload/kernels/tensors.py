@@ -50,8 +50,9 @@ def in_plane_principal(tensor: Array) -> tuple[Array, Array]:
     are alike.
     """
     difference, shear = 0.5 * (tensor[0] - tensor[1]), tensor[3]
-    # + 0.0 turns -0.0 into 0.0, so that a field along y always answers +π/2.
-    angle = 0.5 * np.arctan2(shear + 0.0, difference)
+    angle = 0.5 * np.arctan2(shear, difference)
+    # -0.0 and underflow land on -π/2, the same line as π/2.
+    angle = np.where(angle <= -np.pi / 2, np.pi / 2, angle)
     return 0.5 * (tensor[0] + tensor[1]) + np.hypot(difference, shear), angle
 
 

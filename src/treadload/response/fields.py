@@ -24,7 +24,6 @@ def response_dataset(stress: Array, strain: Array, depths: Array, y: Array, x: A
     """
     values, direction = tensors.principal(strain)
     in_plane, angle = tensors.in_plane_principal(strain)
-    octahedral = tensors.octahedral_shear(stress)
     fields: dict[str, tuple[tuple[str, ...], Array]] = {
         **{f"stress_{name}": (_DIMS, part) for name, part in zip(COMPONENTS, stress, strict=True)},
         **{f"strain_{name}": (_DIMS, part) for name, part in zip(COMPONENTS, strain, strict=True)},
@@ -32,8 +31,8 @@ def response_dataset(stress: Array, strain: Array, depths: Array, y: Array, x: A
         "principal_direction_1": ((*_DIMS, "component"), direction),
         "in_plane_strain_1": (_DIMS, in_plane),
         "in_plane_angle_1": (_DIMS, angle),
-        "von_mises_stress": (_DIMS, 3 / np.sqrt(2.0) * octahedral),
-        "octahedral_shear_stress": (_DIMS, octahedral),
+        "von_mises_stress": (_DIMS, tensors.von_mises(stress)),
+        "octahedral_shear_stress": (_DIMS, tensors.octahedral_shear(stress)),
         "mean_stress": (_DIMS, tensors.mean(stress)),
         "mazars_strain": (_DIMS, tensors.mazars(values)),
     }

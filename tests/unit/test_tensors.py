@@ -1,0 +1,96 @@
+"""Strain from stress, principal values and directions, invariants."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from treadload.kernels import tensors
+
+fields = arrays(float, (6, 7), elements=st.floats(-1e-3, 1e-3))
+
+
+def test_uniaxial_stress():
+    strain = tensors.strain_from_stress(np.array([2e6, 0, 0, 0, 0, 0.0]), 5e9, 0.35)
+    # Round-off of a closed form.
+    np.testing.assert_allclose(strain, [4e-4, -1.4e-4, -1.4e-4, 0, 0, 0], rtol=1e-14)
+
+
+def test_shear_strain_is_the_tensors():
+    modulus, poisson = 5e9, 0.3
+    strain = tensors.strain_from_stress(np.array([0, 0, 0, 1e6, 2e6, 3e6]), modulus, poisson)
+    shear_modulus = modulus / (2 * (1 + poisson))
+    np.testing.assert_allclose(strain[3:], np.array([1e6, 2e6, 3e6]) / (2 * shear_modulus), rtol=1e-14)
+
+
+def test_incompressible_strain_has_no_trace():
+    stress = np.random.default_rng(1).normal(size=(6, 20))
+    strain = tensors.strain_from_stress(stress, 1.0, 0.5)
+    # Round-off of numbers of order one.
+    np.testing.assert_allclose(strain[:3].sum(axis=0), 0, atol=1e-14)
+
+
+@settings(max_examples=100, deadline=None)
+@given(fields)
+def test_principal_values_and_direction(field):
+    values, direction = tensors.principal(field)
+    full = tensors.matrices(field)
+    scale = 1e-15 + np.abs(field).max()
+    # Backward stable: a few units of round-off of the largest component.
+    np.testing.assert_allclose(values, np.linalg.eigvalsh(full)[:, ::-1].T, atol=1e-13 * scale)
+    np.testing.assert_allclose(np.linalg.norm(direction, axis=-1), 1, rtol=1e-13)
+    np.testing.assert_allclose(
+        np.einsum("nij,nj->ni", full, direction), values[0][:, None] * direction, atol=1e-13 * scale
+    )
+    leading = [next(c for c in vector if abs(c) > 1e-12) for vector in direction]
+    assert min(leading) > 0
+
+
+@settings(max_examples=100, deadline=None)
+@given(fields)
+def test_in_plane_values(field):
+    value, angle = tensors.in_plane_principal(field)
+    full = tensors.matrices(field)[:, :2, :2]
+    scale = 1e-15 + np.abs(field).max()
+    # Round-off of the largest component.
+    np.testing.assert_allclose(value, np.linalg.eigvalsh(full)[:, 1], atol=1e-13 * scale)
+    along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    np.testing.assert_allclose(np.einsum("ni,nij,nj->n", along, full, along), value, atol=1e-13 * scale)
+    assert (angle > -np.pi / 2).all()
+    assert (angle <= np.pi / 2).all()
+
+
+@settings(max_examples=50, deadline=None)
+@given(fields)
+def test_the_largest_in_space_is_at_least_the_largest_in_the_plane(field):
+    values, _ = tensors.principal(field)
+    in_plane, _ = tensors.in_plane_principal(field)
+    # Round-off of components up to 1e-3.
+    assert (values[0] >= in_plane - 1e-17).all()
+
+
+def test_extension_across_travel_is_at_a_right_angle():
+    across = np.array([-1.0, 2.0, -1.0, -0.0, 0.0, 0.0])
+    assert tensors.in_plane_principal(across)[1] == np.pi / 2
+    np.testing.assert_allclose(tensors.principal(across)[1], [0, 1, 0], atol=1e-15)
+
+
+@settings(max_examples=50, deadline=None)
+@given(arrays(float, (6, 7), elements=st.floats(-1e6, 1e6)))
+def test_invariants_from_principal_stress(stress):
+    (s1, s2, s3), _ = tensors.principal(stress)
+    differences = np.sqrt((s1 - s2) ** 2 + (s2 - s3) ** 2 + (s3 - s1) ** 2)
+    # Round-off of stress up to 1e6, under a square root.
+    np.testing.assert_allclose(tensors.octahedral_shear(stress), differences / 3, rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(tensors.von_mises(stress), differences / np.sqrt(2), rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(tensors.mean(stress), (s1 + s2 + s3) / 3, atol=1e-8)
+
+
+def test_von_mises_of_a_bar_is_its_stress():
+    assert tensors.von_mises(np.array([-3.0, 0, 0, 0, 0, 0])) == pytest.approx(3.0, rel=1e-14)
+
+
+def test_mazars_counts_extension_alone():
+    values = np.array([[3.0, 1.0, -1.0], [4.0, -2.0, -2.0], [-5.0, -3.0, -3.0]])
+    np.testing.assert_array_equal(tensors.mazars(values), [5.0, 1.0, 0.0])
