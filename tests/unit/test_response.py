@@ -223,3 +223,39 @@ def test_a_load_keeps_its_own_numbers():
         load.pressure[0, 0] = 2
     with pytest.raises(InputError, match="shape"):
         GridLoad(GRID, np.ones((2, 2)))
+
+
+def test_a_single_row_of_cells_needs_its_width():
+    load = make_load(Grid(5, 1, 0.003, 0.2, 0.0, 0.0))
+    read = GridLoad.from_dataset(as_dataset(load).assign_attrs(dx=0.003, dy=0.2))
+    # The spacing along x is read from five coordinates.
+    assert read.grid.dx == pytest.approx(0.003, rel=1e-12)
+    assert read.grid.dy == 0.2
+    np.testing.assert_array_equal(read.pressure, load.pressure)
+
+
+def test_depths_within_half_a_cell_warn():
+    assert not solve_response(make_load(), ROAD, depths=[0.0, 0.0015], y=0.02).warnings
+    shallow = solve_response(make_load(), ROAD, depths=[0.0, 0.001], y=0.02)
+    assert "depth 1 mm is less than half a cell, 1.5 mm" in shallow.warnings[0]
+    assert shallow.warnings[0] in shallow.summary()
+
+
+def test_points_between_the_cells_read_smooth_shear_better():
+    # Hertz-shaped shear: stress_xx = -(4 + ν) π q0 x / 8 a inside (Johnson 1985, equation 7.29 without pressure).
+    radius, nu = 0.1, ASPHALT.poisson
+    errors = {}
+    for n in (50, 100):
+        grid = Grid.centred(2 * radius, 2 * radius, 2 * radius / n)
+        fine = (np.arange(n * 8) + 0.5) / (n * 8) * 2 - 1
+        shape = np.sqrt(np.maximum(0, 1 - fine[None, :] ** 2 - fine[:, None] ** 2))
+        shear = 1e6 * shape.reshape(n, 8, n, 8).mean(axis=(1, 3))
+        load = GridLoad(grid, 0 * shear, shear)
+        for name, x in (("centres", grid.x), ("between", grid.x + grid.dx / 2)):
+            inner = x[np.abs(x) < 0.7 * radius]
+            found = solve_response(load, ROAD, depths=0.0, x=inner, y=grid.y[n // 2]).dataset["stress_xx"]
+            exact = -(4 + nu) * np.pi / 8 * 1e6 * inner / radius
+            errors[name, n] = np.abs(found.to_numpy().squeeze() - exact).max()
+    # First order at centres; between them, several times smaller already at 50 cells.
+    assert 1.7 < errors["centres", 50] / errors["centres", 100] < 2.3
+    assert errors["between", 50] < 0.25 * errors["centres", 50]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 import xarray as xr
@@ -13,9 +14,6 @@ from treadload import variables
 from treadload.damage.fatigue import FatigueLine
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-
-if TYPE_CHECKING:
-    from treadload.plots import VerdictPlots
 
 # Values of `crack_orientation`.
 ORIENTATIONS = ("none", "longitudinal", "transverse", "oblique", "horizontal")
@@ -43,11 +41,9 @@ class Verdict:
     strain: str
 
     @property
-    def plot(self) -> VerdictPlots:
-        """Figures of this verdict."""
-        from treadload.plots import VerdictPlots
-
-        return VerdictPlots(self)
+    def plot(self) -> Any:
+        """Figures of this verdict: see treadload.plots.VerdictPlots."""
+        return importlib.import_module("treadload.plots").VerdictPlots(self)
 
     @property
     def orientation(self) -> str:
@@ -108,6 +104,8 @@ def assess(
     the load itself; "in-plane" the largest in the horizontal plane, whose cracks are vertical.
     oblique_tolerance: rad, in (0, π/4]. A trace within it of the direction of travel is longitudinal, within
     it of across transverse, else oblique; an extension within it of the vertical opens a horizontal crack.
+    At the surface the extension peaks at rib edges and at the rear of the slip zone, where the exact field
+    has roots and logarithms: the largest value still grows as the cells of the contact shrink.
     Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance.
     """
     if strain not in _NAMES:

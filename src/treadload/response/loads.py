@@ -63,13 +63,14 @@ class GridLoad:
     def from_dataset(cls, dataset: xr.Dataset) -> GridLoad:
         """Load from `pressure`, `traction_x` and `traction_y` over `y` and `x`; a missing shear is none.
 
+        Attributes dx and dy of the dataset give the cell where a single coordinate cannot.
         Raises InputError if pressure or a coordinate is missing, or the coordinates are not evenly spaced.
         """
         missing = [name for name in ("pressure", "x", "y") if name not in dataset.variables]
         if missing:
             raise InputError(f"a load needs pressure over y and x; {', '.join(missing)} missing in the dataset")
-        x0, nx, dx = _even("x", dataset["x"].to_numpy())
-        y0, ny, dy = _even("y", dataset["y"].to_numpy())
+        x0, nx, dx = _even("x", dataset["x"].to_numpy(), dataset.attrs.get("dx"))
+        y0, ny, dy = _even("y", dataset["y"].to_numpy(), dataset.attrs.get("dy"))
 
         def field(name: str) -> Array | None:
             if name not in dataset:
@@ -136,8 +137,10 @@ def _kind(value: Any) -> str:
     return f"an empty {type(value).__name__}" if isinstance(value, Sequence) and not value else type(value).__name__
 
 
-def _even(name: str, values: Array) -> tuple[float, int, float]:
-    """First value, number and spacing of evenly spaced, rising coordinates."""
+def _even(name: str, values: Array, single: float | None) -> tuple[float, int, float]:
+    """First value, number and spacing of evenly spaced, rising coordinates; `single`: spacing if there is but one."""
+    if values.size == 1 and single is not None:
+        return float(values.item()), 1, float(single)
     if values.ndim != 1 or len(values) < 2:
         raise InputError(
             f"the spacing along {name} cannot be read from {values.size} coordinate(s); give a GridLoad with its Grid"

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from treadload.response.fields import angle_in_words, direction_in_words
-
-if TYPE_CHECKING:
-    from treadload.plots import ResponsePlots
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,17 +19,17 @@ class Response:
 
     dataset: fields (depth, y, x) with the names of `treadload.variables`; its attributes hold the material.
     stats: seconds spent, method ("fft", "direct", "none" without load), points evaluated.
+    warnings: sentences for the user.
     """
 
     dataset: xr.Dataset
     stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
 
     @property
-    def plot(self) -> ResponsePlots:
-        """Figures of this response."""
-        from treadload.plots import ResponsePlots
-
-        return ResponsePlots(self)
+    def plot(self) -> Any:
+        """Figures of this response: see treadload.plots.ResponsePlots."""
+        return importlib.import_module("treadload.plots").ResponsePlots(self)
 
     def summary(self) -> str:
         """Largest extension at each depth, three-dimensional and in the horizontal plane, with its place."""
@@ -49,7 +47,7 @@ class Response:
             where = _largest(plane["in_plane_strain_1"])
             words = angle_in_words(float(plane["in_plane_angle_1"].isel(where)))
             lines.append(f"  horizontal plane:  {_at(plane['in_plane_strain_1'].isel(where), words)}")
-        return "\n".join(lines)
+        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
     def __str__(self) -> str:
         return self.summary()
@@ -65,6 +63,11 @@ def _at(value: xr.DataArray, direction: str) -> str:
     if strain <= 0:
         return f"none (at most {strain * 1e6:.3g} microstrain)"
     return (
-        f"{strain * 1e6:.1f} microstrain at x = {float(value['x']) * 1e3:.1f} mm, "
-        f"y = {float(value['y']) * 1e3:.1f} mm, {direction}"
+        f"{strain * 1e6:.1f} microstrain at x = {_mm(float(value['x']))} mm, "
+        f"y = {_mm(float(value['y']))} mm, {direction}"
     )
+
+
+def _mm(metres: float) -> str:
+    # + 0.0: no "-0.0" for round-off.
+    return f"{round(metres * 1e3, 1) + 0.0:.1f}"

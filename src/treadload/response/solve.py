@@ -14,7 +14,7 @@ from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response.fields import response_dataset
 from treadload.response.half_space import half_space_response
-from treadload.response.loads import Load, common_grid, gather
+from treadload.response.loads import GridLoad, Load, common_grid, gather
 from treadload.response.solution import Response
 
 
@@ -69,7 +69,18 @@ def solve_response(
         poisson=material.poisson,
     )
     stats = {"seconds": time.perf_counter() - start, "method": method, "points": stress[0].size}
-    return Response(dataset, stats)
+    return Response(dataset, stats, _warnings(superposed, at_depths))
+
+
+def _warnings(loads: Sequence[GridLoad], depths: Array) -> tuple[str, ...]:
+    half = 0.5 * min(min(load.grid.dx, load.grid.dy) for load in loads)
+    shallow = depths[(depths > 0) & (depths < half)]
+    if not shallow.size:
+        return ()
+    return (
+        f"depth {shallow.min() * 1e3:g} mm is less than half a cell, {half * 1e3:g} mm: "
+        "strain there shows the steps of the load between cells; take the surface or a finer contact",
+    )
 
 
 def _coordinates(name: str, values: ArrayLike | None) -> Array:
