@@ -132,7 +132,7 @@ def test_uniform_disc_on_the_axis(zeta):
 
 
 UNIT_SQUARE = [
-    # Printed by Kalker's CONTACT for a unit square under p = 1, q_x = 0 or 0.999, ν = 0.28 (example `subsurf`).
+    # Printed by the program CONTACT for a unit square under p = 1, q_x = 0 or 0.999, ν = 0.28 (example `subsurf`).
     (0.0, (0, 0, 0), "mean", -0.853),
     (0.0, (0, 0, 0.4), "von_mises", 0.665),
     (0.0, (0, -0.4, 0.2), "tresca", 0.696),
