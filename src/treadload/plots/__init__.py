@@ -1,1 +1,17 @@
-"""plots"""
+"""Figures of contact, response and verdict: functions of datasets that return a matplotlib Figure."""
+
+from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
+from treadload.plots.compare import compare_pressure, compare_strain
+from treadload.plots.files import save, write_whole
+from treadload.plots.verdict import fatigue_line
+
+__all__ = [
+    "ContactPlots",
+    "ResponsePlots",
+    "VerdictPlots",
+    "compare_pressure",
+    "compare_strain",
+    "fatigue_line",
+    "save",
+    "write_whole",
+]

@@ -1,0 +1,94 @@
+"""What `contact.plot`, `response.plot` and `verdict.plot` offer."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from treadload.plots import contact as contact_figures
+from treadload.plots import response as response_figures
+from treadload.plots import verdict as verdict_figures
+from treadload.plots.plan import Source
+from treadload.plots.response import Strain
+
+
+class ContactPlots:
+    """Figures of a contact, or of its dataset. Each returns a matplotlib Figure."""
+
+    def __init__(self, contact: Source) -> None:
+        self._contact = contact
+
+    def pressure(self, *, ax: Axes | None = None) -> Figure:
+        """Contact pressure in plan, kPa."""
+        return contact_figures.pressure(self._contact, ax=ax)
+
+    def height_map(self, *, ax: Axes | None = None) -> Figure:
+        """Separation of tread and road before loading, mm."""
+        return contact_figures.height_map(self._contact, ax=ax)
+
+    def stick_slip(self, *, ax: Axes | None = None) -> Figure:
+        """Shear in plan with the zones that stick and slip, kPa."""
+        return contact_figures.stick_slip(self._contact, ax=ax)
+
+    def shear(self) -> Figure:
+        """Shear as a surface in space beside its plan, kPa."""
+        return contact_figures.shear(self._contact)
+
+    def profile(self) -> Figure:
+        """Pressure and shear along travel and across it, kPa."""
+        return contact_figures.profile(self._contact)
+
+
+class ResponsePlots:
+    """Figures of a response, or of its dataset. Each returns a matplotlib Figure."""
+
+    def __init__(self, response: Source) -> None:
+        self._response = response
+
+    def strain_directions(
+        self,
+        depth: float = 0.0,
+        strain: Strain = "principal",
+        *,
+        contact: Source | None = None,
+        ax: Axes | None = None,
+    ) -> Figure:
+        """Largest extension in plan with its directions, microstrain. depth: m."""
+        return response_figures.strain_directions(self._response, depth=depth, strain=strain, contact=contact, ax=ax)
+
+    def depth_slice(
+        self,
+        along: Literal["travel", "across"] | None = None,
+        at: float | None = None,
+        *,
+        ax: Axes | None = None,
+    ) -> Figure:
+        """Largest extension in a vertical section under the worst point, microstrain. at: y or x, m."""
+        return response_figures.depth_slice(self._response, along=along, at=at, ax=ax)
+
+    def profile(
+        self, strain: Strain = "principal", *, epsilon_6: float | None = None, ax: Axes | None = None
+    ) -> Figure:
+        """Strain against depth under the worst point, microstrain."""
+        return response_figures.profile(self._response, strain=strain, epsilon_6=epsilon_6, ax=ax)
+
+
+class VerdictPlots:
+    """Figures of a verdict, or of its dataset. Each returns a matplotlib Figure."""
+
+    def __init__(self, verdict: Source) -> None:
+        self._verdict = verdict
+
+    def fatigue_line(self, *, design_passes: float | None = None, ax: Axes | None = None) -> Figure:
+        """The fatigue line with the worst strain on it."""
+        return verdict_figures.fatigue_line(self._verdict, design_passes=design_passes, ax=ax)
+
+    def passes(self, *, ax: Axes | None = None) -> Figure:
+        """Allowable passes in plan, logarithmic."""
+        return verdict_figures.passes(self._verdict, ax=ax)
+
+    def cracks(self, *, ax: Axes | None = None) -> Figure:
+        """Traces of the cracks to expect, coloured by orientation."""
+        return verdict_figures.cracks(self._verdict, ax=ax)

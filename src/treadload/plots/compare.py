@@ -1,0 +1,114 @@
+"""Cases side by side on one scale."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
+
+from treadload.errors import InputError
+from treadload.plots.contact import pressure_in_numbers
+from treadload.plots.plan import (
+    KPA,
+    MICRO,
+    Limits,
+    Plan,
+    Source,
+    colour_bar,
+    draw_cells,
+    draw_outline,
+    fields_of,
+    limits,
+    mark_peak,
+    peak_of,
+    plane,
+)
+from treadload.plots.response import NAMES, Strain, draw_strain, place_in_words, strain_in_numbers, strain_plane
+from treadload.plots.style import MUTED, headline, sequential, styled, travel_arrow
+
+_MOST_COLUMNS = 3
+
+
+@styled
+def compare_strain(
+    responses: Sequence[Source], labels: Sequence[str], *, depth: float = 0.0, strain: Strain = "principal"
+) -> Figure:
+    """Strain maps of several cases side by side on one colour scale.
+
+    responses: with the strain and its direction over (depth, y, x). labels: a name each. depth: m.
+    strain: "principal" (three-dimensional) or "in-plane". Returns the figure with one colour bar.
+    Raises InputError for missing variables or depths, or labels that do not match.
+    """
+    _check(responses, labels)
+    planes = [strain_plane(response, depth, strain) for response in responses]
+    name = "principal_strain_1" if strain == "principal" else "in_plane_strain_1"
+    scale = limits(*(plane(data, name) * MICRO for data in planes))
+
+    def draw(ax: Axes, number: int) -> QuadMesh:
+        mesh = draw_strain(ax, planes[number], strain, scale, responses[number])
+        own = Limits(0, scale.high, bool(np.nanmax(plane(planes[number], name)) * MICRO > scale.high))
+        headline(ax, labels[number], strain_in_numbers(planes[number], strain, own))
+        return mesh
+
+    label = f"largest extension {place_in_words(depth)}, {NAMES[strain]} (microstrain)"
+    return _side_by_side([Plan.of(data) for data in planes], draw, label, scale)
+
+
+@styled
+def compare_pressure(contacts: Sequence[Source], labels: Sequence[str]) -> Figure:
+    """Contact pressures of several cases side by side on one colour scale, kPa.
+
+    contacts: with pressure (y, x), Pa. labels: a name each. Returns the figure with one colour bar.
+    Raises InputError for a missing pressure or labels that do not match.
+    """
+    _check(contacts, labels)
+    cases = [fields_of(contact, "pressure") for contact in contacts]
+    values = [plane(data, "pressure") * KPA for data in cases]
+    scale = limits(*values)
+    plans = [Plan.of(data) for data in cases]
+
+    def draw(ax: Axes, number: int) -> QuadMesh:
+        plan, here = plans[number], values[number]
+        mesh = draw_cells(ax, plan, np.where(here > 0, here, np.nan), sequential("pressure"), scale)
+        draw_outline(ax, here > 0, plan, MUTED, 0.5)
+        row, column = peak_of(here)
+        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{here[row, column]:.0f} kPa")
+        travel_arrow(ax)
+        headline(ax, labels[number], pressure_in_numbers(cases[number]))
+        return mesh
+
+    return _side_by_side(plans, draw, "contact pressure (kPa)", scale)
+
+
+def _check(sources: Sequence[Source], labels: Sequence[str]) -> None:
+    if not sources or len(sources) != len(labels):
+        raise InputError(f"give a label for each case: got {len(labels)} labels for {len(sources)} cases")
+
+
+def _side_by_side(plans: Sequence[Plan], draw: Callable[[Axes, int], QuadMesh], label: str, scale: Limits) -> Figure:
+    """Panels of equal millimetres, up to three in a row, beside one colour bar."""
+    count = len(plans)
+    columns = min(count, _MOST_COLUMNS)
+    rows = math.ceil(count / columns)
+    width = 4.6 if columns > 1 else 5.2
+    aspect = max(plan.aspect for plan in plans)
+    figure = Figure(
+        figsize=(columns * width + 1.1, rows * min(8.0, (width - 0.75) * aspect + 1.15)), layout="constrained"
+    )
+    grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    panels: list[Axes] = list(grid.ravel())
+    meshes = [draw(panels[number], number) for number in range(count)]
+    for ax in panels[count:]:
+        ax.set_visible(False)
+    left, right = min(p.x_edges[0] for p in plans), max(p.x_edges[-1] for p in plans)
+    top, bottom = min(p.y_edges[0] for p in plans), max(p.y_edges[-1] for p in plans)
+    for ax in panels[:count]:
+        ax.set_xlim(left, right)
+        ax.set_ylim(bottom, top)
+        ax.label_outer()
+    colour_bar(figure, meshes[0], panels[:count], label, scale, aspect=28)
+    return figure

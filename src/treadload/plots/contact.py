@@ -1,0 +1,285 @@
+"""Figures of a contact: pressure, initial gap, shear, stick and slip, sections."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.plots.plan import (
+    KPA,
+    MM,
+    X_LABEL,
+    Y_LABEL,
+    Limits,
+    Plan,
+    Source,
+    colour_bar,
+    draw_cells,
+    draw_outline,
+    empty_note,
+    fields_of,
+    limits,
+    mark_peak,
+    peak_of,
+    plane,
+)
+from treadload.plots.strokes import choose
+from treadload.plots.style import (
+    INK,
+    MUTED,
+    SLIP,
+    STICK,
+    figure_and_axes,
+    headline,
+    sequential,
+    styled,
+    thousands,
+    travel_arrow,
+)
+
+_ARROWS = 22
+
+
+@styled
+def pressure(contact: Source, *, ax: Axes | None = None) -> Figure:
+    """Contact pressure in plan, true scale, kPa.
+
+    contact: with pressure (y, x), Pa. ax: axes to draw into; a new figure if left out. Returns the figure.
+    Raises InputError if the pressure is missing.
+    """
+    data = fields_of(contact, "pressure")
+    plan, values = Plan.of(data), plane(data, "pressure") * KPA
+    figure, ax = figure_and_axes(ax, 6.4, _height(plan, 6.4))
+    scale = limits(values)
+    mesh = draw_cells(ax, plan, _where(values > 0, values), sequential("pressure"), scale)
+    draw_outline(ax, values > 0, plan, MUTED, 0.5)
+    colour_bar(figure, mesh, ax, "contact pressure (kPa)", scale)
+    headline(ax, "Contact pressure", pressure_in_numbers(data))
+    row, column = peak_of(values)
+    if values[row, column] > 0:
+        mark_peak(ax, plan.x[column], plan.y[row], f"{values[row, column]:.0f} kPa")
+    else:
+        empty_note(ax, "no contact")
+    travel_arrow(ax)
+    return figure
+
+
+@styled
+def height_map(contact: Source, *, ax: Axes | None = None) -> Figure:
+    """Separation of tread and road before loading, in plan, mm.
+
+    contact: with initial_gap (y, x), m, NaN where there is no tread; the outline of the contact is drawn if
+    there is a pressure. ax: axes to draw into. Returns the figure.
+    """
+    data = fields_of(contact, "initial_gap")
+    plan, values = Plan.of(data), plane(data, "initial_gap") * MM
+    figure, ax = figure_and_axes(ax, 6.4, _height(plan, 6.4))
+    finite = values[np.isfinite(values)]
+    # Grooves far deeper than the contact reaches would use up the colours.
+    high = float(np.quantile(finite, 0.98)) if finite.size else 1.0
+    scale = Limits(0.0, high or 1.0, bool(finite.size and finite.max() > high * 1.001))
+    mesh = draw_cells(ax, plan, values, sequential("height"), scale)
+    colour_bar(figure, mesh, ax, "initial gap (mm)", scale)
+    details = f"largest gap {finite.max():.1f} mm" if finite.size else "no tread here"
+    if "pressure" in data:
+        draw_outline(ax, plane(data, "pressure") > 0, plan, SLIP, 1.0)
+        details += "; outlined: the contact under load"
+    headline(ax, "Tread before loading", details)
+    travel_arrow(ax)
+    return figure
+
+
+@styled
+def stick_slip(contact: Source, *, ax: Axes | None = None) -> Figure:
+    """Shear in plan with the zones that stick and slip, kPa.
+
+    contact: with traction_x, traction_y (y, x), Pa, and state (y, x). The arrows are the shear exerted by the
+    tire on the road, thinned. ax: axes to draw into. Returns the figure.
+    """
+    data = fields_of(contact, "traction_x", "traction_y", "state")
+    plan = Plan.of(data)
+    figure, ax = figure_and_axes(ax, 6.6, _height(plan, 6.6) + 0.25)
+    scale = limits(_shear(data))
+    _draw_stick_slip(figure, ax, data, plan, scale)
+    headline(ax, "Shear on the road, stick and slip", _shear_in_numbers(data))
+    return figure
+
+
+@styled
+def shear(contact: Source) -> Figure:
+    """Shear as a surface in space, beside its plan with the zones that stick and slip, kPa.
+
+    contact: with traction_x, traction_y (y, x), Pa, and state (y, x). Returns the figure.
+    """
+    data = fields_of(contact, "traction_x", "traction_y", "state")
+    plan, values = Plan.of(data), _shear(data)
+    scale = limits(values)
+    figure = Figure(figsize=(11.4, 5.3), layout="constrained")
+    solid = figure.add_subplot(1, 2, 1, projection="3d")
+    flat = figure.add_subplot(1, 2, 2)
+    x, y = np.meshgrid(plan.x, plan.y)
+    solid.plot_surface(
+        x, y, values, cmap=sequential("shear"), vmin=scale.low, vmax=scale.high, rcount=150, ccount=150,
+        linewidth=0.12, edgecolor=(0, 0, 0, 0.16), antialiased=True, rasterized=True,
+    )  # fmt: skip
+    solid.set_xlim(plan.x_edges[0], plan.x_edges[-1])
+    solid.set_ylim(plan.y_edges[-1], plan.y_edges[0])
+    solid.set_zlim(0, max(float(np.nanmax(values)), 1e-9))
+    solid.set_box_aspect((1, plan.aspect, 0.55), zoom=1.02)
+    solid.view_init(elev=32, azim=-62)
+    solid.set_xlabel("x, travel (mm)")
+    solid.set_ylabel("y, right (mm)")
+    solid.set_zlabel("shear (kPa)")
+    for axis in (solid.xaxis, solid.yaxis, solid.zaxis):
+        axis.set_pane_color((1, 1, 1, 0))
+        axis._axinfo["grid"].update(color="#e4e7ec", linewidth=0.6)
+    headline(solid, "Shear on the road", _shear_in_numbers(data))
+    _draw_stick_slip(figure, flat, data, plan, scale)
+    headline(flat, "Stick and slip", _zones_in_numbers(data))
+    return figure
+
+
+@styled
+def profile(contact: Source) -> Figure:
+    """Pressure and shear along travel and across it, through the largest pressure, kPa.
+
+    contact: with pressure (y, x), Pa; shear, friction and state are drawn if they are there. Where the shear
+    meets friction times pressure the tire slips. Returns the figure.
+    """
+    data = fields_of(contact, "pressure")
+    plan, values = Plan.of(data), plane(data, "pressure") * KPA
+    row, column = peak_of(values)
+    figure = Figure(figsize=(7.2, 5.8), layout="constrained")
+    upper, lower = figure.subplots(2, 1, sharey=True)
+    _section(upper, data, plan.x, (row, slice(None)))
+    upper.set_xlabel(X_LABEL)
+    headline(upper, "Along travel", f"through the largest pressure, y = {plan.y[row]:.1f} mm")
+    _section(lower, data, plan.y, (slice(None), column))
+    lower.set_xlabel(Y_LABEL)
+    headline(lower, "Across travel", f"through the largest pressure, x = {plan.x[column]:.1f} mm")
+    handles, labels = upper.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    return figure
+
+
+def pressure_in_numbers(data: xr.Dataset) -> str:
+    """Load, area and peak of a contact in one line."""
+    plan, values = Plan.of(data), plane(data, "pressure") * KPA
+    cell = np.outer(np.diff(plan.y_edges), np.diff(plan.x_edges))
+    area = float(cell[values > 0].sum())
+    load = float(data["normal_load"]) / 1e3 if "normal_load" in data else float((values * cell).sum()) * 1e-6
+    if area == 0:
+        return "no contact"
+    return (
+        f"{load:.4g} kN on {thousands(area)} mm², mean {load * 1e6 / area:.0f} kPa, peak {np.nanmax(values):.0f} kPa"
+    )
+
+
+def _section(ax: Axes, data: xr.Dataset, at: Array, cut: tuple[int | slice, int | slice]) -> None:
+    values = plane(data, "pressure")[cut] * KPA
+    ax.fill_between(at, values, step="mid", color=MUTED, alpha=0.16, linewidth=0)
+    ax.step(at, values, where="mid", color=INK, lw=1.3, label="pressure")
+    if "friction" in data:
+        bound = float(data["friction"]) * values
+        ax.step(at, bound, where="mid", color=MUTED, lw=0.9, ls=(0, (3, 2)), label="friction × pressure")
+    if "traction_x" in data and "traction_y" in data:
+        q = _shear(data)[cut]
+        ax.step(at, q, where="mid", color=STICK, lw=1.4, label="shear, where it sticks")
+        if "state" in data:
+            slipping = np.where(plane(data, "state")[cut] == 2, q, np.nan)
+            ax.step(at, slipping, where="mid", color=SLIP, lw=2.2, label="shear, where it slips")
+    ax.set_xlim(at[0], at[-1])
+    ax.set_ylim(bottom=0)
+    ax.set_ylabel("kPa")
+    ax.grid(axis="y")
+    ax.spines[["top", "right"]].set_visible(False)
+
+
+def _draw_stick_slip(figure: Figure, ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
+    values, state = _shear(data), plane(data, "state")
+    mesh = draw_cells(ax, plan, _where(state > 0, values), sequential("shear"), scale)
+    colour_bar(figure, mesh, ax, "shear (kPa)", scale)
+    slip, stick = state == 2, state == 1
+    if slip.any():
+        # A hatch needs filled paths: one thin rectangle a run of cells.
+        _hatch(ax, slip, plan)
+    if stick.any():
+        draw_outline(ax, stick, plan, STICK, 1.5)
+    if slip.any():
+        draw_outline(ax, slip, plan, SLIP, 1.1)
+    if values.max(initial=0.0) > 0:
+        _arrows(ax, data, plan, scale)
+    else:
+        empty_note(ax, "no shear")
+    ax.legend(
+        handles=[
+            Line2D([], [], color=STICK, lw=1.8, label="stick"),
+            Patch(facecolor="none", edgecolor=SLIP, hatch="/////", label="slip"),
+            Line2D([], [], color=INK, lw=1.2, marker=">", ms=4, label="shear of the tire on the road"),
+        ],
+        loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=3, handlelength=1.8, columnspacing=1.4,
+    )  # fmt: skip
+    travel_arrow(ax)
+
+
+def _hatch(ax: Axes, mask: BoolArray, plan: Plan) -> None:
+    levels = mask.astype(float)
+    ax.pcolor(
+        plan.x_edges, plan.y_edges, np.ma.masked_less(levels, 0.5), hatch="/////", alpha=0, edgecolor=SLIP, lw=0
+    )
+
+
+def _arrows(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
+    """Thinned arrows whose length follows the shear; the longest fill the distance between two."""
+    values = _shear(data)
+    apart = max(plan.span / _ARROWS, 2 * plan.cell)
+    index = choose(values, plan.x, plan.y, 0.06 * scale.high, apart)
+    rows, columns = index[:, 0], index[:, 1]
+    shares = [plane(data, name)[rows, columns] * KPA / scale.high for name in ("traction_x", "traction_y")]
+    length = np.hypot(*shares)
+    cut = np.minimum(1.0, 1.25 / np.maximum(length, 1e-12))
+    ax.quiver(
+        plan.x[columns], plan.y[rows], shares[0] * cut, shares[1] * cut, angles="xy", scale_units="xy",
+        scale=1 / (1.15 * apart), pivot="mid", color=INK, width=0.0028, headwidth=3.6, headlength=4.2,
+        headaxislength=3.8, zorder=3,
+    )  # fmt: skip
+
+
+def _shear(data: xr.Dataset) -> Array:
+    """Magnitude of the shear (ny, nx), kPa."""
+    magnitude: Array = np.hypot(plane(data, "traction_x"), plane(data, "traction_y")) * KPA
+    return magnitude
+
+
+def _shear_in_numbers(data: xr.Dataset) -> str:
+    parts = [f"peak {np.nanmax(_shear(data)):.0f} kPa"]
+    for name, symbol in (("tractive_force", "tractive"), ("lateral_force", "lateral")):
+        if name in data and abs(float(data[name])) >= 0.5:
+            parts.append(f"{symbol} force {float(data[name]) / 1e3:.3g} kN")
+    if len(parts) == 1 and "tractive_force" in data:
+        parts.append("no force along the road")
+    return ", ".join(parts)
+
+
+def _zones_in_numbers(data: xr.Dataset) -> str:
+    state = plane(data, "state")
+    touching = int((state > 0).sum())
+    if not touching:
+        return "no contact"
+    slipping = 100 * float((state == 2).sum()) / touching
+    return f"{slipping:.0f} % of the contact slips, {100 - slipping:.0f} % sticks"
+
+
+def _where(mask: BoolArray, values: Array) -> Array:
+    shown: Array = np.where(mask, values, np.nan)
+    return shown
+
+
+def _height(plan: Plan, width: float) -> float:
+    """Height of a figure, inches, whose map of true scale fills it beside its colour bar."""
+    return min(9.0, max(2.6, (width - 1.75) * plan.aspect + 1.15))

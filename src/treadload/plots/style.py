@@ -1,0 +1,166 @@
+"""How every figure looks: type, colours, titles; and nothing global changed on the way."""
+
+from __future__ import annotations
+
+import functools
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, ParamSpec, TypeVar
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, LinearSegmentedColormap
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+INK = "#1b1f24"
+MUTED = "#5b6470"
+RULE = "#c9ced6"
+PAPER = "#ffffff"
+
+# States of contact, told apart also by readers who do not see red and green alike.
+STICK, SLIP = "#0b6fae", "#d55e00"
+# One colour a case, in the order given: blue, vermilion, green, purple, amber, black.
+CASES = ("#0b6fae", "#d55e00", "#00805f", "#a5508a", "#b98700", "#1b1f24")
+# Orientation of cracks: none, longitudinal, transverse, oblique, horizontal.
+ORIENTATION_COLOURS = (RULE, "#0b6fae", "#d55e00", "#8a3b74", "#00805f")
+
+_RC: Any = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9.5,
+    "axes.titlesize": 11.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelsize": 9.5,
+    "axes.labelcolor": INK,
+    "axes.edgecolor": MUTED,
+    "axes.linewidth": 0.7,
+    "axes.facecolor": PAPER,
+    "axes.axisbelow": True,
+    "text.color": INK,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "grid.color": "#e4e7ec",
+    "grid.linewidth": 0.7,
+    "legend.fontsize": 8.5,
+    "legend.frameon": False,
+    "lines.linewidth": 1.6,
+    "hatch.linewidth": 0.5,
+    "figure.facecolor": PAPER,
+    "figure.dpi": 100,
+    "figure.constrained_layout.h_pad": 0.06,
+    "figure.constrained_layout.w_pad": 0.06,
+    "savefig.dpi": 180,
+    "savefig.facecolor": PAPER,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "treadload",
+    "pdf.fonttype": 42,
+}
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+# rcParams belong to the process: two threads of a server must not draw between each other's settings.
+_LOCK = threading.RLock()
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """The settings of treadload's figures inside a `with`; those from before afterwards."""
+    with _LOCK, mpl.rc_context(_RC):
+        yield
+
+
+def styled(draw: Callable[P, R]) -> Callable[P, R]:
+    """A function that draws in the house style."""
+
+    @functools.wraps(draw)
+    def inside(*args: P.args, **kwargs: P.kwargs) -> R:
+        with house_style():
+            return draw(*args, **kwargs)
+
+    return inside
+
+
+def sequential(name: str) -> Colormap:
+    """Perceptually uniform map from paper (nothing) to dark (most): "pressure", "shear", "strain", "height"."""
+    base, low, high = {
+        "pressure": ("viridis_r", 0.02, 1.0),
+        "shear": ("viridis_r", 0.02, 1.0),
+        "strain": ("magma_r", 0.0, 0.88),
+        "height": ("cividis_r", 0.0, 1.0),
+    }[name]
+    source = mpl.colormaps[base]
+    count = 256
+    colours = [tuple(source(low + (high - low) * k / (count - 1))) for k in range(count)]
+    # The first steps fade to paper, so that nothing reads as nothing.
+    fade = 14
+    for k in range(fade):
+        weight = k / fade
+        colours[k] = tuple(weight * c + (1 - weight) for c in colours[k])
+    return LinearSegmentedColormap.from_list(f"treadload_{name}", colours, N=count)
+
+
+def diverging() -> Colormap:
+    """Map for signed values, neutral at its middle."""
+    return mpl.colormaps["RdBu_r"]
+
+
+def figure_and_axes(ax: Axes | None, width: float, height: float) -> tuple[Figure, Axes]:
+    """The figure (inches) of a new pair of axes, or of the axes given."""
+    if ax is not None:
+        figure = ax.get_figure()
+        while not isinstance(figure, Figure):
+            figure = figure.figure  # type: ignore[union-attr]
+        return figure, ax
+    figure = Figure(figsize=(width, height), layout="constrained")
+    return figure, figure.add_subplot()
+
+
+def headline(ax: Axes, title: str, details: str = "") -> None:
+    """A bold title with a quiet line of numbers under it, flush left."""
+    lines = details.count("\n") + 1 if details else 0
+    ax.set_title(title, loc="left", pad=6 + 12.5 * lines)
+    if details:
+        ax.annotate(
+            details, (0, 1), xytext=(0, 5), xycoords="axes fraction", textcoords="offset points",
+            ha="left", va="bottom", fontsize=8.5, color=MUTED, linespacing=1.35,
+        )  # fmt: skip
+
+
+def halo(width: float = 2.5) -> list[withStroke]:
+    """Paper around letters and lines that lie on a coloured field."""
+    return [withStroke(linewidth=width, foreground=PAPER)]
+
+
+def travel_arrow(ax: Axes) -> None:
+    """An arrow in the lower left corner that points where the wheel goes."""
+    ax.annotate(
+        "", (66, 12), xytext=(10, 12), xycoords="axes points", textcoords="axes points",
+        arrowprops={"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "color": INK, "lw": 1.3,
+                    "shrinkA": 0, "shrinkB": 0, "path_effects": halo(3.2)},
+    )  # fmt: skip
+    ax.annotate(
+        "travel", (10, 17), xycoords="axes points", fontsize=8, ha="left", va="bottom", path_effects=halo(2.2)
+    )
+
+
+def thousands(value: float) -> str:
+    """A whole number with narrow spaces between its thousands."""
+    return f"{value:,.0f}".replace(",", "\u202f")
+
+
+def power_of_ten(value: float) -> str:
+    """A positive number as 1.2×10⁵, in characters that need no mathematics."""
+    if value == float("inf"):
+        return "∞"
+    mantissa, exponent = f"{value:.1e}".split("e")
+    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{mantissa}×10{raised}"

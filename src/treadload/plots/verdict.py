@@ -1,0 +1,226 @@
+"""Figures of a verdict: the fatigue line, passes and cracks in plan."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from treadload.damage.fatigue import FatigueLine
+from treadload.damage.verdict import ORIENTATIONS
+from treadload.errors import InputError
+from treadload.plots.plan import (
+    MICRO,
+    Limits,
+    Plan,
+    Source,
+    colour_bar,
+    draw_cells,
+    empty_note,
+    fields_of,
+    frame_plan,
+    limits,
+    mark_peak,
+    plane,
+)
+from treadload.plots.strokes import draw_strokes, strokes
+from treadload.plots.style import (
+    CASES,
+    INK,
+    MUTED,
+    ORIENTATION_COLOURS,
+    figure_and_axes,
+    halo,
+    headline,
+    power_of_ten,
+    sequential,
+    styled,
+    travel_arrow,
+)
+
+_READS = {"principal": "three-dimensional", "in-plane": "horizontal-plane"}
+_MILLION = 1e6
+# Cracks are drawn where the strain reaches this share of the largest.
+_SIGNIFICANT = 0.2
+# Decades of passes above the fewest that get a colour of their own.
+_DECADES = 6
+
+
+@styled
+def fatigue_line(
+    verdicts: Source | Sequence[Source],
+    labels: Sequence[str] | None = None,
+    *,
+    design_passes: float | None = None,
+    ax: Axes | None = None,
+) -> Figure:
+    """The fatigue line, ε₆ on it, and where the worst strain of each case meets it.
+
+    verdicts: one or several, with worst_strain, worst_passes and the attributes epsilon_6 and slope.
+    labels: a name each. design_passes: traffic whose admissible strain is marked. ax: axes to draw into.
+    Returns the figure. Raises InputError if labels and verdicts differ in number or attributes are missing.
+    """
+    cases = [fields_of(v, "worst_strain", "worst_passes") for v in _listed(verdicts)]
+    names = list(labels) if labels is not None else [""] * len(cases)
+    if len(names) != len(cases) or not cases:
+        raise InputError(f"give a label for each verdict: got {len(names)} labels for {len(cases)} verdicts")
+    lines = [_line(case) for case in cases]
+    figure, ax = figure_and_axes(ax, 7.2, 4.7)
+    points = [(float(c["worst_passes"]), float(c["worst_strain"]) * MICRO) for c in cases]
+    reached = [n for n, strain in points if strain > 0 and math.isfinite(n)] + [_MILLION]
+    low = 10.0 ** math.floor(math.log10(min(1e4, min(reached) / 4)))
+    high = 10.0 ** math.ceil(math.log10(max(1e8, max(reached) * 4)))
+    passes = np.array([low, high])
+    for number, line in enumerate(dict.fromkeys(lines)):
+        style = ("-", (0, (5, 2)), (0, (1, 1.5)))[number % 3]
+        ax.plot(passes, line.allowable_strain(passes) * MICRO, color=INK, lw=1.4, ls=style, zorder=2)
+        _mark_million(ax, line, low)
+    if design_passes is not None:
+        admissible = float(lines[0].allowable_strain(design_passes)) * MICRO
+        ax.axvline(design_passes, color=MUTED, lw=0.9, ls=":")
+        _note(ax, design_passes, admissible, f"design traffic allows {admissible:.0f}", (6, 6), MUTED)
+    for number, ((n, strain), name) in enumerate(zip(points, names, strict=True)):
+        _mark_case(ax, n, strain, name, CASES[number % len(CASES)], low, high)
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlim(low, high)
+    strains = [s for _, s in points if s > 0]
+    drawn = [float(v) * MICRO for line in lines for v in line.allowable_strain(passes)]
+    ax.set_ylim(min([*drawn, *strains]) / 1.25, max([*drawn, *strains]) * 1.25)
+    _plain_strains(ax)
+    ax.set_xlabel("passes, N")
+    ax.set_ylabel("largest extension (microstrain)")
+    ax.grid(True, which="major")
+    ax.spines[["top", "right"]].set_visible(False)
+    reads = sorted({_READS.get(str(c.attrs.get("strain", "principal")), "") for c in cases})
+    headline(ax, "Fatigue line", f"ε = ε₆ (N / 10⁶)ᵇ; the worst {' or '.join(reads)} strain of each case on it")
+    return figure
+
+
+@styled
+def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
+    """Passes that the fatigue line allows, in plan, on a logarithmic scale.
+
+    verdict: with allowable_passes (y, x). The darkest cells bear fewest; what bears a million times more is
+    left as paper. ax: axes to draw into. Returns the figure.
+    """
+    data = fields_of(verdict, "allowable_passes")
+    plan, values = Plan.of(data), plane(data, "allowable_passes")
+    figure, ax = figure_and_axes(ax, 6.6, min(9.0, max(2.8, 4.85 * plan.aspect + 1.2)))
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        frame_plan(ax, plan)
+        empty_note(ax, "nothing extends here:\nthe line sets no limit")
+        headline(ax, "Allowable passes")
+        return figure
+    least = float(finite.min())
+    low, high = 10.0 ** math.floor(math.log10(least)), 10.0 ** (math.floor(math.log10(least)) + _DECADES)
+    mesh = draw_cells(ax, plan, np.minimum(values, 10 * high), sequential("strain").reversed(), Limits(low, high))
+    mesh.set_norm(LogNorm(low, high))
+    colour_bar(figure, mesh, ax, "allowable passes", Limits(low, high, True))
+    row, column = np.unravel_index(int(np.nanargmin(values)), values.shape)
+    mark_peak(ax, float(plan.x[column]), float(plan.y[row]), power_of_ten(least))
+    headline(ax, "Allowable passes", f"fewest {power_of_ten(least)}; {_line_in_words(data)}")
+    travel_arrow(ax)
+    return figure
+
+
+@styled
+def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
+    """Traces of the cracks that the largest extension opens, in plan, coloured by their orientation.
+
+    verdict: with extension_strain, crack_angle, crack_dip and crack_orientation (y, x). A stroke shortens as the
+    crack's plane flattens; drawn where the strain is a fifth of the largest or more. ax: axes to draw into.
+    Returns the figure.
+    """
+    data = fields_of(verdict, "extension_strain", "crack_angle", "crack_dip", "crack_orientation")
+    plan, values = Plan.of(data), plane(data, "extension_strain") * MICRO
+    figure, ax = figure_and_axes(ax, 6.8, min(9.2, max(3.0, 5.0 * plan.aspect + 1.45)))
+    scale = limits(values)
+    mesh = draw_cells(ax, plan, values, sequential("strain"), scale)
+    mesh.set_alpha(0.45)
+    reads = _READS.get(str(data.attrs.get("strain", "principal")), "")
+    colour_bar(figure, mesh, ax, f"extension, {reads} (microstrain)", scale)
+    angle, dip = plane(data, "crack_angle"), plane(data, "crack_dip")
+    classes = plane(data, "crack_orientation").astype(int)
+    flat = np.where(np.isnan(angle), 0.0, np.sin(np.nan_to_num(dip)))
+    turned = np.nan_to_num(angle)
+    drawn = strokes(values, flat * np.cos(turned), flat * np.sin(turned), plan.x, plan.y, _SIGNIFICANT * scale.high)
+    if len(drawn.index) and np.nanmax(values) > 0:
+        codes = classes[drawn.index[:, 0], drawn.index[:, 1]]
+        draw_strokes(ax, drawn, [ORIENTATION_COLOURS[code] for code in codes], 1.5)
+        present = [code for code in range(1, len(ORIENTATIONS)) if (codes == code).any()]
+        ax.legend(
+            handles=[
+                Line2D([], [], color=ORIENTATION_COLOURS[code], lw=2.2, label=ORIENTATIONS[code]) for code in present
+            ],
+            loc="upper center", bbox_to_anchor=(0.5, -0.125), ncols=len(present), handlelength=1.5,
+        )  # fmt: skip
+        row, column = np.unravel_index(int(np.nanargmax(values)), values.shape)
+        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{values[row, column]:.0f}")
+    else:
+        empty_note(ax, "nothing extends here")
+    headline(ax, "Cracks to expect", f"traces across the largest extension, {reads}; first at the ring")
+    travel_arrow(ax)
+    return figure
+
+
+def _listed(verdicts: Source | Sequence[Source]) -> list[Source]:
+    return list(verdicts) if isinstance(verdicts, Sequence) else [verdicts]
+
+
+def _line(data: xr.Dataset) -> FatigueLine:
+    missing = [name for name in ("epsilon_6", "slope") if name not in data.attrs]
+    if missing:
+        raise InputError(f"the verdict's dataset lacks the attribute {' and '.join(missing)} of its fatigue line")
+    return FatigueLine(float(data.attrs["epsilon_6"]), float(data.attrs["slope"]))
+
+
+def _line_in_words(data: xr.Dataset) -> str:
+    if "epsilon_6" not in data.attrs:
+        return "line unknown"
+    return f"ε₆ = {float(data.attrs['epsilon_6']) * MICRO:g} microstrain, slope {float(data.attrs['slope']):g}"
+
+
+def _mark_million(ax: Axes, line: FatigueLine, low: float) -> None:
+    strain = line.epsilon_6 * MICRO
+    ax.plot([low, _MILLION, _MILLION], [strain, strain, 1e-3], color=MUTED, lw=0.8, ls=(0, (2, 2)), zorder=1)
+    ax.plot([_MILLION], [strain], "s", ms=5, color=INK, zorder=4)
+    _note(ax, _MILLION, strain, f"ε₆ = {strain:g} at 10⁶ passes", (7, 5), INK)
+
+
+def _mark_case(ax: Axes, passes: float, strain: float, name: str, colour: str, low: float, high: float) -> None:
+    title = f"{name}: " if name else ""
+    if not strain > 0:
+        ax.plot([], [], "o", color=colour, label=f"{title}nothing extends")
+        ax.legend(loc="lower left")
+        return
+    ax.plot([low, passes, passes], [strain, strain, 1e-3], color=colour, lw=1.0, alpha=0.75, zorder=1.5)
+    ax.plot([passes], [strain], "o", ms=7.5, mfc=colour, mec="white", mew=1.2, zorder=5)
+    right = math.log(passes / low) > 0.6 * math.log(high / low)
+    text = f"{title}{strain:.0f} microstrain\n{power_of_ten(passes)} passes"
+    _note(ax, passes, strain, text, (-4, 8) if right else (9, 3), colour, "right" if right else "left")
+
+
+def _note(
+    ax: Axes, x: float, y: float, text: str, shift: tuple[float, float], colour: str, side: str = "left"
+) -> None:
+    ax.annotate(
+        text, (x, y), xytext=shift, textcoords="offset points", color=colour, fontsize=8.5, ha=side, va="bottom",
+        path_effects=halo(3), zorder=6, linespacing=1.3,
+    )  # fmt: skip
+
+
+def _plain_strains(ax: Axes) -> None:
+    """Ticks 20, 50, 100, 200 instead of powers."""
+    low, high = ax.get_ylim()
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    ticks = [m * 10.0**e for e in range(first, last + 1) for m in (1, 2, 5) if low <= m * 10.0**e <= high]
+    ax.set_yticks(ticks, [f"{t:g}" for t in ticks])
+    ax.minorticks_off()
