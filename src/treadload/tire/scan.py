@@ -81,13 +81,15 @@ def read_scan(
         return y, turn, unrolling.facet_sag(points, mesh.faces, beyond, outer - DEEPEST)
 
     y, turn, sag = unroll(vertices)
-    crown = unrolling.crown(unrolling.top_meridian(turn), sag)
+    top = unrolling.top_meridian(turn)
+    crown = unrolling.crown(top, sag)
     _check_round(turn, crown, name)
     if label == "scaled" and nominal_diameter is not None:
         factor = 0.5 * nominal_diameter / crown
         scale, vertices, outer = scale * factor, vertices * factor, outer * factor
-        y, turn, sag, crown = y * factor, turn * factor, sag * factor, crown * factor
-    vertices, y = _amid_tread(vertices, y, turn, crown)
+        y, turn, top = y * factor, turn * factor, top * factor
+        sag, crown = sag * factor, crown * factor
+    vertices, y = _amid_tread(vertices, y, top, crown)
     meridian = unrolling.median_meridian(turn)
     turning, why = _decide_revolve(revolve, sag, turn, meridian, crown)
     warnings += why
@@ -119,7 +121,7 @@ def read_scan(
     if coverage < 1 - SMALL_HOLES:
         warnings.append(f"{1 - coverage:.1%} of the tread over the road has no scan ({holes} holes)")
     quality = replace(quality, coverage=coverage, holes=holes, hole_fraction=1 - coverage, warnings=tuple(warnings))
-    return replace(surface, report=quality)
+    return surface.with_report(quality)
 
 
 def _check_options(diameter: float | None, rotation: float, camber: float, revolve: Choice, fill: Choice) -> None:
@@ -238,9 +240,9 @@ def _tread_rows(meridian: Array, crown: float) -> BoolArray:
         return np.asarray(meridian > crown - EXTENT_DROP, dtype=bool)
 
 
-def _amid_tread(vertices: Array, y: Array, turn: Array, crown: float) -> tuple[Array, Array]:
+def _amid_tread(vertices: Array, y: Array, top: Array, crown: float) -> tuple[Array, Array]:
     """Shift along the axle so that y = 0 is the middle of the tread."""
-    left, right = unrolling.reach(y, unrolling.top_meridian(turn), crown - EXTENT_DROP)
+    left, right = unrolling.reach(y, top, crown - EXTENT_DROP)
     shift = 0.5 * (left + right)
     return vertices - np.array([0.0, shift, 0.0]), y - shift
 

@@ -184,6 +184,8 @@ def _read_matrix(path: Path, suffix: str) -> Array:
                 )
             return np.asarray(archive[names[0]], dtype=np.float64)
     text = path.read_text(encoding="utf-8-sig")
+    if not text.strip():
+        raise InputError(f"{path.name!r} is empty; write the height map again")
     delimiter = next((mark for mark in (";", "\t", ",") if mark in text), None)
     return np.atleast_2d(
         np.genfromtxt(text.splitlines(), delimiter=delimiter, dtype=np.float64, missing_values="", invalid_raise=True)
