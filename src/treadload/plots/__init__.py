@@ -2,7 +2,7 @@
 
 from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
 from treadload.plots.compare import compare_pressure, compare_strain
-from treadload.plots.files import save, write_whole
+from treadload.plots.files import png, save, write_whole
 from treadload.plots.verdict import fatigue_line
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "compare_pressure",
     "compare_strain",
     "fatigue_line",
+    "png",
     "save",
     "write_whole",
 ]

@@ -28,9 +28,11 @@ from treadload.plots.plan import (
     plane,
 )
 from treadload.plots.response import NAMES, Strain, draw_strain, place_in_words, strain_in_numbers, strain_plane
-from treadload.plots.style import MUTED, headline, sequential, styled, travel_arrow
+from treadload.plots.style import MUTED, headline, measure, sequential, styled, travel_arrow
 
 _MOST_COLUMNS = 3
+# Width of a panel, inches.
+_PANEL = 4.3
 
 
 @styled
@@ -50,8 +52,7 @@ def compare_strain(
 
     def draw(ax: Axes, number: int) -> QuadMesh:
         mesh = draw_strain(ax, planes[number], strain, scale, responses[number])
-        own = Limits(0, scale.high, bool(np.nanmax(plane(planes[number], name)) * MICRO > scale.high))
-        headline(ax, labels[number], strain_in_numbers(planes[number], strain, own))
+        headline(ax, labels[number], strain_in_numbers(planes[number], strain, Limits(0, scale.high)))
         return mesh
 
     label = f"largest extension {place_in_words(depth)}, {NAMES[strain]} (microstrain)"
@@ -76,7 +77,7 @@ def compare_pressure(contacts: Sequence[Source], labels: Sequence[str]) -> Figur
         mesh = draw_cells(ax, plan, np.where(here > 0, here, np.nan), sequential("pressure"), scale)
         draw_outline(ax, here > 0, plan, MUTED, 0.5)
         row, column = peak_of(here)
-        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{here[row, column]:.0f} kPa")
+        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{measure(here[row, column])} kPa")
         travel_arrow(ax)
         headline(ax, labels[number], pressure_in_numbers(cases[number]))
         return mesh
@@ -94,21 +95,21 @@ def _side_by_side(plans: Sequence[Plan], draw: Callable[[Axes, int], QuadMesh], 
     count = len(plans)
     columns = min(count, _MOST_COLUMNS)
     rows = math.ceil(count / columns)
-    width = 4.6 if columns > 1 else 5.2
-    aspect = max(plan.aspect for plan in plans)
+    left, right = min(p.x_edges[0] for p in plans), max(p.x_edges[-1] for p in plans)
+    top, bottom = min(p.y_edges[0] for p in plans), max(p.y_edges[-1] for p in plans)
+    aspect = float((bottom - top) / (right - left))
     figure = Figure(
-        figsize=(columns * width + 1.1, rows * min(8.0, (width - 0.75) * aspect + 1.15)), layout="constrained"
+        figsize=(columns * _PANEL + 1.6, rows * min(8.0, (_PANEL - 0.35) * aspect + 1.0)), layout="compressed"
     )
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     panels: list[Axes] = list(grid.ravel())
     meshes = [draw(panels[number], number) for number in range(count)]
     for ax in panels[count:]:
         ax.set_visible(False)
-    left, right = min(p.x_edges[0] for p in plans), max(p.x_edges[-1] for p in plans)
-    top, bottom = min(p.y_edges[0] for p in plans), max(p.y_edges[-1] for p in plans)
-    for ax in panels[:count]:
+    for number, ax in enumerate(panels[:count]):
         ax.set_xlim(left, right)
         ax.set_ylim(bottom, top)
-        ax.label_outer()
-    colour_bar(figure, meshes[0], panels[:count], label, scale, aspect=28)
+        if number % columns:
+            ax.set_ylabel("")
+    colour_bar(meshes[0], panels[columns - 1], label, scale)
     return figure

@@ -7,7 +7,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
+from matplotlib.ticker import MaxNLocator
 
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.plan import (
@@ -35,8 +37,12 @@ from treadload.plots.style import (
     SLIP,
     STICK,
     figure_and_axes,
+    halo,
     headline,
+    legend_below,
+    measure,
     sequential,
+    signed,
     styled,
     thousands,
     travel_arrow,
@@ -58,11 +64,11 @@ def pressure(contact: Source, *, ax: Axes | None = None) -> Figure:
     scale = limits(values)
     mesh = draw_cells(ax, plan, _where(values > 0, values), sequential("pressure"), scale)
     draw_outline(ax, values > 0, plan, MUTED, 0.5)
-    colour_bar(figure, mesh, ax, "contact pressure (kPa)", scale)
+    colour_bar(mesh, ax, "contact pressure (kPa)", scale)
     headline(ax, "Contact pressure", pressure_in_numbers(data))
     row, column = peak_of(values)
     if values[row, column] > 0:
-        mark_peak(ax, plan.x[column], plan.y[row], f"{values[row, column]:.0f} kPa")
+        mark_peak(ax, plan.x[column], plan.y[row], f"{measure(values[row, column])} kPa")
     else:
         empty_note(ax, "no contact")
     travel_arrow(ax)
@@ -84,7 +90,7 @@ def height_map(contact: Source, *, ax: Axes | None = None) -> Figure:
     high = float(np.quantile(finite, 0.98)) if finite.size else 1.0
     scale = Limits(0.0, high or 1.0, bool(finite.size and finite.max() > high * 1.001))
     mesh = draw_cells(ax, plan, values, sequential("height"), scale)
-    colour_bar(figure, mesh, ax, "initial gap (mm)", scale)
+    colour_bar(mesh, ax, "initial gap (mm)", scale)
     details = f"largest gap {finite.max():.1f} mm" if finite.size else "no tread here"
     if "pressure" in data:
         draw_outline(ax, plane(data, "pressure") > 0, plan, SLIP, 1.0)
@@ -105,7 +111,7 @@ def stick_slip(contact: Source, *, ax: Axes | None = None) -> Figure:
     plan = Plan.of(data)
     figure, ax = figure_and_axes(ax, 6.6, _height(plan, 6.6) + 0.25)
     scale = limits(_shear(data))
-    _draw_stick_slip(figure, ax, data, plan, scale)
+    _draw_stick_slip(ax, data, plan, scale)
     headline(ax, "Shear on the road, stick and slip", _shear_in_numbers(data))
     return figure
 
@@ -130,7 +136,9 @@ def shear(contact: Source) -> Figure:
     solid.set_xlim(plan.x_edges[0], plan.x_edges[-1])
     solid.set_ylim(plan.y_edges[-1], plan.y_edges[0])
     solid.set_zlim(0, max(float(np.nanmax(values)), 1e-9))
-    solid.set_box_aspect((1, plan.aspect, 0.55), zoom=1.02)
+    solid.set_box_aspect((1, plan.aspect, 0.55), zoom=1.12)
+    solid.xaxis.set_major_locator(MaxNLocator(4))
+    solid.yaxis.set_major_locator(MaxNLocator(4))
     solid.view_init(elev=32, azim=-62)
     solid.set_xlabel("x, travel (mm)")
     solid.set_ylabel("y, right (mm)")
@@ -139,7 +147,7 @@ def shear(contact: Source) -> Figure:
         axis.set_pane_color((1, 1, 1, 0))
         axis._axinfo["grid"].update(color="#e4e7ec", linewidth=0.6)
     headline(solid, "Shear on the road", _shear_in_numbers(data))
-    _draw_stick_slip(figure, flat, data, plan, scale)
+    _draw_stick_slip(flat, data, plan, scale)
     headline(flat, "Stick and slip", _zones_in_numbers(data))
     return figure
 
@@ -158,10 +166,10 @@ def profile(contact: Source) -> Figure:
     upper, lower = figure.subplots(2, 1, sharey=True)
     _section(upper, data, plan.x, (row, slice(None)))
     upper.set_xlabel(X_LABEL)
-    headline(upper, "Along travel", f"through the largest pressure, y = {plan.y[row]:.1f} mm")
+    headline(upper, "Along travel", f"through the largest pressure, y = {signed(plan.y[row])} mm")
     _section(lower, data, plan.y, (slice(None), column))
     lower.set_xlabel(Y_LABEL)
-    headline(lower, "Across travel", f"through the largest pressure, x = {plan.x[column]:.1f} mm")
+    headline(lower, "Across travel", f"through the largest pressure, x = {signed(plan.x[column])} mm")
     handles, labels = upper.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
     return figure
@@ -200,38 +208,41 @@ def _section(ax: Axes, data: xr.Dataset, at: Array, cut: tuple[int | slice, int 
     ax.spines[["top", "right"]].set_visible(False)
 
 
-def _draw_stick_slip(figure: Figure, ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
+def _draw_stick_slip(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
     values, state = _shear(data), plane(data, "state")
     mesh = draw_cells(ax, plan, _where(state > 0, values), sequential("shear"), scale)
-    colour_bar(figure, mesh, ax, "shear (kPa)", scale)
+    colour_bar(mesh, ax, "shear (kPa)", scale)
     slip, stick = state == 2, state == 1
     if slip.any():
-        # A hatch needs filled paths: one thin rectangle a run of cells.
         _hatch(ax, slip, plan)
-    if stick.any():
-        draw_outline(ax, stick, plan, STICK, 1.5)
-    if slip.any():
-        draw_outline(ax, slip, plan, SLIP, 1.1)
+    draw_outline(ax, stick, plan, STICK, 1.6)
+    draw_outline(ax, slip, plan, SLIP, 1.1)
     if values.max(initial=0.0) > 0:
         _arrows(ax, data, plan, scale)
     else:
         empty_note(ax, "no shear")
-    ax.legend(
-        handles=[
+    legend_below(
+        ax,
+        [
             Line2D([], [], color=STICK, lw=1.8, label="stick"),
             Patch(facecolor="none", edgecolor=SLIP, hatch="/////", label="slip"),
             Line2D([], [], color=INK, lw=1.2, marker=">", ms=4, label="shear of the tire on the road"),
         ],
-        loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=3, handlelength=1.8, columnspacing=1.4,
-    )  # fmt: skip
+    )
     travel_arrow(ax)
 
 
 def _hatch(ax: Axes, mask: BoolArray, plan: Plan) -> None:
-    levels = mask.astype(float)
-    ax.pcolor(
-        plan.x_edges, plan.y_edges, np.ma.masked_less(levels, 0.5), hatch="/////", alpha=0, edgecolor=SLIP, lw=0
-    )
+    """Hatch the cells of a mask: one path of a rectangle for each run of cells along x."""
+    held = np.pad(mask, ((0, 0), (1, 1))).astype(int)
+    rows, starts = np.nonzero(np.diff(held) == 1)
+    _, ends = np.nonzero(np.diff(held) == -1)
+    x, y = plan.x_edges, plan.y_edges
+    corners = [(x[starts], y[rows]), (x[ends], y[rows]), (x[ends], y[rows + 1]), (x[starts], y[rows + 1])]
+    corners.append(corners[0])
+    vertices = np.stack([np.stack(corner, axis=-1) for corner in corners], axis=1).reshape(-1, 2)
+    codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], len(rows))
+    ax.add_patch(PathPatch(Path(vertices, codes), facecolor="none", edgecolor=SLIP, hatch="////", lw=0, zorder=2.1))
 
 
 def _arrows(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
@@ -245,8 +256,8 @@ def _arrows(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
     cut = np.minimum(1.0, 1.25 / np.maximum(length, 1e-12))
     ax.quiver(
         plan.x[columns], plan.y[rows], shares[0] * cut, shares[1] * cut, angles="xy", scale_units="xy",
-        scale=1 / (1.15 * apart), pivot="mid", color=INK, width=0.0028, headwidth=3.6, headlength=4.2,
-        headaxislength=3.8, zorder=3,
+        scale=1 / (1.5 * apart), pivot="mid", color=INK, width=0.0034, headwidth=3.4, headlength=3.8,
+        headaxislength=3.5, minlength=0.6, path_effects=halo(1.4), zorder=3,
     )  # fmt: skip
 
 
@@ -257,7 +268,7 @@ def _shear(data: xr.Dataset) -> Array:
 
 
 def _shear_in_numbers(data: xr.Dataset) -> str:
-    parts = [f"peak {np.nanmax(_shear(data)):.0f} kPa"]
+    parts = [f"peak {measure(float(np.nanmax(_shear(data))))} kPa"]
     for name, symbol in (("tractive_force", "tractive"), ("lateral_force", "lateral")):
         if name in data and abs(float(data[name])) >= 0.5:
             parts.append(f"{symbol} force {float(data[name]) / 1e3:.3g} kN")

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import os
 import tempfile
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from matplotlib.figure import Figure
 
 from treadload.errors import InputError
-from treadload.plots.style import styled
+from treadload.plots.style import house_style, styled
 
 _FORMATS = {".png": "png", ".svg": "svg", ".pdf": "pdf"}
 
@@ -59,7 +60,19 @@ def save(figure: Figure, path: str | PathLike[str], *, dpi: float | None = None)
             f"a figure cannot be written as {Path(path).suffix or 'a file without ending'!r}; "
             f"use one of {', '.join(_FORMATS)}"
         )
-    # No date inside, so that equal figures are equal files.
-    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[kind]
     resolution = 180.0 if dpi is None else dpi
-    return write_whole(path, lambda stream: figure.savefig(stream, format=kind, dpi=resolution, metadata=metadata))
+    return write_whole(path, lambda stream: _draw(figure, stream, kind, resolution))
+
+
+def png(figure: Figure, *, dpi: float = 160.0) -> bytes:
+    """A figure as the bytes of a PNG. dpi: points per inch."""
+    stream = io.BytesIO()
+    with house_style():
+        _draw(figure, stream, "png", dpi)
+    return stream.getvalue()
+
+
+def _draw(figure: Figure, stream: BinaryIO, kind: str, dpi: float) -> None:
+    # No date inside, so that equal figures are equal files. Trimmed, as maps of true scale leave paper beside them.
+    metadata: dict[str, dict[str, Any]] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
+    figure.savefig(stream, format=kind, dpi=dpi, metadata=metadata[kind], bbox_inches="tight", pad_inches=0.08)

@@ -12,11 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap
-from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.plots.style import INK, MUTED, PAPER, halo
+from treadload.plots.style import INK, MUTED, PAPER, RULE, figure_of, halo
 
 MM = 1e3
 KPA = 1e-3
@@ -173,10 +172,13 @@ def frame_plan(ax: Axes, plan: Plan) -> None:
     ax.set_ylabel(Y_LABEL)
 
 
-def colour_bar(figure: Figure, mesh: Any, ax: Any, label: str, scale: Limits, **options: Any) -> Colorbar:
-    """Colour bar with its quantity and unit; an arrow where the scale is cut."""
-    bar = figure.colorbar(mesh, ax=ax, label=label, extend=scale.extend, **{"shrink": 0.92, "pad": 0.02, **options})
-    bar.outline.set_visible(False)
+def colour_bar(mesh: Any, ax: Axes, label: str, scale: Limits) -> Colorbar:
+    """Colour bar as high as its axes, with quantity and unit; an arrow where the scale is cut."""
+    figure = figure_of(ax)
+    # Own axes inside the map's: they follow its height whatever true scale leaves of it.
+    beside = ax.inset_axes((1.025, 0.0, 0.028, 1.0))
+    bar = figure.colorbar(mesh, cax=beside, label=label, extend=scale.extend, extendfrac=0.035)
+    bar.outline.set(edgecolor=RULE, linewidth=0.7)
     return bar
 
 
@@ -220,8 +222,8 @@ def contact_mask(data: xr.Dataset) -> BoolArray | None:
 
 def mark_peak(ax: Axes, x: float, y: float, text: str) -> None:
     """A ring on the place (mm) of the largest value and its number beside it, on the side with room."""
-    ax.plot([x], [y], "o", ms=9, mfc="none", mec=PAPER, mew=2.6, zorder=5)
-    ax.plot([x], [y], "o", ms=9, mfc="none", mec=INK, mew=1.2, zorder=5.1)
+    for colour, width, order in ((PAPER, 2.6, 5.0), (INK, 1.2, 5.1)):
+        ax.plot([x], [y], "o", ms=9, mfc="none", mec=colour, mew=width, zorder=order, clip_on=False)
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     across, up = (x - left) / (right - left), (y - bottom) / (top - bottom)
     shift = (-9 if across > 0.5 else 9, -9 if up > 0.5 else 9)

@@ -41,7 +41,10 @@ from treadload.plots.style import (
     MUTED,
     figure_and_axes,
     headline,
+    legend_below,
+    measure,
     sequential,
+    signed,
     styled,
     travel_arrow,
 )
@@ -76,8 +79,9 @@ def strain_directions(
     figure, ax = figure_and_axes(ax, 6.8, min(9.0, max(2.8, 5.0 * plan.aspect + 1.25)))
     scale = limits(values)
     mesh = draw_strain(ax, data, strain, scale, contact or response)
-    colour_bar(figure, mesh, ax, f"largest extension, {NAMES[strain]} (microstrain)", scale)
-    headline(ax, f"Largest extension strain {place_in_words(depth)}", strain_in_numbers(data, strain, scale))
+    colour_bar(mesh, ax, f"largest extension, {NAMES[strain]} (microstrain)", scale)
+    kind = "Largest extension strain" if strain == "principal" else "Largest extension in the horizontal plane,"
+    headline(ax, f"{kind} {place_in_words(depth)}", strain_in_numbers(data, strain, scale))
     return figure
 
 
@@ -99,7 +103,7 @@ def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outli
         own = limits(values)
         along_x, along_y = _horizontal(data, strain)
         draw_strokes(ax, strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * own.high))
-        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{peak:.0f}" if peak >= 9.95 else f"{peak:.2g}")
+        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(peak))
     else:
         empty_note(ax, "nothing extends here")
     travel_arrow(ax)
@@ -110,8 +114,10 @@ def strain_in_numbers(data: xr.Dataset, strain: Strain, scale: Limits) -> str:
     """Peak of a strain map and its place; says when the colours stop below it."""
     plan, values = Plan.of(data), plane(data, _VARIABLE[strain]) * MICRO
     row, column = peak_of(values)
-    text = f"peak {values[row, column]:.1f} microstrain at x = {plan.x[column]:.1f}, y = {plan.y[row]:.1f} mm"
-    return text + ("; colours stop below the peak" if scale.clipped else "")
+    place = f"x = {signed(plan.x[column])}, y = {signed(plan.y[row])} mm"
+    return f"peak {values[row, column]:.1f} microstrain at {place}" + (
+        "; colours stop below" if scale.clipped else ""
+    )
 
 
 def place_in_words(depth: float) -> str:
@@ -148,13 +154,13 @@ def depth_slice(
     direction = section["principal_direction_1"].transpose("depth", name, "component").to_numpy()
     across, down = (data[key].to_numpy() * MM for key in (name, "depth"))
     aspect = float(np.ptp(down) / np.ptp(across))
-    figure, ax = figure_and_axes(ax, 7.6, min(7.5, max(2.7, 5.9 * aspect + 1.35)))
+    figure, ax = figure_and_axes(ax, 7.6, min(7.5, max(2.4, 5.8 * aspect + 1.2)))
     scale = limits(values)
     mesh = ax.pcolormesh(
         across, down, values, cmap=sequential("strain"), vmin=scale.low, vmax=scale.high, shading="gouraud",
         rasterized=True,
     )  # fmt: skip
-    colour_bar(figure, mesh, ax, "largest extension (microstrain)", scale)
+    colour_bar(mesh, ax, "extension (microstrain)", scale)
     ax.set_aspect("equal")
     ax.set_xlim(across[0], across[-1])
     ax.set_ylim(down[-1], down[0])
@@ -167,12 +173,12 @@ def depth_slice(
         draw_strokes(
             ax, strokes(values, in_section, direction[..., 2], across, down, _SIGNIFICANT * scale.high / 2, apart)
         )
-        mark_peak(ax, float(across[column]), float(down[row]), f"{values[row, column]:.0f}")
-    cut = f"{other} = {float(section[other]) * MM:.1f} mm"
+        mark_peak(ax, float(across[column]), float(down[row]), measure(float(values[row, column])))
+    cut = f"{other} = {signed(float(section[other]) * MM)} mm"
     title = "Section along travel" if name == "x" else "Section across travel"
     detail = f"largest extension, three-dimensional, at {cut}; peak {np.nanmax(values):.1f} microstrain"
     if scale.clipped:
-        detail += "; colours stop below the peak"
+        detail += "; colours stop below"
     headline(ax, title, detail)
     _loaded_strip(ax, section, name, across)
     return figure
@@ -197,7 +203,7 @@ def profile(
     data = fields_of(response, *_VARIABLE.values(), "depth").sortby("depth")
     row, column = peak_of(plane(data.isel(depth=0), _VARIABLE[strain]))
     down = data["depth"].to_numpy() * MM
-    figure, ax = figure_and_axes(ax, 5.4, 4.6)
+    figure, ax = figure_and_axes(ax, 6.4, 4.8)
     marker = "o" if len(down) < 15 else ""
     for name, colour in zip(_VARIABLE, (CASES[0], CASES[1]), strict=True):
         field = data[_VARIABLE[name]].transpose("depth", "y", "x").to_numpy() * MICRO
@@ -215,9 +221,12 @@ def profile(
     ax.set_ylabel(DEPTH_LABEL)
     ax.grid(True)
     ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(loc="lower right", title="largest extension", alignment="left", title_fontsize=8.5)
+    handles, _ = ax.get_legend_handles_labels()
+    legend_below(ax, handles, columns=2)
     x, y = float(data["x"][column]) * MM, float(data["y"][row]) * MM
-    headline(ax, "Strain against depth", f"under the worst point at the least depth, x = {x:.1f}, y = {y:.1f} mm")
+    headline(
+        ax, "Strain against depth", f"under the worst point at the least depth, x = {signed(x)}, y = {signed(y)} mm"
+    )
     return figure
 
 

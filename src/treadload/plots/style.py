@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import functools
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
+from matplotlib.transforms import offset_copy
+
+from treadload.errors import InputError
 
 INK = "#1b1f24"
 MUTED = "#5b6470"
@@ -63,6 +67,9 @@ _RC: Any = {
     "svg.hashsalt": "treadload",
     "pdf.fonttype": 42,
 }
+
+# Distance of the x label's line below the axes, points.
+_LABEL_LINE = 26
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -116,10 +123,7 @@ def diverging() -> Colormap:
 def figure_and_axes(ax: Axes | None, width: float, height: float) -> tuple[Figure, Axes]:
     """The figure (inches) of a new pair of axes, or of the axes given."""
     if ax is not None:
-        figure = ax.get_figure()
-        while not isinstance(figure, Figure):
-            figure = figure.figure  # type: ignore[union-attr]
-        return figure, ax
+        return figure_of(ax), ax
     figure = Figure(figsize=(width, height), layout="constrained")
     return figure, figure.add_subplot()
 
@@ -141,15 +145,46 @@ def halo(width: float = 2.5) -> list[withStroke]:
 
 
 def travel_arrow(ax: Axes) -> None:
-    """An arrow in the lower left corner that points where the wheel goes."""
+    """An arrow under the right end of a map that points where the wheel goes."""
+    start, end = (
+        offset_copy(ax.transAxes, figure_of(ax), x=shift, y=-_LABEL_LINE, units="points") for shift in (-34, 0)
+    )
     ax.annotate(
-        "", (66, 12), xytext=(10, 12), xycoords="axes points", textcoords="axes points",
-        arrowprops={"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "color": INK, "lw": 1.3,
-                    "shrinkA": 0, "shrinkB": 0, "path_effects": halo(3.2)},
+        "", (1, 0), xytext=(1, 0), xycoords=end, textcoords=start, annotation_clip=False,
+        arrowprops={"arrowstyle": "-|>,head_width=0.26,head_length=0.5", "color": INK, "lw": 1.3,
+                    "shrinkA": 0, "shrinkB": 0},
     )  # fmt: skip
     ax.annotate(
-        "travel", (10, 17), xycoords="axes points", fontsize=8, ha="left", va="bottom", path_effects=halo(2.2)
-    )
+        "travel", (1, 0), xytext=(-38, -_LABEL_LINE), xycoords="axes fraction", textcoords="offset points",
+        fontsize=8.5, ha="right", va="center",
+    )  # fmt: skip
+
+
+def legend_below(ax: Axes, handles: Sequence[Artist], columns: int | None = None) -> None:
+    """A legend under the label of the x axis, at a distance that does not depend on the size of the axes."""
+    below = offset_copy(ax.transAxes, figure_of(ax), y=-_LABEL_LINE - 11, units="points")
+    ax.legend(
+        handles=list(handles), loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=below,
+        ncols=columns or len(handles), handlelength=1.8, columnspacing=1.4, borderaxespad=0,
+    )  # fmt: skip
+
+
+def figure_of(ax: Axes) -> Figure:
+    """The figure at the root of axes."""
+    figure = ax.get_figure(root=True)
+    if figure is None:
+        raise InputError("these axes belong to no figure; make them with figure.add_subplot()")
+    return figure
+
+
+def measure(value: float) -> str:
+    """A size with the digits that a reader needs: 1487, 26, 0.30."""
+    return f"{value:.0f}" if abs(value) >= 9.95 else f"{value:.2g}"
+
+
+def signed(value: float, digits: int = 1) -> str:
+    """A number with a true minus sign."""
+    return f"{value + 0.0:.{digits}f}".replace("-", "\u2212")
 
 
 def thousands(value: float) -> str:

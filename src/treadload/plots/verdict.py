@@ -38,8 +38,11 @@ from treadload.plots.style import (
     figure_and_axes,
     halo,
     headline,
+    legend_below,
+    measure,
     power_of_ten,
     sequential,
+    signed,
     styled,
     travel_arrow,
 )
@@ -48,6 +51,9 @@ _READS = {"principal": "three-dimensional", "in-plane": "horizontal-plane"}
 _MILLION = 1e6
 # Cracks are drawn where the strain reaches this share of the largest.
 _SIGNIFICANT = 0.2
+# Share of the axis left of the last point's label; distance below which points are listed in a legend.
+_LABELLED = 0.7
+_CROWDED = 0.1
 # Decades of passes above the fewest that get a colour of their own.
 _DECADES = 6
 
@@ -75,7 +81,8 @@ def fatigue_line(
     points = [(float(c["worst_passes"]), float(c["worst_strain"]) * MICRO) for c in cases]
     reached = [n for n, strain in points if strain > 0 and math.isfinite(n)] + [_MILLION]
     low = 10.0 ** math.floor(math.log10(min(1e4, min(reached) / 4)))
-    high = 10.0 ** math.ceil(math.log10(max(1e8, max(reached) * 4)))
+    # The label stands right of its point, where the line has gone down: leave room for it.
+    high = low * (max(1e7, max(reached)) / low) ** (1 / _LABELLED)
     passes = np.array([low, high])
     for number, line in enumerate(dict.fromkeys(lines)):
         style = ("-", (0, (5, 2)), (0, (1, 1.5)))[number % 3]
@@ -84,9 +91,10 @@ def fatigue_line(
     if design_passes is not None:
         admissible = float(lines[0].allowable_strain(design_passes)) * MICRO
         ax.axvline(design_passes, color=MUTED, lw=0.9, ls=":")
-        _note(ax, design_passes, admissible, f"design traffic allows {admissible:.0f}", (6, 6), MUTED)
+        _note(ax, design_passes, admissible, f"design traffic allows {admissible:.0f}", (5, 4), INK)
+    near = _crowded([*reached], low, high)
     for number, ((n, strain), name) in enumerate(zip(points, names, strict=True)):
-        _mark_case(ax, n, strain, name, CASES[number % len(CASES)], low, high)
+        _mark_case(ax, n, strain, name, CASES[number % len(CASES)], low, near)
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_xlim(low, high)
@@ -123,7 +131,7 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     low, high = 10.0 ** math.floor(math.log10(least)), 10.0 ** (math.floor(math.log10(least)) + _DECADES)
     mesh = draw_cells(ax, plan, np.minimum(values, 10 * high), sequential("strain").reversed(), Limits(low, high))
     mesh.set_norm(LogNorm(low, high))
-    colour_bar(figure, mesh, ax, "allowable passes", Limits(low, high, True))
+    colour_bar(mesh, ax, "allowable passes", Limits(low, high, True))
     row, column = np.unravel_index(int(np.nanargmin(values)), values.shape)
     mark_peak(ax, float(plan.x[column]), float(plan.y[row]), power_of_ten(least))
     headline(ax, "Allowable passes", f"fewest {power_of_ten(least)}; {_line_in_words(data)}")
@@ -146,7 +154,7 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
     mesh = draw_cells(ax, plan, values, sequential("strain"), scale)
     mesh.set_alpha(0.45)
     reads = _READS.get(str(data.attrs.get("strain", "principal")), "")
-    colour_bar(figure, mesh, ax, f"extension, {reads} (microstrain)", scale)
+    colour_bar(mesh, ax, f"extension, {reads} (microstrain)", scale)
     angle, dip = plane(data, "crack_angle"), plane(data, "crack_dip")
     classes = plane(data, "crack_orientation").astype(int)
     flat = np.where(np.isnan(angle), 0.0, np.sin(np.nan_to_num(dip)))
@@ -156,14 +164,12 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
         codes = classes[drawn.index[:, 0], drawn.index[:, 1]]
         draw_strokes(ax, drawn, [ORIENTATION_COLOURS[code] for code in codes], 1.5)
         present = [code for code in range(1, len(ORIENTATIONS)) if (codes == code).any()]
-        ax.legend(
-            handles=[
-                Line2D([], [], color=ORIENTATION_COLOURS[code], lw=2.2, label=ORIENTATIONS[code]) for code in present
-            ],
-            loc="upper center", bbox_to_anchor=(0.5, -0.125), ncols=len(present), handlelength=1.5,
-        )  # fmt: skip
+        lines = [
+            Line2D([], [], color=ORIENTATION_COLOURS[code], lw=2.2, label=ORIENTATIONS[code]) for code in present
+        ]
+        legend_below(ax, lines)
         row, column = np.unravel_index(int(np.nanargmax(values)), values.shape)
-        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{values[row, column]:.0f}")
+        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(float(values[row, column])))
     else:
         empty_note(ax, "nothing extends here")
     headline(ax, "Cracks to expect", f"traces across the largest extension, {reads}; first at the ring")
@@ -185,7 +191,9 @@ def _line(data: xr.Dataset) -> FatigueLine:
 def _line_in_words(data: xr.Dataset) -> str:
     if "epsilon_6" not in data.attrs:
         return "line unknown"
-    return f"ε₆ = {float(data.attrs['epsilon_6']) * MICRO:g} microstrain, slope {float(data.attrs['slope']):g}"
+    return (
+        f"ε₆ = {float(data.attrs['epsilon_6']) * MICRO:g} microstrain, slope {signed(float(data.attrs['slope']), 2)}"
+    )
 
 
 def _mark_million(ax: Axes, line: FatigueLine, low: float) -> None:
@@ -195,24 +203,32 @@ def _mark_million(ax: Axes, line: FatigueLine, low: float) -> None:
     _note(ax, _MILLION, strain, f"ε₆ = {strain:g} at 10⁶ passes", (7, 5), INK)
 
 
-def _mark_case(ax: Axes, passes: float, strain: float, name: str, colour: str, low: float, high: float) -> None:
+def _crowded(passes: Sequence[float], low: float, high: float) -> bool:
+    """True when points on the line are too close for a label each."""
+    places = np.sort(np.log(passes)) / math.log(high / low)
+    return bool((np.diff(places) < _CROWDED).any())
+
+
+def _mark_case(ax: Axes, passes: float, strain: float, name: str, colour: str, low: float, crowded: bool) -> None:
     title = f"{name}: " if name else ""
-    if not strain > 0:
+    if not (strain > 0 and math.isfinite(passes)):
         ax.plot([], [], "o", color=colour, label=f"{title}nothing extends")
-        ax.legend(loc="lower left")
-        return
-    ax.plot([low, passes, passes], [strain, strain, 1e-3], color=colour, lw=1.0, alpha=0.75, zorder=1.5)
-    ax.plot([passes], [strain], "o", ms=7.5, mfc=colour, mec="white", mew=1.2, zorder=5)
-    right = math.log(passes / low) > 0.6 * math.log(high / low)
-    text = f"{title}{strain:.0f} microstrain\n{power_of_ten(passes)} passes"
-    _note(ax, passes, strain, text, (-4, 8) if right else (9, 3), colour, "right" if right else "left")
+    else:
+        ax.plot([low, passes, passes], [strain, strain, 1e-3], color=colour, lw=1.0, alpha=0.75, zorder=1.5)
+        words = f"{title}{strain:.3g} microstrain", f"{power_of_ten(passes)} passes"
+        ax.plot(
+            [passes], [strain], "o", ms=7.5, color=colour, mec="white", mew=1.2, zorder=5,
+            label=", ".join(words) if crowded else "_",
+        )  # fmt: skip
+        if not crowded:
+            _note(ax, passes, strain, "\n".join(words), (9, 2), colour)
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(loc="upper right")
 
 
-def _note(
-    ax: Axes, x: float, y: float, text: str, shift: tuple[float, float], colour: str, side: str = "left"
-) -> None:
+def _note(ax: Axes, x: float, y: float, text: str, shift: tuple[float, float], colour: str) -> None:
     ax.annotate(
-        text, (x, y), xytext=shift, textcoords="offset points", color=colour, fontsize=8.5, ha=side, va="bottom",
+        text, (x, y), xytext=shift, textcoords="offset points", color=colour, fontsize=8.5, ha="left", va="bottom",
         path_effects=halo(3), zorder=6, linespacing=1.3,
     )  # fmt: skip
 
