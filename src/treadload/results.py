@@ -23,7 +23,10 @@ from treadload.contact import Contact
 from treadload.damage import Verdict
 from treadload.errors import InputError
 from treadload.files import replacing
+from treadload.grid import Grid
 from treadload.response import Response
+from treadload.tire import Tire
+from treadload.variables import dataset
 
 CITATIONS = {
     "chain": "Materials 2021, 14(9), 2117. Approach of Pavement Surface Layer Degradation Caused by Tire Contact "
@@ -98,13 +101,24 @@ def to_tree(
     return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **{f"/{k}": v for k, v in groups.items()}})
 
 
-def save(tree: xr.DataTree, path: str | os.PathLike[str]) -> Path:
-    """Write a tree of results as NetCDF-4; the file appears whole or not at all.
+def height_map(tire: Tire, spacing: float) -> xr.Dataset:
+    """The tire's initial gap on its whole extent, as `Tire.from_height_map` reads it back from a file.
+
+    spacing: of the cells, m; a tire that is a height map keeps its own.
+    """
+    grid = tire.fixed_grid or Grid.centred(*tire.extent, spacing)
+    gap = {"initial_gap": (("y", "x"), tire.height_map(grid))}
+    about = {"tire": str(tire), "treadload_version": __version__}
+    return dataset(gap, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy, **about)
+
+
+def save(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> Path:
+    """Write results as NetCDF-4; the file appears whole or not at all.
 
     Raises InputError if the path cannot be written.
     """
     with replacing(path) as temporary:
-        tree.to_netcdf(temporary, engine="h5netcdf")
+        results.to_netcdf(temporary, engine="h5netcdf")
     return Path(path)
 
 

@@ -1,0 +1,196 @@
+"""The command line: `treadload run | report | scan | demo | validate`."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, NoReturn, ParamSpec
+
+import typer
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from treadload._version import __version__
+from treadload.errors import ConvergenceError, TreadloadError
+
+DONE, FAILED, WRONG = 0, 1, 2
+_P = ParamSpec("_P")
+
+app = typer.Typer(
+    help="What a tire does to a road: contact, rolling, strain, cracks and life.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    add_completion=False,
+)
+_out = Console(highlight=False, soft_wrap=True)
+_err = Console(stderr=True, highlight=False, soft_wrap=True)
+
+_Output = Annotated[Path | None, typer.Option("--output", "-o", help="File to write.", show_default=False)]
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[str], None]]:
+    """A line on stderr that tells the stage; nothing when stderr is not a terminal."""
+    with _err.status("starting") as status:
+        yield lambda text: status.update(text)
+
+
+def _one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
+    """Turn every expected error of a command into one sentence on stderr and an exit code."""
+
+    @functools.wraps(command)
+    def guarded(*args: _P.args, **kwargs: _P.kwargs) -> None:
+        try:
+            return command(*args, **kwargs)
+        except TreadloadError as error:
+            _fail(str(error), FAILED if isinstance(error, ConvergenceError) else WRONG)
+        except KeyboardInterrupt:
+            _fail("interrupted; nothing more was written", FAILED)
+        except MemoryError:
+            _fail("out of memory: the grid is too fine for this machine; use a larger spacing", FAILED)
+
+    return guarded
+
+
+def _fail(message: str, code: int) -> NoReturn:
+    _err.print(Text("error: ", style="bold red") + Text(message))
+    raise typer.Exit(code)
+
+
+@app.callback(invoke_without_command=True)
+def _root(
+    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
+) -> None:
+    if version:
+        _out.print(f"treadload {__version__}")
+        raise typer.Exit(DONE)
+
+
+@app.command()
+@_one_sentence
+def run(
+    case: Annotated[Path, typer.Argument(help="The case, a TOML file.")],
+    output: _Output = None,
+) -> None:
+    """Compute a case and write its result (NetCDF)."""
+    from treadload.case import Case
+    from treadload.files import check_writable
+    from treadload.results import save
+    from treadload.study import run_case
+
+    path = output or case.with_suffix(".nc")
+    question = Case.from_toml(case)
+    # A path that cannot be written is found before the computation, not after it.
+    check_writable(path)
+    with _progress() as tell:
+        result = run_case(question, progress=tell)
+        tell(f"writing {path}")
+        save(result.to_tree(), path)
+    _out.print(result.summary(), markup=False)
+    _out.print(f"\nwritten: {path}", markup=False)
+
+
+@app.command()
+@_one_sentence
+def report(
+    results: Annotated[list[Path], typer.Argument(help="One or more result files of `treadload run`.")],
+    output: _Output = None,
+    title: Annotated[str, typer.Option(help="Heading of the report.")] = "",
+) -> None:
+    """Write a self-contained HTML report with figures; several results stand side by side."""
+    from treadload.report import write_report
+    from treadload.results import load
+
+    path = output or results[0].with_suffix(".html")
+    with _progress() as tell:
+        tell("reading")
+        trees = {}
+        for file in results:
+            tree = load(file)
+            label = str(tree.attrs.get("title") or file.stem)
+            trees[label if label not in trees else f"{label} ({file.stem})"] = tree
+        tell("drawing")
+        write_report(trees, path, title=title or " and ".join(trees))
+    _out.print(f"written: {path}", markup=False)
+
+
+@app.command()
+@_one_sentence
+def scan(
+    mesh: Annotated[Path, typer.Argument(help="OBJ, PLY, STL, GLB or OFF file of a tire.")],
+    output: _Output = None,
+    units: Annotated[str | None, typer.Option(help="Unit of the file: m, cm, mm or inch.")] = None,
+    nominal_diameter: Annotated[str | None, typer.Option(help='Outer diameter, e.g. "1076 mm".')] = None,
+    rotation: Annotated[str, typer.Option(help="Angle of the wheel about its axle.")] = "0 deg",
+    camber: Annotated[str, typer.Option(help="Lean to the right.")] = "0 deg",
+    spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
+) -> None:
+    """Read a tire mesh, tell how good it is, and write its height map (NetCDF)."""
+    from treadload.results import height_map, save
+    from treadload.tire import Tire
+    from treadload.units import quantity
+
+    with _progress() as tell:
+        tell(f"reading {mesh}")
+        tire = Tire.from_scan(
+            mesh,
+            units=units,
+            nominal_diameter=None if nominal_diameter is None else quantity(nominal_diameter, "m"),
+            rotation=quantity(rotation, "rad"),
+            camber=quantity(camber, "rad"),
+        )
+        if output is not None:
+            tell("casting rays")
+            save(height_map(tire, quantity(spacing, "m")), output)
+    _out.print(str(tire.quality), markup=False)
+    if output is not None:
+        _out.print(f"written: {output}", markup=False)
+
+
+@app.command()
+@_one_sentence
+def demo(
+    output: Annotated[Path, typer.Option("--output", "-o", help="Folder to write.")] = Path("demo"),
+) -> None:
+    """A real truck tire, rolling free and driving: results, figures and a report."""
+    from treadload.demo import run_demo
+
+    with _progress() as tell:
+        made = run_demo(output, progress=tell)
+    heading, *rows = made.table
+    table = Table(*heading, title="A 335/65R22.5 truck tire at 32.5 kN on asphalt, friction 0.7")
+    for row in rows:
+        table.add_row(*row)
+    _out.print(table)
+    _out.print(f"{len(made.files)} files in {output.resolve()} after {made.seconds:.1f} s", markup=False)
+    _out.print(f"open {output / 'report.html'}", markup=False)
+
+
+@app.command()
+@_one_sentence
+def validate(
+    markdown: Annotated[bool, typer.Option("--markdown", help="Print a table for a document.")] = False,
+) -> None:
+    """Compare the solvers with closed forms and published numbers, row by row."""
+    from treadload.validation import format_markdown, format_table, run_checks
+
+    with _progress() as tell:
+        checks = run_checks(progress=tell)
+    # The table goes out as it is: a terminal may be narrower than it.
+    print(format_markdown(checks) if markdown else format_table(checks))
+    failed = [check for check in checks if not check.passed]
+    if failed:
+        _err.print(f"{len(failed)} of {len(checks)} checks failed", style="bold red")
+        raise typer.Exit(FAILED)
+
+
+def main() -> None:
+    """Run the command line."""
+    app()
+
+
+if __name__ == "__main__":
+    main()
