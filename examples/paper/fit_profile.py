@@ -65,9 +65,7 @@ def misfit(scaled: np.ndarray) -> float:
         area, peak = footprint(profile_of(*parameters))
     except tl.GeometryError:
         return 1e9
-    return (
-        ((area / AREA - 1) / 1e-3) ** 2 + ((peak / PEAK - 1) / 1e-3) ** 2 + float(np.sum(np.square(scaled)))
-    )
+    return ((area / AREA - 1) / 1e-3) ** 2 + ((peak / PEAK - 1) / 1e-3) ** 2 + float(np.sum(np.square(scaled)))
 
 
 def main() -> None:

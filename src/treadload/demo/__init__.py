@@ -1,0 +1,5 @@
+"""The demonstration: a real truck tire, rolling free and driving."""
+
+from treadload.demo.run import Demo, run_demo
+
+__all__ = ["Demo", "run_demo"]

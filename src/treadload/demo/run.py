@@ -1,0 +1,118 @@
+"""Run the demonstration cases and write everything that they give."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+
+from treadload.case import Case
+from treadload.errors import InputError
+from treadload.files import replacing
+from treadload.plots import compare_pressure, compare_strain, fatigue_line, save
+from treadload.report import write_report
+from treadload.results import save as save_tree
+from treadload.study import Result, run_case
+
+CASES = ("free", "tractive")
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Demo:
+    """What the demonstration made.
+
+    results: by name of the case. files: written, in order. seconds: from the start to the last file.
+    """
+
+    results: dict[str, Result]
+    files: tuple[Path, ...]
+    seconds: float
+
+    @property
+    def table(self) -> list[tuple[str, ...]]:
+        """Rows (quantity, value of every case) for a reader; the first row is the heading."""
+        return comparison(list(self.results.values()))
+
+
+def run_demo(folder: Path, progress: Progress | None = None) -> Demo:
+    """Free and tractive rolling of the example tire: results, figures and a report in a folder.
+
+    folder: made if it is not there; files in it with the same names are replaced.
+    progress: called with a line of text at every stage. Raises InputError if the folder cannot be written.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda text: None)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot make the folder {folder}: {error.strerror}; choose one you may write to") from error
+    results: dict[str, Result] = {}
+    files: list[Path] = []
+    for name in CASES:
+        text = resources.files("treadload.demo").joinpath(f"{name}.toml").read_text(encoding="utf-8")
+        with replacing(folder / f"{name}.toml") as temporary:
+            temporary.write_text(text, encoding="utf-8")
+        case = Case.from_text(text, name=f"{name}.toml")
+        result = run_case(case, progress=lambda stage, title=case.title: tell(f"{title}: {stage}"))  # type: ignore[misc]
+        results[name] = result
+        files += [folder / f"{name}.toml", save_tree(result.to_tree(), folder / f"{name}.nc")]
+    tell("figures")
+    files += _figures(results, folder)
+    tell("report")
+    trees = {result.case.title: result.to_tree() for result in results.values()}
+    files.append(write_report(trees, folder / "report.html", title="What a truck tire does to a road"))
+    return Demo(results, tuple(files), time.perf_counter() - began)
+
+
+def _figures(results: dict[str, Result], folder: Path) -> list[Path]:
+    titles = [result.case.title for result in results.values()]
+    figures = {
+        "pressure_side_by_side": compare_pressure([r.contact for r in results.values()], titles),
+        "strain_side_by_side": compare_strain([r.response for r in results.values()], titles),
+        "fatigue_line": fatigue_line([r.verdict for r in results.values() if r.verdict is not None], titles),
+    }
+    for name, result in results.items():
+        figures |= {
+            f"{name}_pressure": result.contact.plot.pressure(),
+            f"{name}_shear": result.contact.plot.shear(),
+            f"{name}_strain_directions": result.response.plot.strain_directions(),
+            f"{name}_slice_along": result.slice_along.plot.depth_slice(),
+            f"{name}_slice_across": result.slice_across.plot.depth_slice(),
+        }
+    return [save(figure, folder / f"{name}.png") for name, figure in figures.items()]
+
+
+def comparison(results: list[Result]) -> list[tuple[str, ...]]:
+    """Rows (quantity, value of every result), heading first."""
+    rows: list[tuple[str, ...]] = [("", *(result.case.title for result in results))]
+
+    def add(quantity: str, values: list[str]) -> None:
+        rows.append((quantity, *values))
+
+    contacts = [result.contact for result in results]
+    add("normal load", [f"{float(c.dataset.normal_load) / 1e3:.1f} kN" for c in contacts])
+    add("tractive force", [f"{abs(float(c.dataset.tractive_force)) / 1e3:.1f} kN" for c in contacts])
+    add("contact area", [f"{c.area * 1e6:.0f} mm²" for c in contacts])
+    add("peak pressure", [f"{float(c.dataset.pressure.max()) / 1e3:.0f} kPa" for c in contacts])
+    shear = [float((c.dataset.traction_x**2 + c.dataset.traction_y**2).max()) ** 0.5 for c in contacts]
+    add("peak shear", [f"{value / 1e3:.1f} kPa" for value in shear])
+    add("creepage", [f"{float(c.dataset.creepage_x):.4f}" for c in contacts])
+    add("slip zone", [f"{100 * c.slip_fraction:.1f} %" for c in contacts])
+    verdicts = [result.verdict for result in results]
+    if all(verdict is not None for verdict in verdicts):
+        data = [verdict.dataset for verdict in verdicts if verdict is not None]
+        add(
+            "extension, three-dimensional",
+            [f"{d.attrs['largest_principal_strain'] * 1e6:.0f} microstrain" for d in data],
+        )
+        add(
+            "extension, horizontal plane",
+            [f"{d.attrs['largest_in_plane_strain'] * 1e6:.0f} microstrain" for d in data],
+        )
+        add("allowable passes", [f"{float(d.worst_passes):.2g}" for d in data])
+        add("first crack", [verdict.orientation for verdict in verdicts if verdict is not None])
+    return rows

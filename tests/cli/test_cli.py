@@ -1,0 +1,139 @@
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from typer.testing import CliRunner
+
+import treadload as tl
+from cases import COARSE_CASE
+from treadload.cli import app
+from treadload.results import load
+
+
+@pytest.fixture
+def case(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(COARSE_CASE)
+    return path
+
+
+def call(*arguments):
+    return CliRunner().invoke(app, [str(a) for a in arguments])
+
+
+def refused(result, code, *words):
+    """The command failed with this code and one sentence on stderr that holds these words."""
+    assert result.exit_code == code, result.output
+    assert isinstance(result.exception, SystemExit)
+    assert len(result.stderr.strip().splitlines()) == 1, result.stderr
+    assert "Traceback" not in result.output
+    for word in words:
+        assert word in result.stderr
+
+
+def test_run_then_report(case, tmp_path):
+    ran = call("run", case)
+    assert ran.exit_code == 0, ran.output
+    assert "peak pressure" in ran.stdout
+    assert "allowable passes" in ran.stdout
+    tree = load(tmp_path / "case.nc")
+    assert float(tree["contact"].tractive_force) == pytest.approx(10e3, rel=1e-6)
+    reported = call("report", tmp_path / "case.nc", "-o", tmp_path / "r.html")
+    assert reported.exit_code == 0, reported.output
+    page = (tmp_path / "r.html").read_text()
+    assert "coarse" in page
+    assert page.rstrip().endswith("</html>")
+
+
+def test_scan_tells_the_quality_and_writes_a_height_map(tmp_path):
+    result = call("scan", tl.example_mesh(), "-o", tmp_path / "h.nc", "--spacing", "10 mm")
+    assert result.exit_code == 0, result.output
+    assert "crown radius" in result.stdout
+    assert tl.Tire.from_height_map(tmp_path / "h.nc").fixed_grid.dx == pytest.approx(0.01)
+
+
+def test_version_and_module():
+    assert call("--version").stdout == f"treadload {tl.__version__}\n"
+    done = subprocess.run(
+        [sys.executable, "-m", "treadload", "--version"], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == f"treadload {tl.__version__}\n"
+
+
+def test_unknown_commands_are_wrong_usage():
+    assert call("rnu").exit_code == 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"10 kN"', '"30 kN"', ("gross sliding", "22750 N")),
+        ("0.35", "0.7", ("poisson", "0.5", "0.7")),
+        ('"32.5 kN"', '"-1 kN"', ("normal_load", "-1000")),
+        ("= 0.7", "= -0.7", ("friction", "-0.7")),
+        ('profile = "315/80R22.5"', 'scan = "none.obj"', ("none.obj",)),
+        ('profile = "315/80R22.5"', 'profile = "bike"', ("bike", "315/80R22.5")),
+        ('"12 mm"', '"200 mm"', ("spacing", "200")),
+        ('"12 mm"', '"0.01 mm"', ("spacing", "0.01", "cells")),
+    ],
+)
+def test_bad_cases_end_with_code_2(case, tmp_path, old, new, words):
+    assert old in COARSE_CASE
+    case.write_text(COARSE_CASE.replace(old, new))
+    refused(call("run", case), 2, *words)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["case.toml"]
+
+
+def test_unwritable_output_is_found_before_the_computation(case, tmp_path, monkeypatch):
+    monkeypatch.setattr("treadload.study.run_case", None)
+    refused(call("run", case, "-o", tmp_path / "no" / "r.nc"), 2, "does not exist")
+    refused(call("run", case, "-o", tmp_path), 2, "is a folder")
+    refused(call("demo", "-o", case / "demo"), 2, "cannot make the folder")
+
+
+@pytest.mark.parametrize("content", [b"", b"v 1 2", b"\x00\x01\x02 no mesh"])
+def test_broken_meshes_are_refused(tmp_path, content):
+    (tmp_path / "tire.obj").write_bytes(content)
+    refused(call("scan", tmp_path / "tire.obj"), 2, "tire.obj")
+
+
+def test_a_mesh_in_wrong_units_is_refused():
+    refused(call("scan", tl.example_mesh(), "--units", "km"), 2, "km")
+    refused(call("scan", tl.example_mesh(), "--units", "cm"), 2)
+
+
+def test_a_height_map_that_cuts_the_contact_is_refused(case, tmp_path):
+    (tmp_path / "flat.csv").write_text("\n".join(",".join("0" for _ in range(20)) for _ in range(20)))
+    text = COARSE_CASE.replace('spacing = "12 mm"', "").replace(
+        'profile = "315/80R22.5"', 'height_map = "flat.csv"\ncell = "5 mm"'
+    )
+    case.write_text(text)
+    refused(call("run", case), 2, "border", "larger")
+
+
+def test_a_solver_that_fails_ends_with_code_1(case, monkeypatch):
+    from treadload.contact import solve
+
+    monkeypatch.setattr(solve, "_MOST_OUTER", 1)
+    refused(call("run", case), 1, "did not settle")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals as on POSIX")
+def test_an_interrupted_run_leaves_nothing_behind(case, tmp_path):
+    case.write_text(COARSE_CASE.replace('"12 mm"', '"1 mm"'))
+    process = subprocess.Popen(
+        [sys.executable, "-m", "treadload", "run", str(case)],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    time.sleep(4)
+    process.send_signal(signal.SIGINT)
+    _, stderr = process.communicate(timeout=60)
+    assert process.returncode == 1, stderr
+    assert "interrupted" in stderr
+    assert "Traceback" not in stderr
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["case.toml"]

@@ -1,0 +1,76 @@
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import treadload as tl
+from treadload.case import Case
+from treadload.results import height_map, load, save, write_csv
+
+
+def test_a_tree_survives_the_disk(coarse_result, tmp_path):
+    tree = coarse_result.to_tree()
+    save(tree, tmp_path / "r.nc")
+    back = load(tmp_path / "r.nc")
+    assert set(back.children) == {"contact", "response", "slice_along", "slice_across", "damage"}
+    for name, group in tree.children.items():
+        xr.testing.assert_identical(back[name].to_dataset(), group.to_dataset())
+    assert [p.name for p in tmp_path.iterdir()] == ["r.nc"]
+
+
+def test_provenance_tells_the_whole_question(coarse_result):
+    attrs = coarse_result.to_tree().attrs
+    assert Case.from_text(attrs["case"]) == coarse_result.case
+    assert attrs["treadload_version"] == tl.__version__
+    assert attrs["title"] == "coarse"
+    cited = " ".join(json.loads(attrs["citations"]))
+    for author in ("Kalker", "Love", "Polonsky", "Vollebregt", "Johnson"):
+        assert author in cited
+
+
+def test_every_variable_has_units_and_a_long_name(coarse_result):
+    for group in coarse_result.to_tree().children.values():
+        for name, variable in group.to_dataset().variables.items():
+            if name != "component":
+                assert variable.attrs["units"], name
+                assert variable.attrs["long_name"], name
+
+
+def test_other_files_are_no_results(tmp_path):
+    with pytest.raises(tl.InputError, match="there is no result file"):
+        load(tmp_path / "no.nc")
+    (tmp_path / "text.nc").write_text("no")
+    with pytest.raises(tl.InputError, match="cannot read"):
+        load(tmp_path / "text.nc")
+    xr.Dataset({"a": 1}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
+    with pytest.raises(tl.InputError, match="no result of treadload"):
+        load(tmp_path / "other.nc")
+
+
+def test_a_saved_height_map_makes_the_same_tire(tmp_path):
+    tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
+    data = height_map(tire, 0.01)
+    save(data, tmp_path / "tread.nc")
+    again = tl.Tire.from_height_map(tmp_path / "tread.nc", inflation_pressure=820e3)
+    assert again.fixed_grid.dx == pytest.approx(0.01)
+    # Coordinates pass through text-free binary; only the shift of the minimum to zero may round.
+    np.testing.assert_allclose(
+        again.height_map(again.fixed_grid), data.initial_gap - data.initial_gap.min(), atol=1e-12
+    )
+
+
+def test_csv_has_a_row_a_cell_and_units_in_its_heading(coarse_result, tmp_path):
+    data = coarse_result.contact.dataset
+    write_csv(data, tmp_path / "c.csv")
+    heading, *rows = (tmp_path / "c.csv").read_text().splitlines()
+    assert "pressure [Pa]" in heading
+    assert len(rows) == data.pressure.size
+
+
+def test_slices_pass_through_the_worst_point(coarse_result):
+    surface = coarse_result.response.dataset.principal_strain_1.isel(depth=0)
+    for part in (coarse_result.slice_along, coarse_result.slice_across):
+        slice_ = part.dataset.principal_strain_1.isel(depth=0)
+        # The same closed forms on a smaller set of points: equal to round-off.
+        assert float(slice_.max()) == pytest.approx(float(surface.max()), rel=1e-9)
