@@ -2,7 +2,8 @@
 
 The paper's scan is not published. Four free parameters of a five-rib tread (crown radius, shoulder radius,
 groove width, groove-edge radius) are fitted to two printed numbers, the area and the peak pressure at 35 kN,
-and kept near what such tires look like (a search of some minutes). The strains of figures 8 and 9 are then predictions.
+and kept near what such tires look like: a search of some minutes. The strains of figures 8 and 9 are then
+predictions.
 
     python examples/paper/fit_profile.py            print the fit
     python examples/paper/fit_profile.py --write    and put it into the library of profiles

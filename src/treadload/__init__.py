@@ -56,9 +56,37 @@ _HOME = {
     "to_tree": "results",
 }
 
-__all__ = [  # noqa: RUF022, PLE0604
+__all__ = [
+    "Case",
+    "Contact",
+    "ConvergenceError",
+    "Elastic",
+    "FatigueLine",
+    "GeometryError",
+    "Grid",
+    "Groove",
+    "InputError",
+    "LateralGrooves",
+    "Layer",
+    "Pavement",
+    "Response",
+    "Result",
+    "Rolling",
+    "Tire",
+    "TreadProfile",
+    "TreadloadError",
+    "Verdict",
     "__version__",
-    *_HOME,
+    "assess",
+    "example_mesh",
+    "load",
+    "modulus_from_inflation",
+    "report",
+    "run_case",
+    "save",
+    "solve_contact",
+    "solve_response",
+    "to_tree",
 ]
 
 

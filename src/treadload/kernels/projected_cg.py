@@ -60,7 +60,7 @@ def solve(
     h = np.where(material, gap, np.inf)
     prescribed = level
     p = np.where(material, start, 0.0)
-    active = p > 0
+    active: BoolArray = p > 0
     if total is not None:
         if not active.any():
             active = h == h.min()
@@ -78,7 +78,7 @@ def solve(
             level = float(opening[active].mean())
         assert level is not None
         separation = opening - level
-        error = _violation(separation, active, p) / _scale(level, h)
+        error = _violation(separation, active) / _scale(level, h)
         if error <= tolerance or iterations >= max_iterations:
             if fresh:
                 break
@@ -131,7 +131,7 @@ def solve(
     return BoundSolution(p, u, level, error, iterations, products, error <= tolerance)
 
 
-def _violation(separation: Array, active: Array, p: Array) -> float:
+def _violation(separation: Array, active: BoolArray) -> float:
     inside = float(np.abs(separation[active]).max(initial=0.0))
     outside = float(-separation[~active].min(initial=0.0))
     return max(inside, outside)
