@@ -1,0 +1,80 @@
+"""Zero-padded convolution against the sum it stands for."""
+
+import numpy as np
+import pytest
+
+from treadload.kernels.convolution import Convolution, Padding
+
+SHAPES = [((1, 1), (1, 1)), ((1, 7), (1, 7)), ((5, 8), (5, 8)), ((4, 6), (7, 3)), ((6, 3), (2, 9))]
+
+
+def direct(kernel, load, field_shape, dx, dy, x0, y0):
+    """Σ kernel(x_field - x_load, y_field - y_load) · load, cell by cell."""
+    (ny, nx), (my, mx) = load.shape, field_shape
+    field = np.zeros(field_shape)
+    for j in range(my):
+        for i in range(mx):
+            for q in range(ny):
+                for p in range(nx):
+                    field[j, i] += kernel(x0 + dx * (i - p), y0 + dy * (j - q)) * load[q, p]
+    return field
+
+
+def lopsided(x, y):
+    return np.exp(-0.3 * x + 0.1 * y) * np.cos(x * y) + 0.2 * x
+
+
+@pytest.mark.parametrize(("load_shape", "field_shape"), SHAPES)
+def test_equals_the_direct_sum(load_shape, field_shape):
+    dx, dy, x0, y0 = 0.5, 0.8, 0.3, -1.1
+    load = np.random.default_rng(2).normal(size=load_shape)
+    padding = Padding.of(load_shape, field_shape)
+    x, y = padding.offsets(dx, dy, x0, y0)
+    operator = Convolution.of_kernel(padding, lopsided(x, y))
+    expected = direct(lopsided, load, field_shape, dx, dy, x0, y0)
+    # Round-off of two transforms of fewer than 300 numbers.
+    np.testing.assert_allclose(operator(load), expected, atol=1e-13 * np.abs(expected).max() + 1e-14)
+
+
+@pytest.mark.parametrize("parity", [(1, 1), (-1, 1), (1, -1), (-1, -1)])
+@pytest.mark.parametrize("shift", [0, 1])
+def test_wrap_gives_the_other_quadrants_by_parity(parity, shift):
+    ny, nx = 4, 5
+    px, py = parity
+
+    def kernel(x, y):
+        even = 1 / (1 + x**2 + 2 * y**2)
+        return even * (x if px < 0 else 1.0) * (y if py < 0 else 1.0)
+
+    quadrant = kernel(np.arange(nx + 1)[None, :], np.arange(ny)[:, None])
+    padding = Padding.of((ny, nx))
+    operator = Convolution.of_kernel(padding, padding.wrap(quadrant, px, py, shift))
+    load = np.random.default_rng(3).normal(size=(ny, nx))
+    expected = direct(kernel, load, (ny, nx), 1.0, 1.0, float(shift), 0.0)
+    np.testing.assert_allclose(operator(load), expected, atol=1e-13)
+
+
+def test_the_spectrum_of_an_even_kernel_is_stored_as_real_and_gives_the_same():
+    padding = Padding.of((6, 5))
+    x, y = padding.offsets(1.0, 1.0)
+    kernel = 1 / (1 + x**2 + y**2)
+    even, plain = Convolution.of_kernel(padding, kernel, even=True), Convolution.of_kernel(padding, kernel)
+    assert not np.iscomplexobj(even.spectrum)
+    load = np.random.default_rng(4).normal(size=(6, 5))
+    np.testing.assert_allclose(even(load), plain(load), atol=1e-14)
+
+
+def test_a_stack_of_loads_goes_through_at_once():
+    padding = Padding.of((3, 4))
+    loads = np.random.default_rng(5).normal(size=(2, 3, 4))
+    together = padding.inverse(padding.forward(loads))
+    np.testing.assert_allclose(together, loads, atol=1e-15)
+
+
+def test_offsets_that_no_pair_of_cells_has_are_marked():
+    padding = Padding.of((3, 4))
+    x, y = padding.offsets(2.0, 1.0)
+    assert set(x[~np.isnan(x)]) == {-6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0}
+    assert set(y[~np.isnan(y)]) == {-2.0, -1.0, 0.0, 1.0, 2.0}
+    assert padding.shape[0] >= 6
+    assert padding.shape[1] >= 8
