@@ -2,7 +2,7 @@
 
 from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
 from treadload.plots.compare import compare_pressure, compare_strain
-from treadload.plots.files import png, save, write_whole
+from treadload.plots.files import png, save
 from treadload.plots.verdict import fatigue_line
 
 __all__ = [
@@ -14,5 +14,4 @@ __all__ = [
     "fatigue_line",
     "png",
     "save",
-    "write_whole",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import textwrap
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -68,6 +69,8 @@ _RC: Any = {
     "pdf.fonttype": 42,
 }
 
+# Letters in a line of a title.
+_TITLE = 52
 # Distance of the x label's line below the axes, points.
 _LABEL_LINE = 26
 
@@ -131,12 +134,17 @@ def figure_and_axes(ax: Axes | None, width: float, height: float) -> tuple[Figur
 def headline(ax: Axes, title: str, details: str = "") -> None:
     """A bold title with a quiet line of numbers under it, flush left."""
     lines = details.count("\n") + 1 if details else 0
-    ax.set_title(title, loc="left", pad=6 + 12.5 * lines)
+    ax.set_title(textwrap.fill(plain(title), _TITLE), loc="left", pad=6 + 12.5 * lines)
     if details:
         ax.annotate(
             details, (0, 1), xytext=(0, 5), xycoords="axes fraction", textcoords="offset points",
             ha="left", va="bottom", fontsize=8.5, color=MUTED, linespacing=1.35,
         )  # fmt: skip
+
+
+def plain(text: str) -> str:
+    """Text of a user, safe from being read as mathematics."""
+    return text.replace("$", r"\$")
 
 
 def halo(width: float = 2.5) -> list[withStroke]:

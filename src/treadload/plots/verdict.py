@@ -40,6 +40,7 @@ from treadload.plots.style import (
     headline,
     legend_below,
     measure,
+    plain,
     power_of_ten,
     sequential,
     signed,
@@ -210,7 +211,8 @@ def _crowded(passes: Sequence[float], low: float, high: float) -> bool:
 
 
 def _mark_case(ax: Axes, passes: float, strain: float, name: str, colour: str, low: float, crowded: bool) -> None:
-    title = f"{name}: " if name else ""
+    # A space first: matplotlib leaves labels that begin with an underscore out of its legends.
+    title = f" {plain(name)}: " if name else ""
     if not (strain > 0 and math.isfinite(passes)):
         ax.plot([], [], "o", color=colour, label=f"{title}nothing extends")
     else:

@@ -1,1 +1,5 @@
-"""report"""
+"""Self-contained HTML reports."""
+
+from treadload.report.build import report, write_report
+
+__all__ = ["report", "write_report"]

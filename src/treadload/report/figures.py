@@ -1,0 +1,221 @@
+"""The figures of a report with their captions, as pictures inside the page."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from treadload.errors import InputError
+from treadload.plots import (
+    ContactPlots,
+    ResponsePlots,
+    VerdictPlots,
+    compare_pressure,
+    compare_strain,
+    fatigue_line,
+    png,
+)
+from treadload.plots.response import NAMES, Strain
+from treadload.report.reading import ReportCase
+
+_DPI = 130.0
+_STROKES = (
+    "Strokes lie along the largest extension; a crack opens across them. A stroke shortens to a point where the "
+    "extension turns out of the page. Paper white: nothing extends."
+)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure in the page. source: data URI. wide: takes the full width."""
+
+    title: str
+    caption: str
+    source: str
+    wide: bool
+
+
+def case_figures(case: ReportCase, *, alone: bool) -> list[tuple[str, list[Picture]]]:
+    """The figures of one case under headings. alone: the only case, so that no comparison shows its fatigue line."""
+    sections = [
+        ("Contact", list(_contact(case))),
+        ("Strain in the road", list(_strain(case))),
+        ("Fatigue and cracks", list(_verdict(case, alone))),
+    ]
+    return [(heading, pictures) for heading, pictures in sections if pictures]
+
+
+def comparison_figures(cases: list[ReportCase]) -> list[Picture]:
+    """Figures that hold several cases on one scale; none for a single case."""
+    if len(cases) < 2:
+        return []
+    pictures: list[Picture] = []
+    contacts, labels = _with(cases, "contact", "pressure")
+    if len(contacts) > 1:
+        pictures += _picture(
+            "Contact pressure, side by side",
+            "One colour scale for all cases, seen from above; rings mark the largest pressure.",
+            lambda: compare_pressure(contacts, labels),
+            wide=True,
+        )
+    for strain, word in (("principal", "principal_strain_1"), ("in-plane", "in_plane_strain_1")):
+        responses, labels = _with(cases, "response", word)
+        depths = _common_depths(responses)
+        if len(responses) > 1 and depths:
+            pictures += _strain_comparison(
+                responses, labels, depths[0], "principal" if strain == "principal" else "in-plane"
+            )
+    verdicts, labels = _with(cases, "damage", "worst_strain")
+    if len(verdicts) > 1:
+        pictures += _picture(
+            "Fatigue line, all cases",
+            "Each case stands where its worst strain meets its line; below it, the passes that the line allows.",
+            lambda: fatigue_line(verdicts, labels),
+            wide=True,
+        )
+    return pictures
+
+
+def _strain_comparison(responses: list[xr.Dataset], labels: list[str], depth: float, strain: Strain) -> list[Picture]:
+    return _picture(
+        f"Largest extension strain, {NAMES[strain]}, side by side",
+        f"The {NAMES[strain]} strain {_deep(depth)} on one colour scale; rings mark the peaks. {_STROKES}",
+        lambda: compare_strain(responses, labels, depth=depth, strain=strain),
+        wide=True,
+    )
+
+
+def _contact(case: ReportCase) -> Iterator[Picture]:
+    data = case.group("contact")
+    if data is None:
+        return
+    plots = ContactPlots(data)
+    yield from _picture(
+        "Contact pressure",
+        "Seen from above, at true scale. The ring marks the largest pressure; pressure rises at the edges of ribs "
+        "and blocks, and the more so the finer the grid.",
+        plots.pressure,
+    )
+    yield from _picture(
+        "Tread before loading",
+        "Distance of the tread from the road at first contact; the line is the border of the contact under load.",
+        plots.height_map,
+    )
+    yield from _picture(
+        "Shear, stick and slip",
+        "Left: size of the shear in space. Right: the same from above; hatched cells slip, there the shear has "
+        "reached friction times pressure. Arrows: shear exerted by the tire on the road.",
+        plots.shear,
+        wide=True,
+    )
+    yield from _picture(
+        "Sections through the largest pressure",
+        "Where the shear lies on the dashed line, friction times pressure, the tire slips.",
+        plots.profile,
+        wide=True,
+    )
+
+
+def _strain(case: ReportCase) -> Iterator[Picture]:
+    data, contact = case.group("response"), case.group("contact")
+    if data is not None:
+        plots = ResponsePlots(data)
+        for depth in np.atleast_1d(data["depth"].to_numpy()).tolist():
+            for strain in _KINDS:
+                yield from _picture(
+                    f"Largest extension strain {_deep(depth)}, {NAMES[strain]}",
+                    f"Drawn: the {NAMES[strain]} strain. {_WHAT[strain]}",
+                    lambda depth=depth, strain=strain: plots.strain_directions(depth, strain, contact=contact),  # type: ignore[misc]
+                )
+    for name, words in (("slice_along", "along travel"), ("slice_across", "across travel")):
+        section = case.group(name)
+        if section is not None:
+            yield from _picture(
+                f"Vertical section {words}",
+                "Drawn: the three-dimensional strain under the worst point of the surface; black bars: the tire "
+                "touches. Strokes show the part of the direction that lies in the section.",
+                ResponsePlots(section).depth_slice,
+                wide=True,
+            )
+    deep = case.group("slice_along")
+    deep = data if deep is None else deep
+    if deep is not None and deep.sizes.get("depth", 1) > 2:
+        damage = case.group("damage")
+        epsilon = float(damage.attrs["epsilon_6"]) if damage is not None and "epsilon_6" in damage.attrs else None
+        yield from _picture(
+            "Strain against depth",
+            "How fast both strains fade below the worst point; dashed: the largest anywhere in the section.",
+            lambda: ResponsePlots(deep).profile(epsilon_6=epsilon),
+        )
+
+
+def _verdict(case: ReportCase, alone: bool) -> Iterator[Picture]:
+    data = case.group("damage")
+    if data is None:
+        return
+    plots = VerdictPlots(data)
+    kind = "in-plane" if data.attrs.get("strain") == "in-plane" else "principal"
+    if alone:
+        yield from _picture(
+            "Fatigue line",
+            f"The case stands where its worst strain, {NAMES[kind]}, meets the line; below it, the passes allowed.",
+            plots.fatigue_line,
+            wide=True,
+        )
+    yield from _picture(
+        "Allowable passes",
+        f"From the strain {NAMES[kind]}. The darkest places bear fewest passes; white ones a million times more, "
+        "or nothing extends there.",
+        plots.passes,
+    )
+    yield from _picture(
+        "Cracks to expect",
+        f"Traces on the surface of cracks across the largest extension, {NAMES[kind]}: longitudinal along travel, "
+        "transverse across it, oblique between, horizontal as points (layers part). Drawn where the strain is "
+        "significant; the first crack opens at the ring.",
+        plots.cracks,
+    )
+
+
+_KINDS: tuple[Strain, ...] = ("principal", "in-plane")
+_WHAT = {
+    "principal": f"At the surface it holds the shear of the tire itself. {_STROKES}",
+    "in-plane": "It opens vertical cracks. Strokes lie along the extension; a crack opens across them. Paper white: "
+    "nothing extends in the plane.",
+}
+
+
+def _picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = False) -> list[Picture]:
+    """The picture, or nothing when the results lack what it draws."""
+    try:
+        figure = draw()
+    except InputError:
+        return []
+    encoded = base64.b64encode(png(figure, dpi=_DPI)).decode("ascii")
+    return [Picture(title, caption, f"data:image/png;base64,{encoded}", wide)]
+
+
+def _with(cases: list[ReportCase], group: str, variable: str) -> tuple[list[xr.Dataset], list[str]]:
+    """Datasets of the cases that have a variable in a group, and their labels."""
+    found = [(case.group(group), case.label) for case in cases]
+    kept = [(data, label) for data, label in found if data is not None and variable in data]
+    return [data for data, _ in kept], [label for _, label in kept]
+
+
+def _common_depths(responses: list[xr.Dataset]) -> list[float]:
+    """Depths, m, that all responses have, the least first."""
+    if not responses:
+        return []
+    shared = {round(float(d), 9) for d in np.atleast_1d(responses[0]["depth"].to_numpy())}
+    for data in responses[1:]:
+        shared &= {round(float(d), 9) for d in np.atleast_1d(data["depth"].to_numpy())}
+    return sorted(shared)
+
+
+def _deep(depth: float) -> str:
+    return "at the surface" if depth == 0 else f"{depth * 1e3:g} mm deep"

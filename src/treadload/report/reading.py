@@ -1,0 +1,178 @@
+"""A tree of results as a report reads it: groups, texts, the worst point."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload.damage.verdict import ORIENTATIONS
+from treadload.errors import InputError
+from treadload.plots.plan import MICRO, MM, Plan, peak_of, plane
+from treadload.plots.style import power_of_ten, signed
+from treadload.response.fields import angle_in_words, direction_in_words
+
+GROUPS = ("contact", "response", "slice_along", "slice_across", "damage")
+# Names that other writers gave to the same group.
+_ALSO = {"slice": "slice_along"}
+
+
+@dataclass(frozen=True)
+class Worst:
+    """The largest strain of a map: microstrain, place in words, direction in words."""
+
+    strain: float
+    place: str
+    direction: str
+
+
+@dataclass(frozen=True, eq=False)
+class ReportCase:
+    """One case: its label and its groups of results by name (`GROUPS`), those that are there."""
+
+    label: str
+    groups: Mapping[str, xr.Dataset]
+    attrs: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, label: str, tree: xr.DataTree) -> ReportCase:
+        """The case in a tree; InputError if the tree has none of the groups."""
+        groups = {
+            _ALSO.get(name, name): node.to_dataset()
+            for name, node in tree.children.items()
+            if _ALSO.get(name, name) in GROUPS and node.data_vars
+        }
+        if not groups:
+            held = ", ".join(tree.children) or "nothing"
+            raise InputError(f"the tree of {label!r} holds {held}; a report needs one of {', '.join(GROUPS)}")
+        return cls(label, groups, {str(name): value for name, value in tree.attrs.items()})
+
+    def group(self, name: str) -> xr.Dataset | None:
+        """A group of results, or None."""
+        return self.groups.get(name)
+
+    @property
+    def title(self) -> str:
+        """Title that the case gave itself."""
+        return str(self.attrs.get("title", ""))
+
+    @property
+    def toml(self) -> str:
+        """The case as TOML text, empty if unknown."""
+        return str(self.attrs.get("case", ""))
+
+    @property
+    def provenance(self) -> str:
+        """Version and date of the computation in a line."""
+        parts = []
+        if self.attrs.get("treadload_version"):
+            parts.append(f"computed by treadload {self.attrs['treadload_version']}")
+        if self.attrs.get("created"):
+            parts.append(f"on {str(self.attrs['created']).replace('T', ' ').replace('+00:00', ' UTC')}")
+        versions = _json(self.attrs.get("versions"), {})
+        if versions:
+            parts.append("with " + ", ".join(f"{name} {version}" for name, version in versions.items()))
+        return " ".join(parts)
+
+    @property
+    def citations(self) -> list[str]:
+        """References of the methods used."""
+        return [str(text) for text in _json(self.attrs.get("citations"), [])]
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings of all groups, each once."""
+        found = [str(text) for data in self.groups.values() for text in _json(data.attrs.get("warnings"), [])]
+        return list(dict.fromkeys(found))
+
+    def statistics(self, group: str) -> dict[str, Any]:
+        """Statistics of the solver of a group."""
+        data = self.group(group)
+        return dict(_json(data.attrs.get("stats"), {})) if data is not None else {}
+
+    @property
+    def surface(self) -> xr.Dataset | None:
+        """The map of the response at the verdict's depth, or its least depth; None without a response."""
+        data = self.group("response")
+        if data is None:
+            return None
+        depths = np.atleast_1d(data["depth"].to_numpy())
+        damage = self.group("damage")
+        wanted = float(damage.attrs.get("depth", depths.min())) if damage is not None else float(depths.min())
+        return data.isel(depth=int(np.argmin(np.abs(depths - wanted)))) if "depth" in data.dims else data
+
+    def worst(self, strain: str) -> Worst | None:
+        """The largest "principal" or "in-plane" strain of the map; None without a response."""
+        data = self.surface
+        name = "principal_strain_1" if strain == "principal" else "in_plane_strain_1"
+        if data is None or name not in data:
+            return None
+        plan, values = Plan.of(data), plane(data, name)
+        row, column = peak_of(values)
+        here = data.isel(y=row, x=column)
+        place = f"x = {signed(float(plan.x[column]))} mm, y = {signed(float(plan.y[row]))} mm"
+        value = float(values[row, column]) * MICRO
+        if not value > 0:
+            return Worst(value, place, "nothing extends")
+        if strain == "principal":
+            direction = direction_in_words(here["principal_direction_1"].to_numpy())
+        else:
+            direction = angle_in_words(float(here["in_plane_angle_1"]))
+        return Worst(value, place, direction)
+
+    @property
+    def depth_in_words(self) -> str:
+        """Where the strains of the tables are read."""
+        data = self.surface
+        depth = float(data["depth"]) if data is not None and "depth" in data.coords else 0.0
+        return "at the surface" if depth == 0 else f"{depth * MM:g} mm deep"
+
+    @property
+    def orientation(self) -> str:
+        """Orientation of the first crack in a word; empty without a verdict."""
+        data = self.group("damage")
+        if data is None:
+            return ""
+        if not float(data["worst_strain"]) > 0:
+            return ORIENTATIONS[0]
+        worst = data["crack_orientation"].sel(x=data["worst_x"], y=data["worst_y"], method="nearest")
+        return ORIENTATIONS[int(worst)]
+
+    @property
+    def exhausted(self) -> bool:
+        """True when the worst strain exceeds ε₆: fewer than a million passes."""
+        data = self.group("damage")
+        return data is not None and float(data["worst_passes"]) < 1e6
+
+    @property
+    def verdict(self) -> str:
+        """The verdict in a sentence; empty without one."""
+        data = self.group("damage")
+        if data is None:
+            return ""
+        if data.attrs.get("sentence"):
+            return str(data.attrs["sentence"]).removeprefix("Verdict: ").strip()
+        passes = float(data["worst_passes"])
+        if not float(data["worst_strain"]) > 0 or math.isinf(passes):
+            return "nothing extends here; this criterion sees no crack."
+        few = "fewer" if passes < 1e6 else "more"
+        return (
+            f"at its worst point the line allows {power_of_ten(passes)} passes, {few} than a million; "
+            f"the first crack to expect is {self.orientation}."
+        )
+
+
+def _json(text: Any, otherwise: Any) -> Any:
+    """What JSON text holds, of the same kind as `otherwise`; that if it holds something else."""
+    if not isinstance(text, str):
+        return otherwise
+    try:
+        value = json.loads(text)
+    except ValueError:
+        return otherwise
+    return value if isinstance(value, type(otherwise)) else otherwise
