@@ -80,8 +80,8 @@ def strain_directions(
     scale = limits(values)
     mesh = draw_strain(ax, data, strain, scale, contact or response)
     colour_bar(mesh, ax, f"largest extension, {NAMES[strain]} (microstrain)", scale)
-    kind = "Largest extension strain" if strain == "principal" else "Largest extension in the horizontal plane,"
-    headline(ax, f"{kind} {place_in_words(depth)}", strain_in_numbers(data, strain, scale))
+    kind = "three-dimensional" if strain == "principal" else "horizontal plane"
+    headline(ax, f"Largest extension {place_in_words(depth)}, {kind}", strain_in_numbers(data, strain, scale))
     return figure
 
 

@@ -211,16 +211,16 @@ def _crowded(passes: Sequence[float], low: float, high: float) -> bool:
 
 
 def _mark_case(ax: Axes, passes: float, strain: float, name: str, colour: str, low: float, crowded: bool) -> None:
+    title = f"{plain(name)}: " if name else ""
     # A space first: matplotlib leaves labels that begin with an underscore out of its legends.
-    title = f" {plain(name)}: " if name else ""
     if not (strain > 0 and math.isfinite(passes)):
-        ax.plot([], [], "o", color=colour, label=f"{title}nothing extends")
+        ax.plot([], [], "o", color=colour, label=f" {title}nothing extends")
     else:
         ax.plot([low, passes, passes], [strain, strain, 1e-3], color=colour, lw=1.0, alpha=0.75, zorder=1.5)
         words = f"{title}{strain:.3g} microstrain", f"{power_of_ten(passes)} passes"
         ax.plot(
             [passes], [strain], "o", ms=7.5, color=colour, mec="white", mew=1.2, zorder=5,
-            label=", ".join(words) if crowded else "_",
+            label=" " + ", ".join(words) if crowded else "_",
         )  # fmt: skip
         if not crowded:
             _note(ax, passes, strain, "\n".join(words), (9, 2), colour)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import struct
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -23,7 +24,9 @@ from treadload.plots import (
 from treadload.plots.response import NAMES, Strain
 from treadload.report.reading import ReportCase
 
-_DPI = 130.0
+_DPI = 140.0
+# Pixels of the page for an inch of a figure.
+_PAGE_DPI = 98.0
 _STROKES = (
     "Strokes lie along the largest extension; a crack opens across them. A stroke shortens to a point where the "
     "extension turns out of the page. Paper white: nothing extends."
@@ -37,6 +40,7 @@ class Picture:
     title: str
     caption: str
     source: str
+    width: int
     wide: bool
 
 
@@ -84,7 +88,7 @@ def comparison_figures(cases: list[ReportCase]) -> list[Picture]:
 def _strain_comparison(responses: list[xr.Dataset], labels: list[str], depth: float, strain: Strain) -> list[Picture]:
     return _picture(
         f"Largest extension strain, {NAMES[strain]}, side by side",
-        f"The {NAMES[strain]} strain {_deep(depth)} on one colour scale; rings mark the peaks. {_STROKES}",
+        f"Drawn: {_DRAWN[strain]}, {_deep(depth)}, on one colour scale; rings mark the peaks. {_WHAT[strain]}",
         lambda: compare_strain(responses, labels, depth=depth, strain=strain),
         wide=True,
     )
@@ -129,7 +133,7 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
             for strain in _KINDS:
                 yield from _picture(
                     f"Largest extension strain {_deep(depth)}, {NAMES[strain]}",
-                    f"Drawn: the {NAMES[strain]} strain. {_WHAT[strain]}",
+                    f"Drawn: {_DRAWN[strain]}. {_WHAT[strain]}",
                     lambda depth=depth, strain=strain: plots.strain_directions(depth, strain, contact=contact),  # type: ignore[misc]
                 )
     for name, words in (("slice_along", "along travel"), ("slice_across", "across travel")):
@@ -183,6 +187,7 @@ def _verdict(case: ReportCase, alone: bool) -> Iterator[Picture]:
 
 
 _KINDS: tuple[Strain, ...] = ("principal", "in-plane")
+_DRAWN = {"principal": "the three-dimensional strain", "in-plane": "the strain in the horizontal plane"}
 _WHAT = {
     "principal": f"At the surface it holds the shear of the tire itself. {_STROKES}",
     "in-plane": "It opens vertical cracks. Strokes lie along the extension; a crack opens across them. Paper white: "
@@ -196,8 +201,11 @@ def _picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = 
         figure = draw()
     except InputError:
         return []
-    encoded = base64.b64encode(png(figure, dpi=_DPI)).decode("ascii")
-    return [Picture(title, caption, f"data:image/png;base64,{encoded}", wide)]
+    image = png(figure, dpi=_DPI)
+    # The width stands at a fixed place of every PNG; all figures get letters of the same size.
+    (pixels,) = struct.unpack(">I", image[16:20])
+    encoded = base64.b64encode(image).decode("ascii")
+    return [Picture(title, caption, f"data:image/png;base64,{encoded}", round(pixels * _PAGE_DPI / _DPI), wide)]
 
 
 def _with(cases: list[ReportCase], group: str, variable: str) -> tuple[list[xr.Dataset], list[str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -18,6 +19,8 @@ from treadload.plots.style import power_of_ten, signed
 from treadload.response.fields import angle_in_words, direction_in_words
 
 GROUPS = ("contact", "response", "slice_along", "slice_across", "damage")
+# A number such as 1.2e+05 in a sentence.
+_POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
 # Names that other writers gave to the same group.
 _ALSO = {"slice": "slice_along"}
 
@@ -156,7 +159,7 @@ class ReportCase:
         if data is None:
             return ""
         if data.attrs.get("sentence"):
-            return str(data.attrs["sentence"]).removeprefix("Verdict: ").strip()
+            return _POWER.sub(_raised, str(data.attrs["sentence"]).removeprefix("Verdict: ").strip())
         passes = float(data["worst_passes"])
         if not float(data["worst_strain"]) > 0 or math.isinf(passes):
             return "nothing extends here; this criterion sees no crack."
@@ -165,6 +168,10 @@ class ReportCase:
             f"at its worst point the line allows {power_of_ten(passes)} passes, {few} than a million; "
             f"the first crack to expect is {self.orientation}."
         )
+
+
+def _raised(found: re.Match[str]) -> str:
+    return power_of_ten(float(found[0]))
 
 
 def _json(text: Any, otherwise: Any) -> Any:
