@@ -25,7 +25,7 @@ class Axis:
 
     origin: (3,) a point on it amid the tread. direction: (3,) unit vector. radius: outer radius.
     residual: rms over the angle of the envelope of the tread, robust. arc: rad of the turn that has tread.
-    Lengths are in the unit of the points.
+    share: part of the surface that is tread. Lengths are in the unit of the points.
     """
 
     origin: Array
@@ -33,6 +33,7 @@ class Axis:
     radius: float
     residual: float
     arc: float
+    share: float
 
 
 def sample_surface(vertices: Array, faces: Indices, count: int = SAMPLES) -> tuple[Array, Array]:
@@ -67,9 +68,14 @@ def fit_axis(points: Array, normals: Array) -> Axis:
     scaled = (points - middle) / size
     candidates = _candidates(scaled, normals)
     coarse = [_refine(scaled[::6], origin, direction, rounds=4) for origin, direction in candidates]
-    best = min(coarse, key=lambda axis: axis.residual / max(axis.radius, 1e-9) / max(axis.arc, 1e-3))
-    best = _refine(scaled, best.origin, best.direction, rounds=12)
-    return Axis(middle + size * best.origin, best.direction, size * best.radius, size * best.residual, best.arc)
+    # A wrong axis fits a few cells well: the more of the surface an axis explains the better.
+    best = min(coarse, key=lambda axis: (axis.residual + 1e-3) / max(axis.share * axis.arc, 1e-9))
+    # A scan of a part of the turn has its points in fewer cells: finer ones make as much of them.
+    cells = round(ANGLE_CELLS * min(6.0, 2 * np.pi / max(best.arc, 1e-3)))
+    best = _refine(scaled, best.origin, best.direction, rounds=12, cells=cells)
+    return Axis(
+        middle + size * best.origin, best.direction, size * best.radius, size * best.residual, best.arc, best.share
+    )
 
 
 def across(direction: Array) -> tuple[Array, Array]:
@@ -125,9 +131,9 @@ def _centre(points: Array, normals: Array, direction: Array) -> Array:
     return np.asarray(centre[0] * first + centre[1] * second, dtype=np.float64)
 
 
-def _refine(points: Array, origin: Array, direction: Array, rounds: int) -> Axis:
+def _refine(points: Array, origin: Array, direction: Array, rounds: int, cells: int = ANGLE_CELLS) -> Axis:
     """Gauss-Newton with Tukey weights on the envelope; the meridian is eliminated row by row."""
-    radius = residual = arc = 0.0
+    radius = residual = arc = share = 0.0
     for _ in range(rounds):
         first, second = across(direction)
         p = points - origin
@@ -135,13 +141,14 @@ def _refine(points: Array, origin: Array, direction: Array, rounds: int) -> Axis
         r = np.hypot(x, z)
         radius = float(np.quantile(r, 0.98))
         use = r > TREAD_FLOOR * radius
+        share = float(use.mean())
         # A tilt about a point far from the tread would be a shift as well.
         shift = float(0.5 * np.sum(np.quantile(y[use], [0.02, 0.98])))
         origin = origin + shift * direction
         x, y, z, r = x[use], y[use] - shift, z[use], r[use]
-        keep, row, turn = _envelope(y, np.arctan2(z, x), r, radius)
+        keep, row, turn = _envelope(y, np.arctan2(z, x), r, radius, cells)
         x, y, z, r = x[keep], y[keep], z[keep], r[keep]
-        arc = len(np.unique(turn)) * 2 * np.pi / ANGLE_CELLS
+        arc = len(np.unique(turn)) * 2 * np.pi / cells
         height, slope = _meridian(row, r, ROW * radius)
         tilt = 1 / np.hypot(1, slope)
         error = (r - height) * tilt
@@ -160,14 +167,14 @@ def _refine(points: Array, origin: Array, direction: Array, rounds: int) -> Axis
         origin = origin + step[2] * first + step[3] * second
         if float(np.abs(step).max()) < 2e-6:
             break
-    return Axis(origin, direction, radius, residual, arc)
+    return Axis(origin, direction, radius, residual, arc, share)
 
 
-def _envelope(y: Array, angle: Array, r: Array, radius: float) -> tuple[Indices, Indices, Indices]:
+def _envelope(y: Array, angle: Array, r: Array, radius: float, cells: int) -> tuple[Indices, Indices, Indices]:
     """Index of the outer point (90 % quantile) of each cell, its row across and its column round the tire."""
     row = np.floor((y - y.min()) / (ROW * radius)).astype(np.int64)
-    turn = np.floor((angle + np.pi) * (ANGLE_CELLS / (2 * np.pi))).astype(np.int64) % ANGLE_CELLS
-    cell = row * ANGLE_CELLS + turn
+    turn = np.floor((angle + np.pi) * (cells / (2 * np.pi))).astype(np.int64) % cells
+    cell = row * cells + turn
     order = np.lexsort((r, cell))
     start = np.flatnonzero(np.r_[True, np.diff(cell[order]) > 0])
     count = np.diff(np.r_[start, len(order)])

@@ -53,7 +53,7 @@ def facet_sag(vertices: Array, faces: NDArray[np.int64], outer: float, floor: fl
 
     vertices: (n, 3), m, in the frame of the wheel. outer, floor: radii between which the tread lies, m.
     """
-    edge = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    edge = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     a, b = vertices[edge[:, 0]][:, [0, 2]], vertices[edge[:, 1]][:, [0, 2]]
     ra, rb = np.linalg.norm(a, axis=1), np.linalg.norm(b, axis=1)
     tread = (np.minimum(ra, rb) > floor) & (np.maximum(ra, rb) <= outer)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.tire.mesh_file import import_trimesh
 
@@ -27,7 +28,13 @@ class Caster:
 
     def distances(self, origins: Array, directions: Array) -> Array:
         """(n,) distance in m along unit directions (n, 3) from origins (n, 3) to the first hit; NaN for none."""
-        face = np.asarray(self._ray.intersects_first(origins, directions), dtype=np.int64)
+        try:
+            face = np.asarray(self._ray.intersects_first(origins, directions), dtype=np.int64)
+        except ModuleNotFoundError as error:  # trimesh's own caster needs rtree
+            raise InputError(
+                f"casting rays needs embreex (or, slower, rtree), but {error.name} is not installed; "
+                'run  pip install "treadload[scan]"'
+            ) from error
         hit = face >= 0
         normal, anchor = self._normal[face], self._anchor[face]
         # Embree works in single precision: it only chooses the face, the distance is worked out again.
@@ -55,8 +62,9 @@ def vertical(caster: Caster, x: Array, y: Array, radius: float, camber: float, f
     direction = np.array([0.0, -sin, -cos])
     distance = caster.distances(origins, np.broadcast_to(direction, origins.shape))
     hit = origins + distance[:, None] * direction
+    # Through a hole a ray meets the inside, or the far side above the axle.
     with np.errstate(invalid="ignore"):
-        distance[np.hypot(hit[:, 0], hit[:, 2]) < floor] = np.nan
+        distance[~(np.hypot(hit[:, 0], hit[:, 2]) >= floor) | (hit[:, 2] < 0)] = np.nan
     return np.asarray((start - distance).reshape(grid_x.shape), dtype=np.float64)
 
 
