@@ -333,6 +333,20 @@ def test_what_is_no_tire_is_refused(tmp_path, kind, says):
         Tire.from_scan(path, units="m")
 
 
+def test_a_floor_under_the_tire_is_taken_away(tmp_path):
+    vertices, faces = tire_mesh(noise=0.2e-3)
+    x, y = np.meshgrid(np.linspace(-1, 1, 60), np.linspace(-0.8, 0.8, 50))
+    floor = np.stack([x.ravel(), y.ravel(), np.full(x.size, 0.5395)], axis=1)
+    n = (np.arange(49)[:, None] * 60 + np.arange(59)).ravel() + len(vertices)
+    both = np.concatenate([faces, np.stack([n, n + 1, n + 60], axis=1), np.stack([n + 1, n + 61, n + 60], axis=1)])
+    turn, shift = pose(9)
+    path = write(tmp_path / "floor.ply", np.concatenate([vertices, floor]) @ turn.T + shift, both)
+    tire = Tire.from_scan(path)
+    assert tire.quality.crown_radius == pytest.approx(0.538, abs=0.2e-3)
+    assert tire.quality.width == pytest.approx(0.322, abs=5e-3)
+    assert any("flat floor" in text for text in tire.quality.warnings)
+
+
 def test_files_that_cannot_be_read_are_refused(tmp_path):
     def put(name, content):
         (tmp_path / name).write_bytes(content)

@@ -29,8 +29,8 @@ class ScanQuality:
     facet_sag: how far the largest facets of the tread cut under the circle, m. axis_residual: rms over the
     angle of the radius of the tread envelope, m; roundness in noise, facets and blocks together.
     theta_spread: rms scatter over the angle of the radius about its median, m, on the tread.
-    coverage: fraction of the rays round the tread that met it. holes: number of connected regions without
-    a hit. hole_fraction: 1 - coverage. watertight: of the mesh.
+    coverage: fraction of the tread over the road (the extent of the tire, 3 mm cells) that vertical rays met.
+    holes: number of connected regions that they did not meet. hole_fraction: 1 - coverage. watertight: of the mesh.
     revolved: True when the meridian was revolved in place of the facets. grooves: from left to right.
     warnings: one sentence each.
     """

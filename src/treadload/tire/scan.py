@@ -12,6 +12,7 @@ from treadload.errors import GeometryError, InputError
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire import meridian as unrolling
 from treadload.tire.axis import Axis, across, fit_axis, sample_surface
+from treadload.tire.ground import without_ground
 from treadload.tire.mesh_file import Mesh, read_mesh
 from treadload.tire.quality import ScanQuality
 from treadload.tire.rays import Caster, radial
@@ -58,6 +59,7 @@ def read_scan(
     positive when the top leans to the right. revolve: True replaces the facets by their revolved meridian, "auto"
     does so when they cut deeper than 1 mm under the circle and the tread does not depend on the angle.
     fill_holes: as in ScanSurface.
+    A flat floor in the scan is taken away when no tire is found with it.
     The axle's right end is the one that points along the positive axis of the file.
     Raises InputError, GeometryError.
     """
@@ -65,28 +67,58 @@ def read_scan(
     unit = _unit_name(units)
     mesh = read_mesh(path)
     name = Path(path).name
+
+    def build(tire: Mesh, notes: list[str]) -> ScanSurface:
+        return _build(tire, name, unit, nominal_diameter, rotation, camber, revolve, fill_holes, notes)
+
+    try:
+        return build(mesh, [])
+    except (GeometryError, InputError):
+        # With a floor the axle is not found; what is wrong then may look like wrong units.
+        rest = without_ground(mesh)
+        if rest is None:
+            raise
+        dropped = len(mesh.faces) - len(rest.faces)
+        note = f"a flat floor of {dropped} triangles was taken away; the tread that stood on it may be flattened"
+        try:
+            return build(rest, [note])
+        except (GeometryError, InputError):
+            pass
+        raise
+
+
+def _build(
+    mesh: Mesh,
+    name: str,
+    unit: str | None,
+    nominal_diameter: float | None,
+    rotation: float,
+    camber: float,
+    revolve: Choice,
+    fill_holes: Choice,
+    notes: list[str],
+) -> ScanSurface:
+    """Surface of a mesh that holds a tire and nothing else; arguments as in read_scan."""
     axis = fit_axis(*sample_surface(mesh.vertices, mesh.faces))
     _check_tire(mesh, axis, name)
     label, scale, warnings = _scale(2 * axis.radius, unit, nominal_diameter, name)
+    warnings += notes
     vertices = scale * _to_wheel(mesh, axis, rotation)
     outer = scale * axis.radius
 
-    def unroll(points: Array) -> tuple[Array, Array, float]:
-        low, high = points[:, 1].min(), points[:, 1].max()
-        cells = int((high - low) / 1e-3)
-        y = 0.5 * (low + high) + 1e-3 * (np.arange(cells) - 0.5 * (cells - 1))
-        theta = np.arange(0.013, 2 * np.pi, math.radians(2))
-        beyond = 1.5 * outer
-        turn = radial(Caster(points, mesh.faces), theta, y, beyond, outer - 2 * DEEPEST)
-        return y, turn, unrolling.facet_sag(points, mesh.faces, beyond, outer - DEEPEST)
-
-    y, turn, sag = unroll(vertices)
+    low, high = vertices[:, 1].min(), vertices[:, 1].max()
+    cells = int((high - low) / 1e-3)
+    y = 0.5 * (low + high) + 1e-3 * (np.arange(cells) - 0.5 * (cells - 1))
+    # Off the whole degrees, where drawn meshes have their edges.
+    theta = np.arange(0.013, 2 * np.pi, math.radians(2))
+    turn = radial(Caster(vertices, mesh.faces), theta, y, 1.5 * outer, outer - 2 * DEEPEST)
+    sag = unrolling.facet_sag(vertices, mesh.faces, 1.5 * outer, outer - DEEPEST)
     top = unrolling.top_meridian(turn)
     crown = unrolling.crown(top, sag)
     _check_round(turn, crown, name)
     if label == "scaled" and nominal_diameter is not None:
         factor = 0.5 * nominal_diameter / crown
-        scale, vertices, outer = scale * factor, vertices * factor, outer * factor
+        scale, vertices = scale * factor, vertices * factor
         y, turn, top = y * factor, turn * factor, top * factor
         sag, crown = sag * factor, crown * factor
     vertices, y = _amid_tread(vertices, y, top, crown)
