@@ -154,13 +154,13 @@ def depth_slice(
     direction = section["principal_direction_1"].transpose("depth", name, "component").to_numpy()
     across, down = (data[key].to_numpy() * MM for key in (name, "depth"))
     aspect = float(np.ptp(down) / np.ptp(across))
-    figure, ax = figure_and_axes(ax, 7.6, min(7.5, max(2.4, 5.8 * aspect + 1.2)))
+    figure, ax = figure_and_axes(ax, 6.8, min(7.5, max(2.1, 5.2 * aspect + 1.1)))
     scale = limits(values)
     mesh = ax.pcolormesh(
         across, down, values, cmap=sequential("strain"), vmin=scale.low, vmax=scale.high, shading="gouraud",
         rasterized=True,
     )  # fmt: skip
-    colour_bar(mesh, ax, "extension (microstrain)", scale)
+    colour_bar(mesh, ax, "microstrain", scale)
     ax.set_aspect("equal")
     ax.set_xlim(across[0], across[-1])
     ax.set_ylim(down[-1], down[0])

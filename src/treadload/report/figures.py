@@ -35,7 +35,7 @@ _STROKES = (
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure in the page. source: data URI. wide: takes the full width."""
+    """A figure in the page. source: data URI. width: of the page, pixels. wide: takes the full width."""
 
     title: str
     caption: str
@@ -131,9 +131,10 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
         plots = ResponsePlots(data)
         for depth in np.atleast_1d(data["depth"].to_numpy()).tolist():
             for strain in _KINDS:
+                holds = _HOLDS if depth == 0 and strain == "principal" else ""
                 yield from _picture(
                     f"Largest extension strain {_deep(depth)}, {NAMES[strain]}",
-                    f"Drawn: {_DRAWN[strain]}. {_WHAT[strain]}",
+                    f"Drawn: {_DRAWN[strain]}{holds}. {_WHAT[strain]}",
                     lambda depth=depth, strain=strain: plots.strain_directions(depth, strain, contact=contact),  # type: ignore[misc]
                 )
     for name, words in (("slice_along", "along travel"), ("slice_across", "across travel")):
@@ -144,7 +145,6 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
                 "Drawn: the three-dimensional strain under the worst point of the surface; black bars: the tire "
                 "touches. Strokes show the part of the direction that lies in the section.",
                 ResponsePlots(section).depth_slice,
-                wide=True,
             )
     deep = case.group("slice_along")
     deep = data if deep is None else deep
@@ -153,7 +153,7 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
         epsilon = float(damage.attrs["epsilon_6"]) if damage is not None and "epsilon_6" in damage.attrs else None
         yield from _picture(
             "Strain against depth",
-            "How fast both strains fade below the worst point; dashed: the largest anywhere in the section.",
+            "Both strains under the worst point of the surface; dashed: the largest anywhere in the section.",
             lambda: ResponsePlots(deep).profile(epsilon_6=epsilon),
         )
 
@@ -167,29 +167,30 @@ def _verdict(case: ReportCase, alone: bool) -> Iterator[Picture]:
     if alone:
         yield from _picture(
             "Fatigue line",
-            f"The case stands where its worst strain, {NAMES[kind]}, meets the line; below it, the passes allowed.",
+            f"The case stands where {_DRAWN[kind]} at its worst meets the line; below it, the passes allowed.",
             plots.fatigue_line,
             wide=True,
         )
     yield from _picture(
         "Allowable passes",
-        f"From the strain {NAMES[kind]}. The darkest places bear fewest passes; white ones a million times more, "
+        f"From {_DRAWN[kind]}. The darkest places bear fewest passes; white ones a million times more, "
         "or nothing extends there.",
         plots.passes,
     )
     yield from _picture(
         "Cracks to expect",
-        f"Traces on the surface of cracks across the largest extension, {NAMES[kind]}: longitudinal along travel, "
-        "transverse across it, oblique between, horizontal as points (layers part). Drawn where the strain is "
-        "significant; the first crack opens at the ring.",
+        f"Traces on the surface of cracks across the largest extension, read from {_DRAWN[kind]}: longitudinal along "
+        "travel, transverse across it, oblique between, horizontal as points (layers part). Drawn where the strain "
+        "is significant; the first crack opens at the ring.",
         plots.cracks,
     )
 
 
 _KINDS: tuple[Strain, ...] = ("principal", "in-plane")
+_HOLDS = ", which at the surface holds the shear of the tire itself"
 _DRAWN = {"principal": "the three-dimensional strain", "in-plane": "the strain in the horizontal plane"}
 _WHAT = {
-    "principal": f"At the surface it holds the shear of the tire itself. {_STROKES}",
+    "principal": _STROKES,
     "in-plane": "It opens vertical cracks. Strokes lie along the extension; a crack opens across them. Paper white: "
     "nothing extends in the plane.",
 }

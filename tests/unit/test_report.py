@@ -1,0 +1,222 @@
+"""Reports of real small cases: one whole file that holds the numbers and nothing foreign."""
+
+from __future__ import annotations
+
+import json
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from treadload.case import Case
+from treadload.errors import InputError
+from treadload.plots.style import power_of_ten
+from treadload.report import report, write_report
+from treadload.study import Result, run_case
+
+CASE = """
+title = "{title}"
+spacing = "12 mm"
+[tire]
+profile = "315/80R22.5"
+inflation_pressure = "8.2 bar"
+material = {{ kind = "elastic", modulus = "3 MPa", poisson = 0.5 }}
+[[pavement.layers]]
+name = "asphalt concrete"
+material = {{ kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }}
+[rolling]
+normal_load = "32.5 kN"
+tractive_force = "{force} kN"
+friction = 0.7
+[response]
+depths = ["0 mm", "20 mm"]
+[damage]
+fatigue = {{ epsilon_6 = "120 microstrain", slope = -0.2 }}
+"""
+
+
+class _Page(HTMLParser):
+    """Tags, links and the text outside style sheets."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.links: list[str] = []
+        self.images = 0
+        self.text: list[str] = []
+        self._skip = 0
+        self.feed(html)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self._skip += tag == "style"
+        self.images += tag == "img"
+        self.links += [value for name, value in attrs if name in ("src", "href") and value]
+
+    def handle_endtag(self, tag):
+        self._skip -= tag == "style"
+
+    def handle_data(self, data):
+        if not self._skip:
+            self.text.append(data)
+
+    @property
+    def words(self) -> str:
+        return re.sub(r"[ \n]+", " ", " ".join(self.text))
+
+
+def _run(title: str, force: float) -> Result:
+    return run_case(Case.from_text(CASE.format(title=title, force=force)))
+
+
+@pytest.fixture(scope="module")
+def results() -> dict[str, Result]:
+    return {"free": _run("Free", 0.0), "driving": _run("Driving", 10.0)}
+
+
+@pytest.fixture(scope="module")
+def page(results, tmp_path_factory) -> _Page:
+    trees = {name: result.to_tree() for name, result in results.items()}
+    path = write_report(trees, tmp_path_factory.mktemp("report") / "report.html", title="Two ways of rolling")
+    return _Page(path.read_text(encoding="utf-8"))
+
+
+def test_report_holds_the_numbers_of_every_case(page, results):
+    for result in results.values():
+        data = result.contact.dataset
+        assert result.verdict is not None
+        verdict = result.verdict.dataset
+        for wanted in (
+            f"{float(data.normal_load) / 1e3:.2f}",
+            f"{result.contact.area * 1e6:,.0f}".replace(",", "\u202f"),
+            f"{float(data.pressure.max()) / 1e3:.0f}",
+            f"{100 * result.contact.slip_fraction:.1f}",
+            f"{verdict.attrs['largest_principal_strain'] * 1e6:.1f}",
+            f"{verdict.attrs['largest_in_plane_strain'] * 1e6:.1f}",
+            power_of_ten(float(verdict.worst_passes)),
+            result.verdict.orientation,
+        ):
+            assert wanted in page.words
+    for unit in ("kN", "kPa", "mm²", "microstrain", "MPa"):
+        assert unit in page.words
+
+
+def test_report_shows_inputs_statistics_citations_and_provenance(page, results):
+    for wanted in (
+        "Young's modulus",
+        "asphalt concrete",
+        "coefficient of friction",
+        "0.7",
+        "residual of the rolling contact",
+        "Kalker, J. J. (1990)",
+        "treadload",
+        "computed by",
+        "epsilon_6",
+    ):
+        assert wanted in page.words
+    assert "details" in page.tags
+    assert results["free"].case.to_toml().splitlines()[0] in page.words
+
+
+def test_report_needs_no_other_file(page):
+    assert page.images >= 20
+    assert "script" not in page.tags
+    assert "link" in page.tags
+    for link in page.links:
+        assert link.startswith(("data:", "#")), link
+
+
+def test_side_by_side_only_for_several(page, results, tmp_path):
+    assert "side by side" in page.words
+    path = write_report({"alone": results["free"].to_tree()}, tmp_path / "one.html")
+    one = _Page(path.read_text(encoding="utf-8"))
+    assert "side by side" not in one.words
+    assert "Free" in one.words
+
+
+def test_captions_say_which_strain_is_drawn(page):
+    assert "Drawn: the three-dimensional strain" in page.words
+    assert "Drawn: the strain in the horizontal plane" in page.words
+
+
+def test_text_of_the_user_is_escaped(results, tmp_path):
+    bad = '<script>alert("x")</script> & $\\frac'
+    tree = results["driving"].to_tree()
+    tree.attrs["case"] = 'title = "</pre><script>x</script>"\n[tire]\nscan = "<img src=http://x>"\n'
+    tree.attrs["citations"] = json.dumps([bad])
+    contact = tree["contact"].to_dataset()
+    contact.attrs["warnings"] = json.dumps([bad])
+    tree["contact"] = xr.DataTree(contact)
+    path = write_report({bad: tree, "other": results["free"].to_tree()}, tmp_path / "report.html", title=bad)
+    html = path.read_text(encoding="utf-8")
+    page = _Page(html)
+    assert "script" not in page.tags
+    assert "&lt;script&gt;alert(" in html
+    assert all(link.startswith(("data:", "#")) for link in page.links)
+    assert "Warning" in page.words
+
+
+def test_absent_groups_are_left_out(results, tmp_path):
+    tree = results["driving"].to_tree()
+    for kept in (["contact"], ["response"], ["damage"]):
+        part = xr.DataTree.from_dict({f"/{name}": tree[name].to_dataset() for name in kept})
+        page = _Page(write_report({"part": part}, tmp_path / "part.html").read_text(encoding="utf-8"))
+        assert page.images >= 2
+        if kept != ["damage"]:
+            assert "No verdict" in page.words
+
+
+def test_measured_footprint_with_pressure_only(results, tmp_path):
+    data = results["free"].contact.dataset[["pressure"]]
+    tree = xr.DataTree.from_dict({"/contact": data.assign_attrs(warnings="not json", stats="[1]")})
+    page = _Page(write_report({"sensor": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
+    assert "peak pressure" in page.words
+    assert "peak shear" not in page.words
+
+
+def test_verdict_without_sentence_is_composed(results, tmp_path):
+    damage = results["driving"].to_tree()["damage"].to_dataset()
+    del damage.attrs["sentence"]
+    tree = xr.DataTree.from_dict({"/damage": damage})
+    page = _Page(write_report({"case": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
+    assert f"the line allows {power_of_ten(float(damage.worst_passes))} passes" in page.words
+    damage["worst_strain"], damage["worst_passes"] = -1e-6, np.inf
+    tree = xr.DataTree.from_dict({"/damage": damage})
+    page = _Page(write_report({"case": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
+    assert "nothing extends here" in page.words
+
+
+def test_a_path_that_cannot_be_written_leaves_nothing(results, tmp_path):
+    tree = results["free"].to_tree()
+    with pytest.raises(InputError, match="cannot write"):
+        write_report({"free": tree}, tmp_path / "missing" / "report.html")
+    with pytest.raises(InputError, match="cannot write"):
+        write_report({"free": tree}, tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_failure_keeps_the_file_from_before(results, tmp_path, monkeypatch):
+    path = tmp_path / "report.html"
+    path.write_text("before")
+    monkeypatch.setattr("treadload.report.build.case_figures", lambda *a, **k: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        write_report({"free": results["free"].to_tree()}, path)
+    assert path.read_text() == "before"
+    assert [p.name for p in tmp_path.iterdir()] == ["report.html"]
+
+
+def test_reports_need_results(tmp_path):
+    with pytest.raises(InputError, match="at least one case"):
+        write_report({}, tmp_path / "r.html")
+    with pytest.raises(InputError, match="holds nothing"):
+        write_report({"empty": xr.DataTree()}, tmp_path / "r.html")
+
+
+def test_report_of_objects(results, tmp_path):
+    result = results["driving"]
+    path = report([result.contact, result.response, result.verdict], tmp_path / "r.html", title="By hand")
+    page = _Page(path.read_text(encoding="utf-8"))
+    assert "By hand" in page.words
+    assert "3 MPa" in page.words
