@@ -276,14 +276,18 @@ def _newton_step(
     rhs = pack(np.where(stick, rhs_stick, rhs_slip), force)
     size = rhs.size
     before = counts.products
-    solution, _ = gmres(
-        LinearOperator((size, size), matvec=matvec),
-        rhs,
-        M=LinearOperator((size, size), matvec=precondition),
-        rtol=_KRYLOV_TOLERANCE,
-        restart=_KRYLOV_MEMORY,
-        maxiter=1,
-    )
+    with np.errstate(divide="ignore", invalid="ignore"):
+        solution, _ = gmres(
+            LinearOperator((size, size), matvec=matvec),
+            rhs,
+            M=LinearOperator((size, size), matvec=precondition),
+            rtol=_KRYLOV_TOLERANCE,
+            restart=_KRYLOV_MEMORY,
+            maxiter=1,
+        )
+    if not np.isfinite(solution).all():
+        # Where every cell slides along the force no creepage changes it: gmres divides by zero. Splitting moves on.
+        solution = np.zeros(size)
     counts.krylov += counts.products - before
     step_xi = np.zeros(2)
     step_xi[list(forced)] = solution[2 * n_cells :] * problem.self_influence / problem.travel
