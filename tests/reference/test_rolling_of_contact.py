@@ -48,21 +48,71 @@ FORCES = [
     ((0.7, None), 50, (-0.00114765378623, 0.0), 944, 185.367052183),
 ]
 
-# Rubber (ν = 0.45) on asphalt, 12 mm cells. Given; then creepages x and y, forces x and y in N, moment in N m,
+# Rubber (ν = 0.45) on asphalt, 12 mm cells. Given; creepages x and y; forces x and y in N, moment in N m;
 # peak pressure and largest shear in kPa, cells in contact, cells in slip.
-KILO = 10e3
+DRIVE, TURN, STRAIGHT = {"tractive_force": 10e3}, {"lateral_force": 5e3}, {"creepage_y": 0.0}
 RUBBER = [
-    ({"tractive_force": KILO, "creepage_y": 0.0}, -0.0444511762764, 0.0, KILO, 0.0, 0.0, 516.86645939, 257.092961777, 712, 166),
-    ({"creepage_y": 0.0}, -0.00798529089052, 0.0, 0.0, 0.0, 0.0, 521.332597157, 41.0360298961, 708, 10),
-    ({"lateral_force": 5e3}, -0.00795167181155, -0.0253963861659, 0.0, 5e3, -252.029627879, 521.480959203, 195.345560768, 707, 82),
-    ({"tractive_force": KILO, "lateral_force": 5e3}, -0.0453690099645, -0.0272324641267, KILO, 5e3, -185.317367499, 516.700158987, 280.381964357, 715, 193),
-    ({"tractive_force": -KILO, "creepage_y": 0.0}, 0.0301577221978, 0.0, -KILO, 0.0, 0.0, 526.399978018, 292.963177916, 704, 186),
-    ({"creepage_x": -0.01, "creepage_y": 0.0}, -0.01, 0.0, 613.397331099, 0.0, 0.0, 521.122971812, 40.4242801743, 710, 18),
-    ({"creepage_x": -0.05, "creepage_y": 0.0}, -0.05, 0.0, 11295.3428776, 0.0, 0.0, 516.096098156, 279.766721261, 712, 192),
-    ({"creepage_x": -0.2, "creepage_y": 0.0}, -0.2, 0.0, 24406.2387121, 0.0, 0.0, 521.684251607, 365.178976125, 714, 714),
-    ({"creepage_x": 0.0, "creepage_y": -0.05}, 0.0, -0.05, -2080.08561008, 9161.0495384, -401.089061514, 522.596210882, 270.555477248, 708, 167),
-    ({"creepage_x": 0.0, "creepage_y": 0.0}, 0.0, 0.0, -2368.32710458, 0.0, 0.0, 522.248434888, 142.373287709, 704, 46),
-]  # fmt: skip
+    (
+        DRIVE | STRAIGHT,
+        (-0.0444511762764, 0.0),
+        (10e3, 0.0, 0.0),
+        (516.86645939, 257.092961777, 712, 166),
+    ),
+    (
+        STRAIGHT,
+        (-0.00798529089052, 0.0),
+        (0.0, 0.0, 0.0),
+        (521.332597157, 41.0360298961, 708, 10),
+    ),
+    (
+        TURN,
+        (-0.00795167181155, -0.0253963861659),
+        (0.0, 5e3, -252.029627879),
+        (521.480959203, 195.345560768, 707, 82),
+    ),
+    (
+        DRIVE | TURN,
+        (-0.0453690099645, -0.0272324641267),
+        (10e3, 5e3, -185.317367499),
+        (516.700158987, 280.381964357, 715, 193),
+    ),
+    (
+        {"tractive_force": -10e3} | STRAIGHT,
+        (0.0301577221978, 0.0),
+        (-10e3, 0.0, 0.0),
+        (526.399978018, 292.963177916, 704, 186),
+    ),
+    (
+        {"creepage_x": -0.01} | STRAIGHT,
+        (-0.01, 0.0),
+        (613.397331099, 0.0, 0.0),
+        (521.122971812, 40.4242801743, 710, 18),
+    ),
+    (
+        {"creepage_x": -0.05} | STRAIGHT,
+        (-0.05, 0.0),
+        (11295.3428776, 0.0, 0.0),
+        (516.096098156, 279.766721261, 712, 192),
+    ),
+    (
+        {"creepage_x": -0.2} | STRAIGHT,
+        (-0.2, 0.0),
+        (24406.2387121, 0.0, 0.0),
+        (521.684251607, 365.178976125, 714, 714),
+    ),
+    (
+        {"creepage_x": 0.0, "creepage_y": -0.05},
+        (0.0, -0.05),
+        (-2080.08561008, 9161.0495384, -401.089061514),
+        (522.596210882, 270.555477248, 708, 167),
+    ),
+    (
+        {"creepage_x": 0.0} | STRAIGHT,
+        (0.0, 0.0),
+        (-2368.32710458, 0.0, 0.0),
+        (522.248434888, 142.373287709, 704, 46),
+    ),
+]
 
 
 @cache
@@ -108,7 +158,7 @@ def test_moment_of_the_disc():
 
 @pytest.mark.parametrize("row", RUBBER, ids=lambda row: ", ".join(f"{k} = {v:g}" for k, v in row[0].items()))
 def test_unlike_bodies(row):
-    given, xi, eta, along, across, moment, peak, largest, contact, slip = row
+    given, (xi, eta), (along, across, moment), (peak, largest, contact, slip) = row
     data = rubber_on_asphalt(**given).dataset
     assert float(data.creepage_x) == pytest.approx(xi, rel=SAME_CELLS, abs=1e-9)
     assert float(data.creepage_y) == pytest.approx(eta, rel=SAME_CELLS, abs=1e-9)
@@ -127,12 +177,17 @@ def test_unlike_bodies(row):
 
 def test_approach_of_unlike_bodies():
     # Our map starts at its lowest cell, 6 mm from the middle both ways: 0.048 mm lower than the formula.
-    approach = float(rubber_on_asphalt(tractive_force=KILO, creepage_y=0.0).dataset.approach)
+    approach = float(rubber_on_asphalt(**DRIVE, **STRAIGHT).dataset.approach)
     assert (approach + 0.006**2 * (1 + 1 / 3)) * 1e3 == pytest.approx(37.7377761087, rel=1e-6)
 
 
 # μ, Q_x/μP in CONTACT, which rolls the other way: creepage, peak pressure in MPa (four digits are printed).
-BENTALL = [(0.05, 0.0, 4.294e-4, 103.6), (0.05, 0.75, 5.392e-4, None), (0.05, -0.75, 2.108e-4, None), (10.0, 0.0, 3.591e-4, 103.8)]  # fmt: skip
+BENTALL = [
+    (0.05, 0.0, 4.294e-4, 103.6),
+    (0.05, 0.75, 5.392e-4, None),
+    (0.05, -0.75, 2.108e-4, None),
+    (10.0, 0.0, 3.591e-4, 103.8),
+]
 
 
 @pytest.mark.parametrize(("friction", "fraction", "creepage", "peak"), BENTALL)
