@@ -62,9 +62,9 @@ def fit_axis(points: Array, normals: Array) -> Axis:
     points: (n, 3). normals: (n, 3) unit vectors of either sign. Returns the axis, in the unit of the points.
     Starts from the line that the normals meet (Pottmann's linear complex; their sign does not matter) and from
     the principal directions of the normals; refines the best by robust least squares on two tilts and two shifts.
-    On a ribbed tread of radius 0.54 m with vertices 2.5 to 5 mm apart the axis is within 0.005° and 0.01 mm for 0.3 mm
-    noise on the whole turn, 0.06° and 0.4 mm for 2 mm on 120°, 0.1° and 0.4 mm for 1 mm on 60°; with 2 mm on 60° it
-    may be wrong altogether.
+    On a ribbed tread of radius 0.54 m with vertices 2.5 to 5 mm apart the axis is within 0.005° and 0.01 mm for
+    0.3 mm noise on the whole turn, 0.06° and 0.4 mm for 2 mm on 120°, 0.1° and 0.4 mm for 1 mm on 60°; with 2 mm
+    on 60° it may be wrong altogether.
     """
     middle = points.mean(axis=0)
     size = float(np.linalg.norm(points - middle, axis=1).max())

@@ -23,11 +23,12 @@ class Caster:
         corner = vertices[faces]
         self._anchor = corner[:, 0]
         self._normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-        mesh = trimesh.Trimesh(vertices, faces, process=False, validate=False)
-        self._ray: Any = mesh.ray
+        self._ray: Any = trimesh.Trimesh(vertices, faces, process=False, validate=False).ray
 
     def distances(self, origins: Array, directions: Array) -> Array:
         """(n,) distance in m along unit directions (n, 3) from origins (n, 3) to the first hit; NaN for none."""
+        if len(self._anchor) == 0:
+            return np.full(len(origins), np.nan)
         try:
             face = np.asarray(self._ray.intersects_first(origins, directions), dtype=np.int64)
         except ModuleNotFoundError as error:  # trimesh's own caster needs rtree
