@@ -157,6 +157,17 @@ def test_the_start_does_not_change_the_answer():
     np.testing.assert_allclose(two.shear, one.shear, atol=1e-6)
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_start_that_slides_everywhere_along_the_force():
+    """No creepage changes the force there: Newton's step is singular, and splitting has to move on."""
+    given = replace(problem(totals=(6.0, None)), rigid=np.zeros((2, *SHAPE)))
+    start = np.stack([given.bound, 0 * given.bound])
+    found = coulomb.solve(given, start, np.array([-50.0, 0.0]), tolerance=1e-9)
+    assert found.converged
+    assert found.splitting > 0
+    np.testing.assert_allclose(found.shear, coulomb.solve(given, tolerance=1e-9).shear, atol=1e-6)
+
+
 def test_it_says_when_it_stops_short():
     found = coulomb.solve(problem(rigid=(0.5, 0.3)), tolerance=1e-12, max_iterations=1)
     assert not found.converged
