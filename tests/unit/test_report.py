@@ -130,6 +130,14 @@ def test_report_shows_inputs_statistics_citations_and_provenance(page, results):
     assert results["free"].case.to_toml().splitlines()[0] in page.words
 
 
+def test_report_tells_the_largest_strain_under_the_surface(page, results):
+    data = [results["driving"].slice_along.dataset, results["driving"].slice_across.dataset]
+    largest = max(float(d.principal_strain_1.max()) for d in data)
+    row = page.words.split("in the vertical sections", 1)[1][:60]
+    assert f"{largest * 1e6:.1f}" in row
+    assert "mm deep" in page.words
+
+
 def test_report_needs_no_other_file(page):
     assert page.images >= 20
     assert "script" not in page.tags

@@ -33,6 +33,8 @@ from treadload.plots.style import MUTED, headline, measure, sequential, styled, 
 _MOST_COLUMNS = 3
 # Width of a panel, inches.
 _PANEL = 4.3
+# Letters of a label in a line over a panel.
+_LETTERS = 38
 
 
 @styled
@@ -52,7 +54,7 @@ def compare_strain(
 
     def draw(ax: Axes, number: int) -> QuadMesh:
         mesh = draw_strain(ax, planes[number], strain, scale, responses[number])
-        headline(ax, labels[number], strain_in_numbers(planes[number], strain, Limits(0, scale.high)))
+        headline(ax, labels[number], strain_in_numbers(planes[number], strain, Limits(0, scale.high)), _LETTERS)
         return mesh
 
     label = f"largest extension {place_in_words(depth)}, {NAMES[strain]} (microstrain)"
@@ -79,7 +81,7 @@ def compare_pressure(contacts: Sequence[Source], labels: Sequence[str]) -> Figur
         row, column = peak_of(here)
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{measure(here[row, column])} kPa")
         travel_arrow(ax)
-        headline(ax, labels[number], pressure_in_numbers(cases[number]))
+        headline(ax, labels[number], pressure_in_numbers(cases[number]), _LETTERS)
         return mesh
 
     return _side_by_side(plans, draw, "contact pressure (kPa)", scale)

@@ -131,10 +131,10 @@ def figure_and_axes(ax: Axes | None, width: float, height: float) -> tuple[Figur
     return figure, figure.add_subplot()
 
 
-def headline(ax: Axes, title: str, details: str = "") -> None:
-    """A bold title with a quiet line of numbers under it, flush left."""
+def headline(ax: Axes, title: str, details: str = "", letters: int = _TITLE) -> None:
+    """A bold title, at most so many letters in a line, with a quiet line of numbers under it, flush left."""
     lines = details.count("\n") + 1 if details else 0
-    ax.set_title(textwrap.fill(plain(title), _TITLE), loc="left", pad=6 + 12.5 * lines)
+    ax.set_title(textwrap.fill(plain(title), letters), loc="left", pad=6 + 12.5 * lines)
     if details:
         ax.annotate(
             details, (0, 1), xytext=(0, 5), xycoords="axes fraction", textcoords="offset points",

@@ -128,6 +128,23 @@ class ReportCase:
             direction = angle_in_words(float(here["in_plane_angle_1"]))
         return Worst(value, place, direction)
 
+    def worst_in_sections(self) -> Worst | None:
+        """The largest three-dimensional strain of the vertical sections; None without them."""
+        found = None
+        for name in ("slice_along", "slice_across"):
+            data = self.group(name)
+            if data is None or "principal_strain_1" not in data:
+                continue
+            strain = data["principal_strain_1"]
+            where = {str(dim): int(index) for dim, index in strain.argmax(...).items()}
+            here = data.isel(where)
+            value = float(here["principal_strain_1"]) * MICRO
+            if found is None or value > found.strain:
+                x, y, depth = (float(here[key]) * MM for key in ("x", "y", "depth"))
+                place = f"x = {signed(x)} mm, y = {signed(y)} mm, {depth:.1f} mm deep"
+                found = Worst(value, place, direction_in_words(here["principal_direction_1"].to_numpy()))
+        return found
+
     @property
     def depth_in_words(self) -> str:
         """Where the strains of the tables are read."""

@@ -141,6 +141,16 @@ def _strain_rows(cases: list[ReportCase]) -> list[Row]:
             Row(f"{name}: where", "", tuple(MISSING if w is None else w.place for w in worst)),
             Row(f"{name}: direction", "", tuple(MISSING if w is None else w.direction for w in worst)),
         ]
+    deepest = [case.worst_in_sections() for case in cases]
+    # Below the edges of ribs the largest extension can lie under the surface, out of the verdict's sight.
+    rows += [
+        Row(
+            "in the vertical sections",
+            "microstrain",
+            tuple(MISSING if w is None else f"{w.strain:.1f}" for w in deepest),
+        ),
+        Row("in the vertical sections: where", "", tuple(MISSING if w is None else w.place for w in deepest)),
+    ]
     return rows
 
 
