@@ -181,7 +181,8 @@ def test_approach_of_unlike_bodies():
     assert (approach + 0.006**2 * (1 + 1 / 3)) * 1e3 == pytest.approx(37.7377761087, rel=1e-6)
 
 
-# μ, Q_x/μP in CONTACT, which rolls the other way: creepage, peak pressure in MPa (four digits are printed).
+# μ, Q_x/μP; creepage in CONTACT, which rolls the other way, so that force and creepage change sign; peak
+# pressure in MPa. Four digits are printed.
 BENTALL = [
     (0.05, 0.0, 4.294e-4, 103.6),
     (0.05, 0.75, 5.392e-4, None),
