@@ -14,12 +14,13 @@ def normal_product(influence: Influence) -> float:
 
 
 def rolling_product(influence: Influence) -> float:
-    """Seconds of one product with the slip operator of two components."""
+    """Seconds of one product with the compliance of two components."""
     shear = np.random.default_rng(0).random((2, *influence.shape))
-    padding, s = influence.padding, influence.rolling
+    padding = influence.padding
+    xx, yy, xy = influence.tangential(padding)
 
     def product():
-        q = padding.forward(shear)
-        return padding.inverse(np.stack([s[0, 0] * q[0] + s[0, 1] * q[1], s[1, 0] * q[0] + s[1, 1] * q[1]]))
+        x, y = padding.forward(shear)
+        return padding.inverse(np.stack([xx * x + xy * y, xy * x + yy * y]))
 
     return best_of(product, repeats=7)[0]

@@ -50,12 +50,12 @@ def natural_residual(bound, found, creepages, spin):
     ny, nx = bound.shape
     x, y = DX * (np.arange(nx) - (nx - 1) / 2), DX * (np.arange(ny) - (ny - 1) / 2)
     influence = Influence(bound.shape, DX, DX, BODIES)
-    total = np.asarray(creepages) + np.asarray(found.creepage)
-    elastic = influence.padding.inverse(
-        np.einsum("ij...,j...->i...", influence.rolling, influence.padding.forward(found.shear))
-    )
-    slip = elastic + DX * rigid_slip(x, y, DX, tuple(total), spin)
-    reach = found.shear - slip / influence.rolling_self_influence
+    total = np.asarray(creepages) + np.asarray(found.found)
+    padding = influence.rolling_padding
+    (xx, yy, xy), (q_x, q_y) = influence.tangential(padding), padding.forward(found.shear)
+    u = padding.inverse(np.array([xx * q_x + xy * q_y, xy * q_x + yy * q_y]))
+    slip = u[..., :-1] - u[..., 1:] + DX * rigid_slip(x, y, DX, tuple(total), spin)
+    reach = found.shear - slip / influence.self_influence(rolls=True)
     size = np.hypot(*reach)
     nearest = reach * np.divide(bound, size, out=np.ones_like(size), where=size > bound)
     return np.linalg.norm(found.shear - nearest) / np.linalg.norm(bound)

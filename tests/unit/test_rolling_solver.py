@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from treadload.contact import rolling as rolling_module
+from treadload.contact import tangential
 from treadload.contact.influence import Influence
 from treadload.contact.rolling import rigid_slip, solve_rolling
 from treadload.contact.shift import solve_shift
@@ -23,9 +23,9 @@ def test_forces_and_creepages_are_two_ways_to_ask_the_same(fractions, spin):
     forces = tuple(f * LIMIT for f in fractions)
     by_force = PATCH.roll(MU, spin=spin, forces=forces, tolerance=1e-9)
     np.testing.assert_allclose(PATCH.force(by_force.shear), forces, atol=1e-8 * LIMIT)
-    by_creepage = PATCH.roll(MU, by_force.creepage, spin, tolerance=1e-9)
+    by_creepage = PATCH.roll(MU, by_force.found, spin, tolerance=1e-9)
     np.testing.assert_allclose(by_creepage.shear, by_force.shear, atol=1e-6 * (MU * PATCH.normal.pressure).max())
-    assert by_creepage.creepage == (0.0, 0.0)
+    assert by_creepage.found == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("component", [0, 1])
@@ -34,16 +34,16 @@ def test_one_force_and_one_creepage(component):
     forces[component], creepages[1 - component] = 0.4 * LIMIT, -0.01
     mixed = PATCH.roll(MU, tuple(creepages), forces=tuple(forces), tolerance=1e-9)
     assert PATCH.force(mixed.shear)[component] == pytest.approx(0.4 * LIMIT, rel=1e-8)
-    assert mixed.creepage[1 - component] == 0.0
-    creepages[component] = mixed.creepage[component]
+    assert mixed.found[1 - component] == 0.0
+    creepages[component] = mixed.found[component]
     alone = PATCH.roll(MU, tuple(creepages), tolerance=1e-9)
     np.testing.assert_allclose(alone.shear, mixed.shear, atol=1e-6 * (MU * PATCH.normal.pressure).max())
 
 
 def test_a_driving_wheel_has_negative_creepage():
     found = PATCH.roll(MU, forces=(0.3 * LIMIT, 0.0))
-    assert found.creepage[0] < 0
-    assert abs(found.creepage[1]) < 1e-6 * abs(found.creepage[0])
+    assert found.found[0] < 0
+    assert abs(found.found[1]) < 1e-6 * abs(found.found[0])
 
 
 def test_stick_lies_next_to_the_leading_edge():
@@ -108,18 +108,18 @@ def test_unused_margin_does_not_matter():
     narrow = PATCH.roll(MU, forces=(0.4 * LIMIT, 0.0), tolerance=1e-9)
     inner = found.shear[:, 5:-5, 9:-9]
     np.testing.assert_allclose(inner, narrow.shear, atol=1e-5 * (MU * PATCH.normal.pressure).max())
-    assert found.creepage == pytest.approx(narrow.creepage, rel=1e-5)
+    assert found.found == pytest.approx(narrow.found, rel=1e-5)
 
 
 def test_rolling_falls_back_on_splitting(monkeypatch):
     """Where Newton's method does not settle, the slow way does."""
     wanted = PATCH.roll(MU, forces=(0.4 * LIMIT, 0.0))
-    real = rolling_module.coulomb.solve
+    real = tangential.coulomb_newton.solve
 
     def stalled(*args, **kwargs):
         return real(*args, **{**kwargs, "max_iterations": 0})
 
-    monkeypatch.setattr(rolling_module.coulomb, "solve", stalled)
+    monkeypatch.setattr(tangential.coulomb_newton, "solve", stalled)
     found = PATCH.roll(MU, forces=(0.4 * LIMIT, 0.0))
     assert found.newton == 0
     assert found.splitting > 0
@@ -139,7 +139,7 @@ def test_shift_by_force_and_by_distance(fractions):
     none = np.zeros((2, *bound.shape))
     by_force = solve_shift(PATCH.influence, bound, none, forces, tolerance=1e-9)
     np.testing.assert_allclose(PATCH.force(by_force.shear), forces, atol=1e-8 * LIMIT)
-    rigid = none + np.array(by_force.shift)[:, None, None]
+    rigid = none + np.array(by_force.found)[:, None, None]
     by_distance = solve_shift(PATCH.influence, bound, rigid, (None, None), tolerance=1e-9)
     np.testing.assert_allclose(by_distance.shear, by_force.shear, atol=1e-6 * bound.max())
     size, slip = np.hypot(*by_force.shear), by_force.slip

@@ -28,89 +28,84 @@ class Influence:
 
     @cached_property
     def padding(self) -> Padding:
-        """The padded space shared by all operators."""
+        """Padded space in which the field has the cells of the load."""
         return Padding.of(self.shape)
+
+    @cached_property
+    def rolling_padding(self) -> Padding:
+        """Padded space in which the field has one column more, ahead of the leading edge."""
+        return Padding.of(self.shape, (self.shape[0], self.shape[1] + 1))
 
     @cached_property
     def normal(self) -> Convolution:
         """Gap opening by pressure, m/Pa."""
-        quadrant = rectangle.normal_by_pressure(*self.shape, self.dx, self.dy, self.bodies)
+        quadrant = rectangle.normal_by_pressure(*self.padding.quadrant, self.dx, self.dy, self.bodies)
         return Convolution.of_kernel(self.padding, self.padding.wrap(quadrant), even=True)
 
-    @property
-    def self_influence(self) -> float:
-        """Gap opening of a cell by a unit pressure on itself, m/Pa."""
-        return float(rectangle.normal_by_pressure(1, 1, self.dx, self.dy, self.bodies)[0, 0])
+    def tangential(self, padding: Padding) -> Array:
+        """Real symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy."""
+        xx, yy, xy = rectangle.tangential_by_shear(*padding.quadrant, self.dx, self.dy, self.bodies)
+        wrapped = padding.wrap(xx), padding.wrap(yy), padding.wrap(xy, -1, -1)
+        return np.array([padding.spectrum(kernel).real for kernel in wrapped])
 
-    @cached_property
-    def tangential(self) -> ComplexArray:
-        """Spectrum (2, 2, my, mx // 2 + 1) of the displacement difference by shear, m/Pa."""
-        return self._tangential_spectrum(shift=0)
-
-    @cached_property
-    def rolling(self) -> ComplexArray:
-        """Spectrum (2, 2, my, mx // 2 + 1) of u(x) - u(x + dx) by shear, m/Pa."""
-        return self.tangential - self._tangential_spectrum(shift=1)
-
-    @property
-    def rolling_self_influence(self) -> float:
-        """u_x(x) - u_x(x + dx) of a cell by a unit shear on itself, m/Pa."""
+    def self_influence(self, *, rolls: bool) -> float:
+        """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
         xx = rectangle.tangential_by_shear(1, 2, self.dx, self.dy, self.bodies)[0]
-        return float(xx[0, 0] - xx[0, 1])
+        return float(xx[0, 0] - xx[0, 1]) if rolls else float(xx[0, 0])
 
     def gap_by_shear(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear (2, ny, nx) on body 1, Pa: zero for like bodies."""
         spectra = self.padding.forward(shear)
-        return self.padding.inverse(self._coupling[0] * spectra[0] + self._coupling[1] * spectra[1])
+        return self.padding.inverse((self._coupling(self.padding) * spectra).sum(0))
 
     def slip_by_pressure(self, pressure: Array) -> Array:
         """u(x) - u(x + dx) (2, ny, nx), m, by pressure (ny, nx), Pa: zero for like bodies."""
-        spectrum = self.padding.forward(pressure)
-        shifted = -(self._coupling - self._coupling_spectrum(shift=1))
-        return self.padding.inverse(shifted * spectrum)
+        padding = self.rolling_padding
+        u = padding.inverse(-self._coupling(padding) * padding.forward(pressure))
+        return u[..., :-1] - u[..., 1:]
 
     def displacement(self, pressure: Array, shear: Array) -> Array:
         """(u_x, u_y, u_n) (3, ny, nx), m, by pressure (ny, nx) and shear on body 1 (2, ny, nx), Pa."""
-        p, q = self.padding.forward(pressure), self.padding.forward(shear)
-        tangential = np.einsum("ij...,j...->i...", self.tangential, q) - self._coupling * p
-        normal = self.normal.spectrum * p + np.einsum("j...,j...->...", self._coupling, q)
-        return self.padding.inverse(np.concatenate([tangential, normal[None]]))
+        p, (x, y) = self.padding.forward(pressure), self.padding.forward(shear)
+        xx, yy, xy = self.tangential(self.padding)
+        k_x, k_y = self._coupling(self.padding)
+        spectra = [xx * x + xy * y - k_x * p, xy * x + yy * y - k_y * p, self.normal.spectrum * p + k_x * x + k_y * y]
+        return self.padding.inverse(np.array(spectra))
 
-    def _tangential_spectrum(self, shift: int) -> ComplexArray:
-        ny, nx = self.shape
-        xx, yy, xy = rectangle.tangential_by_shear(ny, nx + 1, self.dx, self.dy, self.bodies)
-        wrap = self.padding.wrap
-        s_xx = self.padding.spectrum(wrap(xx, shift=shift))
-        s_yy = self.padding.spectrum(wrap(yy, shift=shift))
-        s_xy = self.padding.spectrum(wrap(xy, -1, -1, shift=shift))
-        return np.array([[s_xx, s_xy], [s_xy, s_yy]])
-
-    @cached_property
-    def _coupling(self) -> ComplexArray:
-        return self._coupling_spectrum(shift=0)
-
-    def _coupling_spectrum(self, shift: int) -> ComplexArray:
-        ny, nx = self.shape
-        k_x, k_y = rectangle.coupling(ny, nx + 1, self.dx, self.dy, self.bodies)
-        wrap = self.padding.wrap
-        return np.array(
-            [
-                self.padding.spectrum(wrap(k_x, -1, 1, shift=shift)),
-                self.padding.spectrum(wrap(k_y, 1, -1, shift=shift)),
-            ]
-        )
+    def _coupling(self, padding: Padding) -> ComplexArray:
+        k_x, k_y = rectangle.coupling(*padding.quadrant, self.dx, self.dy, self.bodies)
+        return np.array([padding.spectrum(padding.wrap(k_x, -1, 1)), padding.spectrum(padding.wrap(k_y, 1, -1))])
 
 
 def stiffness_symbol(shape: tuple[int, int], dx: float, dy: float, contact_modulus: float) -> Array:
     """|k| E*/2 (ny, nx // 2 + 1) on the unpadded, periodic grid: the inverse of the normal compliance, Pa/m.
 
-    The k = 0 mode takes half the stiffness of the longest wave: the patch is finite.
     Source: Johnson (1985), Contact Mechanics, section 13.2 (sinusoidal pressure on a half-space).
     """
+    symbol: Array = 0.5 * contact_modulus * _wavenumbers(shape, dx, dy)[0]
+    return symbol
+
+
+def tangential_stiffness_symbols(shape: tuple[int, int], dx: float, dy: float, bodies: CombinedElasticity) -> Array:
+    """G|k|/2 (1 + ν/(1-ν) k kᵀ/k²) (3, ny, nx // 2 + 1), xx, yy, xy: the inverse tangential compliance, Pa/m.
+
+    On the unpadded, periodic grid. Source: Johnson (1985), Contact Mechanics, section 3 (Cerruti).
+    """
+    k, cosine, sine = _wavenumbers(shape, dx, dy)
+    stiffness = 0.5 * bodies.shear_modulus * k
+    ratio = bodies.poisson / (1 - bodies.poisson)
+    return np.array(
+        [stiffness * (1 + ratio * cosine**2), stiffness * (1 + ratio * sine**2), stiffness * ratio * cosine * sine]
+    )
+
+
+def _wavenumbers(shape: tuple[int, int], dx: float, dy: float) -> tuple[Array, Array, Array]:
+    """|k|, k_x/|k|, k_y/|k|; at k = 0 that of the finite patch: a uniform load on it is no rigid motion."""
     ny, nx = shape
     kx = 2 * np.pi * fft.rfftfreq(nx, dx)[None, :]
     ky = 2 * np.pi * fft.fftfreq(ny, dy)[:, None]
     k = np.hypot(kx, ky)
-    k[0, 0] = np.pi / max(nx * dx, ny * dy)
-    symbol: Array = 0.5 * contact_modulus * k
-    return symbol
+    short, long = sorted((nx * dx, ny * dy))
+    # A uniform load sinks a long strip by the logarithm of its slenderness.
+    k[0, 0] = np.pi / (short * (1 + np.log(long / short)))
+    return k, kx / k, ky / k

@@ -12,8 +12,9 @@ import numpy as np
 
 from treadload.contact.influence import Influence
 from treadload.contact.normal import NormalSolution, solve_normal
-from treadload.contact.rolling import RollingSolution, rigid_slip, solve_rolling
+from treadload.contact.rolling import rigid_slip, solve_rolling
 from treadload.contact.solution import Contact
+from treadload.contact.tangential import TangentialSolution
 from treadload.contact.wheel import Rolling
 from treadload.errors import ConvergenceError, GeometryError, InputError
 from treadload.grid import Grid
@@ -78,7 +79,7 @@ class _Pair:
     """Normal and tangential solutions that fit each other, and how many rounds it took."""
 
     normal: NormalSolution
-    tangential: RollingSolution
+    tangential: TangentialSolution
     rounds: int
     change: float
     normal_iterations: int
@@ -144,7 +145,7 @@ def _couple(
     rolling.check_friction_limit(load)
     rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
     coupled = influence.bodies.difference != 0
-    tangential: RollingSolution | None = None
+    tangential: TangentialSolution | None = None
     iterations, newton, krylov = normal.iterations, 0, 0
     change = 0.0
     for rounds in range(1, _MOST_OUTER + 1):
@@ -227,8 +228,8 @@ def _contact(
         "displacement_y": (plane, -displacement[1]),
         "displacement_z": (plane, displacement[2]),
         "approach": ((), normal.approach),
-        "creepage_x": ((), known[0] + tangential.creepage[0]),
-        "creepage_y": ((), known[1] + tangential.creepage[1]),
+        "creepage_x": ((), known[0] + tangential.found[0]),
+        "creepage_y": ((), known[1] + tangential.found[1]),
         "spin": ((), rolling.spin),
         "normal_load": ((), float(normal.pressure.sum()) * grid.cell_area),
         "tractive_force": ((), float(forces[0])),

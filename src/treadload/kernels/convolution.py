@@ -48,22 +48,23 @@ class Padding:
         x = _wrapped(self.load_shape[1], self.field_shape[1], mx)
         return x0 + dx * x[None, :], y0 + dy * y[:, None]
 
-    def wrap(self, quadrant: Array, parity_x: int = 1, parity_y: int = 1, shift: int = 0) -> Array:
-        """Kernel (my, mx) on the wrapped offsets from its values at offsets 0, 1, 2, … both ways.
+    @property
+    def quadrant(self) -> tuple[int, int]:
+        """Offsets 0, 1, 2, … both ways (ky, kx) of which `wrap` wants the kernel: as far as they differ."""
+        my, mx = self.shape
+        return my // 2 + 1, mx // 2 + 1
 
-        quadrant: at least (ny, nx + |shift|) of the larger of load and field. parity_x, parity_y: +1 for a
-        kernel even in that direction, -1 for odd. shift: cells added to every x offset.
+    def wrap(self, quadrant: Array, parity_x: int = 1, parity_y: int = 1) -> Array:
+        """Kernel (my, mx) on the wrapped offsets from its values (ky, kx) on `quadrant`.
+
+        parity_x, parity_y: +1 for a kernel even in that direction, -1 for odd. The wrapped kernel keeps its
+        parity, so that its spectrum is real when it is even in both directions or odd in both, and it has no
+        jump half way round, so that a positive kernel nearly keeps a positive spectrum.
         """
         (my, mx) = self.shape
-        iy = _wrapped(self.load_shape[0], self.field_shape[0], my)
-        ix = _wrapped(self.load_shape[1], self.field_shape[1], mx) + shift
-        kernel = np.zeros(self.shape)
-        rows, columns = ~np.isnan(iy), ~np.isnan(ix)
-        jy, jx = iy[rows].astype(int), ix[columns].astype(int)
-        sign_y = np.where(jy < 0, parity_y, 1)
-        sign_x = np.where(jx < 0, parity_x, 1)
-        values = quadrant[np.ix_(np.abs(jy), np.abs(jx))] * sign_y[:, None] * sign_x[None, :]
-        kernel[np.ix_(rows, columns)] = values
+        jy, sign_y = _mirrored(my, parity_y)
+        jx, sign_x = _mirrored(mx, parity_x)
+        kernel: Array = quadrant[np.ix_(jy, jx)] * sign_y[:, None] * sign_x[None, :]
         return kernel
 
     def spectrum(self, kernel: Array) -> ComplexArray:
@@ -118,3 +119,12 @@ def _wrapped(n_load: int, n_field: int, n_padded: int) -> Array:
     if n_load > 1:
         offsets[-(n_load - 1) :] = np.arange(-(n_load - 1), 0)
     return offsets
+
+
+def _mirrored(n_padded: int, parity: int) -> tuple[Array, Array]:
+    """Index into the quadrant and sign, for every wrapped offset."""
+    offset = np.arange(n_padded)
+    offset = np.where(2 * offset > n_padded, offset - n_padded, offset)
+    # Half way round, plus and minus meet: an odd kernel has no value there.
+    sign = np.where(offset < 0, parity, 1) * np.where((2 * offset == n_padded) & (parity < 0), 0, 1)
+    return np.abs(offset), sign

@@ -8,7 +8,8 @@ import numpy as np
 
 from treadload.contact.influence import Influence
 from treadload.contact.normal import NormalSolution, solve_normal
-from treadload.contact.rolling import RollingSolution, rigid_slip, solve_rolling
+from treadload.contact.rolling import rigid_slip, solve_rolling
+from treadload.contact.tangential import TangentialSolution
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.rectangle import CombinedElasticity
 
@@ -47,7 +48,7 @@ class Patch:
         spin: float = 0.0,
         forces: tuple[float | None, float | None] = (None, None),
         tolerance: float = 1e-6,
-    ) -> RollingSolution:
+    ) -> TangentialSolution:
         """Steady rolling on this patch; forces in N, None where the creepage counts."""
         rigid = rigid_slip(self.x, self.y, self.influence.dx, creepages, spin)
         return solve_rolling(self.influence, friction * self.normal.pressure, rigid, forces, tolerance=tolerance)
