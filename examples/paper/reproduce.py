@@ -44,7 +44,7 @@ def extensions(response: tl.Response) -> tuple[float, float]:
 
 
 def sensitivity() -> list[tuple[str, float, float, float, float]]:
-    """How the two strains move with depth, cell size, tire and groove edge: rows of microstrain, free and tractive."""
+    """How the two strains move with depth, cells, tire and groove edge: rows of microstrain, free and tractive."""
     rows = []
     variants = [
         ("as the paper, z = 0, 3 mm cells", {}, 0.0),
@@ -111,9 +111,10 @@ def main(folder: Path) -> dict[str, float]:
 
 WHY = """
 Why they differ. Under pressure alone the surface extends only in the grooves, by (1+ν)(1-2ν)/2 · p/E of the
-pressure around: about 26 microstrain whatever the tread. The paper's 35 comes out a millimetre below the surface, or
-with a tire of ν = 0.48, whose free rolling shears the road. Under traction the extension peaks behind rib edges in the
-slip zone, where it grows without end as cells shrink: a number there belongs to its cell size."""
+pressure around: about 26 microstrain whatever the tread. The paper's 35 comes out a millimetre below the surface (in
+the horizontal plane), or with a tire of ν between 0.47 and 0.48, whose free rolling shears the road. Under traction
+the extension peaks at rib edges in the slip zone, where it grows without end as cells shrink: a number there belongs
+to its cell size."""
 
 
 if __name__ == "__main__":
