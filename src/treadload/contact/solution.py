@@ -59,9 +59,9 @@ class Contact:
             f"contact area  {self.area * 1e6:.0f} mm², mean pressure {mean:.0f} kPa",
             f"peak pressure {float(d.pressure.max()) / 1e3:.0f} kPa",
             f"peak shear    {float(shear.max()) / 1e3:.0f} kPa",
-            f"forces        Qx = {float(d.tractive_force):.1f} N, Qy = {float(d.lateral_force):.1f} N, "
-            f"aligning moment {float(d.aligning_moment):.1f} N m",
-            f"creepage      x {float(d.creepage_x):.5f}, y {float(d.creepage_y):.5f}, spin {float(d.spin):g} rad/m",
+            f"forces        Qx = {float(d.tractive_force):z.1f} N, Qy = {float(d.lateral_force):z.1f} N, "
+            f"aligning moment {float(d.aligning_moment):z.1f} N m",
+            f"creepage      x {float(d.creepage_x):z.5f}, y {float(d.creepage_y):z.5f}, spin {float(d.spin):g} rad/m",
             f"slip zone     {100 * self.slip_fraction:.1f} % of the contact area",
         ]
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])

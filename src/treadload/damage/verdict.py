@@ -76,7 +76,7 @@ class Verdict:
         ]
         few = "fewer" if passes < 1e6 else "more"
         lines.append(
-            f"Verdict: at this point the line allows {passes:.2g} passes, {few} than a million; "
+            f"Verdict: the fatigue line allows {passes:.2g} passes at the worst point, {few} than a million; "
             f"{_article(self.orientation)} {self.orientation} crack is the first to expect."
         )
         return "\n".join(lines)

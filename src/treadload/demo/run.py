@@ -100,7 +100,7 @@ def comparison(results: list[Result]) -> list[tuple[str, ...]]:
     add("peak pressure", [f"{float(c.dataset.pressure.max()) / 1e3:.0f} kPa" for c in contacts])
     shear = [float((c.dataset.traction_x**2 + c.dataset.traction_y**2).max()) ** 0.5 for c in contacts]
     add("peak shear", [f"{value / 1e3:.1f} kPa" for value in shear])
-    add("creepage", [f"{float(c.dataset.creepage_x):.4f}" for c in contacts])
+    add("creepage", [f"{float(c.dataset.creepage_x):z.4f}" for c in contacts])
     add("slip zone", [f"{100 * c.slip_fraction:.1f} %" for c in contacts])
     verdicts = [result.verdict for result in results]
     if all(verdict is not None for verdict in verdicts):

@@ -192,7 +192,7 @@ def measure(value: float) -> str:
 
 def signed(value: float, digits: int = 1) -> str:
     """A number with a true minus sign."""
-    return f"{value + 0.0:.{digits}f}".replace("-", "\u2212")
+    return f"{value:z.{digits}f}".replace("-", "\u2212")
 
 
 def thousands(value: float) -> str:

@@ -286,7 +286,9 @@ def _decide_revolve(
     over = np.abs(over[np.isfinite(over)])
     steady = over.size > 0 and float(np.quantile(over, 0.95)) < max(1.5 * sag, LARGEST_SAG)
     if revolve is True:
-        return True, ["the tread is its meridian revolved: what changes round the tire is lost"]
+        return True, [] if steady else [
+            "the tread is not the same all round the tire: revolving it loses what changes"
+        ]
     if sag <= LARGEST_SAG:
         return False, []
     if revolve == "auto" and steady:
