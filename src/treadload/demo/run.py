@@ -77,10 +77,8 @@ def _figures(results: dict[str, Result], folder: Path) -> list[Path]:
     }
     for name, result in results.items():
         figures |= {
-            f"{name}_pressure": result.contact.plot.pressure(),
             f"{name}_shear": result.contact.plot.shear(),
             f"{name}_strain_directions": result.response.plot.strain_directions(),
-            f"{name}_slice_along": result.slice_along.plot.depth_slice(),
             f"{name}_slice_across": result.slice_across.plot.depth_slice(),
         }
     return [save(figure, folder / f"{name}.png") for name, figure in figures.items()]

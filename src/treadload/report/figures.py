@@ -130,7 +130,8 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
     if data is not None:
         plots = ResponsePlots(data)
         for depth in np.atleast_1d(data["depth"].to_numpy()).tolist():
-            for strain in _KINDS:
+            # Without the tire's shear on it the plane's strain adds little: below the surface one map is enough.
+            for strain in _KINDS if depth == 0 else _KINDS[:1]:
                 holds = _HOLDS if depth == 0 and strain == "principal" else ""
                 yield from _picture(
                     f"Largest extension strain {_deep(depth)}, {NAMES[strain]}",
