@@ -27,7 +27,7 @@ ORDER = (
     ("study",),
     ("validation",),
     ("plots",),
-    ("report",),
+    ("reporting",),
     ("demo", "app"),
     ("cli",),
     ("__main__",),
@@ -43,14 +43,14 @@ EXCEPTIONS = {
 
 # Third-party package: the only places that may import it.
 ONLY_IN = {
-    "matplotlib": ("plots", "report"),
+    "matplotlib": ("plots", "reporting"),
     "dask": ("study",),
     "trimesh": ("tire",),
     "embreex": ("tire",),
     "pint": ("units",),
     "typer": ("cli",),
     "rich": ("cli",),
-    "jinja2": ("report",),
+    "jinja2": ("reporting",),
     "nicegui": ("app",),
     "plotly": ("app",),
 }
@@ -163,3 +163,10 @@ def test_solving_a_contact_needs_no_figures_no_scan_and_no_units():
 
 def test_the_command_line_starts_without_numbers():
     assert not loaded_after("import treadload.cli") & {"matplotlib", "scipy", "xarray", "trimesh"}
+
+
+def test_no_public_name_hides_a_module():
+    """Importing a submodule sets it on the package: a public function of that name would vanish behind it."""
+
+    modules = {path.stem for path in ROOT.iterdir() if path.suffix == ".py" or path.is_dir()}
+    assert not modules & set(treadload.__all__)

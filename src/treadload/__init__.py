@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from treadload.grid import Grid
     from treadload.materials import Elastic
     from treadload.pavement import Layer, Pavement
-    from treadload.report import report
+    from treadload.reporting import report
     from treadload.response import Response, solve_response
     from treadload.results import load, save, to_tree
     from treadload.study import Result, run_case
@@ -48,7 +48,7 @@ _HOME = {
     "example_mesh": "tire",
     "load": "results",
     "modulus_from_inflation": "tire",
-    "report": "report",
+    "report": "reporting",
     "run_case": "study",
     "save": "results",
     "solve_contact": "contact",

@@ -101,7 +101,7 @@ def report(
     title: Annotated[str, typer.Option(help="Heading of the report.")] = "",
 ) -> None:
     """Write a self-contained HTML report with figures; several results stand side by side."""
-    from treadload.report import write_report
+    from treadload.reporting import write_report
     from treadload.results import load
 
     path = output or results[0].with_suffix(".html")

@@ -13,7 +13,7 @@ import xarray as xr
 from treadload.case import Case
 from treadload.errors import InputError
 from treadload.plots.style import power_of_ten
-from treadload.report import report, write_report
+from treadload.reporting import report, write_report
 from treadload.study import Result, run_case
 
 CASE = """
@@ -222,7 +222,7 @@ def test_a_path_that_cannot_be_written_leaves_nothing(results, tmp_path):
 def test_a_failure_keeps_the_file_from_before(results, tmp_path, monkeypatch):
     path = tmp_path / "report.html"
     path.write_text("before")
-    monkeypatch.setattr("treadload.report.build.case_figures", lambda *a, **k: 1 / 0)
+    monkeypatch.setattr("treadload.reporting.build.case_figures", lambda *a, **k: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report({"free": results["free"].to_tree()}, path)
     assert path.read_text() == "before"

@@ -12,7 +12,7 @@ from treadload.case import Case
 from treadload.errors import InputError
 from treadload.files import replacing
 from treadload.plots import compare_pressure, compare_strain, fatigue_line, save
-from treadload.report import write_report
+from treadload.reporting import write_report
 from treadload.results import save as save_tree
 from treadload.study import Result, run_case
 

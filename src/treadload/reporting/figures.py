@@ -22,7 +22,7 @@ from treadload.plots import (
     png,
 )
 from treadload.plots.response import NAMES, Strain
-from treadload.report.reading import ReportCase
+from treadload.reporting.reading import ReportCase
 
 _DPI = 140.0
 # Pixels of the page for an inch of a figure.

@@ -12,7 +12,7 @@ import xarray as xr
 
 from treadload.plots.plan import KPA, MICRO, Plan, plane
 from treadload.plots.style import measure, power_of_ten, signed, thousands
-from treadload.report.reading import ReportCase
+from treadload.reporting.reading import ReportCase
 
 MISSING = "–"
 

@@ -1,5 +1,5 @@
 """Self-contained HTML reports."""
 
-from treadload.report.build import report, write_report
+from treadload.reporting.build import report, write_report
 
 __all__ = ["report", "write_report"]

@@ -7,8 +7,8 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from treadload.report.reading import ReportCase
-from treadload.report.tables import MISSING, Row, Section
+from treadload.reporting.reading import ReportCase
+from treadload.reporting.tables import MISSING, Row, Section
 
 # Numbers of a case are SI; people read them so. Name of the key → (unit, factor).
 _UNITS = {

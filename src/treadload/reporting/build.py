@@ -15,10 +15,10 @@ import xarray as xr
 from treadload._version import __version__
 from treadload.errors import InputError
 from treadload.files import check_writable, replacing
-from treadload.report.figures import case_figures, comparison_figures
-from treadload.report.inputs import input_table
-from treadload.report.reading import ReportCase
-from treadload.report.tables import result_table, statistics_table
+from treadload.reporting.figures import case_figures, comparison_figures
+from treadload.reporting.inputs import input_table
+from treadload.reporting.reading import ReportCase
+from treadload.reporting.tables import result_table, statistics_table
 
 if TYPE_CHECKING:
     from treadload.contact import Contact
@@ -65,7 +65,7 @@ def _title(cases: list[ReportCase]) -> str:
 
 
 def _template() -> jinja2.Template:
-    text = resources.files("treadload.report").joinpath("template.html.j2").read_text(encoding="utf-8")
+    text = resources.files("treadload.reporting").joinpath("template.html.j2").read_text(encoding="utf-8")
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
