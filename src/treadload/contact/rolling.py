@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from treadload.contact.influence import Influence
-from treadload.contact.tangential import Forces, TangentialSolution, solve_tangential
+from treadload.contact.tangential import Axes, Forces, TangentialSolution, solve_tangential
 from treadload.kernels.arrays import Array
 
 # Where, between x and x + dx, the rigid slip of spin is taken; CONTACT uses the same sixth of a cell.
@@ -34,6 +34,7 @@ def solve_rolling(
     rigid: Array,
     forces: Forces,
     *,
+    axes: Axes = (1.0, 1.0),
     start: TangentialSolution | None = None,
     tolerance: float = 1e-6,
 ) -> TangentialSolution:
@@ -41,11 +42,14 @@ def solve_rolling(
 
     bound: μp (ny, nx) ≥ 0, Pa. rigid: known rigid slip (2, ny, nx), with that of dissimilar bodies.
     forces: of the road on the tire (Q_x, Q_y), N; None where the creepage is known (and in `rigid`).
+    axes: (d_x, d_y) of the friction ellipse, of product 1 (`contact.friction`).
     start: a solution near this one, on the same grid; left out, the solution on half the grid serves.
     Returns shear on the tire, slip velocity of the tire relative to the road over speed, the creepages found
     (zero where known), stick. Raises ConvergenceError with the residual reached.
     Method: Kalker (1990), by the solver of `kernels.coulomb`.
     """
     dx = influence.dx
-    solution = solve_tangential(influence, bound, rigid * dx, forces, rolls=True, start=start, tolerance=tolerance)
+    solution = solve_tangential(
+        influence, bound, rigid * dx, forces, rolls=True, axes=axes, start=start, tolerance=tolerance
+    )
     return replace(solution, slip=solution.slip / dx)

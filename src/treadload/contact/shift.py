@@ -7,7 +7,7 @@ acts on body 1, as in `contact.rolling`.
 from __future__ import annotations
 
 from treadload.contact.influence import Influence
-from treadload.contact.tangential import Forces, TangentialSolution, solve_tangential
+from treadload.contact.tangential import Axes, Forces, TangentialSolution, solve_tangential
 from treadload.kernels.arrays import Array
 
 
@@ -17,6 +17,7 @@ def solve_shift(
     rigid: Array,
     forces: Forces,
     *,
+    axes: Axes = (1.0, 1.0),
     start: TangentialSolution | None = None,
     tolerance: float = 1e-6,
 ) -> TangentialSolution:
@@ -24,9 +25,10 @@ def solve_shift(
 
     bound: μp (ny, nx) ≥ 0, Pa. rigid: known shift (2, ny, nx), m, positive when body 1 moves along the axis.
     forces: on body 1 (Q_x, Q_y), N; None where the shift is known (and in `rigid`).
+    axes: (d_x, d_y) of the friction ellipse, of product 1 (`contact.friction`).
     start: a solution near this one, on the same grid; left out, the solution on half the grid serves.
     Returns shear on body 1, slip, the shift found (m, zero where known), stick.
     Raises ConvergenceError with the residual reached.
     Method: Kalker (1990), section 1.6 (Cattaneo shift), by the solver of `kernels.coulomb`.
     """
-    return solve_tangential(influence, bound, rigid, forces, rolls=False, start=start, tolerance=tolerance)
+    return solve_tangential(influence, bound, rigid, forces, rolls=False, axes=axes, start=start, tolerance=tolerance)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import fft
 
 from treadload.contact.influence import Influence, tangential_stiffness_symbols
-from treadload.contact.levels import double, halve
+from treadload.contact.levels import halve, interpolate
 from treadload.errors import ConvergenceError
 from treadload.kernels import coulomb_newton, coulomb_splitting
 from treadload.kernels.arrays import Array, BoolArray
@@ -17,9 +17,10 @@ from treadload.kernels.coulomb_newton import CoulombSolution
 
 # Below this many cells a side a solve costs nothing and needs no start from a coarser one.
 _COARSEST = 24
-_START_TOLERANCE = 1e-3
+_START_TOLERANCE = 1e-2
 
 Forces = tuple[float | None, float | None]
+Axes = tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -51,12 +52,14 @@ def solve_tangential(
     forces: Forces,
     *,
     rolls: bool,
+    axes: Axes = (1.0, 1.0),
     start: TangentialSolution | None = None,
     tolerance: float = 1e-6,
 ) -> TangentialSolution:
     """Shear, slip and unknown rigid slips under a known friction bound.
 
-    bound: μp (ny, nx) ≥ 0, Pa. rigid: known rigid slip over one step (2, ny, nx), m.
+    bound: μp (ny, nx) ≥ 0, Pa. axes: (d_x, d_y) > 0 of the friction ellipse (q_x/d_x)² + (q_y/d_y)² ≤ bound²,
+    against whose normal the bodies slip; of product 1. rigid: known rigid slip over one step (2, ny, nx), m.
     forces: on body 1 (Q_x, Q_y), N; None where the rigid slip is known (and in `rigid`).
     rolls: a step takes particles one cell back, and they slip by w + u(x) - u(x + dx); else by w + u.
     start: a solution near this one, on the same grid; left out, the solution on half the grid serves.
@@ -69,15 +72,20 @@ def solve_tangential(
     rows, columns = box
     g, w = bound[rows, columns], rigid[:, rows, columns]
     small = replace(influence, shape=g.shape)
-    problem = _problem(small, g, w, forces, rolls)
     if start is not None:
-        first = start.shear[:, rows, columns], np.asarray(start.found)
+        q, xi = start.shear[:, rows, columns], np.asarray(start.found)
     elif min(g.shape) >= _COARSEST:
-        first = _start(small, g, w, forces, rolls)
+        q, xi = _start(small, g, w, forces, rolls, axes)
     else:
         # Without shear the cells stick, and the first step is that of full adhesion.
-        first = np.zeros_like(w), np.zeros(2)
-    solution = _solve(problem, first, tolerance)
+        q, xi = np.zeros_like(w), np.zeros(2)
+    # Stretched by the axes, the ellipse is a disc: q = D q', and S, w and Q become D S D, D w and D⁻¹ Q.
+    stretch = np.array(axes)[:, None, None]
+    problem = _problem(small, g, stretch * w, forces, rolls, axes)
+    solution = _solve(problem, (q / stretch, xi * axes), tolerance)
+    solution = replace(
+        solution, shear=stretch * solution.shear, slip=solution.slip / stretch, found=solution.found / np.array(axes)
+    )
     return _uncrop(solution, bound, box)
 
 
@@ -98,21 +106,30 @@ def _solve(problem: CoulombProblem, first: tuple[Array, Array], tolerance: float
     return solution
 
 
-def _problem(influence: Influence, bound: Array, rigid: Array, forces: Forces, rolls: bool) -> CoulombProblem:
+def _problem(
+    influence: Influence, bound: Array, rigid: Array, forces: Forces, rolls: bool, axes: Axes
+) -> CoulombProblem:
+    """The problem on the disc; rigid is stretched already, forces are those of the bodies."""
     cell = influence.dx * influence.dy
     padding = influence.rolling_padding if rolls else influence.padding
-    along, across = (None if force is None else force / cell for force in forces)
+    along, across = (None if force is None else force / (cell * d) for force, d in zip(forces, axes, strict=True))
     return CoulombProblem(
         padding=padding,
-        compliance=influence.tangential(padding),
+        compliance=influence.tangential(padding) * _stretches(axes),
         rolls=rolls,
         self_influence=influence.self_influence(rolls=rolls),
         bound=bound,
         rigid=rigid,
         travel=influence.dx if rolls else 1.0,
         totals=(along, across),
-        precondition=_Preconditioner(influence, rolls),
+        precondition=_Preconditioner(influence, rolls, axes),
     )
+
+
+def _stretches(axes: Axes) -> Array:
+    """Factors (3, 1, 1) that stretch the symbols xx, yy and xy of a compliance."""
+    d_x, d_y = axes
+    return np.array([d_x * d_x, d_y * d_y, d_x * d_y])[:, None, None]
 
 
 class _Preconditioner:
@@ -123,9 +140,9 @@ class _Preconditioner:
     the same, then a cumulative sum. Source: Vollebregt (2010).
     """
 
-    def __init__(self, influence: Influence, rolls: bool) -> None:
+    def __init__(self, influence: Influence, rolls: bool, axes: Axes) -> None:
         symbols = tangential_stiffness_symbols(influence.shape, influence.dx, influence.dy, influence.bodies)
-        self.symbols = symbols.astype(np.float32)
+        self.symbols = (symbols / _stretches(axes)).astype(np.float32)
         self.shape = influence.shape
         self.rolls = rolls
 
@@ -139,7 +156,9 @@ class _Preconditioner:
         return shear
 
 
-def _start(influence: Influence, bound: Array, rigid: Array, forces: Forces, rolls: bool) -> tuple[Array, Array]:
+def _start(
+    influence: Influence, bound: Array, rigid: Array, forces: Forces, rolls: bool, axes: Axes
+) -> tuple[Array, Array]:
     """Shear and rigid slips of the solution on half the grid."""
     coarse_bound = np.nan_to_num(halve(bound))
     # The border cells of an odd grid keep their share of the friction force, not their mean.
@@ -147,9 +166,18 @@ def _start(influence: Influence, bound: Array, rigid: Array, forces: Forces, rol
     coarse = replace(influence, shape=coarse_bound.shape, dx=2 * influence.dx, dy=2 * influence.dy)
     step = 2 if rolls else 1
     rough = solve_tangential(
-        coarse, coarse_bound, step * np.nan_to_num(halve(rigid)), forces, rolls=rolls, tolerance=_START_TOLERANCE
+        coarse,
+        coarse_bound,
+        step * np.nan_to_num(halve(rigid)),
+        forces,
+        rolls=rolls,
+        axes=axes,
+        tolerance=_START_TOLERANCE,
     )
-    return double(rough.shear, bound.shape), np.asarray(rough.found)
+    # The share of friction that is used varies smoothly; shear itself jumps at every edge.
+    known = coarse_bound > 0
+    share = rough.shear / np.where(known, coarse_bound, 1.0)
+    return interpolate(share, known, bound.shape) * bound, np.asarray(rough.found)
 
 
 def _bounding_box(mask: BoolArray) -> tuple[slice, slice] | None:
