@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray
 
 
 def halve(field: Array) -> Array:
@@ -21,3 +21,20 @@ def halve(field: Array) -> Array:
 def double(field: Array, shape: tuple[int, int]) -> Array:
     """Every cell repeated 2 x 2 and cut to (…, ny, nx)."""
     return field.repeat(2, axis=-2).repeat(2, axis=-1)[..., : shape[0], : shape[1]]
+
+
+def interpolate(field: Array, known: BoolArray, shape: tuple[int, int]) -> Array:
+    """Field (…, ny, nx) on cells of half the size, linear between the known cells (⌈ny/2⌉, ⌈nx/2⌉)."""
+    weight = known.astype(float)
+    total = _between(_between(field * weight, -1), -2)
+    share = _between(_between(weight, -1), -2)
+    return np.divide(total, share, out=np.zeros_like(total), where=share > 0)[..., : shape[0], : shape[1]]
+
+
+def _between(field: Array, axis: int) -> Array:
+    """Twice as many cells along an axis: three quarters of the cell around and one of the nearest other."""
+    cells = np.moveaxis(field, axis, -1)
+    before = np.concatenate([cells[..., :1], cells[..., :-1]], axis=-1)
+    after = np.concatenate([cells[..., 1:], cells[..., -1:]], axis=-1)
+    halves = np.stack([0.75 * cells + 0.25 * before, 0.75 * cells + 0.25 * after], axis=-1)
+    return np.moveaxis(halves.reshape(*cells.shape[:-1], -1), -1, axis)

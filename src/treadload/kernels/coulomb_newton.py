@@ -21,7 +21,9 @@ from treadload.kernels.coulomb_splitting import split
 _LINE_SEARCH = (1.0, 0.5, 0.25, 0.1, 0.02)
 _SPLITTING_BURST = 40
 _KRYLOV_MEMORY = 60
-_KRYLOV_TOLERANCE = 1e-2
+# Two digits a step near the solution, where Newton's method converges; one while cells still change sides.
+_KRYLOV_TOLERANCES = (1e-2, 1e-1)
+_FAR, _POOR_STEP = 1e-4, 0.05
 # Forces are held this much tighter than the cells' conditions.
 _FORCE_WEIGHT = 100.0
 
@@ -122,6 +124,7 @@ class _Newton:
     krylov: int = 0
     splitting: int = 0
     products: int = 0
+    last_residual: float = float("inf")
     single: CoulombProblem = field(init=False)
     contact: BoolArray = field(init=False)
     n_cells: int = field(init=False)
@@ -190,8 +193,10 @@ class _Newton:
         n·dq = -n·F and (1 - m) t·dq + m r t·(S dq + e dξ) = -t·F. Force rows: Σ dq_c = Q_c - Σ q_c.
         Unknowns: dq and, scaled like it, r e dξ.
         """
+        poor = state.merit > _FAR and state.residual > _POOR_STEP * self.last_residual
+        self.last_residual = state.residual
         rows = _Rows(self, state)
-        rhs, radial = rows.right_hand_side(state)
+        rhs = rows.right_hand_side(state)
         shape = (rhs.size, rhs.size)
         before = self.products
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -199,7 +204,7 @@ class _Newton:
                 LinearOperator(shape, matvec=rows.matvec, dtype=np.float32),
                 rhs,
                 M=LinearOperator(shape, matvec=rows.precondition, dtype=np.float32),
-                rtol=_KRYLOV_TOLERANCE,
+                rtol=_KRYLOV_TOLERANCES[poor],
                 restart=_KRYLOV_MEMORY,
                 maxiter=1,
             )
@@ -209,8 +214,8 @@ class _Newton:
         self.krylov += self.products - before
         forced = self.problem.forced
         xi = np.zeros(2)
-        xi[forced] = solution[radial.size :] * self.problem.self_influence / self.problem.travel
-        return solution[: radial.size].reshape(radial.shape).astype(float) + radial, xi
+        xi[forced] = solution[state.q.size :] * self.problem.self_influence / self.problem.travel
+        return solution[: state.q.size].reshape(state.q.shape).astype(float), xi
 
 
 class _Rows:
@@ -227,6 +232,8 @@ class _Rows:
         self.normal = np.where(state.stick, 0.0, state.reach * (state.shrink / bound)).astype(np.float32)
         self.across = np.stack([-self.normal[1], self.normal[0]])
         self.m = state.shrink.astype(np.float32)
+        # Across the shear, a slip cell is a mixture of 1 - m of its own row and m of a stick cell's.
+        self.weight = np.where(state.stick, 1, self.m * newton.contact).astype(np.float32)
         self.r = np.float32(1 / newton.problem.self_influence)
         # What a unit of every unknown rigid slip does to the shear, through the preconditioner.
         units = np.eye(len(self.forced), dtype=np.float32)
@@ -250,14 +257,10 @@ class _Rows:
             dq -= unknown * column
         return self._pack(dq, xi)
 
-    def right_hand_side(self, state: _State) -> tuple[Array, Array]:
-        """Right side (2 ny nx + forces,), and the radial part (2, ny, nx) of the step that is known beforehand."""
-        error = np.where(self.stick, 0.0, state.error)
-        radial = -self.normal * (self.normal * error).sum(0)
-        coupled = self._product(radial.astype(np.float32)) if radial.any() else np.zeros_like(self.normal)
-        slip_rows = self.across * (-(self.across * error).sum(0) - self.m * (self.across * coupled).sum(0))
-        force = state.imbalance[self.forced] / self.newton.n_cells - self._mean(radial)
-        return self._pack(np.where(self.stick, -self.r * state.slip - coupled, slip_rows), force), radial
+    def right_hand_side(self, state: _State) -> Array:
+        """Right side (2 ny nx + forces,)."""
+        fields = np.where(self.stick, -self.r * state.slip, -state.error)
+        return self._pack(fields, state.imbalance[self.forced] / self.newton.n_cells)
 
     def _rows(self, dq: Array, slip: Array) -> Array:
         along_t: Array = self.m * (self.across * (slip - dq)).sum(0) + (self.across * dq).sum(0)
@@ -271,9 +274,12 @@ class _Rows:
         return self.r * self.newton.single.apply(dq)
 
     def _inverse(self, rows: Array) -> Array:
-        inverse: Array = self.newton.single.precondition(np.where(self.stick, rows, np.float32(0)), self.stick)
+        """Approximate solution of the rows of the cells: the preconditioner where they stick, or nearly do."""
+        mixed = self.across * ((self.across * rows).sum(0) * self.weight)
+        inverse: Array = self.newton.single.precondition(np.where(self.stick, rows, mixed), self.newton.contact)
         inverse /= self.r
-        np.copyto(inverse, rows, where=~self.stick)
+        sliding = rows - mixed + self.across * ((self.across * inverse).sum(0) * self.weight)
+        np.copyto(inverse, sliding, where=~self.stick)
         return inverse
 
     def _mean(self, fields: Array) -> Array:
