@@ -41,6 +41,22 @@ _CONTACT = {
     "friction": ("1", "coefficient of friction"),
 }
 
+_HISTORY = {
+    "step": ("1", "number of the step, 0 before the first"),
+    "distance": ("m", "distance rolled since the start"),
+    "turn_angle": ("rad", "angle that the wheel has turned about z, positive to the right"),
+    "shift_x": ("m", "rigid displacement of the tire along the road over the step, along travel"),
+    "shift_y": ("m", "rigid displacement of the tire along the road over the step, to the right"),
+    "slip_distance_x": ("m", "slip of the tire relative to the road over the step, along travel"),
+    "slip_distance_y": ("m", "slip of the tire relative to the road over the step, to the right"),
+    "slip_fraction": ("1", "share of the contact area that slips"),
+    "frictional_work": ("J", "work of friction over the step"),
+    "steering_torque": ("N m", "torque about z that turns the wheel against friction"),
+    "sliding_torque": ("N m", "torque about z at which the whole contact slides"),
+    "pole_x": ("m", "point along travel about which the step turned the tire"),
+    "pole_y": ("m", "point to the right of travel about which the step turned the tire"),
+}
+
 _TENSOR = ("xx", "yy", "zz", "xy", "xz", "yz")
 
 _RESPONSE = {
@@ -72,7 +88,7 @@ _DAMAGE = {
     "worst_crack_dip": ("rad", "crack_dip at the largest extension"),
 }
 
-VARIABLES: Mapping[str, tuple[str, str]] = {**_COORDINATES, **_CONTACT, **_RESPONSE, **_DAMAGE}
+VARIABLES: Mapping[str, tuple[str, str]] = {**_COORDINATES, **_CONTACT, **_HISTORY, **_RESPONSE, **_DAMAGE}
 
 
 def attributes(name: str) -> dict[str, str]:

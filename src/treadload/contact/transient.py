@@ -1,0 +1,208 @@
+"""A tire that starts to roll, brakes, steers in: tire and road over a travelled distance.
+
+The wheel first stands under its load without a force along the road. Then it rolls step by step, and every
+particle of the tread remembers where it stuck. Steady rolling is the end of the story, two to three lengths of
+the contact later.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload.contact.influence import Influence
+from treadload.contact.marching import Stage, State, march
+from treadload.contact.rolling import rigid_slip
+from treadload.contact.snapshot import Scene, contact_of, scalars_of
+from treadload.contact.solution import Contact
+from treadload.contact.solve import Progress, _check_border, _place, combine
+from treadload.contact.wheel import Rolling
+from treadload.errors import InputError
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.tire import Tire
+from treadload.variables import dataset
+
+
+@dataclass(frozen=True, eq=False)
+class TransientResult:
+    """What happened over the distance, with the question that was asked.
+
+    dataset: over (step,), step 0 being the standing wheel; fields over (step, y, x) when they were asked for.
+    contact: the fields at the end. rolling: the state of every step. stats: iterations, seconds.
+    """
+
+    dataset: xr.Dataset
+    contact: Contact
+    rolling: tuple[Rolling, ...]
+    stats: Mapping[str, Any] = field(default_factory=dict)
+
+    def summary(self) -> str:
+        """A screenful: how far, what forces and creepages, how much slips at the end."""
+        d = self.dataset.isel(step=-1)
+        rows = self.dataset.isel(step=np.unique(np.linspace(0, self.dataset.sizes["step"] - 1, 8).astype(int)))
+        table = [
+            f"{float(r.distance) * 1e3:8.1f}  {float(r.tractive_force) / 1e3:7.3f}  {float(r.lateral_force) / 1e3:7.3f}"
+            f"  {float(r.creepage_x):9.5f}  {float(r.creepage_y):9.5f}  {100 * float(r.slip_fraction):5.1f}"
+            for r in (rows.isel(step=i) for i in range(rows.sizes["step"]))
+        ]
+        return "\n".join(
+            [
+                f"transient     {self.rolling[-1]}",
+                f"distance      {float(d.distance) * 1e3:.1f} mm in {self.dataset.sizes['step'] - 1} steps",
+                f"work          {float(self.dataset.frictional_work.sum()):.3f} J lost in friction",
+                "  travel  Qx (kN)  Qy (kN)  creep x    creep y    slip %",
+                *table,
+            ]
+        )
+
+    def __repr__(self) -> str:
+        far = float(self.dataset.distance[-1]) * 1e3
+        return f"<TransientResult {self.rolling[-1]}: {far:.1f} mm in {self.dataset.sizes['step'] - 1} steps>"
+
+
+def solve_transient(
+    tire: Tire,
+    road: Pavement,
+    rolling: Rolling | Sequence[Rolling],
+    *,
+    distances: Sequence[float] | Array,
+    spacing: float | None = None,
+    fields: bool = False,
+    tolerance: float = 1e-6,
+    progress: Progress | None = None,
+) -> TransientResult:
+    """Rolling from rest: pressure, shear, stick and slip of a tire step by step along its way.
+
+    tire, road, spacing, progress: as in `solve_contact`. rolling: one state for the whole way, or one for every
+    step; the wheel stands under the load of the first before. distances: rolled since the start at the end of
+    every step, m, ascending from zero; steps may be smaller or larger than a cell. A step of no distance shifts
+    the wheel where it stands, by forces; a creepage does nothing there.
+    fields: keep pressure, tractions and state of every step. tolerance: as in `solve_contact`, for every step.
+    Returns forces, creepages, share of slip and work of friction over the distance, and the contact at the end.
+    Raises InputError for distances that run backwards or forces beyond friction, GeometryError if the contact
+    is larger than the surface, ConvergenceError with the residual reached.
+    Method: Kalker (1990), section 4.2: step by step, with the influence coefficients at the travelled distance.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda text: None)
+    ends = _checked_distances(distances)
+    states = _one_for_each(rolling, ends.size)
+    tell("locating the contact")
+    scene = set_scene(tire, road, states, spacing)
+    stages = [standing(states[0])]
+    for state, travel in zip(states, np.diff(ends, prepend=0.0), strict=True):
+        slip = rigid_slip(scene.grid.x, scene.grid.y, float(travel), state.creepages, state.spin)
+        stages.append(_stage(state, slip * travel, float(travel)))
+    rows: list[dict[str, Any]] = []
+    newton = products = 0
+    for number, state in enumerate(run(scene, stages, tolerance)):
+        tell(f"step {number} of {ends.size}")
+        given = states[max(0, number - 1)]
+        rows.append(_row(scene, state, given, float(ends[number - 1]) if number else 0.0, fields))
+        newton, products = newton + state.tangential.newton, products + state.tangential.products
+    stats = {
+        "steps": int(ends.size),
+        "newton_iterations": newton,
+        "products": products,
+        "dundurs": scene.influence.bodies.dundurs,
+        "cells": scene.grid.nx * scene.grid.ny,
+        "seconds": time.perf_counter() - began,
+    }
+    creepages = rows[-1]["creepage_x"], rows[-1]["creepage_y"]
+    contact = contact_of(scene, state, states[-1], creepages, stats)
+    return TransientResult(_dataset(scene.grid, rows), contact, states, stats)
+
+
+def set_scene(tire: Tire, road: Pavement, rolling: Sequence[Rolling], spacing: float | None) -> Scene:
+    """Grid that holds the contact of every one of these states, the gap on it, and the two bodies."""
+    bodies = combine(tire.elastic, road.surface_material)
+    loads = [state.normal_load for state in rolling]
+    if None in loads and any(load is not None for load in loads):
+        raise InputError("the steps give normal_load here and approach there; give one of them throughout")
+    heaviest = max(rolling, key=lambda state: state.normal_load or state.approach or 0.0)
+    grid, gap = _place(tire, heaviest, bodies, spacing)
+    return Scene(tire, road, grid, gap, Influence(grid.shape, grid.dx, grid.dy, bodies))
+
+
+def standing(rolling: Rolling) -> Stage:
+    """The step that puts the wheel down, with no force along the road."""
+    return Stage(
+        np.zeros((2, 1, 1)), (0.0, 0.0), rolling.friction, load=rolling.normal_load, approach=rolling.approach
+    )
+
+
+def run(scene: Scene, stages: Sequence[Stage], tolerance: float) -> Iterator[State]:
+    """March on the scene's grid; refuses a contact that the grid cuts off."""
+    for state in march(scene.influence, stages, gap=scene.gap, tolerance=tolerance):
+        _check_border(state.pressure, scene.grid)
+        if not state.pressure.any():
+            raise InputError("the approach does not bring tire and road into contact; raise it")
+        yield state
+
+
+def _stage(rolling: Rolling, rigid: Array, travel: float) -> Stage:
+    if rolling.normal_load is not None:
+        rolling.check_friction_limit(rolling.normal_load)
+    return Stage(rigid, rolling.forces, rolling.friction, travel, load=rolling.normal_load, approach=rolling.approach)
+
+
+def _row(scene: Scene, state: State, given: Rolling, distance: float, fields: bool) -> dict[str, Any]:
+    travel = state.stage.travel
+    rigid = state.stage.rigid.mean((1, 2)) + np.array(state.displaced)
+    found = np.array(state.displaced) / travel if travel > 0 else np.full(2, np.nan)
+    known = np.array(given.creepages)
+    creepages = np.where([force is None for force in state.stage.forces], known, found) if travel > 0 else found
+    row: dict[str, Any] = {
+        "distance": distance,
+        "creepage_x": float(creepages[0]),
+        "creepage_y": float(creepages[1]),
+        "spin": given.spin if travel > 0 else np.nan,
+        "shift_x": float(rigid[0]),
+        "shift_y": float(rigid[1]),
+        **scalars_of(scene, state),
+    }
+    if fields:
+        touching = np.where(state.tangential.stick, 1, 2)
+        row["pressure"] = state.pressure
+        row["traction_x"], row["traction_y"] = 0.0 - state.tangential.shear
+        row["state"] = np.where(state.pressure > 0, touching, 0).astype(np.int8)
+    return row
+
+
+def _dataset(grid: Grid, rows: Sequence[dict[str, Any]]) -> xr.Dataset:
+    names = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    dims = {1: ("step",), 3: ("step", "y", "x")}
+    variables = {name: (dims[values.ndim], values) for name, values in names.items()}
+    coordinates: dict[str, Any] = {"step": np.arange(len(rows))}
+    if any(values.ndim == 3 for values in names.values()):
+        coordinates |= {"x": grid.x, "y": grid.y}
+    return dataset(variables, coordinates, dx=grid.dx, dy=grid.dy).set_coords("distance")
+
+
+def _checked_distances(distances: Sequence[float] | Array) -> Array:
+    ends = np.atleast_1d(np.asarray(distances, dtype=float))
+    if ends.ndim != 1 or ends.size == 0 or not np.isfinite(ends).all():
+        raise InputError("distances must be a list of finite numbers in m, at least one")
+    steps = np.diff(ends, prepend=0.0)
+    if (steps < 0).any():
+        where = int(np.argmax(steps < 0))
+        raise InputError(
+            f"distances must ascend from zero, got {ends[where]:g} m after {ends[where - 1] if where else 0:g} m; "
+            "to roll backwards turn the tire round"
+        )
+    return ends
+
+
+def _one_for_each(rolling: Rolling | Sequence[Rolling], number: int) -> tuple[Rolling, ...]:
+    if isinstance(rolling, Rolling):
+        return (rolling,) * number
+    if len(rolling) != number:
+        raise InputError(f"give one Rolling, or one for each of the {number} distances; got {len(rolling)}")
+    return tuple(rolling)
