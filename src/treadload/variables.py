@@ -38,7 +38,13 @@ _CONTACT = {
     "tractive_force": ("N", "force of the road on the tire along travel, positive when driving"),
     "lateral_force": ("N", "force of the road on the tire to the right"),
     "aligning_moment": ("N m", "moment of the road on the tire about z through the origin of the grid"),
-    "friction": ("1", "coefficient of friction"),
+    "friction": ("1", "coefficient of friction; where it varies, the mean weighted by pressure"),
+    "friction_coefficient": ("1", "local coefficient of friction, zero outside the contact"),
+    "friction_work": ("Pa", "work lost by sliding per area of the patch and length travelled, J/m² per m"),
+    "friction_work_total": ("N", "work lost by sliding per length travelled, J/m"),
+    "friction_power": ("W/m^2", "power lost by sliding per area of the patch"),
+    "friction_power_total": ("W", "power lost by sliding"),
+    "flash_temperature": ("K", "rise of the interface's temperature by sliding above that of the bodies"),
 }
 
 _HISTORY = {

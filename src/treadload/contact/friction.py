@@ -280,6 +280,20 @@ def law_of(friction: float | FrictionLaw) -> FrictionLaw:
     return Coulomb(float(friction))
 
 
+def largest_force(
+    axes: tuple[float, float], forces: tuple[float | None, float | None], total: float
+) -> tuple[float, float]:
+    """Size of a prescribed force and of the largest in its direction, N.
+
+    axes: of the law. forces: along x and y, N; None counts as zero. total: Σ of the bound, N.
+    """
+    pull = [force or 0.0 for force in forces]
+    demand = math.hypot(*pull)
+    # Stretched by its axes, the ellipse is a disc: on it the direction counts.
+    stretched = math.hypot(*(force / d for force, d in zip(pull, axes, strict=True)))
+    return demand, total if demand == 0 else total * demand / stretched
+
+
 def check_coefficient(name: str, value: float) -> None:
     """Refuse what is no finite number >= 0."""
     if not math.isfinite(value):

@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from treadload.contact.friction import Coulomb, Interface
 from treadload.contact.influence import Influence
 from treadload.contact.normal import NormalSolution, solve_normal
-from treadload.contact.rolling import rigid_slip, solve_rolling
+from treadload.contact.rolling import rigid_slip
+from treadload.contact.slipping import SlippingSolution, solve_slipping
 from treadload.contact.solution import Contact
-from treadload.contact.tangential import TangentialSolution
 from treadload.contact.wheel import Rolling
 from treadload.errors import ConvergenceError, GeometryError, InputError
 from treadload.grid import Grid
@@ -79,7 +80,7 @@ class _Pair:
     """Normal and tangential solutions that fit each other, and how many rounds it took."""
 
     normal: NormalSolution
-    tangential: TangentialSolution
+    slipping: SlippingSolution
     rounds: int
     change: float
     normal_iterations: int
@@ -142,24 +143,28 @@ def _couple(
         raise InputError(
             f"an approach of {(rolling.approach or 0) * 1e3:g} mm does not bring tire and road into contact; raise it"
         )
-    rolling.check_friction_limit(load)
+    nothing = np.zeros((2, *grid.shape))
+    at_rest = Interface(normal.pressure, nothing, grid.x, grid.y, grid.dx, rolling.speed)
+    rolling.check_friction_limit(load, float(rolling.law.bound(at_rest).sum()) * grid.cell_area)
     rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
     coupled = influence.bodies.difference != 0
-    tangential: TangentialSolution | None = None
+    slipping: SlippingSolution | None = None
     iterations, newton, krylov = normal.iterations, 0, 0
     change = 0.0
     for rounds in range(1, _MOST_OUTER + 1):
         tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
         known = rigid + influence.slip_by_pressure(normal.pressure) / grid.dx if coupled else rigid
-        bound = rolling.friction * normal.pressure
-        tangential = solve_rolling(influence, bound, known, rolling.forces, start=tangential, tolerance=tolerance)
-        newton, krylov = newton + tangential.newton, krylov + tangential.krylov
-        if not coupled or not tangential.shear.any() or (rounds > 1 and change <= tolerance):
-            return _Pair(normal, tangential, rounds, change, iterations, newton, krylov)
+        last = None if slipping is None else slipping.tangential
+        at = replace(at_rest, pressure=normal.pressure, slip=nothing if last is None else last.slip)
+        slipping = solve_slipping(influence, rolling.law, at, known, rolling.forces, start=last, tolerance=tolerance)
+        shear = slipping.tangential.shear
+        newton, krylov = newton + slipping.newton, krylov + slipping.krylov
+        if not coupled or not shear.any() or (rounds > 1 and change <= tolerance):
+            return _Pair(normal, slipping, rounds, change, iterations, newton, krylov)
         before = normal.pressure
         normal = solve_normal(
             influence,
-            gap + influence.gap_by_shear(tangential.shear),
+            gap + influence.gap_by_shear(shear),
             load=rolling.normal_load,
             approach=rolling.approach,
             start=before,
@@ -202,7 +207,7 @@ def _contact(
     pair: _Pair,
     seconds: float,
 ) -> Contact:
-    normal, tangential = pair.normal, pair.tangential
+    normal, slipping, tangential = pair.normal, pair.slipping, pair.slipping.tangential
     # Shear acts on the tire inside the solver; results tell what the road feels.
     traction = 0.0 - tangential.shear
     state = np.where(normal.pressure > 0, np.where(tangential.stick, 1, 2), 0).astype(np.int8)
@@ -213,6 +218,11 @@ def _contact(
     known = rolling.creepages
     forces = tangential.shear.sum((1, 2)) * grid.cell_area
     moment = (grid.x[None, :] * tangential.shear[1] - grid.y[:, None] * tangential.shear[0]).sum() * grid.cell_area
+    # The law opposes slip to shear, so that work is lost in every cell; below zero lies round-off only.
+    work = np.maximum(-(tangential.shear * tangential.slip).sum(0), 0.0)
+    lost = float(work.sum()) * grid.cell_area
+    # The coefficient that would carry as much on the whole patch; Coulomb's is its own mean.
+    mean = rolling.law.number if isinstance(rolling.law, Coulomb) else slipping.bound.sum() / normal.pressure.sum()
     plane = ("y", "x")
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
         "initial_gap": (plane, gap),
@@ -235,8 +245,16 @@ def _contact(
         "tractive_force": ((), float(forces[0])),
         "lateral_force": ((), float(forces[1])),
         "aligning_moment": ((), float(moment)),
-        "friction": ((), rolling.friction),
+        "friction": ((), float(mean)),
+        "friction_coefficient": (plane, slipping.coefficient),
+        "friction_work": (plane, work),
+        "friction_work_total": ((), lost),
     }
+    if rolling.speed is not None:
+        fields["friction_power"] = (plane, work * rolling.speed)
+        fields["friction_power_total"] = ((), lost * rolling.speed)
+    if slipping.temperature is not None:
+        fields["flash_temperature"] = (plane, slipping.temperature)
     stats = {
         "normal_iterations": pair.normal_iterations,
         "normal_residual": normal.residual,
@@ -244,6 +262,8 @@ def _contact(
         "krylov_iterations": pair.krylov,
         "splitting_iterations": tangential.splitting,
         "rolling_residual": tangential.residual,
+        "friction_rounds": slipping.rounds,
+        "friction_change": slipping.change,
         "coupling_rounds": pair.rounds,
         "coupling_change": pair.change,
         "dundurs": influence.bodies.dundurs,

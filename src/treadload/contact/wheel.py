@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
+from treadload.contact.friction import Coulomb, FrictionLaw, largest_force, law_of
 from treadload.errors import InputError
 
 
@@ -13,16 +15,16 @@ class Rolling:
     """What the wheel does on the road: give forces, or creepages, or one of each.
 
     normal_load: N, > 0; or approach: m, of the tire towards the road, > 0.
-    friction: coefficient of friction μ ≥ 0.
+    friction: coefficient μ ≥ 0 of Coulomb's law, or a friction law (`contact.friction`).
     tractive_force: force of the road on the tire along travel, N: positive when driving, negative when
     braking; or creepage_x = (V - ωR)/V: negative when driving. Neither given: a tractive force of zero.
     lateral_force: force of the road on the tire to the right, N; or creepage_y. Neither: no lateral force.
-    spin: rad/m, turn slip 1/R_path plus camber, about z (down). speed: m/s, kept for the record and for
-    what depends on it later.
+    spin: rad/m, turn slip 1/R_path plus camber, about z (down). speed: m/s: friction that falls with slip
+    or heat needs it, and so does power in W.
     """
 
     normal_load: float | None = None
-    friction: float
+    friction: float | FrictionLaw
     approach: float | None = None
     tractive_force: float | None = None
     creepage_x: float | None = None
@@ -33,7 +35,7 @@ class Rolling:
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            if value is not None and not math.isfinite(value):
+            if value is not None and name != "friction" and not math.isfinite(value):
                 raise InputError(f"{name} must be a finite number, got {value}")
         if (self.normal_load is None) == (self.approach is None):
             raise InputError("give either normal_load (N) or approach (m), not both and not neither")
@@ -41,8 +43,8 @@ class Rolling:
             value = getattr(self, name)
             if value is not None and value <= 0:
                 raise InputError(f"{name} must be > 0 {unit}, got {value:g} {unit}")
-        if self.friction < 0:
-            raise InputError(f"friction must be >= 0, got {self.friction:g}; a dry road is near 0.7")
+        if self.law.needs_speed and self.speed is None:
+            raise InputError(f"friction {self.law} depends on the slip speed: give the rolling speed (m/s) too")
         for force, creepage in (("tractive_force", "creepage_x"), ("lateral_force", "creepage_y")):
             if getattr(self, force) is not None and getattr(self, creepage) is not None:
                 raise InputError(f"give either {force} or {creepage}, not both")
@@ -59,16 +61,39 @@ class Rolling:
         """Prescribed creepages along x and y; zero where the force is given."""
         return self.creepage_x or 0.0, self.creepage_y or 0.0
 
-    def check_friction_limit(self, normal_load: float) -> None:
-        """Refuse forces that friction cannot carry under this normal load, N."""
-        along, across = (force or 0.0 for force in self.forces)
-        demand, limit = math.hypot(along, across), self.friction * normal_load
-        if demand > 0 and demand >= limit * (1 - 1e-9):
-            raise InputError(
-                f"gross sliding: a force of {demand:.6g} N along the road needs more than friction can carry; "
-                f"the largest possible is μP = {self.friction:g} x {normal_load:.6g} N = {limit:.6g} N. "
-                "Lower the force, raise friction or the load, or prescribe the creepage instead"
+    @cached_property
+    def law(self) -> FrictionLaw:
+        """The friction law; a number is Coulomb's."""
+        return law_of(self.friction)
+
+    @property
+    def coefficient(self) -> float:
+        """Coulomb's coefficient μ. Raises InputError for any other law."""
+        if isinstance(self.law, Coulomb):
+            return float(self.law.number)
+        raise InputError(
+            f"this problem knows Coulomb's friction only, got {self.law}; give a coefficient such as 0.7"
+        )
+
+    def check_friction_limit(self, normal_load: float, total: float | None = None) -> None:
+        """Refuse forces that friction cannot carry.
+
+        normal_load: N. total: Σ μp dA at rest, N; left out, what the law's largest coefficient would carry.
+        """
+        largest = self.law.largest
+        demand, limit = largest_force(self.law.axes, self.forces, largest * normal_load if total is None else total)
+        if demand == 0 or demand < limit * (1 - 1e-9):
+            return
+        if isinstance(self.law, Coulomb):
+            why = f"the largest possible is μP = {largest:g} x {normal_load:.6g} N ="
+        else:
+            why = (
+                f"the largest possible in its direction, with friction {self.law} and {normal_load:.6g} N of load, is"
             )
+        raise InputError(
+            f"gross sliding: a force of {demand:.6g} N along the road needs more than friction can carry; "
+            f"{why} {limit:.6g} N. Lower the force, raise friction or the load, or prescribe the creepage instead"
+        )
 
     def __str__(self) -> str:
         load = (
@@ -76,7 +101,7 @@ class Rolling:
             if self.normal_load
             else f"approach = {(self.approach or 0) * 1e3:g} mm"
         )
-        parts = [load, f"μ = {self.friction:g}"]
+        parts = [load, f"μ = {self.law}"]
         for symbol, force, creepage in zip("xy", self.forces, self.creepages, strict=True):
             parts.append(f"creepage_{symbol} = {creepage:g}" if force is None else f"Q_{symbol} = {force / 1e3:g} kN")
         if self.spin:
