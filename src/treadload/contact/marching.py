@@ -20,7 +20,7 @@ import numpy as np
 from treadload.contact.ahead import Ahead
 from treadload.contact.influence import Influence
 from treadload.contact.normal import NormalSolution, solve_normal
-from treadload.contact.tangential import Forces, TangentialSolution, solve_tangential
+from treadload.contact.tangential import Axes, Forces, TangentialSolution, solve_tangential
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
 
@@ -35,17 +35,23 @@ class Stage:
 
     rigid: known rigid displacement of body 1 along body 2 over the step (2, ny, nx) or (2, 1, 1), m.
     forces: on body 1 (Q_x, Q_y), N; None where the rigid displacement is known (and in `rigid`).
-    friction: μ, a number or (ny, nx). travel: distance rolled in the step, m, ≥ 0; zero: no rolling.
-    pressure: (ny, nx), Pa, where it is known; or load, N, or approach, m, under which it is found.
+    friction: μ, a number or (ny, nx), or a function from pressure (ny, nx), Pa, to the bound μp of shear.
+    travel: distance rolled in the step, m, ≥ 0; zero: no rolling. axes: of the friction ellipse, as in
+    `contact.tangential`. pressure: (ny, nx), Pa, where it is known; or load, N, or approach, m, under which it is found.
     """
 
     rigid: Array
     forces: Forces
-    friction: float | Array
+    friction: float | Array | Callable[[Array], Array]
     travel: float = 0.0
+    axes: Axes = (1.0, 1.0)
     pressure: Array | None = None
     load: float | None = None
     approach: float | None = None
+
+    def bound(self, pressure: Array) -> Array:
+        """Bound of shear (ny, nx), Pa, under a pressure (ny, nx), Pa."""
+        return self.friction(pressure) if callable(self.friction) else self.friction * pressure
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.travel) and self.travel >= 0):
@@ -184,11 +190,13 @@ def _shear(
     tolerance: float,
 ) -> TangentialSolution:
     """Shear at the end of a step under a pressure; known: slip without the displacement that is sought."""
-    bound = stage.friction * pressure
+    bound = stage.bound(pressure)
     if not bound.any() and any(stage.forces):
         raise InputError("no cell can carry shear, but a force is prescribed; raise friction or prescribe the slip")
     rigid = known + here.by_pressure(pressure)
-    return solve_tangential(influence, bound, rigid, stage.forces, rolls=False, start=start, tolerance=tolerance)
+    return solve_tangential(
+        influence, bound, rigid, stage.forces, rolls=False, axes=stage.axes, start=start, tolerance=tolerance
+    )
 
 
 def _start(state: State | None, stage: Stage) -> TangentialSolution | None:

@@ -90,7 +90,7 @@ def contact_of(
         "creepage_x": ((), creepages[0]),
         "creepage_y": ((), creepages[1]),
         "spin": ((), rolling.spin),
-        "friction": ((), rolling.friction),
+        "friction": ((), rolling.coefficient),
         **{name: ((), value) for name, value in scalars_of(scene, state).items()},
     }
     data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)

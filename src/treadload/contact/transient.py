@@ -15,12 +15,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.contact.friction import Interface
 from treadload.contact.influence import Influence
 from treadload.contact.marching import Stage, State, march
 from treadload.contact.rolling import rigid_slip
 from treadload.contact.snapshot import Scene, contact_of, scalars_of
 from treadload.contact.solution import Contact
 from treadload.contact.solve import Progress, _check_border, _place, combine
+from treadload.contact.tangential import Forces
 from treadload.contact.wheel import Rolling
 from treadload.errors import InputError
 from treadload.grid import Grid
@@ -48,8 +50,9 @@ class TransientResult:
         d = self.dataset.isel(step=-1)
         rows = self.dataset.isel(step=np.unique(np.linspace(0, self.dataset.sizes["step"] - 1, 8).astype(int)))
         table = [
-            f"{float(r.distance) * 1e3:8.1f}  {float(r.tractive_force) / 1e3:7.3f}  {float(r.lateral_force) / 1e3:7.3f}"
-            f"  {float(r.creepage_x):9.5f}  {float(r.creepage_y):9.5f}  {100 * float(r.slip_fraction):5.1f}"
+            f"{float(r.distance) * 1e3:8.1f}  {float(r.tractive_force) / 1e3:z7.3f}"
+            f"  {float(r.lateral_force) / 1e3:z7.3f}"
+            f"  {float(r.creepage_x):z9.5f}  {float(r.creepage_y):z9.5f}  {100 * float(r.slip_fraction):5.1f}"
             for r in (rows.isel(step=i) for i in range(rows.sizes["step"]))
         ]
         return "\n".join(
@@ -93,18 +96,18 @@ def solve_transient(
     began = time.perf_counter()
     tell = progress or (lambda text: None)
     ends = _checked_distances(distances)
-    states = _one_for_each(rolling, ends.size)
+    wanted = _one_for_each(rolling, ends.size)
     tell("locating the contact")
-    scene = set_scene(tire, road, states, spacing)
-    stages = [standing(states[0])]
-    for state, travel in zip(states, np.diff(ends, prepend=0.0), strict=True):
-        slip = rigid_slip(scene.grid.x, scene.grid.y, float(travel), state.creepages, state.spin)
-        stages.append(_stage(state, slip * travel, float(travel)))
+    scene = set_scene(tire, road, wanted, spacing)
+    stages = [standing(scene, wanted[0])]
+    for given, travel in zip(wanted, np.diff(ends, prepend=0.0), strict=True):
+        slip = rigid_slip(scene.grid.x, scene.grid.y, float(travel), given.creepages, given.spin)
+        stages.append(stage_of(scene, given, slip * travel, given.forces, float(travel)))
     rows: list[dict[str, Any]] = []
     newton = products = 0
     for number, state in enumerate(run(scene, stages, tolerance)):
         tell(f"step {number} of {ends.size}")
-        given = states[max(0, number - 1)]
+        given = wanted[max(0, number - 1)]
         rows.append(_row(scene, state, given, float(ends[number - 1]) if number else 0.0, fields))
         newton, products = newton + state.tangential.newton, products + state.tangential.products
     stats = {
@@ -116,8 +119,8 @@ def solve_transient(
         "seconds": time.perf_counter() - began,
     }
     creepages = rows[-1]["creepage_x"], rows[-1]["creepage_y"]
-    contact = contact_of(scene, state, states[-1], creepages, stats)
-    return TransientResult(_dataset(scene.grid, rows), contact, states, stats)
+    contact = contact_of(scene, state, wanted[-1], creepages, stats)
+    return TransientResult(_dataset(scene.grid, rows), contact, wanted, stats)
 
 
 def set_scene(tire: Tire, road: Pavement, rolling: Sequence[Rolling], spacing: float | None) -> Scene:
@@ -126,16 +129,33 @@ def set_scene(tire: Tire, road: Pavement, rolling: Sequence[Rolling], spacing: f
     loads = [state.normal_load for state in rolling]
     if None in loads and any(load is not None for load in loads):
         raise InputError("the steps give normal_load here and approach there; give one of them throughout")
+    for state in rolling:
+        if state.law.needs_speed:
+            raise InputError(
+                f"friction {state.law} falls with slip, and a history does not follow that: its steps would depend "
+                "on their length; give friction that depends on pressure and place only"
+            )
+        if state.normal_load is not None:
+            state.check_friction_limit(state.normal_load)
     heaviest = max(rolling, key=lambda state: state.normal_load or state.approach or 0.0)
     grid, gap = _place(tire, heaviest, bodies, spacing)
     return Scene(tire, road, grid, gap, Influence(grid.shape, grid.dx, grid.dy, bodies))
 
 
-def standing(rolling: Rolling) -> Stage:
+def standing(scene: Scene, rolling: Rolling) -> Stage:
     """The step that puts the wheel down, with no force along the road."""
-    return Stage(
-        np.zeros((2, 1, 1)), (0.0, 0.0), rolling.friction, load=rolling.normal_load, approach=rolling.approach
-    )
+    return stage_of(scene, rolling, np.zeros((2, 1, 1)), (0.0, 0.0))
+
+
+def stage_of(scene: Scene, rolling: Rolling, rigid: Array, forces: Forces, travel: float = 0.0) -> Stage:
+    """A step under the load and the friction of a rolling state; the rest as in `Stage`."""
+    law, grid = rolling.law, scene.grid
+
+    def bound(pressure: Array) -> Array:
+        still = np.zeros((2, *pressure.shape))
+        return law.bound(Interface(pressure, still, grid.x, grid.y, grid.dx, rolling.speed))
+
+    return Stage(rigid, forces, bound, travel, law.axes, load=rolling.normal_load, approach=rolling.approach)
 
 
 def run(scene: Scene, stages: Sequence[Stage], tolerance: float) -> Iterator[State]:
@@ -145,12 +165,6 @@ def run(scene: Scene, stages: Sequence[Stage], tolerance: float) -> Iterator[Sta
         if not state.pressure.any():
             raise InputError("the approach does not bring tire and road into contact; raise it")
         yield state
-
-
-def _stage(rolling: Rolling, rigid: Array, travel: float) -> Stage:
-    if rolling.normal_load is not None:
-        rolling.check_friction_limit(rolling.normal_load)
-    return Stage(rigid, rolling.forces, rolling.friction, travel, load=rolling.normal_load, approach=rolling.approach)
 
 
 def _row(scene: Scene, state: State, given: Rolling, distance: float, fields: bool) -> dict[str, Any]:

@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.contact.marching import Stage, State
+from treadload.contact.marching import State
 from treadload.contact.sliding import sliding_pole, sliding_torque
 from treadload.contact.snapshot import Scene, contact_of, scalars_of
 from treadload.contact.solution import Contact
 from treadload.contact.solve import Progress
-from treadload.contact.transient import run, set_scene, standing
+from treadload.contact.transient import run, set_scene, stage_of, standing
 from treadload.contact.wheel import Rolling
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -107,8 +107,6 @@ def turn_on_the_spot(
     if pivot is not None and any(rolling.forces):
         raise InputError("a held pivot takes what force it needs: leave the forces out, or the pivot")
     ends = _checked_angles(angles)
-    if rolling.normal_load is not None:
-        rolling.check_friction_limit(rolling.normal_load)
     tell("locating the contact")
     scene = set_scene(tire, road, (rolling,), spacing)
     held = (0.0, 0.0) if pivot is None else pivot
@@ -116,11 +114,8 @@ def turn_on_the_spot(
     arm[0] = held[1] - scene.grid.y[:, None]
     arm[1] = scene.grid.x[None, :] - held[0]
     forces = rolling.forces if pivot is None else (None, None)
-    stages = [standing(rolling)]
-    for turn in np.diff(ends, prepend=0.0):
-        stages.append(
-            Stage(turn * arm, forces, rolling.friction, load=rolling.normal_load, approach=rolling.approach)
-        )
+    turns = np.diff(ends, prepend=0.0)
+    stages = [standing(scene, rolling), *(stage_of(scene, rolling, turn * arm, forces) for turn in turns)]
     rows: list[dict[str, float]] = []
     newton = products = 0
     for number, state in enumerate(run(scene, stages, tolerance)):
@@ -128,7 +123,7 @@ def turn_on_the_spot(
         before = float(ends[number - 2]) if number > 1 else 0.0
         rows.append(_row(scene, state, before, float(ends[number - 1]) if number else 0.0, held))
         newton, products = newton + state.tangential.newton, products + state.tangential.products
-    bound = rolling.friction * state.pressure
+    bound = rolling.coefficient * state.pressure
     grid = scene.grid
     pole = sliding_pole(bound, grid.x, grid.y) if pivot is None else pivot
     limit = sliding_torque(bound, grid.x, grid.y, grid.cell_area, pole)

@@ -48,7 +48,7 @@ def _corners(centres: Array, spacing: float) -> Array:
 
 
 def _product_with_asinh(first: Array, second: Array) -> Array:
-    """first · asinh(second/|first|), with its limit zero where first is zero."""
+    """The first times asinh(second/|first|), with its limit zero where the first is zero."""
     size = np.abs(first)
     product: Array = first * np.arcsinh(second / np.where(size > 0, size, 1.0))
     return product
