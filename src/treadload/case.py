@@ -9,9 +9,30 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import tomli_w
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationError,
+    model_validator,
+)
 
-from treadload.contact import Rolling
+from treadload.contact import (
+    Anisotropic,
+    Coulomb,
+    Exponential,
+    FlashHeating,
+    FrictionLaw,
+    FrictionMap,
+    Heat,
+    LinearFalling,
+    PressureDependent,
+    Rational,
+    Rolling,
+)
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.materials import Elastic
@@ -26,6 +47,9 @@ Speed = Annotated[float, BeforeValidator(lambda v: quantity(v, "m/s"))]
 Angle = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad"))]
 Curvature = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad/m"))]
 Number = Annotated[float, BeforeValidator(lambda v: quantity(v, ""))]
+Kelvin = Annotated[float, BeforeValidator(lambda v: quantity(v, "K"))]
+Conductivity = Annotated[float, BeforeValidator(lambda v: quantity(v, "W/(m K)"))]
+HeatCapacity = Annotated[float, BeforeValidator(lambda v: quantity(v, "J/(m^3 K)"))]
 
 # The word that stands for the tire mesh that ships with the package.
 EXAMPLE = "example"
@@ -131,12 +155,158 @@ class PavementPart(_Part):
         return Pavement([layer.build() for layer in self.layers])
 
 
+class CoulombPart(_Part):
+    """`friction = { law = "coulomb", coefficient = 0.7 }`, the same as `friction = 0.7`."""
+
+    law: Literal["coulomb"]
+    coefficient: Number
+
+    def build(self, folder: Path) -> FrictionLaw:
+        """The law."""
+        return Coulomb(self.coefficient)
+
+
+class FallingPart(_Part):
+    """`friction = { law = "exponential", static = 0.9, kinetic = 0.5, reference_speed = "2 m/s" }`."""
+
+    law: Literal["linear", "rational", "exponential"]
+    static: Number
+    kinetic: Number
+    reference_speed: Speed
+
+    def build(self, folder: Path) -> FrictionLaw:
+        """The law."""
+        numbers = self.static, self.kinetic, self.reference_speed
+        if self.law == "linear":
+            return LinearFalling(*numbers)
+        return Rational(*numbers) if self.law == "rational" else Exponential(*numbers)
+
+
+class PressurePart(_Part):
+    """`friction = { law = "pressure", reference = 0.8, reference_pressure = "700 kPa", exponent = 0.15 }`."""
+
+    law: Literal["pressure"]
+    reference: Number
+    reference_pressure: Pressure
+    exponent: Number
+    upper: Number | None = None
+
+    def build(self, folder: Path) -> FrictionLaw:
+        """The law."""
+        return PressureDependent(self.reference, self.reference_pressure, self.exponent, self.upper)
+
+
+class AnisotropicPart(_Part):
+    """`friction = { law = "anisotropic", along = 0.8, across = 0.6 }`."""
+
+    law: Literal["anisotropic"]
+    along: Number
+    across: Number
+    base: Friction | None = None
+
+    def build(self, folder: Path) -> FrictionLaw:
+        """The law."""
+        return Anisotropic(self.along, self.across, _law(self.base, folder))
+
+
+class MapPart(_Part):
+    """`friction = { law = "map", file = "path.csv", cell = "10 mm" }`."""
+
+    law: Literal["map"]
+    file: str
+    cell: Length
+    base: Friction | None = None
+
+    def build(self, folder: Path) -> FrictionLaw:
+        """The law; a relative path starts from the folder."""
+        return FrictionMap.from_file(folder / self.file, self.cell, _law(self.base, folder))
+
+
+class HeatPart(_Part):
+    """`tire = { conductivity = 0.25, heat_capacity = 2e6 }`: W/(m K) and J/(m³ K)."""
+
+    conductivity: Conductivity
+    heat_capacity: HeatCapacity
+
+    def build(self) -> Heat:
+        """How the body takes up heat."""
+        return Heat(self.conductivity, self.heat_capacity)
+
+
+class FlashPart(_Part):
+    """`{ law = "flash", base = 0.9, tire = {…}, road = {…}, onset = "50 K", span = "90 K", hot = 0.5 }`."""
+
+    law: Literal["flash"]
+    base: Friction
+    tire: HeatPart
+    road: HeatPart
+    onset: Kelvin
+    span: Kelvin
+    hot: Number
+
+    def build(self, folder: Path) -> FrictionLaw:
+        """The law."""
+        base = _law(self.base, folder)
+        assert base is not None
+        return FlashHeating(base, self.tire.build(), self.road.build(), self.onset, self.span, self.hot)
+
+
+_LAW_PARTS: dict[str, type[_Part]] = {
+    "coulomb": CoulombPart,
+    "linear": FallingPart,
+    "rational": FallingPart,
+    "exponential": FallingPart,
+    "pressure": PressurePart,
+    "anisotropic": AnisotropicPart,
+    "map": MapPart,
+    "flash": FlashPart,
+}
+
+
+def _kind_of_friction(value: Any) -> str:
+    if isinstance(value, dict):
+        return str(value.get("law"))
+    return str(value.law) if isinstance(value, _Part) and hasattr(value, "law") else "number"
+
+
+def _known_law(value: Any) -> Any:
+    """Friction whose law is one of ours. Raises ValueError that says which are."""
+    if isinstance(value, dict) and value.get("law") not in _LAW_PARTS:
+        law = value.get("law")
+        near = difflib.get_close_matches(str(law), _LAW_PARTS, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(_LAW_PARTS)}"
+        raise ValueError(
+            f"a friction law needs its name, law = …; {hint}" if law is None else f"no law {law!r}; {hint}"
+        )
+    return value
+
+
+# A number, or the table of a law.
+Friction = Annotated[
+    Annotated[Number, Tag("number")]
+    | Annotated[CoulombPart, Tag("coulomb")]
+    | Annotated[FallingPart, Tag("linear")]
+    | Annotated[FallingPart, Tag("rational")]
+    | Annotated[FallingPart, Tag("exponential")]
+    | Annotated[PressurePart, Tag("pressure")]
+    | Annotated[AnisotropicPart, Tag("anisotropic")]
+    | Annotated[MapPart, Tag("map")]
+    | Annotated[FlashPart, Tag("flash")],
+    Discriminator(_kind_of_friction),
+    BeforeValidator(_known_law),
+]
+
+
+def _law(part: Any, folder: Path) -> FrictionLaw | None:
+    return part if part is None else Coulomb(part) if isinstance(part, float) else part.build(folder)
+
+
 class RollingPart(_Part):
     """`[rolling]`: the load, the friction, and forces or creepages."""
 
     normal_load: Force | None = None
     approach: Length | None = None
-    friction: Number
+    friction: Friction
     tractive_force: Force | None = None
     creepage_x: Number | None = None
     lateral_force: Force | None = None
@@ -144,9 +314,10 @@ class RollingPart(_Part):
     spin: Curvature = 0.0
     speed: Speed | None = None
 
-    def build(self) -> Rolling:
-        """The rolling state."""
-        return Rolling(**dict(self))
+    def build(self, folder: Path = Path(".")) -> Rolling:
+        """The rolling state; a friction map is read from the folder."""
+        friction = self.friction if isinstance(self.friction, float) else self.friction.build(folder)
+        return Rolling(**{**dict(self), "friction": friction})
 
 
 class ResponsePart(_Part):
@@ -209,7 +380,7 @@ class Case(_Part):
             raise ValueError(f"tolerance must lie in [1e-12, 1e-2], got {self.tolerance:g}; 1e-6 is the default")
         # Building what is cheap to build finds wrong values before any file is read.
         self.pavement.build()
-        self.rolling.build()
+        self.rolling.build(self.folder)
         if self.tire.material is not None:
             self.tire.material.build()
         if self.damage is not None:
@@ -264,7 +435,7 @@ def _in_words(error: ValidationError) -> str:
 
 
 def _one_error(item: Any) -> str:
-    place = ".".join(str(part) for part in item["loc"])
+    place = ".".join(_without_laws(item["loc"]))
     message = str(item["msg"]).removeprefix("Value error, ")
     if item["type"] == "extra_forbidden":
         known = _keys(item["loc"][:-1])
@@ -276,16 +447,27 @@ def _one_error(item: Any) -> str:
     return f"{place}: {message}" if place else message
 
 
+def _without_laws(location: tuple[Any, ...]) -> list[str]:
+    """Parts of a location without the names of friction laws, by which their tables are told apart."""
+    before = ("", *location)
+    return [
+        str(part)
+        for part, last in zip(location, before, strict=False)
+        if not (last in ("friction", "base") and part in (*_LAW_PARTS, "number"))
+    ]
+
+
 def _keys(location: tuple[Any, ...]) -> list[str]:
     """Keys that the table at this location knows."""
     model: Any = Case
     for part in location:
-        if isinstance(part, int):
+        if isinstance(part, int) or part == "number":
+            continue
+        if part in _LAW_PARTS and part not in model.model_fields:
+            model = _LAW_PARTS[part]
             continue
         annotation = model.model_fields[part].annotation
-        model = next(
-            candidate
-            for candidate in (annotation, *getattr(annotation, "__args__", ()))
-            if isinstance(candidate, type) and issubclass(candidate, BaseModel)
-        )
+        candidates = (annotation, *getattr(annotation, "__args__", ()))
+        # The name of the law that follows says which of its tables is meant.
+        model = next((one for one in candidates if isinstance(one, type) and issubclass(one, BaseModel)), model)
     return [name for name in model.model_fields if name != "folder"]

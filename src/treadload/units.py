@@ -15,6 +15,9 @@ _EXAMPLES = {
     "m/s": '"70 km/h"',
     "rad": '"2 deg"',
     "rad/m": '"0.05 1/m"',
+    "K": '"50 K"',
+    "W/(m K)": '"0.25 W/(m K)"',
+    "J/(m^3 K)": '"2.1 MJ/(m^3 K)"',
     "": '"120 microstrain" or 0.7',
 }
 

@@ -1,7 +1,32 @@
 """Contact of tire and road: pressure, shear, stick and slip."""
 
+from treadload.contact.flash import FlashHeating, Heat
+from treadload.contact.friction import (
+    Anisotropic,
+    Coulomb,
+    Exponential,
+    FrictionLaw,
+    LinearFalling,
+    PressureDependent,
+    Rational,
+)
+from treadload.contact.friction_map import FrictionMap
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
 from treadload.contact.wheel import Rolling
 
-__all__ = ["Contact", "Rolling", "solve_contact"]
+__all__ = [
+    "Anisotropic",
+    "Contact",
+    "Coulomb",
+    "Exponential",
+    "FlashHeating",
+    "FrictionLaw",
+    "FrictionMap",
+    "Heat",
+    "LinearFalling",
+    "PressureDependent",
+    "Rational",
+    "Rolling",
+    "solve_contact",
+]

@@ -47,7 +47,7 @@ class Contact:
         return float((state == 2).sum() / max(1, (state > 0).sum()))
 
     def summary(self) -> str:
-        """A screenful: load, area, peaks, creepages, stick and slip."""
+        """A screenful: load, area, peaks, creepages, stick and slip, work lost by sliding."""
         d = self.dataset
         shear = np.hypot(d.traction_x, d.traction_y)
         dx, dy = d.attrs["dx"] * 1e3, d.attrs["dy"] * 1e3
@@ -64,6 +64,11 @@ class Contact:
             f"creepage      x {float(d.creepage_x):z.5f}, y {float(d.creepage_y):z.5f}, spin {float(d.spin):g} rad/m",
             f"slip zone     {100 * self.slip_fraction:.1f} % of the contact area",
         ]
+        if "friction_work_total" in d:
+            power = f", {float(d.friction_power_total):.1f} W" if "friction_power_total" in d else ""
+            lines.append(f"sliding loses {float(d.friction_work_total):z.3f} J per m travelled{power}")
+        if "flash_temperature" in d:
+            lines.append(f"flash heat    {float(d.flash_temperature.max()):.1f} K at most")
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
     @property

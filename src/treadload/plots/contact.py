@@ -192,8 +192,9 @@ def _section(ax: Axes, data: xr.Dataset, at: Array, cut: tuple[int | slice, int 
     values = plane(data, "pressure")[cut] * KPA
     ax.fill_between(at, values, step="mid", color=MUTED, alpha=0.16, linewidth=0)
     ax.step(at, values, where="mid", color=INK, lw=1.3, label="pressure")
-    if "friction" in data:
-        bound = float(data["friction"]) * values
+    if "friction_coefficient" in data or "friction" in data:
+        mu = plane(data, "friction_coefficient")[cut] if "friction_coefficient" in data else float(data["friction"])
+        bound = mu * values
         ax.step(at, bound, where="mid", color=MUTED, lw=0.9, ls=(0, (3, 2)), label="friction × pressure")
     if "traction_x" in data and "traction_y" in data:
         q = _shear(data)[cut]

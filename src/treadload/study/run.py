@@ -64,7 +64,7 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     contact = solve_contact(
         tire,
         road,
-        case.rolling.build(),
+        case.rolling.build(case.folder),
         spacing=case.spacing,
         tolerance=case.tolerance,
         progress=tell,

@@ -37,7 +37,8 @@ def contact_conditions(group: str, contact: Contact) -> Iterator[Check]:
     if rolling.normal_load is not None:
         carried = p.sum() * contact.cell_area / 1e3
         yield relative(group, "Σ p dA, kN", carried, rolling.normal_load / 1e3, 1e-6, balance)
-    limit = rolling.friction * p.sum() * contact.cell_area
+    bound = data.friction_coefficient.to_numpy() * p
+    limit = bound.sum() * contact.cell_area
     for axis, force, component in zip("xy", rolling.forces, traction, strict=True):
         if force is not None:
             # The road feels the opposite of the force on the tire.
@@ -48,7 +49,8 @@ def contact_conditions(group: str, contact: Contact) -> Iterator[Check]:
     yield absolute(group, "penetration over approach", penetration, 0, 1e-6, law)
     apart = float(np.abs(gap[p > 0]).max()) / approach
     yield absolute(group, "gap under pressure over approach", apart, 0, 1e-6, law)
-    size, bound = np.hypot(*traction), rolling.friction * p
+    # On the ellipse of anisotropic friction, shear is measured against its axes.
+    size = np.hypot(*(part / axis for part, axis in zip(traction, rolling.law.axes, strict=True)))
     # Without friction the bound is zero, and so must the shear be.
     over = (size - bound) / np.maximum(bound, np.finfo(float).tiny)
     yield absolute(group, "|q| beyond μp, over μp", over[state != _OPEN].max(initial=0.0), 0, 1e-9, law)
