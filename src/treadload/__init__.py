@@ -12,7 +12,7 @@ from treadload._version import __version__
 
 if TYPE_CHECKING:
     from treadload.case import Case
-    from treadload.contact import Contact, Rolling, solve_contact
+    from treadload.contact import Contact, CreepCurve, Rolling, creep_curve, solve_contact
     from treadload.damage import FatigueLine, Verdict, assess
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
     from treadload.grid import Grid
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 _HOME = {
     "Case": "case",
     "Contact": "contact",
+    "CreepCurve": "contact",
     "ConvergenceError": "errors",
     "Elastic": "materials",
     "FatigueLine": "damage",
@@ -45,6 +46,7 @@ _HOME = {
     "TreadloadError": "errors",
     "Verdict": "damage",
     "assess": "damage",
+    "creep_curve": "contact",
     "example_mesh": "tire",
     "load": "results",
     "modulus_from_inflation": "tire",
@@ -60,6 +62,7 @@ __all__ = [
     "Case",
     "Contact",
     "ConvergenceError",
+    "CreepCurve",
     "Elastic",
     "FatigueLine",
     "GeometryError",
@@ -78,6 +81,7 @@ __all__ = [
     "Verdict",
     "__version__",
     "assess",
+    "creep_curve",
     "example_mesh",
     "load",
     "modulus_from_inflation",

@@ -15,6 +15,7 @@ import xarray as xr
 _COORDINATES = {
     "x": ("m", "position along the direction of travel"),
     "y": ("m", "position to the right of travel"),
+    "creepage": ("1", "prescribed creepage, along x or y"),
     "depth": ("m", "depth below the road surface, positive down"),
 }
 

@@ -115,9 +115,9 @@ def test_a_height_map_that_cuts_the_contact_is_refused(case, tmp_path):
 
 
 def test_a_solver_that_fails_ends_with_code_1(case, monkeypatch):
-    from treadload.contact import solve
+    from treadload.contact import coupling
 
-    monkeypatch.setattr(solve, "_MOST_OUTER", 1)
+    monkeypatch.setattr(coupling, "_MOST_ROUNDS", 1)
     refused(call("run", case), 1, "did not settle")
 
 

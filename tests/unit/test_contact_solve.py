@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from treadload.contact import Contact, Rolling, solve_contact
-from treadload.contact import solve as solve_module
+from treadload.contact import Contact, Rolling, coupling, solve_contact
 from treadload.errors import ConvergenceError, GeometryError, InputError
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
@@ -286,7 +285,7 @@ def test_a_tire_without_material_or_pressure():
 
 
 def test_a_coupling_that_does_not_settle_says_how_far_it_came(monkeypatch):
-    monkeypatch.setattr(solve_module, "_MOST_OUTER", 2)
+    monkeypatch.setattr(coupling, "_MOST_ROUNDS", 2)
     with pytest.raises(ConvergenceError, match="did not settle in 2 rounds") as caught:
         solve(Tire.from_profile(SMALL, material=Elastic(3e6, 0.3)), tractive_force=1000.0)
     assert caught.value.residual > 1e-6

@@ -1,5 +1,6 @@
 """Contact of tire and road: pressure, shear, stick and slip."""
 
+from treadload.contact.curve import CreepCurve, creep_curve
 from treadload.contact.flash import FlashHeating, Heat
 from treadload.contact.friction import (
     Anisotropic,
@@ -19,6 +20,7 @@ __all__ = [
     "Anisotropic",
     "Contact",
     "Coulomb",
+    "CreepCurve",
     "Exponential",
     "FlashHeating",
     "FrictionLaw",
@@ -28,5 +30,6 @@ __all__ = [
     "PressureDependent",
     "Rational",
     "Rolling",
+    "creep_curve",
     "solve_contact",
 ]

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from treadload.contact.friction import Coulomb, Interface
+from treadload.contact.coupling import Coupled, Progress, Start, solve_coupled
+from treadload.contact.friction import Coulomb
 from treadload.contact.influence import Influence
-from treadload.contact.normal import NormalSolution, solve_normal
-from treadload.contact.rolling import rigid_slip
-from treadload.contact.slipping import SlippingSolution, solve_slipping
+from treadload.contact.normal import solve_normal
 from treadload.contact.solution import Contact
+from treadload.contact.tangential import TangentialSolution
 from treadload.contact.wheel import Rolling
-from treadload.errors import ConvergenceError, GeometryError, InputError
+from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.rectangle import CombinedElasticity
@@ -30,9 +28,6 @@ DEFAULT_SPACING = 3e-3
 _LOCATING_CELLS = 64
 _MARGIN = 0.024
 _MOST_CELLS = 4_000_000
-_MOST_OUTER = 30
-
-Progress = Callable[[str], None]
 
 
 def solve_contact(
@@ -42,6 +37,7 @@ def solve_contact(
     *,
     spacing: float | None = None,
     tolerance: float = 1e-6,
+    start: Contact | None = None,
     progress: Progress | None = None,
 ) -> Contact:
     """Contact pressure and shear, stick and slip, of a tire that rolls steadily on a road.
@@ -50,11 +46,12 @@ def solve_contact(
     matter little for the contact of a soft tire). rolling: load or approach, forces or creepages, friction.
     spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
     tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp,
-    and of the coupling between them. progress: called with a line of text at every stage.
+    and of the coupling between them. start: a contact near this one: its grid serves again, and the search
+    begins at its fields. progress: called with a line of text at every stage.
     Returns the fields on a grid that holds the whole contact patch.
     Raises InputError for forces beyond friction, GeometryError if the contact is larger than the surface,
     ConvergenceError with the residual reached.
-    Method: Kalker (1990) on half-spaces; Panagiotopoulos' loop for dissimilar materials.
+    Method: Kalker (1990) on half-spaces; dissimilar materials by `contact.coupling`.
     """
     began = time.perf_counter()
     tell = progress or (lambda text: None)
@@ -62,10 +59,19 @@ def solve_contact(
         rolling.check_friction_limit(rolling.normal_load)
     bodies = combine(tire.elastic, road.surface_material)
     tell("locating the contact")
-    grid, gap = _place(tire, rolling, bodies, spacing)
+    grid, gap = _place(tire, rolling, bodies, spacing) if start is None else _same_place(tire, start, spacing)
     influence = Influence(grid.shape, grid.dx, grid.dy, bodies)
     tell(f"normal contact on {grid}")
-    pair = _couple(influence, grid, gap, rolling, tolerance, tell)
+    pair = solve_coupled(
+        influence,
+        grid,
+        gap,
+        rolling,
+        check=lambda pressure: _check_border(pressure, grid),
+        start=None if start is None else _near(start, grid),
+        tolerance=tolerance,
+        tell=tell,
+    )
     seconds = time.perf_counter() - began
     return _contact(tire, road, rolling, grid, gap, influence, pair, seconds)
 
@@ -73,19 +79,6 @@ def solve_contact(
 def combine(tire: Elastic, road: Elastic) -> CombinedElasticity:
     """The elasticity of tire (body 1) and road (body 2) seen as one."""
     return CombinedElasticity.of(tire.shear_modulus, tire.poisson, road.shear_modulus, road.poisson)
-
-
-@dataclass(frozen=True)
-class _Pair:
-    """Normal and tangential solutions that fit each other, and how many rounds it took."""
-
-    normal: NormalSolution
-    slipping: SlippingSolution
-    rounds: int
-    change: float
-    normal_iterations: int
-    newton: int
-    krylov: int
 
 
 def _place(tire: Tire, rolling: Rolling, bodies: CombinedElasticity, spacing: float | None) -> tuple[Grid, Array]:
@@ -128,56 +121,29 @@ def _place(tire: Tire, rolling: Rolling, bodies: CombinedElasticity, spacing: fl
     return grid, tire.height_map(grid)
 
 
+def _same_place(tire: Tire, start: Contact, spacing: float | None) -> tuple[Grid, Array]:
+    """The grid of an earlier contact, and the initial gap on it."""
+    data = start.dataset
+    dx, dy = float(data.attrs["dx"]), float(data.attrs["dy"])
+    if spacing is not None and not math.isclose(spacing, dx, rel_tol=1e-9):
+        raise InputError(
+            f"the start has cells of {dx * 1e3:g} mm, got spacing = {spacing * 1e3:g} mm; leave spacing out"
+        )
+    grid = Grid(data.sizes["x"], data.sizes["y"], dx, dy, float(data.x[0]), float(data.y[0]))
+    return grid, tire.height_map(grid)
+
+
+def _near(start: Contact, grid: Grid) -> Start:
+    """The fields of an earlier contact, with the solver's signs: shear acts on the tire there."""
+    data = start.dataset
+    shear = -np.stack([data.traction_x.values, data.traction_y.values])
+    slip = np.stack([data.slip_x.values, data.slip_y.values])
+    found = (float(data.creepage_x), float(data.creepage_y))
+    return Start(data.pressure.values, TangentialSolution(shear, slip, found, data.state.values == 1, 0.0))
+
+
 def _reach(positions: Array, touching: BoolArray) -> float:
     return float(np.abs(positions[touching]).max(initial=0.0))
-
-
-def _couple(
-    influence: Influence, grid: Grid, gap: Array, rolling: Rolling, tolerance: float, tell: Progress
-) -> _Pair:
-    """Alternate normal and tangential contact until the pressure no longer changes."""
-    normal = solve_normal(influence, gap, load=rolling.normal_load, approach=rolling.approach, tolerance=tolerance)
-    _check_border(normal.pressure, grid)
-    load = float(normal.pressure.sum()) * grid.cell_area
-    if load <= 0:
-        raise InputError(
-            f"an approach of {(rolling.approach or 0) * 1e3:g} mm does not bring tire and road into contact; raise it"
-        )
-    nothing = np.zeros((2, *grid.shape))
-    at_rest = Interface(normal.pressure, nothing, grid.x, grid.y, grid.dx, rolling.speed)
-    rolling.check_friction_limit(load, float(rolling.law.bound(at_rest).sum()) * grid.cell_area)
-    rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
-    coupled = influence.bodies.difference != 0
-    slipping: SlippingSolution | None = None
-    iterations, newton, krylov = normal.iterations, 0, 0
-    change = 0.0
-    for rounds in range(1, _MOST_OUTER + 1):
-        tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
-        known = rigid + influence.slip_by_pressure(normal.pressure) / grid.dx if coupled else rigid
-        last = None if slipping is None else slipping.tangential
-        at = replace(at_rest, pressure=normal.pressure, slip=nothing if last is None else last.slip)
-        slipping = solve_slipping(influence, rolling.law, at, known, rolling.forces, start=last, tolerance=tolerance)
-        shear = slipping.tangential.shear
-        newton, krylov = newton + slipping.newton, krylov + slipping.krylov
-        if not coupled or not shear.any() or (rounds > 1 and change <= tolerance):
-            return _Pair(normal, slipping, rounds, change, iterations, newton, krylov)
-        before = normal.pressure
-        normal = solve_normal(
-            influence,
-            gap + influence.gap_by_shear(shear),
-            load=rolling.normal_load,
-            approach=rolling.approach,
-            start=before,
-            tolerance=tolerance,
-        )
-        iterations += normal.iterations
-        change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
-    raise ConvergenceError(
-        f"normal and tangential contact did not settle in {_MOST_OUTER} rounds: the pressure still changes by "
-        f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.bodies.dundurs:.3f}); "
-        "lower the friction or raise the tolerance",
-        change,
-    )
 
 
 def _check_border(pressure: Array, grid: Grid) -> None:
@@ -204,7 +170,7 @@ def _contact(
     grid: Grid,
     gap: Array,
     influence: Influence,
-    pair: _Pair,
+    pair: Coupled,
     seconds: float,
 ) -> Contact:
     normal, slipping, tangential = pair.normal, pair.slipping, pair.slipping.tangential

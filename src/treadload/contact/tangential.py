@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import fft
 
-from treadload.contact.influence import Influence, tangential_stiffness_symbols
+from treadload.contact.influence import Influence
 from treadload.contact.levels import halve, interpolate
 from treadload.errors import ConvergenceError
 from treadload.kernels import coulomb_newton, coulomb_splitting
@@ -73,7 +73,9 @@ def solve_tangential(
     g, w = bound[rows, columns], rigid[:, rows, columns]
     small = replace(influence, shape=g.shape)
     if start is not None:
-        q, xi = start.shear[:, rows, columns], np.asarray(start.found)
+        # A rigid slip that is known now is no unknown, whatever it was in the start.
+        unknown = [force is not None for force in forces]
+        q, xi = start.shear[:, rows, columns], np.where(unknown, start.found, 0.0)
     elif min(g.shape) >= _COARSEST:
         q, xi = _start(small, g, w, forces, rolls, axes)
     else:
@@ -141,8 +143,8 @@ class _Preconditioner:
     """
 
     def __init__(self, influence: Influence, rolls: bool, axes: Axes) -> None:
-        symbols = tangential_stiffness_symbols(influence.shape, influence.dx, influence.dy, influence.bodies)
-        self.symbols = (symbols / _stretches(axes)).astype(np.float32)
+        symbols = influence.tangential_stiffness / _stretches(axes)
+        self.symbols = symbols.astype(np.complex64 if np.iscomplexobj(symbols) else np.float32)
         self.shape = influence.shape
         self.rolls = rolls
 

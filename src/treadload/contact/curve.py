@@ -1,0 +1,103 @@
+"""Creep curves: what a rolling tire carries, against how much it creeps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from treadload.contact.coupling import Progress
+from treadload.contact.solution import Contact
+from treadload.contact.solve import solve_contact
+from treadload.contact.wheel import Rolling
+from treadload.errors import InputError
+from treadload.pavement import Pavement
+from treadload.tire import Tire
+from treadload.variables import dataset
+
+_CURVE = (
+    "tractive_force",
+    "lateral_force",
+    "aligning_moment",
+    "creepage_x",
+    "creepage_y",
+    "normal_load",
+    "approach",
+    "friction_work_total",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class CreepCurve:
+    """Forces of a tire against its creepage.
+
+    dataset: over `creepage`: tractive_force, lateral_force, aligning_moment, slip_fraction and the other scalars
+    of a contact. along: "x" or "y". contacts: the contact of every creepage, in the order given.
+    """
+
+    dataset: xr.Dataset
+    along: str
+    contacts: tuple[Contact, ...]
+
+    def summary(self) -> str:
+        """A table: creepage, forces over friction times load, slip, moment."""
+        lines = [f"creepage along {self.along}   Q_x/μP   Q_y/μP   slip, %   moment, N m"]
+        for creepage in self.dataset.creepage.values:
+            row = self.dataset.sel(creepage=creepage)
+            limit = float(row.friction * row.normal_load) or 1.0
+            along, across = float(row.tractive_force) / limit, float(row.lateral_force) / limit
+            lines.append(
+                f"{creepage:18.5f}  {along:z7.4f}  {across:z7.4f}"
+                f"  {100 * float(row.slip_fraction):8.1f}  {float(row.aligning_moment):z12.2f}"
+            )
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.summary()
+
+
+def creep_curve(
+    tire: Tire,
+    road: Pavement,
+    rolling: Rolling,
+    creepages: Sequence[float],
+    *,
+    along: Literal["x", "y"] = "x",
+    spacing: float | None = None,
+    tolerance: float = 1e-6,
+    progress: Progress | None = None,
+) -> CreepCurve:
+    """Forces of a tire that rolls at one creepage after another.
+
+    rolling: the rest of the rolling state; what it prescribes along `along` gives way to the creepages.
+    creepages: (n,), distinct; solved from the smallest on, each from the solution before it.
+    along: "x" for driving and braking, "y" for cornering. spacing, tolerance: as for `solve_contact`.
+    Returns the curve in the order of the creepages. Raises InputError for creepages that are none, and the
+    errors of solve_contact.
+    """
+    values = np.asarray(creepages, dtype=float)
+    if values.ndim != 1 or values.size == 0 or not np.isfinite(values).all():
+        raise InputError(f"creepages must be a list of finite numbers, got {creepages!r}")
+    if np.unique(values).size != values.size:
+        raise InputError(f"creepages must differ from each other, got {creepages!r}")
+    if along not in ("x", "y"):
+        raise InputError(f'along must be "x" or "y", got {along!r}')
+    force = "tractive_force" if along == "x" else "lateral_force"
+    found: dict[int, Contact] = {}
+    start: Contact | None = None
+    for number in np.argsort(np.abs(values), kind="stable"):
+        if progress is not None:
+            progress(f"creepage {values[number]:g}")
+        here: dict[str, Any] = {force: None, f"creepage_{along}": float(values[number])}
+        state = replace(rolling, **here)
+        start = solve_contact(tire, road, state, spacing=spacing, tolerance=tolerance, start=start)
+        found[int(number)] = start
+    contacts = tuple(found[number] for number in range(values.size))
+    scalars = {
+        name: (("creepage",), np.array([float(c.dataset[name]) for c in contacts])) for name in (*_CURVE, "friction")
+    }
+    scalars["slip_fraction"] = (("creepage",), np.array([c.slip_fraction for c in contacts]))
+    return CreepCurve(dataset(scalars, {"creepage": values}), along, contacts)
