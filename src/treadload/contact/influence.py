@@ -36,14 +36,22 @@ class Influence:
         """Padded space in which the field has one column more, ahead of the leading edge."""
         return Padding.of(self.shape, (self.shape[0], self.shape[1] + 1))
 
+    @property
+    def symmetric(self) -> bool:
+        """True if loads work on each other's displacements alike, as in elastic bodies."""
+        return True
+
     @cached_property
     def normal(self) -> Convolution:
         """Gap opening by pressure, m/Pa."""
         quadrant = rectangle.normal_by_pressure(*self.padding.quadrant, self.dx, self.dy, self.bodies)
         return Convolution.of_kernel(self.padding, self.padding.wrap(quadrant), even=True)
 
-    def tangential(self, padding: Padding) -> Array:
-        """Real symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy."""
+    def tangential(self, padding: Padding) -> Array | ComplexArray:
+        """Symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy.
+
+        Real for symmetric operators.
+        """
         xx, yy, xy = rectangle.tangential_by_shear(*padding.quadrant, self.dx, self.dy, self.bodies)
         wrapped = padding.wrap(xx), padding.wrap(yy), padding.wrap(xy, -1, -1)
         return np.array([padding.spectrum(kernel).real for kernel in wrapped])
@@ -52,6 +60,16 @@ class Influence:
         """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
         xx = rectangle.tangential_by_shear(1, 2, self.dx, self.dy, self.bodies)[0]
         return float(xx[0, 0] - xx[0, 1]) if rolls else float(xx[0, 0])
+
+    @cached_property
+    def normal_stiffness(self) -> Array | ComplexArray:
+        """About the inverse of `normal`: its symbol (ny, nx // 2 + 1) on the unpadded, periodic grid, Pa/m."""
+        return stiffness_symbol(self.shape, self.dx, self.dy, self.bodies.contact_modulus)
+
+    @cached_property
+    def tangential_stiffness(self) -> Array | ComplexArray:
+        """About the inverse of `tangential`: symbols (3, ny, nx // 2 + 1) as above, Pa/m: xx, yy, xy."""
+        return tangential_stiffness_symbols(self.shape, self.dx, self.dy, self.bodies)
 
     def gap_by_shear(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear (2, ny, nx) on body 1, Pa: zero for like bodies."""

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import fft
 
-from treadload.contact.influence import Influence, stiffness_symbol
+from treadload.contact.influence import Influence
 from treadload.contact.levels import double, halve
 from treadload.errors import ConvergenceError, GeometryError
-from treadload.kernels import projected_cg
+from treadload.kernels import active_set, projected_cg
 from treadload.kernels.arrays import Array
 
 # Below this many cells a side a solve costs nothing and needs no start from a coarser one.
@@ -57,14 +57,15 @@ def solve_normal(
         raise GeometryError("no cell of the height map has material: the contact has nothing to press with")
     if start is None:
         start = _start(influence, gap, load, approach)
-    symbol = stiffness_symbol(influence.shape, influence.dx, influence.dy, influence.bodies.contact_modulus)
+    symbol = influence.normal_stiffness
 
     def precondition(residual: Array) -> Array:
         inverse: Array = fft.irfft2(symbol * fft.rfft2(residual), s=influence.shape)
         return inverse
 
     cell = influence.dx * influence.dy
-    solution = projected_cg.solve(
+    solve = projected_cg.solve if influence.symmetric else active_set.solve
+    solution = solve(
         influence.normal,
         gap,
         start,

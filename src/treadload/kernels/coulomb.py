@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.arrays import Array, BoolArray, ComplexArray
 from treadload.kernels.convolution import Padding
 
 
@@ -26,8 +26,9 @@ class CoulombProblem:
     """What is given in the tangential problem.
 
     padding: padded space of the patch; in rolling its field has one column more than the load.
-    compliance: real symbols (3, my, mx // 2 + 1) of A: xx, yy, xy. rolls: S q is u(x) - u(x + dx), else u.
-    self_influence: diagonal of S, > 0. bound: g = μp (ny, nx) ≥ 0, zero outside contact.
+    compliance: symbols (3, my, mx // 2 + 1) of A: xx, yy, xy; real where A is symmetric.
+    rolls: S q is u(x) - u(x + dx), else u. self_influence: diagonal of S, > 0.
+    bound: g = μp (ny, nx) ≥ 0, zero outside contact.
     rigid: w (2, ny, nx): rigid slip that is known. travel: e, slip distance per unit of rigid slip ξ.
     totals: prescribed sums of q_x and q_y over the cells; None where the rigid slip is prescribed instead
     (it is then part of `rigid`). precondition: of slip (2, ny, nx), zero outside of a mask (ny, nx): an
@@ -35,7 +36,7 @@ class CoulombProblem:
     """
 
     padding: Padding
-    compliance: Array
+    compliance: Array | ComplexArray
     rolls: bool
     self_influence: float
     bound: Array

@@ -131,7 +131,9 @@ class _Newton:
 
     def __post_init__(self) -> None:
         # The Krylov solves only need two digits: half the precision is half the time.
-        self.single = replace(self.problem, compliance=self.problem.compliance.astype(np.float32))
+        full = self.problem.compliance
+        half = full.astype(np.complex64) if np.iscomplexobj(full) else full.astype(np.float32)
+        self.single = replace(self.problem, compliance=half)
         self.contact = self.problem.bound > 0
         self.n_cells = int(self.contact.sum())
 

@@ -1,5 +1,6 @@
 """Materials: what deforms, and how."""
 
 from treadload.materials.elastic import Elastic
+from treadload.materials.viscoelastic import Prony
 
-__all__ = ["Elastic"]
+__all__ = ["Elastic", "Prony"]
