@@ -2,6 +2,7 @@
 
 from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
 from treadload.plots.compare import compare_pressure, compare_strain
+from treadload.plots.curve import creep_curves
 from treadload.plots.files import png, save
 from treadload.plots.verdict import fatigue_line
 
@@ -11,6 +12,7 @@ __all__ = [
     "VerdictPlots",
     "compare_pressure",
     "compare_strain",
+    "creep_curves",
     "fatigue_line",
     "png",
     "save",
