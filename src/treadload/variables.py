@@ -57,7 +57,7 @@ _HISTORY = {
     "slip_distance_x": ("m", "slip of the tire relative to the road over the step, along travel"),
     "slip_distance_y": ("m", "slip of the tire relative to the road over the step, to the right"),
     "slip_fraction": ("1", "share of the contact area that slips"),
-    "frictional_work": ("J", "work of friction over the step"),
+    "friction_energy": ("J", "energy lost by sliding over the step"),
     "steering_torque": ("N m", "torque about z that turns the wheel against friction"),
     "sliding_torque": ("N m", "torque about z at which the whole contact slides"),
     "pole_x": ("m", "point along travel about which the step turned the tire"),

@@ -36,8 +36,9 @@ class Stage:
     rigid: known rigid displacement of body 1 along body 2 over the step (2, ny, nx) or (2, 1, 1), m.
     forces: on body 1 (Q_x, Q_y), N; None where the rigid displacement is known (and in `rigid`).
     friction: μ, a number or (ny, nx), or a function from pressure (ny, nx), Pa, to the bound μp of shear.
-    travel: distance rolled in the step, m, ≥ 0; zero: no rolling. axes: of the friction ellipse, as in
-    `contact.tangential`. pressure: (ny, nx), Pa, where it is known; or load, N, or approach, m, under which it is found.
+    travel: distance rolled in the step, m, ≥ 0; zero: no rolling.
+    axes: of the friction ellipse, as in `contact.tangential`.
+    pressure: (ny, nx), Pa, where it is known; or load, N, or approach, m, under which it is found.
     """
 
     rigid: Array

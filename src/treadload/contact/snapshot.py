@@ -46,7 +46,7 @@ def scalars_of(scene: Scene, state: State) -> dict[str, float]:
         "lateral_force": float(across),
         "aligning_moment": float(moment),
         "slip_fraction": float(slipping.sum() / max(1, touching.sum())),
-        "frictional_work": 0.0 + state.work(grid.cell_area),
+        "friction_energy": 0.0 + state.work(grid.cell_area),
     }
 
 
@@ -71,6 +71,8 @@ def contact_of(
     traction = 0.0 - tangential.shear
     travel = state.stage.travel
     velocity = tangential.slip / travel if travel > 0 else np.full_like(tangential.slip, math.nan)
+    bound = state.stage.bound(state.pressure)
+    coefficient = np.divide(bound, state.pressure, out=np.zeros_like(bound), where=state.pressure > 0)
     plane = ("y", "x")
     gap = np.full(grid.shape, math.nan) if state.normal is None else state.normal.gap
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
@@ -90,7 +92,8 @@ def contact_of(
         "creepage_x": ((), creepages[0]),
         "creepage_y": ((), creepages[1]),
         "spin": ((), rolling.spin),
-        "friction": ((), rolling.coefficient),
+        "friction": ((), float(bound.sum() / max(state.pressure.sum(), np.finfo(float).tiny))),
+        "friction_coefficient": (plane, coefficient),
         **{name: ((), value) for name, value in scalars_of(scene, state).items()},
     }
     data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)

@@ -15,13 +15,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.contact.coupling import Progress
 from treadload.contact.friction import Interface
 from treadload.contact.influence import Influence
 from treadload.contact.marching import Stage, State, march
 from treadload.contact.rolling import rigid_slip
 from treadload.contact.snapshot import Scene, contact_of, scalars_of
 from treadload.contact.solution import Contact
-from treadload.contact.solve import Progress, _check_border, _place, combine
+from treadload.contact.solve import _check_border, _place, combine
 from treadload.contact.tangential import Forces
 from treadload.contact.wheel import Rolling
 from treadload.errors import InputError
@@ -59,7 +60,7 @@ class TransientResult:
             [
                 f"transient     {self.rolling[-1]}",
                 f"distance      {float(d.distance) * 1e3:.1f} mm in {self.dataset.sizes['step'] - 1} steps",
-                f"work          {float(self.dataset.frictional_work.sum()):.3f} J lost in friction",
+                f"work          {float(self.dataset.friction_energy.sum()):.3f} J lost in friction",
                 "  travel  Qx (kN)  Qy (kN)  creep x    creep y    slip %",
                 *table,
             ]

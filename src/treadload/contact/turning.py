@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.contact.coupling import Progress
 from treadload.contact.marching import State
 from treadload.contact.sliding import sliding_pole, sliding_torque
 from treadload.contact.snapshot import Scene, contact_of, scalars_of
 from treadload.contact.solution import Contact
-from treadload.contact.solve import Progress
 from treadload.contact.transient import run, set_scene, stage_of, standing
 from treadload.contact.wheel import Rolling
 from treadload.errors import InputError
@@ -66,7 +66,7 @@ class TurnResult:
                 f"turn on spot  {self.rolling}, about {about}",
                 f"sliding       at {float(d.sliding_torque):.1f} N m the whole contact slides",
                 f"stiffness     {self.stiffness * math.pi / 180:.1f} N m per degree at first",
-                f"work          {float(d.frictional_work.sum()):.3f} J lost in friction",
+                f"work          {float(d.friction_energy.sum()):.3f} J lost in friction",
                 "angle (°)  torque (Nm)  slip %",
                 *table,
             ]
@@ -123,10 +123,9 @@ def turn_on_the_spot(
         before = float(ends[number - 2]) if number > 1 else 0.0
         rows.append(_row(scene, state, before, float(ends[number - 1]) if number else 0.0, held))
         newton, products = newton + state.tangential.newton, products + state.tangential.products
-    bound = rolling.coefficient * state.pressure
-    grid = scene.grid
-    pole = sliding_pole(bound, grid.x, grid.y) if pivot is None else pivot
-    limit = sliding_torque(bound, grid.x, grid.y, grid.cell_area, pole)
+    bound, axes, grid = state.stage.bound(state.pressure), state.stage.axes, scene.grid
+    pole = sliding_pole(bound, grid.x, grid.y, axes) if pivot is None else pivot
+    limit = sliding_torque(bound, grid.x, grid.y, grid.cell_area, pole, axes)
     stats = {
         "increments": int(ends.size),
         "newton_iterations": newton,
