@@ -1,8 +1,11 @@
-"""Steady rolling, in units of one padded convolution of two components on the same grid.
+"""The whole of rolling, normal contact, kernels and all levels, in units of one convolution of the same grid.
 
-A disc with half of Kalker's unit creepage and with the force that belongs to it, and the grooved truck tire that
-drives with 10 kN; to a residual of 1e-6, from a cold start, the pressure given.
+The floor is one padded convolution of two components. A disc at half of its friction, by creepage and by force, on
+CONTACT's numbers of cells, and treads of a truck tire: ribs that drive, lugs that drive through a turn. To a residual
+of 1e-6, from a cold start. The bounds are the house's.
 """
+
+from dataclasses import replace
 
 import numpy as np
 from floors import rolling_product
@@ -10,59 +13,90 @@ from timing import best_of, print_table
 
 from treadload.contact.influence import Influence
 from treadload.contact.normal import solve_normal
-from treadload.contact.rolling import solve_rolling
+from treadload.contact.rolling import rigid_slip, solve_rolling
+from treadload.contact.shift import solve_shift
 from treadload.contact.solve import combine
 from treadload.grid import Grid
 from treadload.kernels.rectangle import CombinedElasticity
-from treadload.tire import Tire
-from treadload.validation.closed_forms import hertz
-from treadload.validation.patches import paraboloid
+from treadload.tire import LateralGrooves, Tire, TreadProfile
 from treadload.validation.pressing import ASPHALT, RUBBER
 
-HEADER = ("problem", "cells", "floor, ms", "solve, s", "solve/floor", "Newton", "Krylov", "splitting")
+HEADER = ("problem", "cells", "floor, ms", "whole, s", "whole/floor", "bound", "Newton", "Krylov", "products")
+DISC = CombinedElasticity(1.0, 0.25, 0.0)
+RIBS = TreadProfile.from_library("315/80R22.5")
+LUGS = replace(
+    RIBS, lateral=(LateralGrooves(pitch=0.06, width=0.012, depth=0.012, wall_angle=0.1, edge_radius=0.002),)
+)
 
 
-def timed(name, influence, bound, rigid, forces):
-    # The solver works on the box around the contact, and so must the floor.
-    rows, columns = np.flatnonzero(bound.any(1)), np.flatnonzero(bound.any(0))
-    box = rows[-1] - rows[0] + 1, columns[-1] - columns[0] + 1
-    shape = (int(box[0]), int(box[1]))
-    floor = rolling_product(Influence(shape, influence.dx, influence.dy, influence.bodies))
-    seconds, found = best_of(
-        lambda: solve_rolling(
-            Influence(influence.shape, influence.dx, influence.dy, influence.bodies), bound, rigid, forces
-        ),
-        repeats=3 if bound.size < 100_000 else 1,
-    )
-    cells = f"{shape[1]} x {shape[0]}"
-    return name, cells, floor * 1e3, seconds, seconds / floor, found.newton, found.krylov, found.splitting
+def timed(name, bound, influence, solve):
+    floor = rolling_product(influence)
+    fresh = [replace(influence) for _ in range(3)]
+    seconds, found = best_of(lambda: solve(fresh.pop()), repeats=3 if influence.shape[0] < 300 else 1)
+    cells = f"{influence.shape[1]} x {influence.shape[0]}"
+    return name, cells, floor * 1e3, seconds, seconds / floor, bound, found.newton, found.krylov, found.products
+
+
+def disc(cells):
+    """A disc of radius 1 under a load of 1: gap (ny, nx), influence and load."""
+    dx = 2.2 / cells
+    x = dx * (np.arange(cells) - (cells - 1) / 2)
+    gap = (x[None, :] ** 2 + x[:, None] ** 2) * 3 / (8 * DISC.contact_modulus)
+    return gap, Influence(gap.shape, dx, dx, DISC)
 
 
 def discs(sizes):
-    bodies = CombinedElasticity(1.0, 0.25, 0.0)
-    exact = hertz(100.0, 100.0, 4 * bodies.contact_modulus / 300, bodies.contact_modulus)
     for cells in sizes:
-        patch = paraboloid(bodies, (100.0, 100.0), exact.load, (cells + 4,) * 2, (2 / cells,) * 2, tolerance=1e-6)
-        bound = 0.3 * patch.normal.pressure
-        rigid = np.zeros((2, *bound.shape))
-        yield timed("disc, force", patch.influence, bound, rigid, (0.43 * 0.3 * patch.load, 0.0))
-        rigid[0] = -0.5 * 0.3 * exact.load / 4.12
-        yield timed("disc, creepage", patch.influence, bound, rigid, (None, None))
+        gap, influence = disc(cells)
+
+        def whole(fresh, rigid=0.0, forces=(None, None), gap=gap):
+            pressure = solve_normal(fresh, gap, load=1.0).pressure
+            w = np.zeros((2, *gap.shape))
+            w[0] = rigid
+            return solve_rolling(fresh, 0.3 * pressure, w, forces)
+
+        yield timed("disc, creepage", 150, influence, lambda f, run=whole: run(f, rigid=0.5 * 0.3 / 4.12))
+        yield timed("disc, force", 150, influence, lambda f, run=whole: run(f, forces=(0.43 * 0.3, 0.0)))
 
 
-def tires(sizes):
-    tire, bodies = Tire.from_profile("315/80R22.5"), combine(RUBBER, ASPHALT)
+def treads(sizes):
+    bodies = combine(RUBBER, ASPHALT)
     for cells in sizes:
-        spacing = 0.34 / cells
-        grid = Grid.centred(0.34, 0.34, spacing)
-        influence = Influence(grid.shape, spacing, spacing, bodies)
-        pressure = solve_normal(influence, tire.height_map(grid), load=32.5e3).pressure
-        yield timed("tire, 10 kN", influence, 0.7 * pressure, np.zeros((2, *grid.shape)), (10e3, 0.0))
+        grid = Grid.centred(0.34, 0.34, 0.34 / cells)
+        influence = Influence(grid.shape, grid.dx, grid.dy, bodies)
+        for name, bound, profile, forces, spin in (
+            ("ribs, 10 kN", 250, RIBS, (10e3, 0.0), 0.0),
+            ("lugs, 10 and 6 kN, 20 m", 400, LUGS, (10e3, 6e3), 0.05),
+        ):
+            gap = Tire.from_profile(profile).height_map(grid)
+            rigid = rigid_slip(grid.x, grid.y, grid.dx, (0.0, 0.0), spin)
+
+            def whole(fresh, gap=gap, rigid=rigid, forces=forces):
+                pressure = solve_normal(fresh, gap, load=32.5e3).pressure
+                return solve_rolling(fresh, 0.7 * pressure, rigid, forces)
+
+            yield timed(name, bound, influence, whole)
 
 
-def main(sizes=(64, 128, 256)):
-    rows = [*discs(sizes), *tires(sizes)]
-    print_table("Steady rolling, floor = one padded convolution of two components", HEADER, rows)
+def shifts(sizes):
+    for cells, bound in sizes:
+        gap, influence = disc(cells)
+        pressure = solve_normal(influence, gap, load=1.0).pressure
+
+        def shift(influence=influence, pressure=pressure):
+            return solve_shift(replace(influence), 0.3 * pressure, np.zeros((2, *pressure.shape)), (0.15, 0.0))
+
+        seconds, found = best_of(shift)
+        yield f"{cells} x {cells}", seconds, bound, found.newton, found.krylov
+
+
+def main(disc_sizes=(100, 200, 400), tread_sizes=(64, 128, 256), shift_sizes=((128, 0.15), (256, 1.5))):
+    rows = [*discs(disc_sizes), *treads(tread_sizes)]
+    print_table(
+        "Steady rolling with its normal contact, floor = one padded convolution of two components", HEADER, rows
+    )
+    header = ("cells", "shift, s", "bound, s", "Newton", "Krylov")
+    print_table("Shift of a disc at half of its friction, cold", header, [*shifts(shift_sizes)])
 
 
 if __name__ == "__main__":
