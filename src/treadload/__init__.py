@@ -12,11 +12,19 @@ from treadload._version import __version__
 
 if TYPE_CHECKING:
     from treadload.case import Case
-    from treadload.contact import Contact, CreepCurve, Rolling, creep_curve, solve_contact
+    from treadload.contact import (
+        Contact,
+        CreepCurve,
+        Rolling,
+        RollingResistance,
+        creep_curve,
+        rolling_resistance,
+        solve_contact,
+    )
     from treadload.damage import FatigueLine, Verdict, assess
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
     from treadload.grid import Grid
-    from treadload.materials import Elastic
+    from treadload.materials import Elastic, Prony
     from treadload.pavement import Layer, Pavement
     from treadload.reporting import report
     from treadload.response import Response, solve_response
@@ -38,9 +46,11 @@ _HOME = {
     "LateralGrooves": "tire",
     "Layer": "pavement",
     "Pavement": "pavement",
+    "Prony": "materials",
     "Response": "response",
     "Result": "study",
     "Rolling": "contact",
+    "RollingResistance": "contact",
     "Tire": "tire",
     "TreadProfile": "tire",
     "TreadloadError": "errors",
@@ -51,6 +61,7 @@ _HOME = {
     "load": "results",
     "modulus_from_inflation": "tire",
     "report": "reporting",
+    "rolling_resistance": "contact",
     "run_case": "study",
     "save": "results",
     "solve_contact": "contact",
@@ -72,9 +83,11 @@ __all__ = [
     "LateralGrooves",
     "Layer",
     "Pavement",
+    "Prony",
     "Response",
     "Result",
     "Rolling",
+    "RollingResistance",
     "Tire",
     "TreadProfile",
     "TreadloadError",
@@ -86,6 +99,7 @@ __all__ = [
     "load",
     "modulus_from_inflation",
     "report",
+    "rolling_resistance",
     "run_case",
     "save",
     "solve_contact",

@@ -24,6 +24,7 @@ from treadload.damage import Verdict
 from treadload.errors import InputError
 from treadload.files import replacing
 from treadload.grid import Grid
+from treadload.materials import Prony
 from treadload.response import Response
 from treadload.tire import Tire
 from treadload.variables import dataset
@@ -44,6 +45,10 @@ CITATIONS = {
     "like solution methods. Comput. Methods Appl. Mech. Eng. 92, 353-375.",
     "splitting": "Lions, P.-L., Mercier, B. (1979). Splitting algorithms for the sum of two nonlinear operators. "
     "SIAM J. Numer. Anal. 16, 964-979.",
+    "memory": "Wang, G., Knothe, K. (1993). Stress analysis for rolling contact between two viscoelastic cylinders. "
+    "J. Appl. Mech. 60, 310-317.",
+    "pivoting": "Júdice, J. J., Pires, F. M. (1994). A block principal pivoting algorithm for large-scale strictly "
+    "monotone linear complementarity problems. Comput. Oper. Res. 21, 587-596.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
 }
 
@@ -55,6 +60,8 @@ def citations(contact: Contact | None, response: Response | None) -> list[str]:
         used += ["influence", "convolution", "normal", "preconditioner", "rolling", "newton"]
         if contact.stats.get("splitting_iterations"):
             used.append("splitting")
+        if isinstance(contact.tire.material, Prony):
+            used += ["memory", "pivoting"]
     if response is not None:
         used += [key for key in ("influence", "convolution", "stress") if key not in used]
     return [CITATIONS[key] for key in used]

@@ -39,6 +39,8 @@ _CONTACT = {
     "tractive_force": ("N", "force of the road on the tire along travel, positive when driving"),
     "lateral_force": ("N", "force of the road on the tire to the right"),
     "aligning_moment": ("N m", "moment of the road on the tire about z through the origin of the grid"),
+    "pressure_centre_x": ("m", "centre of pressure ahead of the origin of the grid"),
+    "rolling_resistance_moment": ("N m", "moment of the pressure about the axle, positive when it resists rolling"),
     "friction": ("1", "coefficient of friction; where it varies, the mean weighted by pressure"),
     "friction_coefficient": ("1", "local coefficient of friction, zero outside the contact"),
     "friction_work": ("Pa", "work lost by sliding per area of the patch and length travelled, J/m² per m"),

@@ -12,6 +12,7 @@ from treadload.contact.friction import (
     Rational,
 )
 from treadload.contact.friction_map import FrictionMap
+from treadload.contact.resistance import RollingResistance, rolling_resistance
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
 from treadload.contact.wheel import Rolling
@@ -30,6 +31,8 @@ __all__ = [
     "PressureDependent",
     "Rational",
     "Rolling",
+    "RollingResistance",
     "creep_curve",
+    "rolling_resistance",
     "solve_contact",
 ]

@@ -14,12 +14,13 @@ from treadload.contact.influence import Influence
 from treadload.contact.normal import solve_normal
 from treadload.contact.solution import Contact
 from treadload.contact.tangential import TangentialSolution
+from treadload.contact.viscoelastic import ViscoelasticInfluence, check_rolling, combined
 from treadload.contact.wheel import Rolling
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.rectangle import CombinedElasticity
-from treadload.materials import Elastic
+from treadload.materials import Elastic, Prony
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 from treadload.variables import dataset
@@ -42,8 +43,9 @@ def solve_contact(
 ) -> Contact:
     """Contact pressure and shear, stick and slip, of a tire that rolls steadily on a road.
 
-    tire: its surface and material. road: the surface material deforms as a half-space (the layers below
-    matter little for the contact of a soft tire). rolling: load or approach, forces or creepages, friction.
+    tire: its surface and material; a viscoelastic one needs the rolling speed. road: the surface material
+    deforms as a half-space (the layers below matter little for the contact of a soft tire). rolling: load or
+    approach, forces or creepages, friction.
     spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
     tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp,
     and of the coupling between them. start: a contact near this one: its grid serves again, and the search
@@ -57,10 +59,15 @@ def solve_contact(
     tell = progress or (lambda text: None)
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
-    bodies = combine(tire.elastic, road.surface_material)
+    check_rolling(tire.half_space, road.surface_material, rolling.speed)
+    # Slow rolling makes the largest contact of a viscoelastic tire.
+    bodies = combined(tire.half_space, road.surface_material, "rubbery")
     tell("locating the contact")
     grid, gap = _place(tire, rolling, bodies, spacing) if start is None else _same_place(tire, start, spacing)
     influence = Influence(grid.shape, grid.dx, grid.dy, bodies)
+    if isinstance(tire.half_space, Prony):
+        cells = grid.shape, grid.dx, grid.dy
+        influence = ViscoelasticInfluence.of(*cells, tire.half_space, road.surface_material, rolling.speed)
     tell(f"normal contact on {grid}")
     pair = solve_coupled(
         influence,
@@ -183,6 +190,8 @@ def _contact(
     displacement = road_only.displacement(normal.pressure, tangential.shear)
     known = rolling.creepages
     forces = tangential.shear.sum((1, 2)) * grid.cell_area
+    pressure_moment = float((normal.pressure * grid.x[None, :]).sum()) * grid.cell_area
+    load = float(normal.pressure.sum()) * grid.cell_area
     moment = (grid.x[None, :] * tangential.shear[1] - grid.y[:, None] * tangential.shear[0]).sum() * grid.cell_area
     # The law opposes slip to shear, so that work is lost in every cell; below zero lies round-off only.
     work = np.maximum(-(tangential.shear * tangential.slip).sum(0), 0.0)
@@ -207,10 +216,12 @@ def _contact(
         "creepage_x": ((), known[0] + tangential.found[0]),
         "creepage_y": ((), known[1] + tangential.found[1]),
         "spin": ((), rolling.spin),
-        "normal_load": ((), float(normal.pressure.sum()) * grid.cell_area),
+        "normal_load": ((), load),
         "tractive_force": ((), float(forces[0])),
         "lateral_force": ((), float(forces[1])),
         "aligning_moment": ((), float(moment)),
+        "pressure_centre_x": ((), pressure_moment / load),
+        "rolling_resistance_moment": ((), pressure_moment),
         "friction": ((), float(mean)),
         "friction_coefficient": (plane, slipping.coefficient),
         "friction_work": (plane, work),

@@ -48,9 +48,7 @@ class ViscoelasticInfluence(Influence):
 
         Raises InputError for a speed that is missing or not positive, and for a fluid.
         """
-        for name, body in (("tire", tire), ("road", road)):
-            if isinstance(body, Prony):
-                _check_rolls(name, body, speed)
+        check_rolling(tire, road, speed)
         assert speed is not None
         glassy, rubbery = combined(tire, road, "glassy"), combined(tire, road, "rubbery")
         # Bodies that are alike at once, but not for long, are coupled.
@@ -154,6 +152,13 @@ def _elastic(material: Material, limit: str) -> Elastic:
     if isinstance(material, Elastic):
         return material
     return material.glassy if limit == "glassy" else material.rubbery
+
+
+def check_rolling(tire: Material, road: Material, speed: float | None) -> None:
+    """Refuse viscoelastic materials without a speed, m/s, > 0, and fluids. Raises InputError."""
+    for name, material in (("tire", tire), ("road", road)):
+        if isinstance(material, Prony):
+            _check_rolls(name, material, speed)
 
 
 def _check_rolls(name: str, material: Prony, speed: float | None) -> None:

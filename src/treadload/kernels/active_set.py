@@ -21,9 +21,9 @@ from treadload.kernels.arrays import Array, BoolArray
 _PATIENCE = 5
 _KRYLOV_MEMORY = 80
 _KRYLOV_RESTARTS = 5
-# The equations inside are solved this much better than the conditions are asked to hold; no pivot is worth more
-# digits than this of what it found.
-_INNER, _GAIN = 0.1, 1e-3
+# The first set of cells is only a guess. The equations inside are solved this much better than the conditions are
+# asked to hold; no solve inside gains more digits than this at once.
+_ROUGH, _INNER, _GAIN = 1e-2, 0.1, 1e-4
 
 
 @dataclass(frozen=True)
@@ -94,18 +94,21 @@ class _Problem:
         if self.total is not None and p.any():
             p *= self.total / p.sum()
         level = self.lowest if self.level is None else self.level
-        p, u, level = self._solve_on(active, p, level, tolerance)
+        # Cells that still change sides are worth few digits.
+        accuracy = max(_ROUGH, tolerance)
+        p, u, level = self._solve_on(active, p, level, accuracy)
         fewest, patience = active.size + 1, _PATIENCE
         pivots = 0
         while True:
             separation = u + self.h - level
             scale = self._scale(level)
             pulled = active & (p < 0)
-            entering = self.material & ~active & (separation < -0.5 * tolerance * scale)
+            entering = self.material & ~active & (separation < -0.5 * accuracy * scale)
             wrong = pulled | entering
             count = int(wrong.sum())
-            if count == 0 or pivots >= max_iterations:
+            if (count == 0 and accuracy <= tolerance) or pivots >= max_iterations:
                 break
+            accuracy = tolerance if count == 0 else max(0.1 * accuracy, tolerance)
             if count < fewest:
                 fewest, patience = count, _PATIENCE
             elif patience > 0:
@@ -117,7 +120,7 @@ class _Problem:
             active = active ^ wrong
             if self.total is not None and not active.any():
                 active = self.material & (self.h == self.lowest)
-            p, u, level = self._solve_on(active, p, level, tolerance)
+            p, u, level = self._solve_on(active, p, level, accuracy)
             pivots += 1
         p = np.maximum(p, 0.0)
         if self.total is not None and p.any():
@@ -127,7 +130,7 @@ class _Problem:
         residual = self._violation(separation, p > 0) / self._scale(level)
         return PivotSolution(p, u, level, residual, pivots, self.krylov, self.products, residual <= tolerance)
 
-    def _solve_on(self, active: BoolArray, p: Array, level: float, tolerance: float) -> tuple[Array, Array, float]:
+    def _solve_on(self, active: BoolArray, p: Array, level: float, accuracy: float) -> tuple[Array, Array, float]:
         """Pressure with A p - level = -h on the active cells and Σ p = total; A p and the level."""
         cells = np.flatnonzero(active)
         p = np.where(active, p, 0.0)
@@ -160,7 +163,7 @@ class _Problem:
                 level = float((u + self.h).flat[cells].mean())
             gap_left = -(u + self.h - level).flat[cells]
             rhs = np.append(gap_left, (self.total - p.sum()) / unit) if self.total is not None else gap_left
-            goal = _INNER * tolerance * self._scale(level)
+            goal = _INNER * accuracy * self._scale(level)
             size = float(np.abs(rhs).max())
             if size <= goal:
                 break
@@ -179,10 +182,8 @@ class _Problem:
         shape = (rhs.size, rhs.size)
         operator = LinearOperator(shape, matvec=lambda v: apply(invert(v)), dtype=float)
         before = self.products
-        # The largest entry counts, gmres sees the norm.
-        tight = rtol / np.sqrt(rhs.size)
         with np.errstate(divide="ignore", invalid="ignore"):
-            solution = gmres(operator, rhs, rtol=max(tight, 1e-13), restart=_KRYLOV_MEMORY, maxiter=1)[0]
+            solution = gmres(operator, rhs, rtol=rtol, restart=_KRYLOV_MEMORY, maxiter=1)[0]
         self.krylov += self.products - before
         return invert(solution) if np.isfinite(solution).all() else np.zeros_like(rhs)
 

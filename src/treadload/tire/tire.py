@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic
+from treadload.materials import Elastic, Prony
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
 from treadload.tire.surface import Surface, centred_height_map, read_height_map
@@ -28,13 +28,13 @@ POISSON_OF_RUBBER = 0.5
 class Tire:
     """A tire, as the road meets it.
 
-    surface: of the tread. material: elastic half-space that stands for the tire; inflation_pressure: Pa, gives
-    its modulus when there is no material. name: free text.
+    surface: of the tread. material: of the half-space that stands for the tire, elastic or, for steady rolling,
+    viscoelastic; inflation_pressure: Pa, gives its modulus when there is no material. name: free text.
     Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
     """
 
     surface: Surface
-    material: Elastic | None = None
+    material: Elastic | Prony | None = None
     inflation_pressure: float | None = None
     name: str = ""
 
@@ -44,8 +44,8 @@ class Tire:
                 f"a tire needs a surface, got {type(self.surface).__name__}; "
                 "use Tire.from_height_map, Tire.from_profile or Tire.from_scan"
             )
-        if self.material is not None and not isinstance(self.material, Elastic):
-            raise InputError(f"material must be an Elastic, got {self.material!r}")
+        if self.material is not None and not isinstance(self.material, Elastic | Prony):
+            raise InputError(f"material must be an Elastic or a Prony, got {self.material!r}")
         if self.inflation_pressure is not None:
             object.__setattr__(self, "inflation_pressure", check_inflation_pressure(self.inflation_pressure))
 
@@ -55,7 +55,7 @@ class Tire:
         gap: ArrayLike | str | PathLike[str],
         spacing: float | Sequence[float] | None = None,
         *,
-        material: Elastic | None = None,
+        material: Elastic | Prony | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
     ) -> Tire:
@@ -85,7 +85,7 @@ class Tire:
         cls,
         profile: TreadProfile | str,
         *,
-        material: Elastic | None = None,
+        material: Elastic | Prony | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
     ) -> Tire:
@@ -110,7 +110,7 @@ class Tire:
         camber: float = 0.0,
         revolve: bool | Literal["auto"] = "auto",
         fill_holes: bool | Literal["auto"] = "auto",
-        material: Elastic | None = None,
+        material: Elastic | Prony | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
     ) -> Tire:
@@ -138,8 +138,8 @@ class Tire:
         return cls(surface, material, inflation_pressure, name or Path(path).stem)
 
     @property
-    def elastic(self) -> Elastic:
-        """Elastic half-space that stands for the tire: the material, or else from the inflation pressure, ν = 0.5."""
+    def half_space(self) -> Elastic | Prony:
+        """Half-space that stands for the tire: the material, or else from the inflation pressure, ν = 0.5."""
         if self.material is not None:
             return self.material
         if self.inflation_pressure is None:
@@ -148,6 +148,17 @@ class Tire:
                 "or inflation_pressure=820e3 (Pa)"
             )
         return Elastic(modulus_from_inflation(self.inflation_pressure), POISSON_OF_RUBBER)
+
+    @property
+    def elastic(self) -> Elastic:
+        """The same, of an elastic tire. Raises InputError for a viscoelastic one."""
+        material = self.half_space
+        if isinstance(material, Prony):
+            raise InputError(
+                f"this problem knows elastic tires only, got a viscoelastic one ({material}); "
+                "give one of its limits, material.glassy or material.rubbery"
+            )
+        return material
 
     @property
     def fixed_grid(self) -> Grid | None:

@@ -1,0 +1,66 @@
+"""Rolling resistance: what a viscoelastic tire costs to roll."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from treadload.contact.solution import Contact
+from treadload.errors import InputError
+
+
+@dataclass(frozen=True)
+class RollingResistance:
+    """Rolling resistance of a wheel.
+
+    moment: of the pressure about the axle, N m, positive when it resists. pressure_centre_x: its arm, m, ahead of
+    the axle. force: moment over rolling radius, N. coefficient: force over normal load.
+    material_loss: energy lost in the materials per metre rolled, J/m = N, by pressure and shear, without what
+    friction takes. material_power: the same over time, W; None without a speed.
+    """
+
+    moment: float
+    pressure_centre_x: float
+    force: float
+    coefficient: float
+    material_loss: float
+    material_power: float | None
+
+    def __str__(self) -> str:
+        power = "" if self.material_power is None else f" ({self.material_power:.4g} W)"
+        return (
+            f"rolling resistance {1e3 * self.coefficient:.3g} N/kN: {self.force:.4g} N, pressure "
+            f"{1e3 * self.pressure_centre_x:.3g} mm ahead of the axle; {self.material_loss:.4g} J/m{power} "
+            "lost in the material"
+        )
+
+
+def rolling_resistance(contact: Contact, radius: float) -> RollingResistance:
+    """Rolling resistance of a contact.
+
+    contact: of a tire whose axle stands above x = 0. radius: rolling radius R of the wheel, m.
+    Per metre rolled, the moment M of the pressure brings in M/R and the shear Q·creepage; what friction does not
+    take is lost in the materials: M/R - W - ξ Q_x - η Q_y - φ M_z. In elastic ones that is zero, but for an error
+    that falls with the cell size. Raises InputError for a radius that is no positive number.
+    Source: Johnson (1985), Contact Mechanics, sections 9.1 and 9.4.
+    """
+    if not (math.isfinite(radius) and radius > 0):
+        raise InputError(f"radius must be a positive number of m, got {radius}; a truck tire's is near 0.5 m")
+    data = contact.dataset
+    moment = float(data.rolling_resistance_moment)
+    force = moment / radius
+    given = (
+        data.creepage_x * data.tractive_force
+        + data.creepage_y * data.lateral_force
+        + data.spin * data.aligning_moment
+    )
+    loss = force - float(data.friction_work_total) - float(given)
+    speed = contact.rolling.speed
+    return RollingResistance(
+        moment,
+        float(data.pressure_centre_x),
+        force,
+        force / float(data.normal_load),
+        loss,
+        None if speed is None else loss * speed,
+    )
