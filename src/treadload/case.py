@@ -33,9 +33,10 @@ from treadload.contact import (
     Rational,
     Rolling,
 )
+from treadload.contact.viscoelastic import check_rolling
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
-from treadload.materials import Elastic
+from treadload.materials import Elastic, Prony
 from treadload.pavement import Layer, Pavement
 from treadload.tire import Tire, TreadProfile, example_mesh
 from treadload.units import quantity
@@ -47,6 +48,7 @@ Speed = Annotated[float, BeforeValidator(lambda v: quantity(v, "m/s"))]
 Angle = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad"))]
 Curvature = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad/m"))]
 Number = Annotated[float, BeforeValidator(lambda v: quantity(v, ""))]
+Time = Annotated[float, BeforeValidator(lambda v: quantity(v, "s"))]
 Kelvin = Annotated[float, BeforeValidator(lambda v: quantity(v, "K"))]
 Conductivity = Annotated[float, BeforeValidator(lambda v: quantity(v, "W/(m K)"))]
 HeatCapacity = Annotated[float, BeforeValidator(lambda v: quantity(v, "J/(m^3 K)"))]
@@ -71,6 +73,43 @@ class MaterialPart(_Part):
         return Elastic(self.modulus, self.poisson)
 
 
+class PronyPart(_Part):
+    """`material = { kind = "prony", modulus = "10 MPa", terms = [[0.7, "10 ms"]], poisson = 0.49 }`."""
+
+    kind: Literal["prony"]
+    modulus: Pressure
+    terms: tuple[tuple[Number, Time], ...]
+    poisson: Number
+
+    def build(self) -> Prony:
+        """The material."""
+        return Prony(self.modulus, self.terms, self.poisson)
+
+
+_MATERIAL_PARTS: dict[str, type[_Part]] = {"elastic": MaterialPart, "prony": PronyPart}
+
+
+def _kind_of_material(value: Any) -> str:
+    kind = value.get("kind", "elastic") if isinstance(value, dict) else getattr(value, "kind", "elastic")
+    return str(kind)
+
+
+def _known_material(value: Any) -> Any:
+    """A material whose kind is one of ours. Raises ValueError that says which are."""
+    kind = _kind_of_material(value)
+    if kind not in _MATERIAL_PARTS:
+        raise ValueError(f"no material of the kind {kind!r}; known are {', '.join(_MATERIAL_PARTS)}")
+    return value
+
+
+# What a tire can be made of; the kind tells the tables apart.
+TireMaterial = Annotated[
+    Annotated[MaterialPart, Tag("elastic")] | Annotated[PronyPart, Tag("prony")],
+    Discriminator(_kind_of_material),
+    BeforeValidator(_known_material),
+]
+
+
 class TirePart(_Part):
     """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of."""
 
@@ -85,7 +124,7 @@ class TirePart(_Part):
     fill_holes: bool | Literal["auto"] = "auto"
     cell: Length | None = None
     inflation_pressure: Pressure | None = None
-    material: MaterialPart | None = None
+    material: TireMaterial | None = None
 
     @model_validator(mode="after")
     def _one_surface(self) -> TirePart:
@@ -382,7 +421,7 @@ class Case(_Part):
         self.pavement.build()
         self.rolling.build(self.folder)
         if self.tire.material is not None:
-            self.tire.material.build()
+            check_rolling(self.tire.material.build(), self.pavement.build().surface_material, self.rolling.speed)
         if self.damage is not None:
             self.damage.fatigue.build()
             if self.damage.depth not in self.response.depths:
@@ -435,7 +474,7 @@ def _in_words(error: ValidationError) -> str:
 
 
 def _one_error(item: Any) -> str:
-    place = ".".join(_without_laws(item["loc"]))
+    place = ".".join(_without_tags(item["loc"]))
     message = str(item["msg"]).removeprefix("Value error, ")
     if item["type"] == "extra_forbidden":
         known = _keys(item["loc"][:-1])
@@ -447,14 +486,13 @@ def _one_error(item: Any) -> str:
     return f"{place}: {message}" if place else message
 
 
-def _without_laws(location: tuple[Any, ...]) -> list[str]:
-    """Parts of a location without the names of friction laws, by which their tables are told apart."""
+_TAGS = {"friction": (*_LAW_PARTS, "number"), "base": (*_LAW_PARTS, "number"), "material": tuple(_MATERIAL_PARTS)}
+
+
+def _without_tags(location: tuple[Any, ...]) -> list[str]:
+    """Parts of a location without the names of friction laws and materials, by which tables are told apart."""
     before = ("", *location)
-    return [
-        str(part)
-        for part, last in zip(location, before, strict=False)
-        if not (last in ("friction", "base") and part in (*_LAW_PARTS, "number"))
-    ]
+    return [str(part) for part, last in zip(location, before, strict=False) if part not in _TAGS.get(str(last), ())]
 
 
 def _keys(location: tuple[Any, ...]) -> list[str]:
@@ -463,11 +501,12 @@ def _keys(location: tuple[Any, ...]) -> list[str]:
     for part in location:
         if isinstance(part, int) or part == "number":
             continue
-        if part in _LAW_PARTS and part not in model.model_fields:
-            model = _LAW_PARTS[part]
+        tables = {**_LAW_PARTS, **_MATERIAL_PARTS}
+        if part in tables and part not in model.model_fields:
+            model = tables[part]
             continue
         annotation = model.model_fields[part].annotation
         candidates = (annotation, *getattr(annotation, "__args__", ()))
-        # The name of the law that follows says which of its tables is meant.
+        # The name of the law or material that follows says which of its tables is meant.
         model = next((one for one in candidates if isinstance(one, type) and issubclass(one, BaseModel)), model)
     return [name for name in model.model_fields if name != "folder"]
