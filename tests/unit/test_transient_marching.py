@@ -82,12 +82,14 @@ def test_a_force_held_changes_nothing_more():
 
 def test_a_history_goes_on_from_a_state():
     step = Stage(np.reshape([-2e-5, 1e-5], (2, 1, 1)), (None, None), MU, 3e-3, pressure=PATCH.normal.pressure)
-    whole = roll_transient(PATCH.influence, [step] * 4)
-    first = roll_transient(PATCH.influence, [step] * 2, keep="last")
+    whole = roll_transient(PATCH.influence, [step] * 4, tolerance=1e-9)
+    first = roll_transient(PATCH.influence, [step] * 2, keep="last", tolerance=1e-9)
     assert len(whole.states) == 4
     assert len(first.states) == 1
-    rest = roll_transient(PATCH.influence, [step] * 2, before=first.last)
-    np.testing.assert_allclose(rest.last.tangential.shear, whole.last.tangential.shear, atol=1e-9)
+    rest = roll_transient(PATCH.influence, [step] * 2, before=first.last, tolerance=1e-9)
+    np.testing.assert_allclose(
+        rest.last.tangential.shear, whole.last.tangential.shear, atol=1e-6 * PATCH.normal.pressure.max()
+    )
 
 
 def test_friction_may_be_a_map_or_a_function():

@@ -27,6 +27,8 @@ from treadload.kernels.arrays import Array
 _MOST_ROUNDS = 40
 # Kernels of so many different travels are kept: equal steps need two.
 _KEPT_KERNELS = 4
+# Steps of more cells than this leave little of the last shear to go by.
+_FAR = 2.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,20 +167,23 @@ def march(
     """The states at the ends of the steps, one after the other; arguments as in `roll_transient`."""
     ahead = lru_cache(maxsize=_KEPT_KERNELS)(lambda distance: Ahead(influence, distance))
     here = Ahead(influence, 0.0)
+    earlier: State | None = None
     state = before
     for stage in stages:
+        start = _start(influence, stage, state, earlier)
         known = np.broadcast_to(stage.rigid, (2, *influence.shape)).copy()
         if state is not None:
             point = here if stage.travel == 0 else ahead(stage.travel)
             known -= point(state.tangential.shear, state.pressure)
         if stage.pressure is not None:
-            tangential = _shear(influence, here, stage, stage.pressure, known, _start(state, stage), tolerance)
-            state = State(stage, stage.pressure, tangential)
+            tangential = _shear(influence, here, stage, stage.pressure, known, start, tolerance)
+            new = State(stage, stage.pressure, tangential)
         else:
             if gap is None:
                 raise InputError("a step with a load or an approach needs the gap (ny, nx) of the two bodies, m")
-            state = _press(influence, here, gap, stage, state, known, tolerance)
-        yield state
+            new = _press(influence, here, gap, stage, state, known, start, tolerance)
+        earlier, state = state, new
+        yield new
 
 
 def _shear(
@@ -200,15 +205,23 @@ def _shear(
     )
 
 
-def _start(state: State | None, stage: Stage) -> TangentialSolution | None:
-    """The last shear, with the displacement that the last creepage would make in this step."""
-    if state is None or not state.tangential.shear.any():
+def _start(
+    influence: Influence, stage: Stage, state: State | None, earlier: State | None
+) -> TangentialSolution | None:
+    """What the last two steps let expect of the next; None where the solution on half the grid tells more."""
+    if state is None or earlier is None or stage.travel > _FAR * influence.dx:
         return None
-    ratio = stage.travel / state.stage.travel if state.stage.travel > 0 else 0.0
-    found = state.tangential.found
-    known = [force is None for force in stage.forces]
-    along, across = (0.0 if known[c] else ratio * found[c] for c in (0, 1))
-    return replace(state.tangential, found=(along, across))
+    if not (_goes_on(earlier.stage, state.stage) and _goes_on(state.stage, stage)):
+        return None
+    shear = 2 * state.tangential.shear - earlier.tangential.shear
+    along, across = 2 * np.array(state.displaced) - earlier.displaced
+    return replace(state.tangential, shear=shear, found=(float(along), float(across)))
+
+
+def _goes_on(one: Stage, other: Stage) -> bool:
+    """Whether a step does again what the last did."""
+    known = [force is None for force in one.forces] == [force is None for force in other.forces]
+    return known and one.travel == other.travel and bool((one.rigid * other.rigid).sum() >= 0)
 
 
 def _press(
@@ -218,6 +231,7 @@ def _press(
     stage: Stage,
     state: State | None,
     known: Array,
+    start: TangentialSolution | None,
     tolerance: float,
 ) -> State:
     """A step under a load or an approach: pressure and shear in turn, until the pressure no longer changes.
@@ -230,7 +244,7 @@ def _press(
     else:
         opening = here.gap(state.tangential.shear) if coupled and state is not None else 0.0
         normal = _normal(influence, gap + opening, stage, state.pressure if state else None, tolerance)
-    start, newton, products = _start(state, stage), 0, 0
+    newton = products = 0
     for rounds in range(1, _MOST_ROUNDS + 1):
         tangential = _shear(influence, here, stage, normal.pressure, known, start, tolerance)
         newton, products = newton + tangential.newton, products + tangential.products
