@@ -17,9 +17,13 @@ if TYPE_CHECKING:
         CreepCurve,
         Rolling,
         RollingResistance,
+        TransientResult,
+        TurnResult,
         creep_curve,
         rolling_resistance,
         solve_contact,
+        solve_transient,
+        turn_on_the_spot,
     )
     from treadload.damage import FatigueLine, Verdict, assess
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
@@ -35,8 +39,8 @@ if TYPE_CHECKING:
 _HOME = {
     "Case": "case",
     "Contact": "contact",
-    "CreepCurve": "contact",
     "ConvergenceError": "errors",
+    "CreepCurve": "contact",
     "Elastic": "materials",
     "FatigueLine": "damage",
     "GeometryError": "errors",
@@ -52,8 +56,10 @@ _HOME = {
     "Rolling": "contact",
     "RollingResistance": "contact",
     "Tire": "tire",
+    "TransientResult": "contact",
     "TreadProfile": "tire",
     "TreadloadError": "errors",
+    "TurnResult": "contact",
     "Verdict": "damage",
     "assess": "damage",
     "creep_curve": "contact",
@@ -66,7 +72,9 @@ _HOME = {
     "save": "results",
     "solve_contact": "contact",
     "solve_response": "response",
+    "solve_transient": "contact",
     "to_tree": "results",
+    "turn_on_the_spot": "contact",
 }
 
 __all__ = [
@@ -89,8 +97,10 @@ __all__ = [
     "Rolling",
     "RollingResistance",
     "Tire",
+    "TransientResult",
     "TreadProfile",
     "TreadloadError",
+    "TurnResult",
     "Verdict",
     "__version__",
     "assess",
@@ -104,7 +114,9 @@ __all__ = [
     "save",
     "solve_contact",
     "solve_response",
+    "solve_transient",
     "to_tree",
+    "turn_on_the_spot",
 ]
 
 

@@ -15,6 +15,8 @@ from treadload.contact.friction_map import FrictionMap
 from treadload.contact.resistance import RollingResistance, rolling_resistance
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
+from treadload.contact.transient import TransientResult, solve_transient
+from treadload.contact.turning import TurnResult, turn_on_the_spot
 from treadload.contact.wheel import Rolling
 
 __all__ = [
@@ -32,7 +34,11 @@ __all__ = [
     "Rational",
     "Rolling",
     "RollingResistance",
+    "TransientResult",
+    "TurnResult",
     "creep_curve",
     "rolling_resistance",
     "solve_contact",
+    "solve_transient",
+    "turn_on_the_spot",
 ]
