@@ -33,6 +33,7 @@ _NODES = 7
 _GRADING, _LEVELS, _NEAR_NODES = 0.35, 13, 10
 # Beyond the last offset A is a power of the distance: panels grow with it until the memory has faded.
 _GROWTH, _START_NODES, _FORGOTTEN = 0.5, 10, 45.0
+_SHORTEST = 1e8
 
 
 def fading(sample: Sample, behind: int, ahead: int, dx: float, lengths: Sequence[float]) -> Array:
@@ -41,7 +42,7 @@ def fading(sample: Sample, behind: int, ahead: int, dx: float, lengths: Sequence
     sample: the instantaneous coefficients. behind, ahead: cells, ≥ 0. dx: cell size, m.
     lengths: L of each term, m, > 0: from L → 0, where B = A, to any multiple of the window.
     Exact recursion from the leading end, B(X) = exp(-dx/L) B(X + dx) + ∫₀^dx exp(-s/L)/L A(X + s) ds, with
-    the integrals by rules that contain the exponential, good to about nine digits of A.
+    the integrals by rules that contain the exponential, good to seven digits of A or more.
     """
     # The near cells are treated on their own, wanted or not.
     extra, wanted = max(_NEAR - behind, 0), behind + 1 + ahead
@@ -64,7 +65,8 @@ def rule(nodes: Array, start: float, end: float, lengths: Array) -> Array:
     nodes: (n,) on [-1, 1], mapped to [start, end], m. lengths: L (terms,), m.
     """
     half = 0.5 * (end - start)
-    ratio = half / lengths
+    # A memory this short is none; Bessel functions of larger arguments overflow.
+    ratio = np.minimum(half / lengths, _SHORTEST)
     order = np.arange(nodes.size)
     # ∫ P_k(t) exp(-λ(1 + t)) dt over [-1, 1] is a modified spherical Bessel function.
     bessel = np.sqrt(np.pi / (2 * ratio))[:, None] * ive(order + 0.5, ratio[:, None])

@@ -139,8 +139,8 @@ class Prony:
     def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
         """E*(ω) = E' + iE'', Pa, at angular frequencies ω, rad/s, for motion as exp(iωt); the shape of `omega`."""
         w = np.asarray(omega, dtype=float)
-        relaxed = sum((g / (1 + 1j * w * tau) for g, tau in self.terms), np.zeros(w.shape, complex))
-        return np.asarray(self.modulus * (1 - relaxed))
+        kept = sum((g * 1j * w * tau / (1 + 1j * w * tau) for g, tau in self.terms), np.zeros(w.shape, complex))
+        return np.asarray(self.long_term_modulus + self.modulus * kept)
 
     def __str__(self) -> str:
         return (

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from treadload.errors import InputError, TreadloadError
-from treadload.validation import dissimilar, paper, pressing, shearing, stress, tires
+from treadload.validation import dissimilar, paper, pressing, shearing, stress, tires, viscoelastic
 from treadload.validation.check import Check
 
 GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
@@ -18,6 +18,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "disc": shearing.disc_checks,
     "bentall": dissimilar.bentall_checks,
     "rubber": dissimilar.rubber_checks,
+    "viscoelastic": viscoelastic.cylinder_checks,
     "stress": stress.stress_checks,
     "conditions": tires.condition_checks,
     "iterations": pressing.iteration_checks,
