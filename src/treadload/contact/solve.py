@@ -63,7 +63,7 @@ def solve_contact(
     # Slow rolling makes the largest contact of a viscoelastic tire.
     bodies = combined(tire.half_space, road.surface_material, "rubbery")
     tell("locating the contact")
-    grid, gap = _place(tire, rolling, bodies, spacing) if start is None else _same_place(tire, start, spacing)
+    grid, gap = place(tire, rolling, bodies, spacing) if start is None else _same_place(tire, start, spacing)
     influence = Influence(grid.shape, grid.dx, grid.dy, bodies)
     if isinstance(tire.half_space, Prony):
         cells = grid.shape, grid.dx, grid.dy
@@ -74,7 +74,7 @@ def solve_contact(
         grid,
         gap,
         rolling,
-        check=lambda pressure: _check_border(pressure, grid),
+        check=lambda pressure: check_border(pressure, grid),
         start=None if start is None else _near(start, grid),
         tolerance=tolerance,
         tell=tell,
@@ -88,7 +88,7 @@ def combine(tire: Elastic, road: Elastic) -> CombinedElasticity:
     return CombinedElasticity.of(tire.shear_modulus, tire.poisson, road.shear_modulus, road.poisson)
 
 
-def _place(tire: Tire, rolling: Rolling, bodies: CombinedElasticity, spacing: float | None) -> tuple[Grid, Array]:
+def place(tire: Tire, rolling: Rolling, bodies: CombinedElasticity, spacing: float | None) -> tuple[Grid, Array]:
     """Grid that holds the contact with a margin, and the initial gap on it."""
     if tire.fixed_grid is not None:
         grid = tire.fixed_grid
@@ -153,7 +153,7 @@ def _reach(positions: Array, touching: BoolArray) -> float:
     return float(np.abs(positions[touching]).max(initial=0.0))
 
 
-def _check_border(pressure: Array, grid: Grid) -> None:
+def check_border(pressure: Array, grid: Grid) -> None:
     """Refuse a contact that the grid cuts off."""
     sides = {
         "leading (x max)": pressure[:, -1],

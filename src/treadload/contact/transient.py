@@ -22,7 +22,7 @@ from treadload.contact.marching import Stage, State, march
 from treadload.contact.rolling import rigid_slip
 from treadload.contact.snapshot import Scene, contact_of, scalars_of
 from treadload.contact.solution import Contact
-from treadload.contact.solve import _check_border, _place, combine
+from treadload.contact.solve import check_border, combine, place
 from treadload.contact.tangential import Forces
 from treadload.contact.wheel import Rolling
 from treadload.errors import InputError
@@ -139,7 +139,7 @@ def set_scene(tire: Tire, road: Pavement, rolling: Sequence[Rolling], spacing: f
         if state.normal_load is not None:
             state.check_friction_limit(state.normal_load)
     heaviest = max(rolling, key=lambda state: state.normal_load or state.approach or 0.0)
-    grid, gap = _place(tire, heaviest, bodies, spacing)
+    grid, gap = place(tire, heaviest, bodies, spacing)
     return Scene(tire, road, grid, gap, Influence(grid.shape, grid.dx, grid.dy, bodies))
 
 
@@ -162,7 +162,7 @@ def stage_of(scene: Scene, rolling: Rolling, rigid: Array, forces: Forces, trave
 def run(scene: Scene, stages: Sequence[Stage], tolerance: float) -> Iterator[State]:
     """March on the scene's grid; refuses a contact that the grid cuts off."""
     for state in march(scene.influence, stages, gap=scene.gap, tolerance=tolerance):
-        _check_border(state.pressure, scene.grid)
+        check_border(state.pressure, scene.grid)
         if not state.pressure.any():
             raise InputError("the approach does not bring tire and road into contact; raise it")
         yield state

@@ -24,6 +24,8 @@ _KRYLOV_MEMORY = 60
 # Two digits a step near the solution, where Newton's method converges; one while cells still change sides.
 _KRYLOV_TOLERANCES = (1e-2, 1e-1)
 _FAR, _POOR_STEP = 1e-4, 0.05
+# A stick cell below this share of its bound can take up what clipping took from the forces.
+_ROOM = 0.999
 # Forces are held this much tighter than the cells' conditions.
 _FORCE_WEIGHT = 100.0
 
@@ -76,7 +78,7 @@ def solve(
         # Friction's bound holds to the last digit: what that changes is seen in the residual.
         stick = state.stick
         q = np.where(stick, project_disc(state.q, problem.bound), state.reach * state.shrink)
-        state = newton.state_of(q, state.xi)
+        state = newton.state_of(_balance(problem, q, stick), state.xi)
         if state.residual <= tolerance or newton.count >= max_iterations:
             break
     return CoulombSolution(
@@ -92,6 +94,17 @@ def solve(
         newton.products,
         tuple(history),
     )
+
+
+def _balance(problem: CoulombProblem, q: Array, stick: BoolArray) -> Array:
+    """Shear that carries the prescribed forces to the last digit: stick cells with room share what is missing."""
+    room = stick & (np.hypot(q[0], q[1]) < _ROOM * problem.bound)
+    cells = int(room.sum())
+    for c in problem.forced:
+        total = problem.totals[c]
+        if cells and total is not None:
+            q[c][room] += (total - q[c].sum()) / cells
+    return np.where(stick, project_disc(q, problem.bound), q)
 
 
 @dataclass(frozen=True)

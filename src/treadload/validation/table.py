@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from treadload.errors import InputError, TreadloadError
-from treadload.validation import dissimilar, paper, pressing, shearing, stress, tires, viscoelastic
+from treadload.validation import dissimilar, histories, paper, pressing, shearing, stress, tires, viscoelastic
 from treadload.validation.check import Check
 
 GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
@@ -19,6 +19,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "bentall": dissimilar.bentall_checks,
     "rubber": dissimilar.rubber_checks,
     "viscoelastic": viscoelastic.cylinder_checks,
+    "histories": histories.history_checks,
     "stress": stress.stress_checks,
     "conditions": tires.condition_checks,
     "iterations": pressing.iteration_checks,
