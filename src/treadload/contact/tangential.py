@@ -16,7 +16,7 @@ from treadload.kernels.coulomb import CoulombProblem
 from treadload.kernels.coulomb_newton import CoulombSolution
 
 # Below this many cells a side a solve costs nothing and needs no start from a coarser one.
-_COARSEST = 24
+_COARSEST = 48
 _START_TOLERANCE = 1e-2
 
 Forces = tuple[float | None, float | None]

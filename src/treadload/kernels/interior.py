@@ -173,13 +173,12 @@ def stress_on_grid(
     method: "auto", "fft" or "direct". Returns (nz, 6, my, mx), Pa, and the method used.
     """
     stress = np.zeros((len(depths), 6, len(y), len(x)))
-    rows, columns = np.flatnonzero(load.any(axis=(0, 2))), np.flatnonzero(load.any(axis=(0, 1)))
-    if not len(rows):
+    part_loaded = loaded_part(load)
+    if part_loaded is None:
         return stress, "none"
-    # Unloaded rows and columns around the footprint do nothing but cost.
-    load = load[:, rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    x, y = x - dx * columns[0], y - dy * rows[0]
-    lattices_x, lattices_y = _lattices(x, dx), _lattices(y, dy)
+    load, row, column = part_loaded
+    x, y = x - dx * column, y - dy * row
+    lattices_x, lattices_y = as_lattices(x, dx), as_lattices(y, dy)
     _, ny, nx = load.shape
     if method == "auto":
         padded = sum(nx + count for _, count, _, _ in lattices_x) * sum(ny + count for _, count, _, _ in lattices_y)
@@ -196,7 +195,17 @@ def stress_on_grid(
     return stress, method
 
 
-def _lattices(x: Array, dx: float) -> list[tuple[float, int, _Indices, _Indices]]:
+def loaded_part(load: Array) -> tuple[Array, int, int] | None:
+    """The load (3, ny, nx) without unloaded margins, its first row and column; None without load."""
+    rows, columns = np.flatnonzero(load.any(axis=(0, 2))), np.flatnonzero(load.any(axis=(0, 1)))
+    if not len(rows):
+        return None
+    # Unloaded rows and columns around the footprint do nothing but cost.
+    part = load[:, rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    return part, int(rows[0]), int(columns[0])
+
+
+def as_lattices(x: Array, dx: float) -> list[tuple[float, int, _Indices, _Indices]]:
     """Coordinates as lattices of spacing dx: first point, number of points, indices into x and into the lattice."""
     cells = x / dx
     whole = np.floor(cells + _SAME_PLACE)
