@@ -1,8 +1,8 @@
 """A viscoelastic tire in a case file: read, written back, run, and refused with the reason."""
 
 import pytest
-from cases import COARSE_CASE
 
+from cases import COARSE_CASE
 from treadload import run_case
 from treadload.case import Case
 from treadload.errors import InputError
