@@ -29,19 +29,22 @@ if TYPE_CHECKING:
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
     from treadload.grid import Grid
     from treadload.materials import Elastic, Prony
-    from treadload.pavement import Layer, Pavement
+    from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
     from treadload.reporting import report
-    from treadload.response import Response, solve_response
+    from treadload.response import Response, UniformDisc, UniformRectangle, solve_response
     from treadload.results import load, save, to_tree
     from treadload.study import Result, run_case
     from treadload.tire import Groove, LateralGrooves, Tire, TreadProfile, example_mesh, modulus_from_inflation
 
 _HOME = {
+    "BONDED": "pavement",
+    "Bond": "pavement",
     "Case": "case",
     "Contact": "contact",
     "ConvergenceError": "errors",
     "CreepCurve": "contact",
     "Elastic": "materials",
+    "FRICTIONLESS": "pavement",
     "FatigueLine": "damage",
     "GeometryError": "errors",
     "Grid": "grid",
@@ -60,6 +63,8 @@ _HOME = {
     "TreadProfile": "tire",
     "TreadloadError": "errors",
     "TurnResult": "contact",
+    "UniformDisc": "response",
+    "UniformRectangle": "response",
     "Verdict": "damage",
     "assess": "damage",
     "creep_curve": "contact",
@@ -78,6 +83,9 @@ _HOME = {
 }
 
 __all__ = [
+    "BONDED",
+    "FRICTIONLESS",
+    "Bond",
     "Case",
     "Contact",
     "ConvergenceError",
@@ -101,6 +109,8 @@ __all__ = [
     "TreadProfile",
     "TreadloadError",
     "TurnResult",
+    "UniformDisc",
+    "UniformRectangle",
     "Verdict",
     "__version__",
     "assess",

@@ -37,12 +37,13 @@ from treadload.contact.viscoelastic import check_rolling
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.materials import Elastic, Prony
-from treadload.pavement import Layer, Pavement
+from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
 from treadload.tire import Tire, TreadProfile, example_mesh
 from treadload.units import quantity
 
 Length = Annotated[float, BeforeValidator(lambda v: quantity(v, "m"))]
 Pressure = Annotated[float, BeforeValidator(lambda v: quantity(v, "Pa"))]
+Stiffness = Annotated[float, BeforeValidator(lambda v: quantity(v, "Pa/m"))]
 Force = Annotated[float, BeforeValidator(lambda v: quantity(v, "N"))]
 Speed = Annotated[float, BeforeValidator(lambda v: quantity(v, "m/s"))]
 Angle = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad"))]
@@ -172,26 +173,44 @@ class TirePart(_Part):
         return Tire.from_profile(profile, **body)
 
 
+class BondPart(_Part):
+    """`bond = { stiffness = "1000 MPa/m" }`."""
+
+    stiffness: Stiffness
+
+
 class LayerPart(_Part):
-    """`[[pavement.layers]]`, from the surface down; the last one has no thickness."""
+    """`[[pavement.layers]]`, from the surface down; the last one has no thickness unless the base is rigid.
+
+    bond, to the layer below: "bonded", "frictionless" or `{ stiffness = "1000 MPa/m" }`.
+    """
 
     material: MaterialPart
     thickness: Length | None = None
     name: str = ""
+    bond: Annotated[
+        Annotated[Literal["bonded", "frictionless"], Tag("word")] | Annotated[BondPart, Tag("spring")],
+        Discriminator(lambda v: "word" if isinstance(v, str) else "spring"),
+    ] = "bonded"
 
     def build(self) -> Layer:
         """The layer."""
-        return Layer(self.material.build(), self.thickness, name=self.name)
+        if isinstance(self.bond, BondPart):
+            bond = Bond(self.bond.stiffness)
+        else:
+            bond = FRICTIONLESS if self.bond == "frictionless" else BONDED
+        return Layer(self.material.build(), self.thickness, name=self.name, bond=bond)
 
 
 class PavementPart(_Part):
     """`[pavement]`: the road's layers."""
 
     layers: tuple[LayerPart, ...] = Field(min_length=1)
+    rigid_base: bool = False
 
     def build(self) -> Pavement:
         """The pavement."""
-        return Pavement([layer.build() for layer in self.layers])
+        return Pavement([layer.build() for layer in self.layers], rigid_base=self.rigid_base)
 
 
 class CoulombPart(_Part):
@@ -486,7 +505,13 @@ def _one_error(item: Any) -> str:
     return f"{place}: {message}" if place else message
 
 
-_TAGS = {"friction": (*_LAW_PARTS, "number"), "base": (*_LAW_PARTS, "number"), "material": tuple(_MATERIAL_PARTS)}
+_BOND_TAGS = ("word", "spring")
+_TAGS = {
+    "friction": (*_LAW_PARTS, "number"),
+    "base": (*_LAW_PARTS, "number"),
+    "material": tuple(_MATERIAL_PARTS),
+    "bond": _BOND_TAGS,
+}
 
 
 def _without_tags(location: tuple[Any, ...]) -> list[str]:
@@ -499,14 +524,14 @@ def _keys(location: tuple[Any, ...]) -> list[str]:
     """Keys that the table at this location knows."""
     model: Any = Case
     for part in location:
-        if isinstance(part, int) or part == "number":
+        if isinstance(part, int) or part in ("number", *_BOND_TAGS):
             continue
         tables = {**_LAW_PARTS, **_MATERIAL_PARTS}
         if part in tables and part not in model.model_fields:
             model = tables[part]
             continue
         annotation = model.model_fields[part].annotation
-        candidates = (annotation, *getattr(annotation, "__args__", ()))
+        candidates = [getattr(one, "__origin__", one) for one in (annotation, *getattr(annotation, "__args__", ()))]
         # The name of the law or material that follows says which of its tables is meant.
         model = next((one for one in candidates if isinstance(one, type) and issubclass(one, BaseModel)), model)
     return [name for name in model.model_fields if name != "folder"]

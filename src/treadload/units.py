@@ -11,6 +11,7 @@ from treadload.errors import InputError
 _EXAMPLES = {
     "m": '"3 mm"',
     "Pa": '"8.2 bar" or "5400 MPa"',
+    "Pa/m": '"1000 MPa/m"',
     "N": '"32.5 kN"',
     "s": '"10 ms"',
     "m/s": '"70 km/h"',

@@ -6,7 +6,7 @@ import pytest
 
 from treadload.errors import InputError
 from treadload.materials import Elastic
-from treadload.pavement import Layer, Pavement
+from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
 
 ASPHALT, SOIL = Elastic(5.4e9, 0.35), Elastic(8e7, 0.4)
 
@@ -44,3 +44,32 @@ def test_thickness_must_be_positive(thickness):
 def test_refusals(layers, message):
     with pytest.raises(InputError, match=message):
         Pavement(layers)
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: Bond(-1.0), "must be >= 0 Pa/m, got -1.0"),
+        (lambda: Bond(math.nan), "must be >= 0 Pa/m"),
+        (lambda: Layer(ASPHALT, 0.1, bond="glued"), "BONDED, FRICTIONLESS or Bond"),
+        (lambda: Pavement([Layer(ASPHALT, 0.1), Layer(SOIL, bond=FRICTIONLESS)]), "no layer below it"),
+        (lambda: Pavement([Layer(ASPHALT, 0.1), Layer(SOIL)], rigid_base=True), "needs a thickness"),
+    ],
+)
+def test_bad_bonds_and_bases(build, message):
+    with pytest.raises(InputError, match=message):
+        build()
+
+
+def test_bonds_in_words():
+    assert str(BONDED) == "bonded"
+    assert str(FRICTIONLESS) == "frictionless"
+    assert str(Bond(stiffness=1e9)) == "spring of 1000 MPa/m"
+
+
+def test_bonded_layers_of_one_material_are_one():
+    road = Pavement([Layer(ASPHALT, 0.04), Layer(ASPHALT, 0.04, bond=FRICTIONLESS), Layer(SOIL, 1.0), Layer(SOIL)])
+    assert [layer.thickness for layer in road.distinct_layers] == [0.08, None]
+    assert road.distinct_layers[0].bond == FRICTIONLESS
+    assert not Pavement([Layer(SOIL, 0.1, bond=Bond(1e9)), Layer(SOIL)]).is_homogeneous
+    assert not Pavement([Layer(SOIL, 0.1)], rigid_base=True).is_homogeneous

@@ -11,7 +11,7 @@ from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
-from treadload.response import GridLoad, Response, solve_response
+from treadload.response import GridLoad, Response, UniformDisc, solve_response
 
 ASPHALT = Elastic(5.4e9, 0.35)
 ROAD = Pavement.half_space(ASPHALT)
@@ -39,7 +39,7 @@ def response():
 def test_every_variable_has_its_name_unit_and_dimensions(response):
     data = response.dataset
     assert dict(data.sizes) == {"depth": 3, "y": 11, "x": 14, "component": 3}
-    names = [*variables._RESPONSE]
+    names = [*variables._RESPONSE, "displacement_x", "displacement_y", "displacement_z"]
     assert set(names) == set(data.data_vars)
     for name in names:
         assert data[name].attrs == variables.attributes(name)
@@ -188,7 +188,12 @@ def test_stats(response):
         ({"loads": []}, "empty list"),
         ({"loads": 3.0}, "float"),
         ({"loads": ["no"]}, "str"),
-        ({"road": Pavement([Layer(ASPHALT, 0.06), Layer(Elastic(1e8, 0.4))])}, "2 layers"),
+        (
+            {"road": Pavement([Layer(ASPHALT, 0.06)], rigid_base=True), "depths": [0.07]},
+            "below the rigid base at 0.06",
+        ),
+        ({"road": Pavement([Layer(ASPHALT, 1e-5), Layer(Elastic(1e8, 0.4))])}, "thin layers near the surface"),
+        ({"loads": UniformDisc(0.1, 1e6)}, "give x and y"),
     ],
 )
 def test_refusals(changes, message):

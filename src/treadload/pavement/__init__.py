@@ -1,5 +1,5 @@
 """The road and its layers."""
 
-from treadload.pavement.structure import Layer, Pavement
+from treadload.pavement.structure import BONDED, FRICTIONLESS, Bond, Layer, Pavement
 
-__all__ = ["Layer", "Pavement"]
+__all__ = ["BONDED", "FRICTIONLESS", "Bond", "Layer", "Pavement"]

@@ -1,13 +1,43 @@
-"""The road: layers on a half-space."""
+"""The road: layers on a half-space or a rigid base, and how they hold together."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from treadload.errors import InputError
 from treadload.materials import Elastic
+
+
+@dataclass(frozen=True)
+class Bond:
+    """How a layer holds to the one below: shear = stiffness x relative sliding; the layers never part.
+
+    stiffness: Pa/m, >= 0; infinite when bonded, 0 without friction. It matters between some 1e9 and 1e12 Pa/m.
+    Raises InputError for a negative stiffness.
+    Source: Goodman, Taylor and Brekke (1968), J. Soil Mech. Found. Div. ASCE 94, 637-659.
+    """
+
+    stiffness: float
+
+    def __post_init__(self) -> None:
+        if not self.stiffness >= 0:
+            raise InputError(
+                f"the stiffness of a bond must be >= 0 Pa/m, got {self.stiffness}; 0 is frictionless, "
+                "infinity is bonded"
+            )
+
+    def __str__(self) -> str:
+        if self == BONDED:
+            return "bonded"
+        return "frictionless" if self == FRICTIONLESS else f"spring of {self.stiffness / 1e6:g} MPa/m"
+
+
+BONDED = Bond(math.inf)
+"""No relative sliding."""
+FRICTIONLESS = Bond(0.0)
+"""No shear between the layers."""
 
 
 @dataclass(frozen=True)
@@ -15,12 +45,13 @@ class Layer:
     """One layer of a road.
 
     material: what it is made of. thickness: m; None for the last layer, which goes down for ever.
-    name: free text.
+    name: free text. bond: to the layer below, BONDED, FRICTIONLESS or Bond(stiffness=...).
     """
 
     material: Elastic
     thickness: float | None = None
     name: str = ""
+    bond: Bond = BONDED
 
     def __post_init__(self) -> None:
         if self.thickness is not None and not (math.isfinite(self.thickness) and self.thickness > 0):
@@ -28,16 +59,26 @@ class Layer:
                 f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness}; "
                 "leave it out for the last layer"
             )
+        if not isinstance(self.bond, Bond):
+            raise InputError(
+                f"layer {self.name!r}: bond must be BONDED, FRICTIONLESS or Bond(stiffness=...), got {self.bond!r}"
+            )
 
 
 @dataclass(frozen=True)
 class Pavement:
-    """Layers from the surface down; the last one has no thickness."""
+    """Layers from the surface down; the last one has no thickness, unless it lies on a rigid base.
+
+    layers: from the surface down. rigid_base: True if the last layer, then with a thickness, is bonded to rock
+    that does not move. Raises InputError for a missing or surplus thickness and a bond below the last layer.
+    """
 
     layers: tuple[Layer, ...]
+    rigid_base: bool = False
 
-    def __init__(self, layers: Sequence[Layer]) -> None:
+    def __init__(self, layers: Sequence[Layer], *, rigid_base: bool = False) -> None:
         object.__setattr__(self, "layers", tuple(layers))
+        object.__setattr__(self, "rigid_base", bool(rigid_base))
         if not self.layers:
             raise InputError("a pavement needs at least one layer, got none")
         for number, layer in enumerate(self.layers[:-1], start=1):
@@ -46,10 +87,21 @@ class Pavement:
                     f"layer {number} ({layer.name!r}) of {len(self.layers)} has no thickness; "
                     "only the last layer goes down for ever"
                 )
-        if self.layers[-1].thickness is not None:
+        last = self.layers[-1]
+        if self.rigid_base and last.thickness is None:
             raise InputError(
-                f"the last layer ({self.layers[-1].name!r}) must have no thickness, "
-                f"got {self.layers[-1].thickness} m; add the soil below it as a layer without thickness"
+                f"the last layer ({last.name!r}) lies on a rigid base and needs a thickness, got none; "
+                "give one or take the rigid base away"
+            )
+        if not self.rigid_base and last.thickness is not None:
+            raise InputError(
+                f"the last layer ({last.name!r}) must have no thickness, "
+                f"got {last.thickness} m; add the soil below it as a layer without thickness"
+            )
+        if last.bond != BONDED:
+            raise InputError(
+                f"the last layer ({last.name!r}) has no layer below it to hold to, got the bond {last.bond}; "
+                "give the bond to the layer above the interface"
             )
 
     @classmethod
@@ -63,6 +115,20 @@ class Pavement:
         return self.layers[0].material
 
     @property
+    def distinct_layers(self) -> tuple[Layer, ...]:
+        """The layers, with neighbours of one material that are bonded taken as one."""
+        joined = [self.layers[0]]
+        for layer in self.layers[1:]:
+            above = joined[-1]
+            if above.bond != BONDED or above.material != layer.material:
+                joined.append(layer)
+                continue
+            assert above.thickness is not None
+            thickness = None if layer.thickness is None else above.thickness + layer.thickness
+            joined[-1] = replace(above, thickness=thickness, bond=layer.bond)
+        return tuple(joined)
+
+    @property
     def is_homogeneous(self) -> bool:
-        """True if every layer has the same material."""
-        return all(layer.material == self.surface_material for layer in self.layers)
+        """True if the road is one half-space: one material, bonded, without rigid base."""
+        return len(self.distinct_layers) == 1 and not self.rigid_base

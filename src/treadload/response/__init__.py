@@ -1,7 +1,7 @@
-"""Stress and strain in the road."""
+"""Stress, strain and displacement in the road."""
 
-from treadload.response.loads import GridLoad
+from treadload.response.loads import GridLoad, UniformDisc, UniformRectangle
 from treadload.response.solution import Response
 from treadload.response.solve import solve_response
 
-__all__ = ["GridLoad", "Response", "solve_response"]
+__all__ = ["GridLoad", "Response", "UniformDisc", "UniformRectangle", "solve_response"]

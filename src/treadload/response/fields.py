@@ -15,11 +15,21 @@ COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _DIMS = ("depth", "y", "x")
 
 
-def response_dataset(stress: Array, strain: Array, depths: Array, y: Array, x: Array, **attrs: Any) -> xr.Dataset:
-    """Dataset (depth, y, x) of the tensors, their principal strains and their invariants.
+def response_dataset(
+    stress: Array,
+    strain: Array,
+    depths: Array,
+    y: Array,
+    x: Array,
+    *,
+    displacement: Array | None = None,
+    **attrs: Any,
+) -> xr.Dataset:
+    """Dataset (depth, y, x) of the tensors, the displacement, the principal strains and the invariants.
 
     stress: (6, nz, ny, nx), Pa, and strain: (6, nz, ny, nx), both in the order of `COMPONENTS`, tension
-    positive, tensor shear. depths: (nz,), y: (ny,), x: (nx,), m. attrs: attributes of the dataset.
+    positive, tensor shear. depths: (nz,), y: (ny,), x: (nx,), m. displacement: (3, nz, ny, nx), m, z down, or
+    None. attrs: attributes of the dataset.
     principal_direction_1 has a last dimension `component` with labels x, y, z.
     """
     values, direction = tensors.principal(strain)
@@ -37,6 +47,8 @@ def response_dataset(stress: Array, strain: Array, depths: Array, y: Array, x: A
         "mazars_strain": (_DIMS, tensors.mazars(values)),
     }
     coordinates = {"depth": depths, "y": y, "x": x, "component": ["x", "y", "z"]}
+    if displacement is not None:
+        fields |= {f"displacement_{name}": (_DIMS, part) for name, part in zip("xyz", displacement, strict=True)}
     return variables.dataset(fields, coordinates, **attrs)
 
 

@@ -7,32 +7,45 @@ from collections.abc import Sequence
 import numpy as np
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.disc import disc_fields
+from treadload.kernels.displacement import displacement_on_grid
 from treadload.kernels.interior import stress_on_grid
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
-from treadload.response.loads import GridLoad
+from treadload.response.loads import SurfaceLoad, UniformDisc
 
 
 def half_space_response(
-    loads: Sequence[GridLoad], material: Elastic, depths: Array, x: Array, y: Array
-) -> tuple[Array, Array, str]:
-    """Stress and strain of a half-space under superposed loads.
+    loads: Sequence[SurfaceLoad], material: Elastic, depths: Array, x: Array, y: Array
+) -> tuple[Array, Array, Array, str]:
+    """Stress, strain and displacement of a half-space under superposed loads.
 
     material: of the half-space. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates.
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
-    `kernels.interior.COMPONENTS`; and the method: "fft" where x and y lie on few lattices of the loads'
-    spacing (that spacing, its fractions or multiples, a single row), "direct" elsewhere, slower.
+    `kernels.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where x and y
+    lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
+    "direct" elsewhere, slower, "disc" for discs.
     Exact for loads uniform on each cell; near the surface that shows as an error O(dx), see the kernel.
     """
-    stress = np.zeros((len(depths), 6, len(y), len(x)))
+    stress = np.zeros((6, len(depths), len(y), len(x)))
+    displacement = np.zeros((3, len(depths), len(y), len(x)))
     methods = set()
+    shear, poisson = material.shear_modulus, material.poisson
     for load in loads:
+        if isinstance(load, UniformDisc):
+            across_x, across_y = np.meshgrid(x - load.x, y - load.y)
+            for row, depth in enumerate(depths):
+                unit = disc_fields(load.radius, across_x, across_y, float(depth), shear, poisson)
+                stress[:, row] += load.pressure * unit[0]
+                displacement[:, row] += load.pressure * unit[1]
+            methods.add("disc")
+            continue
         grid = load.grid
-        part, method = stress_on_grid(
-            load.array, grid.dx, grid.dy, depths, material.poisson, x - grid.x0, y - grid.y0
-        )
-        stress += part
+        at_x, at_y = x - grid.x0, y - grid.y0
+        part, method = stress_on_grid(load.array, grid.dx, grid.dy, depths, poisson, at_x, at_y)
+        moved = displacement_on_grid(load.array, grid.dx, grid.dy, depths, shear, poisson, at_x, at_y)
+        stress += np.moveaxis(part, 1, 0)
+        displacement += np.moveaxis(moved, 1, 0)
         methods.add(method)
-    tensor = np.ascontiguousarray(np.moveaxis(stress, 1, 0))
     used = "+".join(sorted(methods - {"none"})) or "none"
-    return tensor, strain_from_stress(tensor, material.modulus, material.poisson), used
+    return stress, strain_from_stress(stress, material.modulus, poisson), displacement, used

@@ -1,7 +1,8 @@
-"""What loads the road: pressure and shear on a grid."""
+"""What loads the road: pressure and shear on a grid, uniform discs and rectangles."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
@@ -89,20 +90,92 @@ class GridLoad:
         array: Array = np.stack([self.pressure, self.traction_x, self.traction_y])  # type: ignore[list-item]
         return array
 
+    @property
+    def extent_x(self) -> tuple[float, float]:
+        """First and last edge along x, m."""
+        return self.grid.x0 - 0.5 * self.grid.dx, self.grid.x0 + (self.grid.nx - 0.5) * self.grid.dx
 
-Load = GridLoad | HasDataset | xr.Dataset
+    @property
+    def extent_y(self) -> tuple[float, float]:
+        """First and last edge along y, m."""
+        return self.grid.y0 - 0.5 * self.grid.dy, self.grid.y0 + (self.grid.ny - 0.5) * self.grid.dy
 
 
-def gather(loads: Load | Sequence[Load]) -> tuple[GridLoad, ...]:
-    """Loads to superpose, from one or several contacts, datasets or GridLoads."""
-    several = [loads] if isinstance(loads, (GridLoad, xr.Dataset, HasDataset)) else loads
+@dataclass(frozen=True)
+class UniformDisc:
+    """Uniform pressure on a disc.
+
+    radius: m, > 0. pressure: Pa, >= 0. x, y: centre, m. Raises InputError for a wrong value.
+    """
+
+    radius: float
+    pressure: float
+    x: float = 0.0
+    y: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_uniform("disc", {"radius": self.radius}, self.pressure, {"x": self.x, "y": self.y})
+
+    @property
+    def extent_x(self) -> tuple[float, float]:
+        """First and last point along x, m."""
+        return self.x - self.radius, self.x + self.radius
+
+    @property
+    def extent_y(self) -> tuple[float, float]:
+        """First and last point along y, m."""
+        return self.y - self.radius, self.y + self.radius
+
+
+@dataclass(frozen=True)
+class UniformRectangle:
+    """Uniform pressure and shear on a rectangle.
+
+    length, width: along x and y, m, > 0. pressure: Pa, >= 0. x, y: centre, m. traction_x, traction_y: shear
+    exerted by the tire on the road, Pa. Raises InputError for a wrong value.
+    """
+
+    length: float
+    width: float
+    pressure: float
+    x: float = 0.0
+    y: float = 0.0
+    traction_x: float = 0.0
+    traction_y: float = 0.0
+
+    def __post_init__(self) -> None:
+        others = {name: getattr(self, name) for name in ("x", "y", "traction_x", "traction_y")}
+        _check_uniform("rectangle", {"length": self.length, "width": self.width}, self.pressure, others)
+
+    @property
+    def cell(self) -> GridLoad:
+        """The same as a grid of one cell."""
+        grid = Grid(1, 1, self.length, self.width, self.x, self.y)
+        one = np.ones((1, 1))
+        return GridLoad(grid, self.pressure * one, self.traction_x * one, self.traction_y * one)
+
+
+Load = GridLoad | UniformDisc | UniformRectangle | HasDataset | xr.Dataset
+SurfaceLoad = GridLoad | UniformDisc
+
+
+def gather(loads: Load | Sequence[Load]) -> tuple[GridLoad | UniformDisc | UniformRectangle, ...]:
+    """Loads to superpose, from one or several contacts, datasets, GridLoads, discs and rectangles."""
+    single = isinstance(loads, (GridLoad, UniformDisc, UniformRectangle, xr.Dataset, HasDataset))
+    several: Any = [loads] if single else loads
     if not isinstance(several, Sequence) or isinstance(several, str) or not len(several):
-        raise InputError(f"loads must be a contact, a dataset, a GridLoad or a list of these, got {_kind(loads)}")
+        raise InputError(
+            "loads must be a contact, a dataset, a GridLoad, a UniformDisc, a UniformRectangle or a list of these, "
+            f"got {_kind(loads)}"
+        )
     return tuple(_load(item) for item in several)
 
 
-def common_grid(loads: Sequence[GridLoad]) -> Grid:
+def common_grid(several: Sequence[GridLoad | UniformDisc | UniformRectangle]) -> Grid:
     """Smallest grid that holds every load's cells; InputError if the loads do not share one lattice."""
+    loads = [load for load in several if isinstance(load, GridLoad)]
+    if len(loads) < len(several):
+        raise InputError("a disc or a rectangle has no grid of its own; give x and y of the result")
     first = loads[0].grid
     low_x = low_y = 0
     high_x, high_y = first.nx, first.ny
@@ -123,8 +196,19 @@ def common_grid(loads: Sequence[GridLoad]) -> Grid:
     )
 
 
-def _load(item: Load) -> GridLoad:
-    if isinstance(item, GridLoad):
+def _check_uniform(kind: str, sizes: dict[str, float], pressure: float, others: dict[str, float]) -> None:
+    for name, value in sizes.items():
+        if not (math.isfinite(value) and value > 0):
+            raise InputError(f"the {name} of a {kind} must be a positive number of metres, got {value}")
+    if not (math.isfinite(pressure) and pressure >= 0):
+        raise InputError(f"the pressure of a {kind} must be >= 0 Pa, got {pressure}; compression counts positive")
+    for name, value in others.items():
+        if not math.isfinite(value):
+            raise InputError(f"{name} of a {kind} must be finite, got {value}")
+
+
+def _load(item: Load) -> GridLoad | UniformDisc | UniformRectangle:
+    if isinstance(item, (GridLoad, UniformDisc, UniformRectangle)):
         return item
     if isinstance(item, xr.Dataset):
         return GridLoad.from_dataset(item)

@@ -1,4 +1,4 @@
-"""The verb: loads on a road give stress and strain."""
+"""The verb: loads on a road give stress, strain and displacement."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response.fields import response_dataset
 from treadload.response.half_space import half_space_response
-from treadload.response.loads import GridLoad, Load, common_grid, gather
+from treadload.response.layered import layered_response
+from treadload.response.loads import GridLoad, Load, UniformRectangle, common_grid, gather
 from treadload.response.solution import Response
 
 
@@ -27,25 +28,23 @@ def solve_response(
     y: ArrayLike | None = None,
     side: Literal["above", "below"] = "above",
 ) -> Response:
-    """Stress and strain in a road under pressure and shear.
+    """Stress, strain and displacement in a road under pressure and shear.
 
-    loads: a contact, a dataset with pressure, traction_x and traction_y (Pa) over y and x, a GridLoad, or a
-    list of these, whose responses add up. road: a road of one material. depths: m, >= 0, 0 is the surface.
+    loads: a contact, a dataset with pressure, traction_x and traction_y (Pa) over y and x, a GridLoad, a
+    UniformDisc, a UniformRectangle, or a list of these, whose responses add up in one pass. road: a half-space
+    or layers. depths: m, >= 0, 0 is the surface.
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
     vertical slice. side: of an interface that a depth falls on, "above" or "below"; stress and strain of a
     road of one material have no jump there.
-    Returns a Response with fields (depth, y, x), tension positive, tensor shear strain. At the surface
-    stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear leaves an error
-    O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell of depth.
-    Raises InputError for a wrong value and for a layered road.
-    Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`.
+    Returns a Response with fields (depth, y, x), tension positive, tensor shear strain, displacement_z down.
+    At the surface stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear
+    leaves an error O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell
+    of depth.
+    Raises InputError for a wrong value, depths below a rigid base and depths that need too many wavenumbers.
+    Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`; on
+    layers the same with the top layer's material, plus wavenumbers, see `kernels.layered`.
     """
     start = time.perf_counter()
-    if not road.is_homogeneous:
-        raise InputError(
-            f"the road has {len(road.layers)} layers of different materials; this version computes the response of "
-            "a road of one material only: use Pavement.half_space(material), with the material of the top layer"
-        )
     if side not in ("above", "below"):
         raise InputError(f'side must be "above" or "below", got {side!r}')
     at_depths = _coordinates("depths", depths)
@@ -56,23 +55,34 @@ def solve_response(
     at_x = _coordinates("x", x if x is not None or grid is None else grid.x)
     at_y = _coordinates("y", y if y is not None or grid is None else grid.y)
 
+    cells = [load.cell if isinstance(load, UniformRectangle) else load for load in superposed]
     material = road.surface_material
-    stress, strain, method = half_space_response(superposed, material, at_depths, at_x, at_y)
+    if road.is_homogeneous:
+        solved = half_space_response(cells, material, at_depths, at_x, at_y)
+        words = f"one material, {material}"
+    else:
+        solved = layered_response(cells, road, at_depths, at_x, at_y, below=side == "below")
+        words = f"{len(road.layers)} layer(s){' on a rigid base' if road.rigid_base else ''}, top {material}"
+    stress, strain, displacement, method = solved
     dataset = response_dataset(
         stress,
         strain,
         at_depths,
         at_y,
         at_x,
-        road=f"one material, {material}",
+        displacement=displacement,
+        road=words,
         modulus=material.modulus,
         poisson=material.poisson,
     )
     stats = {"seconds": time.perf_counter() - start, "method": method, "points": stress[0].size}
-    return Response(dataset, stats, _warnings(superposed, at_depths))
+    gridded = [load for load in superposed if isinstance(load, GridLoad)]
+    return Response(dataset, stats, _warnings(gridded, at_depths))
 
 
 def _warnings(loads: Sequence[GridLoad], depths: Array) -> tuple[str, ...]:
+    if not loads:
+        return ()
     half = 0.5 * min(min(load.grid.dx, load.grid.dy) for load in loads)
     shallow = depths[(depths > 0) & (depths < half)]
     if not shallow.size:

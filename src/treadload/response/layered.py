@@ -1,0 +1,124 @@
+"""Response of layers: the half-space of the top layer in closed form, and what the layers change by wavenumbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.tensors import strain_from_stress
+from treadload.kernels.wavenumbers import (
+    Plane,
+    Spectrum,
+    cells_spectrum,
+    disc_spectrum,
+    quadrature,
+    synthesise,
+    tabulated,
+)
+from treadload.pavement import Pavement
+from treadload.response.half_space import half_space_response
+from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
+
+# Waves are cut where they have fallen to e^-27, 2e-12: powers of k h before them leave 1e-9.
+_FALL = 27.0
+# Nearer to the first interface than this part of its depth the split gains nothing and costs the closed form.
+_SPLIT = 0.9
+# Wavenumbers that one response may take: about a minute.
+_MOST = 6e7
+
+
+def layered_response(
+    loads: Sequence[SurfaceLoad], road: Pavement, depths: Array, x: Array, y: Array, *, below: bool
+) -> tuple[Array, Array, Array, str]:
+    """Stress, strain and displacement of a layered road under superposed loads.
+
+    depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates. below: whether a depth on an interface takes
+    the layer below it.
+    Returns stress (6, nz, my, mx) in Pa, strain likewise, displacement (3, nz, my, mx) in m, z down; and the
+    method. In the top layer the closed form of a half-space of its material carries the steps of the load;
+    what the layers add falls off like exp(-k (2 h - z)). Deeper the waves fall off like exp(-k z) themselves.
+    Raises InputError below a rigid base and where that decay is too slow for the distance of the points.
+    """
+    layers = road.distinct_layers
+    materials = [layer.material for layer in layers]
+    stack = Stack(
+        [material.shear_modulus for material in materials],
+        [material.poisson for material in materials],
+        [math.inf if layer.thickness is None else layer.thickness for layer in layers],
+        [layer.bond.stiffness for layer in layers[:-1]],
+        road.rigid_base,
+    )
+    where = [stack.layer_at(float(z), below) for z in depths]
+    if road.rigid_base and (depths > stack.interfaces[-1]).any():
+        raise InputError(
+            f"depth {depths.max():g} m lies below the rigid base at {stack.interfaces[-1]:g} m; leave it out"
+        )
+    top = stack.interfaces[0]
+    split = [layer == 0 and z < _SPLIT * top for z, layer in zip(depths, where, strict=True)]
+    limits = [_FALL / (2 * top - z if near else z) for z, near in zip(depths, split, strict=True)]
+    reach_x, reach_y = _reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y)
+    contrast = max(stack.shear) / min(stack.shear)
+    length = max(reach_x, reach_y, float(stack.interfaces[-1]) * contrast ** (1 / 3), float(depths.max()))
+    along, across = quadrature(max(limits), reach_x, length), quadrature(max(limits), reach_y, length)
+    if len(along[0]) * len(across[0]) > _MOST:
+        worst = float(depths[int(np.argmax(limits))])
+        raise InputError(
+            f"depth {worst:g} m under a top layer of {top:g} m with points up to {max(reach_x, reach_y):g} m from "
+            f"the load needs {len(along[0])} x {len(across[0])} wavenumbers, more than {_MOST:g}: leave out the "
+            "depths around thin layers near the surface or compute fewer distant points at a time"
+        )
+    smallest = math.hypot(along[0][0], across[0][0])
+    planes = [
+        _plane(stack, float(z), layer, below, near, limit, smallest)
+        for z, layer, near, limit in zip(depths, where, split, limits, strict=True)
+    ]
+    waves = synthesise([_spectrum(load) for load in loads], planes, x, y, along, across)
+    stress, displacement = np.moveaxis(waves[:, :6], 1, 0).copy(), np.moveaxis(waves[:, 6:], 1, 0).copy()
+    method = "layered"
+    shallow = [row for row, near in enumerate(split) if near]
+    if shallow:
+        part, _, moved, used = half_space_response(loads, materials[0], depths[shallow], x, y)
+        stress[:, shallow] += part
+        displacement[:, shallow] += moved
+        method = f"layered+{used}"
+    strain = np.empty_like(stress)
+    for row, layer in enumerate(where):
+        material = materials[layer]
+        strain[:, row] = strain_from_stress(stress[:, row], material.modulus, material.poisson)
+    return stress, strain, displacement, method
+
+
+def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool, limit: float, smallest: float) -> Plane:
+    shear, poisson = stack.shear[layer], stack.poisson[layer]
+    top = Stack([stack.shear[0]], [stack.poisson[0]], [], [])
+
+    def values(k: Array) -> Array:
+        result = _rows(k, stack, depth, below)
+        return result - _rows(k, top, depth, below) if split else result
+
+    return Plane(tabulated(values, smallest, 1.5 * limit), shear, poisson, limit)
+
+
+def _rows(k: Array, stack: Stack, depth: float, below: bool) -> Array:
+    """Kernels (10, nk) in the order of `kernels.wavenumbers.Plane`."""
+    result = transfer(k, stack, [depth], [below])
+    rows: Array = np.concatenate([result.plane[0].reshape(8, -1), result.transverse[0]])
+    return rows
+
+
+def _reach(extents: Sequence[tuple[float, float]], points: Array) -> float:
+    low, high = min(extent[0] for extent in extents), max(extent[1] for extent in extents)
+    return float(max(points.max() - low, high - points.min()))
+
+
+def _spectrum(load: SurfaceLoad) -> Spectrum:
+    if isinstance(load, UniformDisc):
+        return disc_spectrum(load.radius, load.pressure, load.x, load.y)
+    assert isinstance(load, GridLoad)
+    grid = load.grid
+    return cells_spectrum(load.array, grid.dx, grid.dy, grid.x0, grid.y0)
