@@ -49,6 +49,14 @@ CITATIONS = {
     "J. Appl. Mech. 60, 310-317.",
     "pivoting": "Júdice, J. J., Pires, F. M. (1994). A block principal pivoting algorithm for large-scale strictly "
     "monotone linear complementarity problems. Comput. Oper. Res. 21, 587-596.",
+    "coupling": "Panagiotopoulos, P. D. (1975). A nonlinear programming approach to the unilateral contact- and "
+    "friction-boundary value problem in the theory of elasticity. Ing. Arch. 44, 421-432.",
+    "mixing": "Walker, H. F., Ni, P. (2011). Anderson acceleration for fixed-point iterations. SIAM J. Numer. Anal. "
+    "49, 1715-1735.",
+    "falling": "Vollebregt, E. A. H., Schuttelaars, H. M. (2012). Quasi-static analysis of two-dimensional rolling "
+    "contact with slip-velocity dependent friction. J. Sound Vib. 331, 2141-2155.",
+    "flash": "Jaeger, J. C. (1942). Moving sources of heat and the temperature at sliding contacts. Proc. R. Soc. "
+    "N.S.W. 76, 203-224.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
 }
 
@@ -60,6 +68,12 @@ def citations(contact: Contact | None, response: Response | None) -> list[str]:
         used += ["influence", "convolution", "normal", "preconditioner", "rolling", "newton"]
         if contact.stats.get("splitting_iterations"):
             used.append("splitting")
+        if contact.stats.get("coupling_rounds", 1) > 1:
+            used += ["coupling", "mixing"]
+        if contact.rolling.law.needs_speed:
+            used.append("falling")
+        if "flash_temperature" in contact.dataset:
+            used.append("flash")
         if isinstance(contact.tire.material, Prony):
             used += ["memory", "pivoting"]
     if response is not None:

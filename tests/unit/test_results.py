@@ -74,3 +74,18 @@ def test_slices_pass_through_the_worst_point(coarse_result):
         slice_ = part.dataset.principal_strain_1.isel(depth=0)
         # The same closed forms on a smaller set of points: equal to round-off.
         assert float(slice_.max()) == pytest.approx(float(surface.max()), rel=1e-9)
+
+
+def test_citations_follow_what_was_used(coarse_result):
+    from dataclasses import replace
+
+    from treadload.contact import Exponential
+    from treadload.results import citations
+
+    plain = " ".join(citations(coarse_result.contact, None))
+    assert "Anderson" in plain
+    assert "slip-velocity" not in plain
+    contact = coarse_result.contact
+    law = Exponential(static=0.9, kinetic=0.6, reference_speed=2.0)
+    falling = replace(contact, rolling=replace(contact.rolling, friction=law, speed=20.0))
+    assert "slip-velocity" in " ".join(citations(falling, None))
