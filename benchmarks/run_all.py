@@ -15,13 +15,17 @@ import scipy  # noqa: E402
 def main() -> None:
     # The chain first, so that its cold figure is cold.
     import whole_chain  # noqa: I001
+    import layered
     import normal_contact
     import rolling_contact
+    import peers
 
     print(f"Python {platform.python_version()}, numpy {numpy.__version__}, scipy {scipy.__version__}, one thread\n")
     whole_chain.main()
     normal_contact.main()
     rolling_contact.main()
+    peers.main()
+    layered.main()
 
 
 if __name__ == "__main__":

@@ -77,7 +77,13 @@ def solve_response(
     )
     stats = {"seconds": time.perf_counter() - start, "method": method, "points": stress[0].size}
     gridded = [load for load in superposed if isinstance(load, GridLoad)]
-    return Response(dataset, stats, _warnings(gridded, at_depths))
+    warnings = _warnings(gridded, at_depths)
+    if np.isnan(displacement).any():
+        warnings += (
+            "a net shear force acts above a frictionless interface, where nothing holds the layers: their "
+            "horizontal displacement has no finite value and is NaN; stress and strain hold",
+        )
+    return Response(dataset, stats, warnings)
 
 
 def _warnings(loads: Sequence[GridLoad], depths: Array) -> tuple[str, ...]:

@@ -1,0 +1,106 @@
+"""Layered roads: the half-space as a limit, superposition, symmetry, interfaces, what drifts."""
+
+import numpy as np
+import pytest
+
+import treadload as tl
+from treadload.grid import Grid
+from treadload.response import GridLoad
+
+ASPHALT, BASE, SOIL = tl.Elastic(7e9, 0.35), tl.Elastic(9e9, 0.3), tl.Elastic(5e7, 0.4)
+GRID = Grid(9, 7, 0.02, 0.02, -0.08, -0.06)
+NAMES = [f"{kind}_{c}" for kind in ("stress", "strain") for c in ("xx", "yy", "zz", "xy", "xz", "yz")]
+NAMES += [f"displacement_{c}" for c in "xyz"]
+
+
+def load(seed=0):
+    rng = np.random.default_rng(seed)
+    return GridLoad(GRID, rng.uniform(0, 1e6, GRID.shape), *rng.uniform(-3e5, 3e5, (2, *GRID.shape)))
+
+
+def road(bond=tl.BONDED, other=tl.BONDED):
+    return tl.Pavement([tl.Layer(ASPHALT, 0.06, bond=bond), tl.Layer(BASE, 0.15, bond=other), tl.Layer(SOIL)])
+
+
+def close(one, other, tolerance, names=NAMES):
+    for name in names:
+        a, b = one[name].to_numpy(), other[name].to_numpy()
+        assert np.abs(a - b).max() <= tolerance * np.abs(b).max(), name
+
+
+def test_equal_layers_are_the_half_space():
+    # A spring this stiff slides by 1e-14 of what the body moves, yet takes the way of the layers.
+    stuck = tl.Bond(1e25)
+    same = tl.Pavement([tl.Layer(ASPHALT, 0.06, bond=stuck), tl.Layer(ASPHALT, 0.15, bond=stuck), tl.Layer(ASPHALT)])
+    points = {"depths": [0.0, 0.003, 0.02, 0.058, 0.06, 0.1, 0.3], "x": [-0.1, 0.0, 0.013], "y": [0.0, 0.05]}
+    layered = tl.solve_response(load(), same, **points)
+    assert layered.stats["method"].startswith("layered")
+    closed = tl.solve_response(load(), tl.Pavement.half_space(ASPHALT), **points)
+    for depth in points["depths"]:
+        close(layered.dataset.sel(depth=depth), closed.dataset.sel(depth=depth), 1e-8)
+
+
+def test_surface_carries_the_load_exactly():
+    surface = tl.solve_response(load(), road(), depths=[0.0]).dataset.isel(depth=0)
+    # No step of the load rings: what is left is the quadrature, of waves that the first interface returns.
+    np.testing.assert_allclose(surface["stress_zz"], -load().pressure, atol=1e-3)
+    np.testing.assert_allclose(surface["stress_xz"], -load().traction_x, atol=1e-3)
+    np.testing.assert_allclose(surface["stress_yz"], -load().traction_y, atol=1e-3)
+
+
+def test_both_ways_meet_where_one_takes_over():
+    # At 0.9 of the first layer the closed form of its half-space is given up.
+    points = {"x": [0.0, 0.05], "y": [0.0]}
+    both = tl.solve_response(load(), road(), depths=[0.9 * 0.06 - 1e-12, 0.9 * 0.06 + 1e-12], **points).dataset
+    close(both.isel(depth=0), both.isel(depth=1), 1e-8)
+
+
+def test_loads_add_up_in_one_pass():
+    parts = [load(), tl.UniformDisc(0.1, 6e5, x=0.2), tl.UniformRectangle(0.2, 0.1, 5e5, y=-0.3, traction_x=1e5)]
+    points = {"depths": [0.0, 0.1], "x": [0.0, 0.2], "y": [-0.25, 0.0]}
+    together = tl.solve_response(parts, road(), **points).dataset
+    apart = [tl.solve_response(part, road(), **points).dataset for part in parts]
+    total = {name: sum(data[name] for data in apart) for name in NAMES}
+    close(together, total, 1e-8)
+
+
+def test_a_disc_has_an_axis_and_squares_turn():
+    disc = tl.solve_response(tl.UniformDisc(0.12, 7e5), road(), depths=[0.0, 0.06, 0.3], x=[0.1], y=[0.0]).dataset
+    turned = tl.solve_response(tl.UniformDisc(0.12, 7e5), road(), depths=[0.0, 0.06, 0.3], x=[0.0], y=[0.1]).dataset
+    for one, other in (("stress_xx", "stress_yy"), ("stress_xz", "stress_yz"), ("displacement_x", "displacement_y")):
+        a, b = disc[one].to_numpy(), turned[other].to_numpy()
+        assert np.abs(a - b).max() <= 1e-8 * np.abs(b).max()
+
+
+@pytest.mark.parametrize("stiffness", [1e9, 1e11])
+def test_the_spring_between_layers(stiffness):
+    points = {"depths": [0.06], "x": [-0.05, 0.0, 0.12], "y": [0.0, 0.04]}
+    solved = {
+        side: tl.solve_response(load(), road(tl.Bond(stiffness)), side=side, **points).dataset
+        for side in ("above", "below")
+    }
+    close(solved["above"], solved["below"], 1e-9, ["stress_zz", "stress_xz", "stress_yz", "displacement_z"])
+    for axis in "xy":
+        slide = solved["above"][f"displacement_{axis}"] - solved["below"][f"displacement_{axis}"]
+        stress = solved["above"][f"stress_{axis}z"].to_numpy()
+        # The layer above is dragged along by the load; σ_xz = -k_s [u] with z down.
+        assert np.abs(stress + stiffness * slide.to_numpy()).max() <= 1e-7 * np.abs(stress).max()
+
+
+def test_what_nothing_holds_is_not_given():
+    points = {"depths": [0.0, 0.1, 0.5], "x": [0.0], "y": [0.0]}
+    slab = road(other=tl.FRICTIONLESS)
+    response = tl.solve_response(tl.UniformRectangle(0.2, 0.1, 5e5, traction_x=1e5), slab, **points)
+    assert np.isnan(response.dataset["displacement_x"].to_numpy().ravel()).tolist() == [True, True, False]
+    assert np.isfinite(response.dataset["displacement_y"]).all()
+    assert np.isfinite(response.dataset["strain_xx"]).all()
+    assert "nothing holds" in response.warnings[0]
+    assert not tl.solve_response(tl.UniformDisc(0.1, 5e5), slab, **points).warnings
+
+
+def test_a_rigid_base_does_not_move():
+    built = tl.Pavement([tl.Layer(ASPHALT, 0.06), tl.Layer(SOIL, 0.5)], rigid_base=True)
+    data = tl.solve_response(load(), built, depths=[0.0, 0.56], x=[0.0, 0.05], y=[0.0]).dataset
+    for axis in "xyz":
+        moved = np.abs(data[f"displacement_{axis}"].to_numpy())
+        assert moved[1].max() <= 1e-9 * moved[0].max()
