@@ -1,7 +1,7 @@
-"""Normal contact of the grooved truck tire beside tamaas, a compiled peer, on the same cells and to the same accuracy.
+"""Normal contact of the grooved truck tire beside tamaas, a compiled peer: the same cells, a like accuracy.
 
-Both solve the half-space by zero-padded FFT with Love's coefficients; tamaas by Polonsky and Keer's method. How far the
-pressures lie from a much tighter solution stands beside the times. Needs `pip install tamaas`; without it, says so.
+Both solve the half-space by zero-padded FFT with Love's coefficients; tamaas by Polonsky and Keer's method. How far
+the pressures lie from a much tighter solution stands beside the times. Needs `pip install tamaas`; says so without.
 """
 
 import numpy as np
