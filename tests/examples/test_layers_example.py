@@ -10,4 +10,4 @@ def test_layers_are_read():
     road = case.pavement.build()
     assert [layer.bond for layer in road.layers] == [tl.Bond(1e9), tl.BONDED, tl.BONDED]
     assert [layer.thickness for layer in road.layers] == [0.06, 0.15, None]
-    assert tl.Case.from_text(case.to_toml()) == case
+    assert tl.Case.from_text(case.to_toml(), folder=case.folder) == case

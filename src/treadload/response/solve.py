@@ -35,7 +35,7 @@ def solve_response(
     or layers. depths: m, >= 0, 0 is the surface.
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
     vertical slice. side: of an interface that a depth falls on, "above" or "below"; stress and strain of a
-    road of one material have no jump there.
+    half-space have no jump there, and the horizontal displacement of layers jumps only where they slide.
     Returns a Response with fields (depth, y, x), tension positive, tensor shear strain, displacement_z down.
     At the surface stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear
     leaves an error O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell
