@@ -290,3 +290,15 @@ def test_a_coupling_that_does_not_settle_says_how_far_it_came(monkeypatch):
         solve(Tire.from_profile(SMALL, material=Elastic(3e6, 0.3)), tractive_force=1000.0)
     assert caught.value.residual > 1e-6
     assert "Dundurs" in str(caught.value)
+
+
+@pytest.mark.parametrize("given", [{"creepage_x": -1.5}, {"creepage_y": 2.0}])
+def test_creepages_beyond_a_locked_wheel(given):
+    with pytest.raises(InputError, match=r"must lie in \[-1, 1\]"):
+        Rolling(normal_load=1e3, friction=0.5, **given)
+
+
+@pytest.mark.parametrize("tolerance", [1e-14, 0.0, 0.5, float("nan")])
+def test_tolerances_below_round_off_or_beyond_use(tolerance):
+    with pytest.raises(InputError, match="tolerance must lie in"):
+        solve_contact(TIRE, ROAD, Rolling(normal_load=3e3, friction=0.6), spacing=SPACING, tolerance=tolerance)

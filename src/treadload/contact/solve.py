@@ -29,6 +29,7 @@ DEFAULT_SPACING = 3e-3
 _LOCATING_CELLS = 64
 _MARGIN = 0.024
 _MOST_CELLS = 4_000_000
+_FINEST, _COARSEST = 1e-12, 1e-2
 
 
 def solve_contact(
@@ -57,6 +58,11 @@ def solve_contact(
     """
     began = time.perf_counter()
     tell = progress or (lambda text: None)
+    if not _FINEST <= tolerance <= _COARSEST:
+        raise InputError(
+            f"tolerance must lie in [{_FINEST:g}, {_COARSEST:g}], got {tolerance:g}; 1e-6 is the default, and below "
+            f"{_FINEST:g} lies round-off"
+        )
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
     check_rolling(tire.half_space, road.surface_material, rolling.speed)

@@ -48,6 +48,12 @@ class Rolling:
         for force, creepage in (("tractive_force", "creepage_x"), ("lateral_force", "creepage_y")):
             if getattr(self, force) is not None and getattr(self, creepage) is not None:
                 raise InputError(f"give either {force} or {creepage}, not both")
+            value = getattr(self, creepage)
+            if value is not None and abs(value) > 1:
+                raise InputError(
+                    f"{creepage} must lie in [-1, 1], got {value:g}; a locked wheel has a longitudinal creepage of "
+                    "1, and long before that all of the contact slides"
+                )
 
     @property
     def forces(self) -> tuple[float | None, float | None]:
