@@ -13,7 +13,6 @@ import platform
 from collections.abc import Iterable, Mapping
 from importlib import metadata
 from pathlib import Path
-from typing import Any
 
 import xarray as xr
 
@@ -25,6 +24,7 @@ from treadload.errors import InputError
 from treadload.files import replacing
 from treadload.grid import Grid
 from treadload.materials import Prony
+from treadload.pavement import BONDED, Pavement
 from treadload.response import Response
 from treadload.tire import Tire
 from treadload.variables import dataset
@@ -97,7 +97,7 @@ def to_tree(
             contact = part
             about = {
                 "tire": str(part.tire),
-                "road": "; ".join(_layer_in_words(layer) for layer in part.road.layers),
+                "road": _road_in_words(part.road),
                 "rolling": str(part.rolling),
                 "stats": json.dumps(dict(part.stats), default=float),
                 "warnings": json.dumps(list(part.warnings)),
@@ -176,9 +176,13 @@ def _response_group(data: xr.Dataset) -> str:
     return "response"
 
 
-def _layer_in_words(layer: Any) -> str:
-    depth = "half-space" if layer.thickness is None else f"{layer.thickness * 1e3:g} mm"
-    return f"{layer.name or 'layer'} ({depth}): {layer.material}"
+def _road_in_words(road: Pavement) -> str:
+    layers = []
+    for layer in road.layers:
+        depth = "half-space" if layer.thickness is None else f"{layer.thickness * 1e3:g} mm"
+        bond = "" if layer.bond == BONDED else f", {layer.bond} below"
+        layers.append(f"{layer.name or 'layer'} ({depth}): {layer.material}{bond}")
+    return "; ".join([*layers, "rigid base"] if road.rigid_base else layers)
 
 
 def _versions() -> Mapping[str, str]:
