@@ -9,60 +9,34 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import tomli_w
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Discriminator,
-    Field,
-    Tag,
-    ValidationError,
-    model_validator,
-)
+from pydantic import BaseModel, BeforeValidator, Discriminator, Field, Tag, ValidationError, model_validator
 
-from treadload.contact import (
-    Anisotropic,
-    Coulomb,
-    Exponential,
-    FlashHeating,
-    FrictionLaw,
-    FrictionMap,
-    Heat,
-    LinearFalling,
-    PressureDependent,
-    Rational,
-    Rolling,
+from treadload.case.fields import (
+    Angle,
+    Curvature,
+    Force,
+    Length,
+    Number,
+    Part,
+    Pressure,
+    Speed,
+    Stiffness,
+    Time,
 )
+from treadload.case.friction import LAW_PARTS, Friction
+from treadload.contact import Rolling
 from treadload.contact.viscoelastic import check_rolling
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.materials import Elastic, Prony
 from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
 from treadload.tire import Tire, TreadProfile, example_mesh
-from treadload.units import quantity
-
-Length = Annotated[float, BeforeValidator(lambda v: quantity(v, "m"))]
-Pressure = Annotated[float, BeforeValidator(lambda v: quantity(v, "Pa"))]
-Stiffness = Annotated[float, BeforeValidator(lambda v: quantity(v, "Pa/m"))]
-Force = Annotated[float, BeforeValidator(lambda v: quantity(v, "N"))]
-Speed = Annotated[float, BeforeValidator(lambda v: quantity(v, "m/s"))]
-Angle = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad"))]
-Curvature = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad/m"))]
-Number = Annotated[float, BeforeValidator(lambda v: quantity(v, ""))]
-Time = Annotated[float, BeforeValidator(lambda v: quantity(v, "s"))]
-Kelvin = Annotated[float, BeforeValidator(lambda v: quantity(v, "K"))]
-Conductivity = Annotated[float, BeforeValidator(lambda v: quantity(v, "W/(m K)"))]
-HeatCapacity = Annotated[float, BeforeValidator(lambda v: quantity(v, "J/(m^3 K)"))]
 
 # The word that stands for the tire mesh that ships with the package.
 EXAMPLE = "example"
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class MaterialPart(_Part):
+class MaterialPart(Part):
     """`material = { kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }`."""
 
     kind: Literal["elastic"] = "elastic"
@@ -74,7 +48,7 @@ class MaterialPart(_Part):
         return Elastic(self.modulus, self.poisson)
 
 
-class PronyPart(_Part):
+class PronyPart(Part):
     """`material = { kind = "prony", modulus = "10 MPa", terms = [[0.7, "10 ms"]], poisson = 0.49 }`."""
 
     kind: Literal["prony"]
@@ -87,7 +61,7 @@ class PronyPart(_Part):
         return Prony(self.modulus, self.terms, self.poisson)
 
 
-_MATERIAL_PARTS: dict[str, type[_Part]] = {"elastic": MaterialPart, "prony": PronyPart}
+_MATERIAL_PARTS: dict[str, type[Part]] = {"elastic": MaterialPart, "prony": PronyPart}
 
 
 def _kind_of_material(value: Any) -> str:
@@ -111,7 +85,7 @@ TireMaterial = Annotated[
 ]
 
 
-class TirePart(_Part):
+class TirePart(Part):
     """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of."""
 
     scan: str | None = None
@@ -173,13 +147,13 @@ class TirePart(_Part):
         return Tire.from_profile(profile, **body)
 
 
-class BondPart(_Part):
+class BondPart(Part):
     """`bond = { stiffness = "1000 MPa/m" }`."""
 
     stiffness: Stiffness
 
 
-class LayerPart(_Part):
+class LayerPart(Part):
     """`[[pavement.layers]]`, from the surface down; the last one has no thickness unless the base is rigid.
 
     bond, to the layer below: "bonded", "frictionless" or `{ stiffness = "1000 MPa/m" }`.
@@ -202,7 +176,7 @@ class LayerPart(_Part):
         return Layer(self.material.build(), self.thickness, name=self.name, bond=bond)
 
 
-class PavementPart(_Part):
+class PavementPart(Part):
     """`[pavement]`: the road's layers."""
 
     layers: tuple[LayerPart, ...] = Field(min_length=1)
@@ -213,153 +187,7 @@ class PavementPart(_Part):
         return Pavement([layer.build() for layer in self.layers], rigid_base=self.rigid_base)
 
 
-class CoulombPart(_Part):
-    """`friction = { law = "coulomb", coefficient = 0.7 }`, the same as `friction = 0.7`."""
-
-    law: Literal["coulomb"]
-    coefficient: Number
-
-    def build(self, folder: Path) -> FrictionLaw:
-        """The law."""
-        return Coulomb(self.coefficient)
-
-
-class FallingPart(_Part):
-    """`friction = { law = "exponential", static = 0.9, kinetic = 0.5, reference_speed = "2 m/s" }`."""
-
-    law: Literal["linear", "rational", "exponential"]
-    static: Number
-    kinetic: Number
-    reference_speed: Speed
-
-    def build(self, folder: Path) -> FrictionLaw:
-        """The law."""
-        numbers = self.static, self.kinetic, self.reference_speed
-        if self.law == "linear":
-            return LinearFalling(*numbers)
-        return Rational(*numbers) if self.law == "rational" else Exponential(*numbers)
-
-
-class PressurePart(_Part):
-    """`friction = { law = "pressure", reference = 0.8, reference_pressure = "700 kPa", exponent = 0.15 }`."""
-
-    law: Literal["pressure"]
-    reference: Number
-    reference_pressure: Pressure
-    exponent: Number
-    upper: Number | None = None
-
-    def build(self, folder: Path) -> FrictionLaw:
-        """The law."""
-        return PressureDependent(self.reference, self.reference_pressure, self.exponent, self.upper)
-
-
-class AnisotropicPart(_Part):
-    """`friction = { law = "anisotropic", along = 0.8, across = 0.6 }`."""
-
-    law: Literal["anisotropic"]
-    along: Number
-    across: Number
-    base: Friction | None = None
-
-    def build(self, folder: Path) -> FrictionLaw:
-        """The law."""
-        return Anisotropic(self.along, self.across, _law(self.base, folder))
-
-
-class MapPart(_Part):
-    """`friction = { law = "map", file = "path.csv", cell = "10 mm" }`."""
-
-    law: Literal["map"]
-    file: str
-    cell: Length
-    base: Friction | None = None
-
-    def build(self, folder: Path) -> FrictionLaw:
-        """The law; a relative path starts from the folder."""
-        return FrictionMap.from_file(folder / self.file, self.cell, _law(self.base, folder))
-
-
-class HeatPart(_Part):
-    """`tire = { conductivity = 0.25, heat_capacity = 2e6 }`: W/(m K) and J/(m³ K)."""
-
-    conductivity: Conductivity
-    heat_capacity: HeatCapacity
-
-    def build(self) -> Heat:
-        """How the body takes up heat."""
-        return Heat(self.conductivity, self.heat_capacity)
-
-
-class FlashPart(_Part):
-    """`{ law = "flash", base = 0.9, tire = {…}, road = {…}, onset = "50 K", span = "90 K", hot = 0.5 }`."""
-
-    law: Literal["flash"]
-    base: Friction
-    tire: HeatPart
-    road: HeatPart
-    onset: Kelvin
-    span: Kelvin
-    hot: Number
-
-    def build(self, folder: Path) -> FrictionLaw:
-        """The law."""
-        base = _law(self.base, folder)
-        assert base is not None
-        return FlashHeating(base, self.tire.build(), self.road.build(), self.onset, self.span, self.hot)
-
-
-_LAW_PARTS: dict[str, type[_Part]] = {
-    "coulomb": CoulombPart,
-    "linear": FallingPart,
-    "rational": FallingPart,
-    "exponential": FallingPart,
-    "pressure": PressurePart,
-    "anisotropic": AnisotropicPart,
-    "map": MapPart,
-    "flash": FlashPart,
-}
-
-
-def _kind_of_friction(value: Any) -> str:
-    if isinstance(value, dict):
-        return str(value.get("law"))
-    return str(value.law) if isinstance(value, _Part) and hasattr(value, "law") else "number"
-
-
-def _known_law(value: Any) -> Any:
-    """Friction whose law is one of ours. Raises ValueError that says which are."""
-    if isinstance(value, dict) and value.get("law") not in _LAW_PARTS:
-        law = value.get("law")
-        near = difflib.get_close_matches(str(law), _LAW_PARTS, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(_LAW_PARTS)}"
-        raise ValueError(
-            f"a friction law needs its name, law = …; {hint}" if law is None else f"no law {law!r}; {hint}"
-        )
-    return value
-
-
-# A number, or the table of a law.
-Friction = Annotated[
-    Annotated[Number, Tag("number")]
-    | Annotated[CoulombPart, Tag("coulomb")]
-    | Annotated[FallingPart, Tag("linear")]
-    | Annotated[FallingPart, Tag("rational")]
-    | Annotated[FallingPart, Tag("exponential")]
-    | Annotated[PressurePart, Tag("pressure")]
-    | Annotated[AnisotropicPart, Tag("anisotropic")]
-    | Annotated[MapPart, Tag("map")]
-    | Annotated[FlashPart, Tag("flash")],
-    Discriminator(_kind_of_friction),
-    BeforeValidator(_known_law),
-]
-
-
-def _law(part: Any, folder: Path) -> FrictionLaw | None:
-    return part if part is None else Coulomb(part) if isinstance(part, float) else part.build(folder)
-
-
-class RollingPart(_Part):
+class RollingPart(Part):
     """`[rolling]`: the load, the friction, and forces or creepages."""
 
     normal_load: Force | None = None
@@ -378,7 +206,7 @@ class RollingPart(_Part):
         return Rolling(**{**dict(self), "friction": friction})
 
 
-class ResponsePart(_Part):
+class ResponsePart(Part):
     """`[response]`: depths of the maps, and how deep the vertical slices through the worst point go."""
 
     depths: tuple[Length, ...] = (0.0,)
@@ -397,7 +225,7 @@ class ResponsePart(_Part):
         return self
 
 
-class FatiguePart(_Part):
+class FatiguePart(Part):
     """`fatigue = { epsilon_6 = "120 microstrain", slope = -0.2 }`."""
 
     epsilon_6: Number
@@ -408,7 +236,7 @@ class FatiguePart(_Part):
         return FatigueLine(self.epsilon_6, self.slope)
 
 
-class DamagePart(_Part):
+class DamagePart(Part):
     """`[damage]`: the fatigue line, and which strain it reads at which of the response's depths."""
 
     fatigue: FatiguePart
@@ -416,7 +244,7 @@ class DamagePart(_Part):
     depth: Length = 0.0
 
 
-class Case(_Part):
+class Case(Part):
     """Everything that a computation needs, checked.
 
     Numbers are SI; in a TOML file a quoted number carries its unit.
@@ -507,8 +335,8 @@ def _one_error(item: Any) -> str:
 
 _BOND_TAGS = ("word", "spring")
 _TAGS = {
-    "friction": (*_LAW_PARTS, "number"),
-    "base": (*_LAW_PARTS, "number"),
+    "friction": (*LAW_PARTS, "number"),
+    "base": (*LAW_PARTS, "number"),
     "material": tuple(_MATERIAL_PARTS),
     "bond": _BOND_TAGS,
 }
@@ -526,7 +354,7 @@ def _keys(location: tuple[Any, ...]) -> list[str]:
     for part in location:
         if isinstance(part, int) or part in ("number", *_BOND_TAGS):
             continue
-        tables = {**_LAW_PARTS, **_MATERIAL_PARTS}
+        tables = {**LAW_PARTS, **_MATERIAL_PARTS}
         if part in tables and part not in model.model_fields:
             model = tables[part]
             continue

@@ -1,0 +1,5 @@
+"""A case and its tables."""
+
+from treadload.case.model import Case
+
+__all__ = ["Case"]

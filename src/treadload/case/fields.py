@@ -1,0 +1,28 @@
+"""Fields of a case: numbers with units, and what every table of it has in common."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict
+
+from treadload.units import quantity
+
+Length = Annotated[float, BeforeValidator(lambda v: quantity(v, "m"))]
+Pressure = Annotated[float, BeforeValidator(lambda v: quantity(v, "Pa"))]
+Stiffness = Annotated[float, BeforeValidator(lambda v: quantity(v, "Pa/m"))]
+Force = Annotated[float, BeforeValidator(lambda v: quantity(v, "N"))]
+Speed = Annotated[float, BeforeValidator(lambda v: quantity(v, "m/s"))]
+Angle = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad"))]
+Curvature = Annotated[float, BeforeValidator(lambda v: quantity(v, "rad/m"))]
+Number = Annotated[float, BeforeValidator(lambda v: quantity(v, ""))]
+Time = Annotated[float, BeforeValidator(lambda v: quantity(v, "s"))]
+Kelvin = Annotated[float, BeforeValidator(lambda v: quantity(v, "K"))]
+Conductivity = Annotated[float, BeforeValidator(lambda v: quantity(v, "W/(m K)"))]
+HeatCapacity = Annotated[float, BeforeValidator(lambda v: quantity(v, "J/(m^3 K)"))]
+
+
+class Part(BaseModel):
+    """A table of a case: frozen, and no key that it does not know."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
