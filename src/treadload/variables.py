@@ -6,7 +6,7 @@ x: direction of travel. y: to the right. z: depth, positive down. Tension positi
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -119,8 +119,3 @@ def dataset(
     }
     variables = {name: (dims, np.asarray(data), attributes(name)) for name, (dims, data) in fields.items()}
     return xr.Dataset(variables, coords, dict(attrs))
-
-
-def describe(names: Iterable[str]) -> str:
-    """One line a variable: name, unit, meaning."""
-    return "\n".join(f"{name:24s} {VARIABLES[name][0]:6s} {VARIABLES[name][1]}" for name in names)

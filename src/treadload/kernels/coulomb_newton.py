@@ -37,7 +37,7 @@ class CoulombSolution:
     shear: q (2, ny, nx). slip: s (2, ny, nx). found: ξ (2,), zero where prescribed.
     stick: (ny, nx) True where |q| < g. residual: |q - P(q - r s)| / |g|, or a hundred times the imbalance of
     the forces relative to Σg if that is larger. newton, krylov, splitting, products: iterations, and
-    products with S. history: residuals of the Newton iterations.
+    products with S.
     """
 
     shear: Array
@@ -50,7 +50,6 @@ class CoulombSolution:
     krylov: int = 0
     splitting: int = 0
     products: int = 0
-    history: tuple[float, ...] = ()
 
 
 def solve(
@@ -70,11 +69,9 @@ def solve(
     q = np.zeros_like(problem.rigid) if start is None else project_disc(start, problem.bound)
     xi = np.zeros(2) if found is None else np.asarray(found, float).copy()
     state = newton.state_of(q, xi)
-    history = [state.residual]
     while True:
         while state.residual > tolerance and newton.count < max_iterations:
             state = newton.advance(state)
-            history.append(state.residual)
         # Friction's bound holds to the last digit: what that changes is seen in the residual.
         stick = state.stick
         q = np.where(stick, project_disc(state.q, problem.bound), state.reach * state.shrink)
@@ -92,7 +89,6 @@ def solve(
         newton.krylov,
         newton.splitting,
         newton.products,
-        tuple(history),
     )
 
 

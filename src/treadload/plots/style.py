@@ -118,11 +118,6 @@ def sequential(name: str) -> Colormap:
     return LinearSegmentedColormap.from_list(f"treadload_{name}", colours, N=count)
 
 
-def diverging() -> Colormap:
-    """Map for signed values, neutral at its middle."""
-    return mpl.colormaps["RdBu_r"]
-
-
 def figure_and_axes(ax: Axes | None, width: float, height: float) -> tuple[Figure, Axes]:
     """The figure (inches) of a new pair of axes, or of the axes given."""
     if ax is not None:
