@@ -15,12 +15,10 @@ import numpy as np
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.convolution import Padding
-from treadload.kernels.interior import as_lattices, loaded_part
+from treadload.kernels.interior import as_lattices, corner_blocks, corner_jumps, loaded_part
 
 _X, _Y, _Z = range(3)
 _P, _QX, _QY = range(3)
-# Points times corners evaluated at once: keeps the temporaries of the direct sum in cache.
-_BLOCK = 200_000
 _LATTICE_COST = 2.0
 
 _Corner = tuple[Array, tuple[tuple[int, int], ...]]
@@ -84,14 +82,9 @@ def _on_lattice(
 
 def _at_points(load: Array, dx: float, dy: float, depths: Array, poisson: float, x: Array, y: Array) -> Array:
     _, ny, nx = load.shape
-    jumps = np.diff(np.diff(np.pad(load, ((0, 0), (1, 1), (1, 1))), axis=1), axis=2).reshape(3, -1)
-    edge_x, edge_y = dx * (np.arange(nx + 1) - 0.5), dy * (np.arange(ny + 1) - 0.5)
+    jumps = corner_jumps(load)
     field = np.zeros((len(depths), 3, len(x)))
-    step = max(1, _BLOCK // jumps.shape[1])
-    for start in range(0, len(x), step):
-        block = slice(start, start + step)
-        corner_x = x[block, None, None] - edge_x[None, None, :]
-        corner_y = y[block, None, None] - edge_y[None, :, None]
+    for block, corner_x, corner_y in corner_blocks((ny, nx), dx, dy, x, y):
         for plane, depth in zip(field, depths, strict=True):
             for values, uses in _corners(corner_x, corner_y, float(depth), poisson):
                 for k, component in uses:

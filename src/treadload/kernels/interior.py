@@ -120,6 +120,28 @@ def stress_on_lattice(
     return stress
 
 
+def corner_jumps(load: Array) -> Array:
+    """Second differences (3, corners) of a load (3, ny, nx): corners carry it with a quarter of the evaluations."""
+    jumps: Array = np.diff(np.diff(np.pad(load, ((0, 0), (1, 1), (1, 1))), axis=1), axis=2).reshape(3, -1)
+    return jumps
+
+
+def corner_blocks(
+    shape: tuple[int, int], dx: float, dy: float, x: Array, y: Array
+) -> Iterator[tuple[slice, Array, Array]]:
+    """Blocks of points with their distances from all corners of (ny, nx) cells: memory does not grow with the points.
+
+    x, y: (n,) position of the points relative to the centre of the first cell, m. Yields the block, then X
+    (block, 1, nx + 1) and Y (block, ny + 1, 1), m.
+    """
+    ny, nx = shape
+    edge_x, edge_y = dx * (np.arange(nx + 1) - 0.5), dy * (np.arange(ny + 1) - 0.5)
+    step = max(1, _BLOCK // (edge_x.size * edge_y.size))
+    for start in range(0, len(x), step):
+        block = slice(start, start + step)
+        yield block, x[block, None, None] - edge_x[None, None, :], y[block, None, None] - edge_y[None, :, None]
+
+
 def stress_at_points(load: Array, dx: float, dy: float, depths: Array, poisson: float, x: Array, y: Array) -> Array:
     """Stress at scattered points, by direct summation over the corners of the cells.
 
@@ -128,17 +150,10 @@ def stress_at_points(load: Array, dx: float, dy: float, depths: Array, poisson: 
     Returns (nz, 6, n), Pa. Works in blocks of points: memory does not grow with their number.
     """
     _, ny, nx = load.shape
-    # A corner carries the second difference of the load: four times fewer evaluations than by cells.
-    jumps = np.diff(np.diff(np.pad(load, ((0, 0), (1, 1), (1, 1))), axis=1), axis=2).reshape(3, -1)
+    jumps = corner_jumps(load)
     active = [k for k in range(3) if load[k].any()]
-    edge_x = dx * (np.arange(nx + 1) - 0.5)
-    edge_y = dy * (np.arange(ny + 1) - 0.5)
     stress = np.zeros((len(depths), 6, len(x)))
-    step = max(1, _BLOCK // jumps.shape[1])
-    for start in range(0, len(x), step):
-        block = slice(start, start + step)
-        corner_x = x[block, None, None] - edge_x[None, None, :]
-        corner_y = y[block, None, None] - edge_y[None, :, None]
+    for block, corner_x, corner_y in corner_blocks((ny, nx), dx, dy, x, y):
         for field, depth in zip(stress, depths, strict=True):
             for values, uses in _corners(corner_x, corner_y, float(depth), dx, dy, poisson):
                 for k, component in uses:
