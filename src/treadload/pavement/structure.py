@@ -6,7 +6,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from treadload.errors import InputError
+from treadload.kernels.arrays import Array
 from treadload.materials import Elastic
 
 
@@ -127,6 +130,11 @@ class Pavement:
             thickness = None if layer.thickness is None else above.thickness + layer.thickness
             joined[-1] = replace(above, thickness=thickness, bond=layer.bond)
         return tuple(joined)
+
+    @property
+    def interfaces(self) -> Array:
+        """Depth of the bottom of every layer that has one, m, downwards; empty for a half-space."""
+        return np.cumsum([layer.thickness for layer in self.layers if layer.thickness is not None])
 
     @property
     def is_homogeneous(self) -> bool:

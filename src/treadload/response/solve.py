@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Sequence
 from typing import Literal
@@ -74,6 +75,8 @@ def solve_response(
         road=words,
         modulus=material.modulus,
         poisson=material.poisson,
+        layer_names=json.dumps([layer.name for layer in road.layers], ensure_ascii=False),
+        **({"interfaces": road.interfaces} if len(road.interfaces) else {}),
     )
     stats = {"seconds": time.perf_counter() - start, "method": method, "points": stress[0].size}
     gridded = [load for load in superposed if isinstance(load, GridLoad)]

@@ -1,0 +1,42 @@
+"""What a material must tell: the kinds that layers and tires can be made of."""
+
+from __future__ import annotations
+
+from typing import Protocol, runtime_checkable
+
+from numpy.typing import ArrayLike
+
+from treadload.kernels.arrays import ComplexArray
+from treadload.materials.elastic import Elastic
+
+
+@runtime_checkable
+class Viscoelastic(Protocol):
+    """A linear viscoelastic solid whose Poisson's ratio does not depend on time."""
+
+    @property
+    def poisson(self) -> float:
+        """Poisson's ratio."""
+
+    @property
+    def glassy(self) -> Elastic:
+        """The elastic limit of fast loading."""
+
+    @property
+    def rubbery(self) -> Elastic:
+        """The elastic limit of slow loading; InputError for a fluid, which has none."""
+
+    def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
+        """E*(ω) = E' + iE'', Pa, at angular frequencies ω > 0, rad/s, for motion as exp(iωt); shape of `omega`."""
+
+
+@runtime_checkable
+class TemperatureDependent(Protocol):
+    """A material that is elastic or viscoelastic once its temperature is known."""
+
+    def at(self, temperature: float, *, extrapolate: bool = False) -> Elastic | Viscoelastic:
+        """The material at a temperature, °C. Raises InputError outside its data unless told to extrapolate."""
+
+
+Material = Elastic | Viscoelastic
+"""What can be solved with."""
