@@ -1,0 +1,77 @@
+"""The tire in a case: its surface and what it is made of."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import model_validator
+
+from treadload.case.fields import Angle, Length, Part, Pressure
+from treadload.case.materials import TireMaterial
+from treadload.tire import Tire, TreadProfile, example_mesh
+
+# The word that stands for the tire mesh that ships with the package.
+EXAMPLE = "example"
+
+
+class TirePart(Part):
+    """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of."""
+
+    scan: str | None = None
+    profile: str | dict[str, Any] | None = None
+    height_map: str | None = None
+    units: str | None = None
+    nominal_diameter: Length | None = None
+    rotation: Angle = 0.0
+    camber: Angle = 0.0
+    revolve: bool | Literal["auto"] = "auto"
+    fill_holes: bool | Literal["auto"] = "auto"
+    cell: Length | None = None
+    inflation_pressure: Pressure | None = None
+    material: TireMaterial | None = None
+
+    @model_validator(mode="after")
+    def _one_surface(self) -> TirePart:
+        given = [name for name in ("scan", "profile", "height_map") if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise ValueError(
+                f"give exactly one of scan, profile and height_map, got {' and '.join(given) or 'none of them'}"
+            )
+        only_scan = {"units", "nominal_diameter", "rotation", "camber", "revolve", "fill_holes"}
+        stray = sorted(only_scan & self.model_fields_set) if self.scan is None else []
+        if stray:
+            raise ValueError(f"{stray[0]} belongs to a scan; this tire is a {given[0]}")
+        if self.cell is not None and self.height_map is None:
+            raise ValueError(
+                f"cell belongs to a height_map; this tire is a {given[0]}: set spacing at the top instead"
+            )
+        return self
+
+    def build(self, folder: Path) -> Tire:
+        """The tire; relative paths start from the folder."""
+        body: dict[str, Any] = {
+            "material": None if self.material is None else self.material.build(),
+            "inflation_pressure": self.inflation_pressure,
+        }
+        if self.scan is not None:
+            path = example_mesh() if self.scan == EXAMPLE else folder / self.scan
+            return Tire.from_scan(
+                path,
+                units=self.units,
+                nominal_diameter=self.nominal_diameter,
+                rotation=self.rotation,
+                camber=self.camber,
+                revolve=self.revolve,
+                fill_holes=self.fill_holes,
+                **body,
+            )
+        if self.height_map is not None:
+            return Tire.from_height_map(folder / self.height_map, self.cell, **body)
+        profile = self.profile
+        if isinstance(profile, dict):
+            return Tire.from_profile(TreadProfile.from_dict(profile), **body)
+        assert profile is not None
+        if profile.endswith(".toml"):
+            return Tire.from_profile(TreadProfile.from_toml(folder / profile), **body)
+        return Tire.from_profile(profile, **body)
