@@ -5,7 +5,7 @@ import math
 import pytest
 
 from treadload.errors import InputError
-from treadload.materials import Elastic
+from treadload.materials import Elastic, Prony
 from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
 
 ASPHALT, SOIL = Elastic(5.4e9, 0.35), Elastic(8e7, 0.4)
@@ -73,3 +73,23 @@ def test_bonded_layers_of_one_material_are_one():
     assert road.distinct_layers[0].bond == FRICTIONLESS
     assert not Pavement([Layer(SOIL, 0.1, bond=Bond(1e9)), Layer(SOIL)]).is_homogeneous
     assert not Pavement([Layer(SOIL, 0.1)], rigid_base=True).is_homogeneous
+
+
+def test_a_layer_says_what_its_material_needs():
+    solid = Prony(8e9, ((0.5, 0.1), (0.4, 1.0)), 0.35)
+    fluid = Prony.maxwell(8e9, 0.1, 0.35)
+    assert Pavement.half_space(solid).surface_material == Elastic(8e9, 0.35)
+    assert Layer(ASPHALT).elastic == Layer(ASPHALT).resolved == ASPHALT
+    assert Layer(fluid).resolved is fluid
+    with pytest.raises(InputError, match=r"layer 'base' is viscoelastic \(Prony.*give the speed of the load"):
+        _ = Layer(solid, 0.1, name="base").elastic
+
+    class Mix:
+        def at(self, temperature, *, extrapolate=False):
+            return solid
+
+        def __str__(self):
+            return "mix"
+
+    with pytest.raises(InputError, match=r"layer 'base' depends on temperature \(mix\).*Pavement.at_temperature"):
+        _ = Layer(Mix(), 0.1, name="base").resolved

@@ -10,7 +10,7 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic
+from treadload.materials import Elastic, Material, TemperatureDependent
 
 
 @dataclass(frozen=True)
@@ -47,11 +47,11 @@ FRICTIONLESS = Bond(0.0)
 class Layer:
     """One layer of a road.
 
-    material: what it is made of. thickness: m; None for the last layer, which goes down for ever.
-    name: free text. bond: to the layer below, BONDED, FRICTIONLESS or Bond(stiffness=...).
+    material: what it is made of: elastic, viscoelastic, or known once its temperature is. thickness: m; None for
+    the last layer, which goes down for ever. name: free text. bond: to the layer below, BONDED, FRICTIONLESS or Bond(stiffness=...).
     """
 
-    material: Elastic
+    material: Material | TemperatureDependent
     thickness: float | None = None
     name: str = ""
     bond: Bond = BONDED
@@ -66,6 +66,27 @@ class Layer:
             raise InputError(
                 f"layer {self.name!r}: bond must be BONDED, FRICTIONLESS or Bond(stiffness=...), got {self.bond!r}"
             )
+
+    @property
+    def elastic(self) -> Elastic:
+        """The material, where it is elastic. Raises InputError for one that needs a speed or a temperature."""
+        material = self.resolved
+        if not isinstance(material, Elastic):
+            raise InputError(
+                f"layer {self.name!r} is viscoelastic ({material}): give the speed of the load (m/s), or solve with "
+                "an elastic limit of the material, .glassy for fast and .rubbery for slow loads"
+            )
+        return material
+
+    @property
+    def resolved(self) -> Material:
+        """The material, elastic or viscoelastic. Raises InputError for one that needs a temperature."""
+        if isinstance(self.material, TemperatureDependent):
+            raise InputError(
+                f"layer {self.name!r} depends on temperature ({self.material}): choose one first with "
+                "Pavement.at_temperature(...)"
+            )
+        return self.material
 
 
 @dataclass(frozen=True)
@@ -108,14 +129,18 @@ class Pavement:
             )
 
     @classmethod
-    def half_space(cls, material: Elastic, name: str = "") -> Pavement:
+    def half_space(cls, material: Material | TemperatureDependent, name: str = "") -> Pavement:
         """A road of one material, as deep as you like."""
         return cls([Layer(material, name=name)])
 
     @property
     def surface_material(self) -> Elastic:
-        """Material of the top layer."""
-        return self.layers[0].material
+        """Elastic material of the top layer; of a viscoelastic one the limit of fast loads.
+
+        Raises InputError for a material that needs a temperature.
+        """
+        material = self.layers[0].resolved
+        return material if isinstance(material, Elastic) else material.glassy
 
     @property
     def distinct_layers(self) -> tuple[Layer, ...]:

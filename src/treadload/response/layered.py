@@ -49,7 +49,7 @@ def layered_response(
     Raises InputError below a rigid base and where that decay is too slow for the distance of the points.
     """
     layers = road.distinct_layers
-    materials = [layer.material for layer in layers]
+    materials = [layer.elastic for layer in layers]
     stack = Stack(
         [material.shear_modulus for material in materials],
         [material.poisson for material in materials],

@@ -57,7 +57,7 @@ def solve_response(
     at_y = _coordinates("y", y if y is not None or grid is None else grid.y)
 
     cells = [load.cell if isinstance(load, UniformRectangle) else load for load in superposed]
-    material = road.surface_material
+    material = road.distinct_layers[0].elastic
     if road.is_homogeneous:
         solved = half_space_response(cells, material, at_depths, at_x, at_y)
         words = f"one material, {material}"
