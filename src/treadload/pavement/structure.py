@@ -48,7 +48,8 @@ class Layer:
     """One layer of a road.
 
     material: what it is made of: elastic, viscoelastic, or known once its temperature is. thickness: m; None for
-    the last layer, which goes down for ever. name: free text. bond: to the layer below, BONDED, FRICTIONLESS or Bond(stiffness=...).
+    the last layer, which goes down for ever. name: free text. bond: to the layer below, BONDED, FRICTIONLESS or
+    Bond(stiffness=...).
     """
 
     material: Material | TemperatureDependent
