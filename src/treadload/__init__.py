@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from treadload.damage import FatigueLine, Verdict, assess
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
     from treadload.grid import Grid
-    from treadload.materials import Elastic, Prony
+    from treadload.materials import Elastic, HuetSayegh, Model2S2P1D, PowerLawCreep, Prony, as_prony
     from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
     from treadload.reporting import report
     from treadload.response import Response, UniformDisc, UniformRectangle, solve_response
@@ -49,10 +49,13 @@ _HOME = {
     "GeometryError": "errors",
     "Grid": "grid",
     "Groove": "tire",
+    "HuetSayegh": "materials",
     "InputError": "errors",
     "LateralGrooves": "tire",
     "Layer": "pavement",
+    "Model2S2P1D": "materials",
     "Pavement": "pavement",
+    "PowerLawCreep": "materials",
     "Prony": "materials",
     "Response": "response",
     "Result": "study",
@@ -66,6 +69,7 @@ _HOME = {
     "UniformDisc": "response",
     "UniformRectangle": "response",
     "Verdict": "damage",
+    "as_prony": "materials",
     "assess": "damage",
     "creep_curve": "contact",
     "example_mesh": "tire",
@@ -95,10 +99,13 @@ __all__ = [
     "GeometryError",
     "Grid",
     "Groove",
+    "HuetSayegh",
     "InputError",
     "LateralGrooves",
     "Layer",
+    "Model2S2P1D",
     "Pavement",
+    "PowerLawCreep",
     "Prony",
     "Response",
     "Result",
@@ -113,6 +120,7 @@ __all__ = [
     "UniformRectangle",
     "Verdict",
     "__version__",
+    "as_prony",
     "assess",
     "creep_curve",
     "example_mesh",

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
-
 from numpy.typing import ArrayLike
+
+# Those of Python 3.11 would ask a fluid for its rubbery modulus to find out what it is.
+from typing_extensions import Protocol, runtime_checkable
 
 from treadload.kernels.arrays import ComplexArray
 from treadload.materials.elastic import Elastic

@@ -1,0 +1,142 @@
+"""Models of bituminous mixes with parabolic dashpots: Huet-Sayegh and 2S2P1D."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import ComplexArray
+from treadload.materials.elastic import Elastic
+from treadload.materials.operational import Operational, positive
+
+
+@dataclass(frozen=True)
+class HuetSayegh(Operational):
+    """A spring beside a branch of a spring and two parabolic dashpots in a row.
+
+    E*(ω) = E₀ + (E∞ - E₀) / (1 + δ (iωτ)⁻ᵏ + (iωτ)⁻ʰ).
+    glassy_modulus: E∞, Pa. static_modulus: E₀, Pa, 0 ≤ E₀ < E∞; 0 is Huet's model.
+    delta: δ > 0. k, h: exponents, 0 < k < h < 1. tau: τ > 0, s, at the temperature meant.
+    poisson: Poisson's ratio, in (-1, 0.5], constant.
+    Raises InputError.
+
+    Source: Huet (1963), Annales des Ponts et Chaussées 6, 373-429; Sayegh (1967), Proc. 2nd Int. Conf. Structural
+    Design of Asphalt Pavements, Ann Arbor, 743-755.
+    """
+
+    glassy_modulus: float
+    static_modulus: float
+    delta: float
+    k: float
+    h: float
+    tau: float
+    poisson: float
+
+    def __post_init__(self) -> None:
+        Elastic(self.glassy_modulus, self.poisson)
+        if not 0 <= self.static_modulus < self.glassy_modulus:
+            raise InputError(
+                f"static_modulus must lie between 0 and the glassy modulus {self.glassy_modulus:g} Pa, "
+                f"got {self.static_modulus:g} Pa"
+            )
+        if not 0 < self.k < self.h < 1:
+            raise InputError(
+                f"the exponents must satisfy 0 < k < h < 1, got k = {self.k:g} and h = {self.h:g}; "
+                "mixes are near 0.2 and 0.6"
+            )
+        positive("delta", self.delta, "mixes are near 2")
+        positive("tau", self.tau, "in s, at the temperature meant")
+
+    @property
+    def glassy(self) -> Elastic:
+        """The elastic limit of fast loading, with E∞."""
+        return Elastic(self.glassy_modulus, self.poisson)
+
+    @property
+    def rubbery(self) -> Elastic:
+        """The elastic limit of slow loading, with E₀. Raises InputError if E₀ = 0."""
+        if self.static_modulus == 0:
+            raise InputError(
+                "a mix of static modulus 0 has no elastic limit of slow loading; give it a static_modulus, "
+                "e.g. 1e7 Pa"
+            )
+        return Elastic(self.static_modulus, self.poisson)
+
+    def operational_modulus(self, s: ArrayLike) -> ComplexArray:
+        """S times Laplace's transform of the relaxation modulus, Pa; s complex, off the negative real axis."""
+        st = np.asarray(s, dtype=complex) * self.tau
+        span = self.glassy_modulus - self.static_modulus
+        return np.asarray(self.static_modulus + span / (1 + self.delta * st**-self.k + st**-self.h))
+
+    def slowed(self, factor: float) -> HuetSayegh:
+        """The same material with its time τ multiplied by a factor > 0."""
+        return replace(self, tau=self.tau * factor)
+
+    def __str__(self) -> str:
+        return f"Huet-Sayegh, {_summary(self)}"
+
+
+@dataclass(frozen=True)
+class Model2S2P1D(Operational):
+    """Two springs, two parabolic dashpots and one dashpot: Huet-Sayegh's model with viscous flow in its branch.
+
+    E*(ω) = E₀ + (E∞ - E₀) / (1 + δ (iωτ)⁻ᵏ + (iωτ)⁻ʰ + (iωβτ)⁻¹).
+    beta: β > 0; the dashpot's viscosity is η = (E∞ - E₀) β τ. The rest as for HuetSayegh; for a binder E₀ is 0
+    or nearly so, and then it is a fluid.
+    Raises InputError.
+
+    Source: Olard & Di Benedetto (2003), Road Materials and Pavement Design 4, 185-224.
+    """
+
+    glassy_modulus: float
+    static_modulus: float
+    delta: float
+    k: float
+    h: float
+    beta: float
+    tau: float
+    poisson: float
+
+    def __post_init__(self) -> None:
+        _ = self._without_dashpot
+        positive("beta", self.beta, "mixes are near 100 to 1000; use HuetSayegh for no dashpot")
+
+    @property
+    def _without_dashpot(self) -> HuetSayegh:
+        return HuetSayegh(
+            self.glassy_modulus, self.static_modulus, self.delta, self.k, self.h, self.tau, self.poisson
+        )
+
+    @property
+    def glassy(self) -> Elastic:
+        """The elastic limit of fast loading, with E∞."""
+        return self._without_dashpot.glassy
+
+    @property
+    def rubbery(self) -> Elastic:
+        """The elastic limit of slow loading, with E₀. Raises InputError if E₀ = 0."""
+        return self._without_dashpot.rubbery
+
+    def operational_modulus(self, s: ArrayLike) -> ComplexArray:
+        """S times Laplace's transform of the relaxation modulus, Pa; s complex, off the negative real axis."""
+        st = np.asarray(s, dtype=complex) * self.tau
+        span = self.glassy_modulus - self.static_modulus
+        flow = 1 / (self.beta * st)
+        return np.asarray(self.static_modulus + span / (1 + self.delta * st**-self.k + st**-self.h + flow))
+
+    def slowed(self, factor: float) -> Model2S2P1D:
+        """The same material with its time τ multiplied by a factor > 0."""
+        return replace(self, tau=self.tau * factor)
+
+    def __str__(self) -> str:
+        return f"2S2P1D, {_summary(self)}, β = {self.beta:g}"
+
+
+def _summary(material: HuetSayegh | Model2S2P1D) -> str:
+    return (
+        f"E = {material.glassy_modulus / 1e6:g} to {material.static_modulus / 1e6:g} MPa, δ = {material.delta:g}, "
+        f"k = {material.k:g}, h = {material.h:g}, τ = {material.tau:.4g} s, ν = {material.poisson:g}"
+    )

@@ -1,0 +1,100 @@
+"""Any viscoelastic solid as a Prony series, within a tolerance over a range of frequencies."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.optimize import nnls
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array, ComplexArray
+from treadload.materials.kinds import Viscoelastic
+from treadload.materials.viscoelastic import Prony
+
+# Terms per decade tried in turn. Evenly spaced times leave 2 exp(-π²/ln(spacing)) of a smooth spectrum: 2e-4 with
+# two and a half a decade, 1e-7 with four.
+_DENSITIES = (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
+# Times reach this many decades past the range, and then a few more, one a decade, to stand for all that relaxes
+# beyond: a modulus that rises by small powers of frequency does so for very long.
+_BEYOND, _FAR = 2, np.array([3.0, 4.0, 5.0])
+_POINTS = 12
+
+
+def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance: float = 1e-4) -> Prony:
+    """A Prony series whose complex modulus is that of a material over a range of frequencies.
+
+    lowest, highest: the range, rad/s, 0 < lowest < highest. tolerance: largest |E* - E*ₘ| / |E*ₘ| in the range
+    and at the glassy limit; the rubbery limit, where there is one, is exact. The least number of evenly spaced
+    times that serves is taken; shares are not negative. Outside the range the series is no more than bounded by
+    the two limits. A Prony series is returned as it is.
+    Raises InputError for a range that is none, and if the tolerance is not reached.
+    Method: non-negative least squares, after Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519.
+    """
+    if not 0 < lowest < highest < math.inf:
+        raise InputError(f"a range of frequencies needs 0 < lowest < highest, rad/s, got {lowest:g} and {highest:g}")
+    if isinstance(material, Prony):
+        return material
+    try:
+        long_term = material.rubbery.modulus
+    except InputError:
+        long_term = 0.0
+    decades = math.log10(highest / lowest)
+    omega = np.geomspace(lowest, highest, math.ceil(_POINTS * decades) + 3)
+    between = np.sqrt(omega[1:] * omega[:-1])
+    modulus, checked = material.complex_modulus(omega), material.complex_modulus(between)
+    found, error = None, math.inf
+    for density in _DENSITIES:
+        count = math.ceil(density * (decades + 2 * _BEYOND)) + 1
+        inner = np.geomspace(10**-_BEYOND / highest, 10**_BEYOND / lowest, count)
+        times = np.concatenate([10 ** -_FAR[::-1] / highest, inner, 10**_FAR / lowest])
+        strengths = relaxation_strengths(omega, modulus, times, long_term, material.glassy.modulus)
+        found = prony_of(strengths, times, long_term, material.poisson)
+        at_once = abs(found.modulus / material.glassy.modulus - 1)
+        error = max(at_once, float(np.abs(found.complex_modulus(between) / checked - 1).max()))
+        if error <= tolerance:
+            return found
+    raise InputError(
+        f"no Prony series of {_DENSITIES[-1]} terms a decade follows {material} from {lowest:g} to {highest:g} rad/s "
+        f"within {tolerance:g}: {error:.1e} is reached; ask for no less than that"
+    )
+
+
+def relaxation_strengths(
+    omega: Array, modulus: ComplexArray, times: Array, long_term: float | None, glassy: float | None = None
+) -> Array:
+    """Moduli that relax with given times, ≥ 0, by least squares of the relative error of the complex modulus.
+
+    omega: (n,), rad/s. modulus: (n,), E*, Pa. times: (m,), s. long_term, glassy: moduli, Pa; None where unknown.
+    Returns (m,) in Pa, or (m + 1,) with the long-term modulus last where that is unknown.
+    """
+    scale = 1 / np.abs(modulus)
+    wt = 1j * omega[:, None] * times
+    matrix = scale[:, None] * wt / (1 + wt)
+    target = scale * (modulus - (long_term or 0.0))
+    if long_term is None:
+        matrix = np.column_stack([matrix, scale])
+    rows, values = [matrix.real, matrix.imag], [target.real, target.imag]
+    if glassy is not None:
+        rows.append(np.full((1, matrix.shape[1]), 1 / glassy))
+        values.append(np.array([1 - (long_term or 0.0) / glassy]))
+    return solve_non_negative(np.vstack(rows), np.concatenate(values))
+
+
+def solve_non_negative(matrix: Array, target: Array) -> Array:
+    """X ≥ 0 that minimises |matrix · x - target|. Columns are brought to one length first."""
+    length = np.linalg.norm(matrix, axis=0)
+    return np.asarray(nnls(matrix / length, target, maxiter=50 * matrix.shape[1])[0] / length)
+
+
+def prony_of(strengths: Array, times: Array, long_term: float, poisson: float) -> Prony:
+    """The series of terms of given strengths, Pa, and times, s, beside a long-term modulus, Pa.
+
+    Raises InputError if nothing relaxes.
+    """
+    modulus = long_term + float(strengths.sum())
+    kept = strengths > 0
+    if not kept.any():
+        raise InputError("nothing relaxes in the range of the data; use Elastic instead")
+    shares = strengths[kept] / modulus
+    return Prony(modulus, tuple(zip(shares.tolist(), times[kept].tolist(), strict=True)), poisson)
