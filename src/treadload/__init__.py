@@ -25,7 +25,20 @@ if TYPE_CHECKING:
         solve_transient,
         turn_on_the_spot,
     )
-    from treadload.damage import FatigueLine, Verdict, assess
+    from treadload.damage import (
+        AsphaltInstitute,
+        AsphaltInstituteSubgrade,
+        FatigueLine,
+        FrenchBituminous,
+        FrenchHydraulic,
+        FrenchSubgrade,
+        MepdgBottomUp,
+        MepdgTopDown,
+        ShellFatigue,
+        Verdict,
+        assess,
+        equivalent_axles,
+    )
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
     from treadload.grid import Grid
     from treadload.materials import Elastic, HuetSayegh, Model2S2P1D, PowerLawCreep, Prony, as_prony
@@ -37,6 +50,8 @@ if TYPE_CHECKING:
     from treadload.tire import Groove, LateralGrooves, Tire, TreadProfile, example_mesh, modulus_from_inflation
 
 _HOME = {
+    "AsphaltInstitute": "damage",
+    "AsphaltInstituteSubgrade": "damage",
     "BONDED": "pavement",
     "Bond": "pavement",
     "Case": "case",
@@ -46,6 +61,9 @@ _HOME = {
     "Elastic": "materials",
     "FRICTIONLESS": "pavement",
     "FatigueLine": "damage",
+    "FrenchBituminous": "damage",
+    "FrenchHydraulic": "damage",
+    "FrenchSubgrade": "damage",
     "GeometryError": "errors",
     "Grid": "grid",
     "Groove": "tire",
@@ -54,6 +72,8 @@ _HOME = {
     "LateralGrooves": "tire",
     "Layer": "pavement",
     "Model2S2P1D": "materials",
+    "MepdgBottomUp": "damage",
+    "MepdgTopDown": "damage",
     "Pavement": "pavement",
     "PowerLawCreep": "materials",
     "Prony": "materials",
@@ -61,6 +81,7 @@ _HOME = {
     "Result": "study",
     "Rolling": "contact",
     "RollingResistance": "contact",
+    "ShellFatigue": "damage",
     "Tire": "tire",
     "TransientResult": "contact",
     "TreadProfile": "tire",
@@ -72,6 +93,7 @@ _HOME = {
     "as_prony": "materials",
     "assess": "damage",
     "creep_curve": "contact",
+    "equivalent_axles": "damage",
     "example_mesh": "tire",
     "load": "results",
     "modulus_from_inflation": "tire",
@@ -89,6 +111,8 @@ _HOME = {
 __all__ = [
     "BONDED",
     "FRICTIONLESS",
+    "AsphaltInstitute",
+    "AsphaltInstituteSubgrade",
     "Bond",
     "Case",
     "Contact",
@@ -96,6 +120,9 @@ __all__ = [
     "CreepCurve",
     "Elastic",
     "FatigueLine",
+    "FrenchBituminous",
+    "FrenchHydraulic",
+    "FrenchSubgrade",
     "GeometryError",
     "Grid",
     "Groove",
@@ -103,6 +130,8 @@ __all__ = [
     "InputError",
     "LateralGrooves",
     "Layer",
+    "MepdgBottomUp",
+    "MepdgTopDown",
     "Model2S2P1D",
     "Pavement",
     "PowerLawCreep",
@@ -111,6 +140,7 @@ __all__ = [
     "Result",
     "Rolling",
     "RollingResistance",
+    "ShellFatigue",
     "Tire",
     "TransientResult",
     "TreadProfile",
@@ -123,6 +153,7 @@ __all__ = [
     "as_prony",
     "assess",
     "creep_curve",
+    "equivalent_axles",
     "example_mesh",
     "load",
     "modulus_from_inflation",

@@ -1,6 +1,28 @@
-"""What repeated strain does to the road."""
+"""What repeated load does to the road."""
 
-from treadload.damage.fatigue import FatigueLine
+from treadload.damage.american import (
+    AsphaltInstitute,
+    AsphaltInstituteSubgrade,
+    MepdgBottomUp,
+    MepdgTopDown,
+    ShellFatigue,
+)
+from treadload.damage.fatigue import FatigueLaw, FatigueLine
+from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade, equivalent_axles
 from treadload.damage.verdict import Verdict, assess
 
-__all__ = ["FatigueLine", "Verdict", "assess"]
+__all__ = [
+    "AsphaltInstitute",
+    "AsphaltInstituteSubgrade",
+    "FatigueLaw",
+    "FatigueLine",
+    "FrenchBituminous",
+    "FrenchHydraulic",
+    "FrenchSubgrade",
+    "MepdgBottomUp",
+    "MepdgTopDown",
+    "ShellFatigue",
+    "Verdict",
+    "assess",
+    "equivalent_axles",
+]

@@ -1,23 +1,134 @@
-"""The fatigue line: how many passes a strain allows."""
+"""Fatigue laws: how many passes a strain or a stress allows. The common face, and Wöhler's line."""
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import overload
+from typing import ClassVar, Protocol, overload
 
 import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
+# What a law reads; `reading` in `damage.criteria` takes it from a response.
+EXTENSION = "extension strain"
+BOTTOM_EXTENSION = "extension strain at the bottom of the asphalt"
+SURFACE_EXTENSION = "extension strain at the surface"
+SUBGRADE = "vertical strain on the subgrade"
+TENSION = "tensile stress"
+
 _MILLION = 1e6
 # No road material bears a million passes at one per cent: such a number is microstrain without its unit.
 _LARGEST = 0.01
+# Passes that laboratories and test roads have seen, and to which designs extrapolate them: a rule of this
+# house, no bound of a source.
+_SEEN = (1e4, 1e8)
+
+
+class FatigueLaw(Protocol):
+    """What every law of fatigue can tell.
+
+    A law reads one number of a loading, positive where it does harm: an extension, a compression on the
+    subgrade, a tensile stress.
+    """
+
+    @property
+    def quantity(self) -> str:
+        """What it reads: `BOTTOM_EXTENSION`, `SURFACE_EXTENSION`, `EXTENSION`, `SUBGRADE` or `TENSION`."""
+
+    @property
+    def source(self) -> str:
+        """Who says so."""
+
+    @property
+    def doubt(self) -> str:
+        """Which of its numbers stand on no source that could be read, in words; empty if none."""
+
+    @property
+    def verified(self) -> bool:
+        """True if all its numbers were read in its source."""
+
+    @property
+    def validity(self) -> tuple[float, float]:
+        """Smallest and largest reading that it takes without a warning, in the unit of what it reads."""
+
+    @overload
+    def allowable_passes(self, strain: float) -> float: ...
+    @overload
+    def allowable_passes(self, strain: Array) -> Array: ...
+    def allowable_passes(self, strain: float | Array) -> float | Array:
+        """Passes that a reading allows."""
+
+    @overload
+    def allowable_strain(self, passes: float) -> float: ...
+    @overload
+    def allowable_strain(self, passes: Array) -> Array: ...
+    def allowable_strain(self, passes: float | Array) -> float | Array:
+        """Reading that allows this number of passes."""
+
+
+class PowerLaw(ABC):
+    """A law N = 10⁶ (ε / ε₁)^(1/b) with ε₁ the reading that allows a million passes and b < 0."""
+
+    quantity: ClassVar[str]
+    source: ClassVar[str]
+
+    @property
+    @abstractmethod
+    def at_a_million(self) -> float:
+        """ε₁: strain, or stress in Pa, that allows a million passes."""
+
+    @property
+    @abstractmethod
+    def exponent(self) -> float:
+        """Slope b of ε = ε₁ (N / 10⁶)^b, negative."""
+
+    @property
+    def doubt(self) -> str:
+        """Which of its numbers stand on no source that could be read, in words; empty if none."""
+        return ""
+
+    @property
+    def verified(self) -> bool:
+        """True if all its numbers were read in its source."""
+        return not self.doubt
+
+    @property
+    def validity(self) -> tuple[float, float]:
+        """Readings that allow 10⁸ and 10⁴ passes: what laboratories and test roads have seen, no source's bound."""
+        few, many = _SEEN
+        return self.allowable_strain(many), self.allowable_strain(few)
+
+    @overload
+    def allowable_passes(self, strain: float) -> float: ...
+    @overload
+    def allowable_passes(self, strain: Array) -> Array: ...
+    def allowable_passes(self, strain: float | Array) -> float | Array:
+        """Passes N = 10⁶ (ε / ε₁)^(1/b) that a strain (a stress, Pa) allows; inf where it is ≤ 0, NaN for NaN."""
+        given = np.asarray(strain, dtype=float)
+        harmful = np.where(given <= 0, 1.0, given)
+        with np.errstate(over="ignore"):
+            passes = _MILLION * (harmful / self.at_a_million) ** (1 / self.exponent)
+        passes = np.where(given <= 0, np.inf, passes)
+        return passes if given.ndim else float(passes)
+
+    @overload
+    def allowable_strain(self, passes: float) -> float: ...
+    @overload
+    def allowable_strain(self, passes: Array) -> Array: ...
+    def allowable_strain(self, passes: float | Array) -> float | Array:
+        """Strain (or stress, Pa) ε₁ (N / 10⁶)^b that allows this number of passes, > 0; InputError otherwise."""
+        given = np.asarray(passes, dtype=float)
+        if not (given > 0).all():
+            raise InputError(f"passes must be positive, got {given.min():g}")
+        strain = self.at_a_million * (given / _MILLION) ** self.exponent
+        return strain if given.ndim else float(strain)
 
 
 @dataclass(frozen=True)
-class FatigueLine:
+class FatigueLine(PowerLaw):
     """Wöhler line ε = ε₆ (N / 10⁶)^b of a material under repeated extension.
 
     epsilon_6: strain that allows a million passes, plain strain (120 microstrain is 120e-6), > 0.
@@ -29,41 +140,69 @@ class FatigueLine:
     epsilon_6: float
     slope: float
 
+    quantity: ClassVar[str] = EXTENSION
+    source: ClassVar[str] = "Wöhler's line with the user's numbers"
+
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.epsilon_6) and self.epsilon_6 > 0):
-            raise InputError(f"epsilon_6 must be a positive strain, got {self.epsilon_6}; 120 microstrain is 120e-6")
-        if self.epsilon_6 > _LARGEST:
-            raise InputError(
-                f"epsilon_6 must be a plain strain below {_LARGEST}, got {self.epsilon_6}; write "
-                f'{self.epsilon_6:g}e-6 or "{self.epsilon_6:g} microstrain" if that is what you mean'
-            )
-        if not -1 < self.slope < 0:
-            raise InputError(f"slope must lie in (-1, 0), got {self.slope}; -0.2 is usual for bituminous mixes")
+        check_strain(self.epsilon_6)
+        check_slope(self.slope)
 
-    @overload
-    def allowable_passes(self, strain: float) -> float: ...
-    @overload
-    def allowable_passes(self, strain: Array) -> Array: ...
-    def allowable_passes(self, strain: float | Array) -> float | Array:
-        """Passes N = 10⁶ (ε / ε₆)^(1/b) that a strain allows; inf where there is no extension, NaN for NaN."""
-        given = np.asarray(strain, dtype=float)
-        extended = np.where(given <= 0, 1.0, given)
-        with np.errstate(over="ignore"):
-            passes = _MILLION * (extended / self.epsilon_6) ** (1 / self.slope)
-        passes = np.where(given <= 0, np.inf, passes)
-        return passes if given.ndim else float(passes)
+    @property
+    def at_a_million(self) -> float:
+        """ε₆."""
+        return self.epsilon_6
 
-    @overload
-    def allowable_strain(self, passes: float) -> float: ...
-    @overload
-    def allowable_strain(self, passes: Array) -> Array: ...
-    def allowable_strain(self, passes: float | Array) -> float | Array:
-        """Strain ε₆ (N / 10⁶)^b that allows this number of passes, > 0; InputError otherwise."""
-        given = np.asarray(passes, dtype=float)
-        if not (given > 0).all():
-            raise InputError(f"passes must be positive, got {given.min():g}")
-        strain = self.epsilon_6 * (given / _MILLION) ** self.slope
-        return strain if given.ndim else float(strain)
+    @property
+    def exponent(self) -> float:
+        """Slope b."""
+        return self.slope
 
     def __str__(self) -> str:
         return f"fatigue line, ε₆ = {self.epsilon_6 * 1e6:g} microstrain, slope {self.slope:g}"
+
+
+def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
+    """Sentences for the user on what a law says of a reading: numbers without a source, extrapolation.
+
+    strain: what the law reads, any shape; the largest finite value decides. Nothing is said of no reading.
+    """
+    said = [f"{law}: {law.doubt}"] if law.doubt else []
+    given = np.asarray(strain, dtype=float)
+    largest = float(np.max(given, where=np.isfinite(given), initial=0.0))
+    low, high = law.validity
+    if 0 < largest < low or largest > high:
+        beyond, bound = ("above", high) if largest > high else ("below", low)
+        said.append(
+            f"{law}: {in_words(law, largest)} is {beyond} {in_words(law, bound)}, the end of what it is held to "
+            f"cover; {law.allowable_passes(largest):.2g} passes are extrapolated"
+        )
+    return tuple(said)
+
+
+def in_words(law: FatigueLaw, value: float) -> str:
+    """A reading of a law with its unit."""
+    number, unit = (value / 1e6, "MPa") if law.quantity == TENSION else (value * 1e6, "microstrain")
+    return f"{number:.0f} {unit}" if number >= 100 else f"{number:.3g} {unit}"
+
+
+def check_strain(epsilon_6: float) -> None:
+    """Raise InputError unless epsilon_6 is a plain strain that a road material can bear a million times."""
+    if not (math.isfinite(epsilon_6) and epsilon_6 > 0):
+        raise InputError(f"epsilon_6 must be a positive strain, got {epsilon_6}; 120 microstrain is 120e-6")
+    if epsilon_6 > _LARGEST:
+        raise InputError(
+            f"epsilon_6 must be a plain strain below {_LARGEST}, got {epsilon_6}; write "
+            f'{epsilon_6:g}e-6 or "{epsilon_6:g} microstrain" if that is what you mean'
+        )
+
+
+def check_slope(slope: float) -> None:
+    """Raise InputError unless a fatigue line falls with this slope."""
+    if not -1 < slope < 0:
+        raise InputError(f"slope must lie in (-1, 0), got {slope}; -0.2 is usual for bituminous mixes")
+
+
+def check_positive(name: str, value: float, unit: str, usual: str) -> None:
+    """Raise InputError unless a number is finite and positive."""
+    if not (math.isfinite(value) and value > 0):
+        raise InputError(f"{name} must be a positive {unit}, got {value}; {usual}")

@@ -1,0 +1,116 @@
+"""Fatigue laws against worked numbers, to all their digits.
+
+tests/data/damage/worked.json: parameters of the French method as a public program prints them, numbers worked
+from the formulas outside this package. Its twelve printed digits bound every tolerance here.
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from treadload.damage.american import (
+    AsphaltInstitute,
+    AsphaltInstituteSubgrade,
+    MepdgBottomUp,
+    MepdgTopDown,
+    bottom_up_cracking,
+    top_down_cracking,
+)
+from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+
+WORKED = json.loads((Path(__file__).parents[1] / "data" / "damage" / "worked.json").read_text(encoding="utf-8"))
+# Half a unit of the last of twelve digits, on numbers that may begin with a one.
+PRINTED = 6e-12
+PSI, INCH = 6894.757293168361, 0.0254
+# A modulus in each class of platform, by its printed factor.
+PLATFORM = {0.833333333333: 40e6, 0.909090909091: 60e6, 0.93896713615: 100e6, 1.0: 120e6}
+
+
+def bituminous(case):
+    _, epsilon_6, scatter, calibration, _ = WORKED["french_bituminous"]["rows"][case["material"]]
+    return FrenchBituminous(
+        epsilon_6 * 1e-6,
+        -0.2,
+        scatter,
+        case["thickness_m"],
+        case["risk"],
+        calibration,
+        case["E10_MPa"] / case["E_theta_MPa"],
+        PLATFORM[case["ks"]],
+    )
+
+
+@pytest.mark.parametrize(
+    "case", WORKED["worked_eps_adm"], ids=lambda c: f"{c['material']}-{c['risk']}-{c['theta_eq_C']}"
+)
+def test_allowable_strain_of_the_french_method(case):
+    law = bituminous(case)
+    assert law.temperature_factor == pytest.approx(case["k_theta"], rel=PRINTED)
+    assert law.spread == pytest.approx(case["Sh_m"], rel=PRINTED)
+    assert law.risk_factor == pytest.approx(case["kr"], rel=PRINTED)
+    assert law.allowable_strain(case["NE"]) * 1e6 == pytest.approx(case["eps_adm_microstrain"], rel=PRINTED)
+
+
+def test_the_example_of_the_guide():
+    law = bituminous(WORKED["worked_eps_adm"][0])
+    assert f"{law.risk_factor:.3f}" == "0.744"
+    assert f"{law.allowable_strain(5e6) * 1e6:.1f}" == "72.5"
+
+
+def test_allowable_stress_of_a_treated_gravel():
+    case = WORKED["worked_sigma_adm"]
+    law = FrenchHydraulic(
+        case["sigma6"] * 1e6, -1 / case["minus_1_over_b"], case["SN"], case["risk"], case["kc"], case["kd"]
+    )
+    assert law.risk_factor == pytest.approx(case["kr"], rel=PRINTED)
+    assert law.allowable_strain(case["NE"]) == pytest.approx(case["sigma_adm_MPa"] * 1e6, rel=PRINTED)
+
+
+# Material of the base, its thickness and that of all bituminous layers; the axles of the JSON at a risk of 5 %.
+STRUCTURES = {
+    "6 BBSG3 / 15 GB3 / PF3": ("EB-GB3", 0.15),
+    "8 BBSG3 / 15 GB3 / PF3": ("EB-GB3", 0.15),
+    "6 BBSG3 / 13 EME2 / PF3": ("EB-EME2", 0.13),
+}
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_life_of_structures(name):
+    rows = [row for row in WORKED["worked_structures"]["rows"] if row["structure"] == name]
+    life = next(row for row in rows if "NE_subgrade" in row)
+    compression = max(row["eps_z_subgrade_microstrain"] for row in rows if "eps_z_subgrade_microstrain" in row)
+    # Twelve digits of a strain, to the power 1/0.222.
+    passes = FrenchSubgrade().allowable_passes(compression * 1e-6)
+    assert passes == pytest.approx(life["NE_subgrade"], rel=5 * PRINTED)
+
+    material, thickness = STRUCTURES[name]
+    at_15, epsilon_6, scatter, calibration, at = WORKED["french_bituminous"]["rows"][material]
+    law = FrenchBituminous(epsilon_6 * 1e-6, -0.2, scatter, thickness, 0.05, calibration, at[2] / at_15, 120e6)
+    # Twelve digits of a strain, to the fifth power.
+    assert law.allowable_passes(life["eps_t_max"] * 1e-6) == pytest.approx(
+        life["NE_fatigue_at_risk_5pct"], rel=6 * PRINTED
+    )
+
+
+@pytest.mark.parametrize("case", WORKED["mepdg"]["worked_Nf"], ids=lambda c: f"{c['mode']}-{c['hac_in']}")
+def test_passes_of_the_mepdg(case):
+    kind = {"bottom": MepdgBottomUp, "top": MepdgTopDown}[case["mode"]]
+    law = kind(case["E_psi"] * PSI, case["hac_in"] * INCH, case["Va"] / 100, case["Vb"] / 100)
+    assert law.allowable_passes(case["eps"]) == pytest.approx(case["Nf"], rel=PRINTED)
+
+
+@pytest.mark.parametrize("case", WORKED["mepdg"]["worked_cracking"], ids=lambda c: f"{c['damage']}-{c['hac_in']}")
+def test_cracking_of_the_mepdg(case):
+    below = bottom_up_cracking(case["damage"], case["hac_in"] * INCH)
+    above = top_down_cracking(case["damage"])
+    assert 100 * below == pytest.approx(case["FC_bottom_pct"], rel=PRINTED)
+    # Feet per mile of metres per metre.
+    assert 5280 * above == pytest.approx(case["FC_top_ft_per_mile"], rel=PRINTED)
+
+
+def test_asphalt_institute_as_a_public_program_prints_it():
+    """LEAPS, a layered elastic program on the web, prints 1.03e6 and 4.36e6 passes for its template."""
+    # Three digits.
+    assert f"{AsphaltInstitute(3e9).allowable_passes(237.7e-6):.2e}" == "1.03e+06"
+    assert f"{AsphaltInstituteSubgrade().allowable_passes(344.2e-6):.2e}" == "4.36e+06"

@@ -1,0 +1,187 @@
+"""The laws of fatigue: what they share, what each refuses, and the traffic of the French method."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from treadload.damage import american, french
+from treadload.damage.american import (
+    AsphaltInstitute,
+    AsphaltInstituteSubgrade,
+    MepdgBottomUp,
+    MepdgTopDown,
+    ShellFatigue,
+)
+from treadload.damage.fatigue import FatigueLine, warnings_of
+from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade, equivalent_axles
+from treadload.errors import InputError
+
+GB3 = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3, 11880 / 9000, 120e6)
+GC3 = FrenchHydraulic(0.75e6, -1 / 15, 1.0, 0.05, 1.4)
+LAWS = [
+    FatigueLine(120e-6, -0.2),
+    GB3,
+    GC3,
+    FrenchSubgrade(),
+    MepdgBottomUp(5e9, 0.2, 0.07, 0.11),
+    MepdgTopDown(5e9, 0.2, 0.07, 0.11),
+    AsphaltInstitute(5e9),
+    AsphaltInstitute(5e9, 0.05, 0.11),
+    AsphaltInstituteSubgrade(),
+    ShellFatigue(5e9),
+]
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+def test_what_every_law_tells(law):
+    assert law.quantity
+    assert law.source
+    assert law.verified == (not law.doubt)
+    low, high = law.validity
+    assert 0 < low < high
+    # Round-off of a power, amplified by an exponent of at most 15.
+    assert law.allowable_passes(low) == pytest.approx(1e8, rel=1e-12)
+    assert law.allowable_passes(high) == pytest.approx(1e4, rel=1e-12)
+    assert law.allowable_passes(law.at_a_million) == pytest.approx(1e6, rel=1e-12)
+    assert law.allowable_passes(-high) == math.inf
+    assert type(law.allowable_passes(high)) is float
+    assert law.allowable_strain(np.array([1e5, 1e6])).shape == (2,)
+    hash(law)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+@given(passes=st.floats(1e2, 1e10), factor=st.floats(1.01, 10))
+def test_more_strain_fewer_passes_and_there_and_back(law, passes, factor):
+    strain = law.allowable_strain(passes)
+    assert law.allowable_passes(strain) == pytest.approx(passes, rel=1e-11)
+    assert law.allowable_passes(strain * factor) < law.allowable_passes(strain)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+def test_unverified_numbers_are_said_where_the_law_speaks(law):
+    inside = math.sqrt(math.prod(law.validity))
+    said = warnings_of(law, np.array([inside, 0.0, np.nan]))
+    assert len(said) == (not law.verified)
+    if not law.verified:
+        assert law.doubt in said[0]
+        assert "recalled" in law.doubt
+        told = " ".join(type(law).__doc__.split())
+        assert "ot verified" in told
+
+
+def test_what_is_verified():
+    assert {type(law).__name__ for law in LAWS if law.verified} == {
+        "FatigueLine",
+        "FrenchHydraulic",
+        "FrenchSubgrade",
+        "MepdgBottomUp",
+        "MepdgTopDown",
+    }
+
+
+def test_a_given_scatter_of_the_thickness_verifies_the_french_law():
+    given_one = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3, thickness_scatter=0.025)
+    assert given_one.verified
+    assert given_one.risk_factor == GB3.risk_factor
+
+
+def test_extrapolation_is_said_with_its_numbers():
+    line = FatigueLine(100e-6, -0.2)
+    assert warnings_of(line, 100e-6) == ()
+    # ε₆ · 100^0.2 = 251 microstrain allows 1e4 passes; 1000 microstrain allows 10.
+    (above,) = warnings_of(line, np.array([1e-3, 1e-6]))
+    assert "1000 microstrain is above 251 microstrain" in above
+    assert "10 passes are extrapolated" in above
+    (below,) = warnings_of(line, 10e-6)
+    assert "10 microstrain is below 39.8 microstrain" in below
+    assert warnings_of(line, -1e-3) == ()
+    (stress,) = warnings_of(GC3, 2e6)
+    assert "2 MPa is above" in stress
+
+
+@given(st.floats(0.001, 0.999), st.floats(0.1, 1.5), st.floats(0, 0.05))
+def test_risk_and_safety_mirror_each_other(risk, scatter, spread):
+    taken = french.risk_factor(risk, -0.2, scatter, spread)
+    # The normal law is symmetric; round-off of its quantile in the tail.
+    assert taken * french.risk_factor(1 - risk, -0.2, scatter, spread) == pytest.approx(1, rel=1e-10)
+    assert (taken < 1) == (risk < 0.5) or risk == pytest.approx(0.5)
+
+
+def test_scatter_of_the_thickness_and_platforms():
+    rule = [french.thickness_scatter(h) for h in (0.05, 0.10, 0.12, 0.15, 0.30)]
+    # Round-off of a linear rule.
+    np.testing.assert_allclose(rule, [0.01, 0.01, 0.016, 0.025, 0.025], rtol=1e-14)
+    factors = [french.platform_factor(m) for m in (49e6, 50e6, 79e6, 80e6, 119e6, 120e6, None)]
+    np.testing.assert_allclose(factors, [1 / 1.2, 1 / 1.1, 1 / 1.1, 1 / 1.065, 1 / 1.065, 1, 1], rtol=1e-15)
+
+
+def test_equivalent_axles_are_the_sum_of_the_years():
+    years = np.arange(20)
+    # Round-off of a sum of twenty.
+    geometric = 365 * 200 * 0.8 * (1.03**years).sum()
+    assert equivalent_axles(200, 20, 0.8, growth=0.03) == pytest.approx(geometric, rel=1e-13)
+    arithmetic = 365 * 200 * 0.8 * (1 + 0.03 * years).sum()
+    assert equivalent_axles(200, 20, 0.8, growth=0.03, kind="arithmetic") == pytest.approx(arithmetic, rel=1e-13)
+    assert equivalent_axles(200, 20, 0.8) == 365 * 200 * 20 * 0.8
+    # ((1 + t)^n - 1)/t of a tiny growth does not cancel: n + n (n - 1) t / 2.
+    tiny = equivalent_axles(1, 20, 1, growth=1e-9)
+    assert tiny == pytest.approx(365 * (20 + 190e-9), rel=1e-14)
+
+
+def test_aggressiveness_of_a_vehicle():
+    single, tandem = (130e3, 1, 1), (65e3, 2, 0.75)
+    # (1 + 2 · 0.75 / 2⁵) axles a vehicle.
+    assert french.aggressiveness([single, tandem], vehicles=1, power=5) == pytest.approx(1 + 1.5 / 32, rel=1e-14)
+    assert french.aggressiveness([single], vehicles=4, power=12) == 0.25
+    assert french.aggressiveness_of("hydraulic", "motorway") == 1.3
+    assert french.risk_of("bituminous", "T1") == 0.05
+
+
+def test_mix_factor_of_the_neutral_mix_is_one():
+    # Vb/(Va + Vb) = 0.69 makes the exponent vanish.
+    assert american.mix_factor(0.31, 0.69) == pytest.approx(1, rel=1e-14)
+
+
+def test_cracking_grows_from_nothing_to_its_ends():
+    damage = np.array([0.0, 1e-3, 0.5, 1.0, 1e3, np.inf])
+    below, above = american.bottom_up_cracking(damage, 0.15), american.top_down_cracking(damage)
+    assert (np.diff(below) >= 0).all()
+    assert (np.diff(above) >= 0).all()
+    assert below[0] == above[0] == 0
+    # Half of each at the end of the life: 50 % of the area, 5280 feet a mile.
+    np.testing.assert_allclose([below[3], above[3], below[-1], above[-1]], [0.5, 1, 1, 2], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: FrenchBituminous(90, -0.2, 0.3, 0.15, 0.05, 1.3), '90e-6 or "90 microstrain"'),
+        (lambda: FrenchBituminous(90e-6, 0.2, 0.3, 0.15, 0.05, 1.3), r"slope must lie in \(-1, 0\), got 0.2"),
+        (lambda: FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 5, 1.3), r"risk must lie in \(0, 1\), got 5; 5 % is 0.05"),
+        (lambda: FrenchBituminous(90e-6, -0.2, -0.3, 0.15, 0.05, 1.3), "scatter must be a positive number, got -0.3"),
+        (lambda: FrenchBituminous(90e-6, -0.2, 0.3, 0, 0.05, 1.3), "thickness must be a positive number of metres"),
+        (lambda: FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3, platform_modulus=-1), "PF3 has 120e6"),
+        (lambda: FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3, thickness_scatter=25), "25 mm is 0.025"),
+        (lambda: FrenchHydraulic(-1, -0.1, 1, 0.05, 1.4), "sigma_6 must be a positive number of Pa, got -1"),
+        (lambda: FrenchSubgrade(12000), "plain strain, got 12000; 12000 microstrain is 0.012"),
+        (lambda: MepdgBottomUp(5000, 0.2, 0.07, 0.11), "modulus must be in Pa, got 5000"),
+        (lambda: MepdgBottomUp(5e9, 0.2, 7, 11), r"share of the volume in \(0, 1\), got 7; 7 % is 0.07"),
+        (lambda: AsphaltInstitute(5e9, 0.05), "both air_voids and binder_volume or none, got 0.05 and None"),
+        (lambda: ShellFatigue(math.nan), "modulus must be a positive number of Pa, got nan"),
+        (lambda: equivalent_axles(-1, 20, 0.8), "vehicles_per_day must be a positive number, got -1"),
+        (lambda: equivalent_axles(1, 20, 0.8, growth=-2), "growth must be above -1 a year, got -2"),
+        (lambda: equivalent_axles(1, 20, 0.8, growth=-0.5, kind="arithmetic"), "leaves no traffic over 20 years"),
+        (lambda: equivalent_axles(1, 20, 0.8, kind="weekly"), '"geometric" or "arithmetic", got \'weekly\''),
+        (lambda: french.aggressiveness([], vehicles=1, power=5), "axles is empty"),
+        (lambda: french.aggressiveness([(-1, 1, 1)], vehicles=1, power=5), "load > 0 N"),
+        (lambda: french.risk_of("concrete", "T1"), "bituminous, hydraulic, got 'concrete'"),
+        (lambda: french.aggressiveness_of("bituminous", "T9"), "got 'T9'"),
+        (lambda: american.top_down_cracking(-0.1), "damage must be ≥ 0, got -0.1"),
+    ],
+)
+def test_refusals(make, message):
+    with pytest.raises(InputError, match=message):
+        make()
