@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.hankel import AxialPlanes, Disc, synthesise_discs
 from treadload.kernels.layered import Stack, transfer
 from treadload.kernels.tensors import strain_from_stress
 from treadload.kernels.wavenumbers import (
     Plane,
-    Spectrum,
     cells_spectrum,
-    disc_spectrum,
     quadrature,
     synthesise,
     tabulated,
@@ -33,6 +33,8 @@ _SPLIT = 0.9
 _NET = 1e-9
 # Wavenumbers that one response may take: about a minute.
 _MOST = 6e7
+# The same under discs, where one direction serves.
+_MOST_ALONG = 1e6
 
 
 def layered_response(
@@ -65,23 +67,15 @@ def layered_response(
     top = stack.interfaces[0]
     split = [layer == 0 and z < _SPLIT * top for z, layer in zip(depths, where, strict=True)]
     limits = [_FALL / (2 * top - z if near else z) for z, near in zip(depths, split, strict=True)]
-    reach_x, reach_y = _reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y)
-    contrast = max(stack.shear) / min(stack.shear)
-    length = max(reach_x, reach_y, float(stack.interfaces[-1]) * contrast ** (1 / 3), float(depths.max()))
-    along, across = quadrature(max(limits), reach_x, length), quadrature(max(limits), reach_y, length)
-    if len(along[0]) * len(across[0]) > _MOST:
-        worst = float(depths[int(np.argmax(limits))])
-        raise InputError(
-            f"depth {worst:g} m under a top layer of {top:g} m with points up to {max(reach_x, reach_y):g} m from "
-            f"the load needs {len(along[0])} x {len(across[0])} wavenumbers, more than {_MOST:g}: leave out the "
-            "depths around thin layers near the surface or compute fewer distant points at a time"
-        )
-    smallest = math.hypot(along[0][0], across[0][0])
-    planes = [
-        _plane(stack, float(z), layer, below, near, limit, smallest)
-        for z, layer, near, limit in zip(depths, where, split, limits, strict=True)
-    ]
-    waves = synthesise([_spectrum(load) for load in loads], planes, x, y, along, across)
+    length = max(float(stack.interfaces[-1]) * (max(stack.shear) / min(stack.shear)) ** (1 / 3), float(depths.max()))
+    waves = np.zeros((len(depths), 9, len(y), len(x)))
+    discs = [load for load in loads if isinstance(load, UniformDisc)]
+    gridded = [load for load in loads if isinstance(load, GridLoad)]
+    layout = _Layout(stack, depths, where, [below] * len(depths), split, np.array(limits))
+    if discs:
+        waves += _under_discs(discs, layout, x, y, length)
+    if gridded:
+        waves += _under_cells(gridded, layout, x, y, length)
     stress, displacement = np.moveaxis(waves[:, :6], 1, 0).copy(), np.moveaxis(waves[:, 6:], 1, 0).copy()
     method = "layered"
     shallow = [row for row, near in enumerate(split) if near]
@@ -114,32 +108,80 @@ def _drifting(stack: Stack, loads: Sequence[SurfaceLoad]) -> tuple[bool, bool]:
     return bool(abs(net[0]) > _NET * size), bool(abs(net[1]) > _NET * size)
 
 
-def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool, limit: float, smallest: float) -> Plane:
-    shear, poisson = stack.shear[layer], stack.poisson[layer]
-    top = Stack([stack.shear[0]], [stack.poisson[0]], [], [])
+@dataclass(frozen=True)
+class _Layout:
+    """Depths in a stack: the layer of each, its side of an interface, whether the top's half-space is split off."""
+
+    stack: Stack
+    depths: Array
+    where: list[int]
+    below: list[bool]
+    split: list[bool]
+    limit: Array
+
+    def kernels(self, k: Array) -> tuple[Array, Array]:
+        """What unit loads do, (nz, 4, 2, nk) and (nz, 2, nk), without the half-space where it is split off."""
+        result = transfer(k, self.stack, list(self.depths), self.below)
+        rows = [row for row, near in enumerate(self.split) if near]
+        if rows:
+            top = Stack([self.stack.shear[0]], [self.stack.poisson[0]], [], [])
+            alone = transfer(k, top, list(self.depths[rows]), [False] * len(rows))
+            result.plane[rows] -= alone.plane
+            result.transverse[rows] -= alone.transverse
+        return result.plane, result.transverse
+
+
+def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Array, length: float) -> Array:
+    """Fields (nz, 9, my, mx) of discs by Hankel's integrals."""
+    widest = max(max(np.abs(x - disc.x).max(), np.abs(y - disc.y).max()) + disc.radius for disc in discs)
+    if layout.limit.max() * widest > _MOST_ALONG:
+        raise InputError(_too_many(layout, float(widest), f"{layout.limit.max() * widest:.2g}", _MOST_ALONG))
+    planes = AxialPlanes(
+        lambda k: layout.kernels(k)[0][:, :, 1],
+        np.array([layout.stack.shear[layer] for layer in layout.where]),
+        np.array([layout.stack.poisson[layer] for layer in layout.where]),
+        layout.limit,
+        _FALL / float(layout.limit.max()),
+    )
+    return synthesise_discs([Disc(one.radius, one.pressure, one.x, one.y) for one in discs], planes, x, y, length)
+
+
+def _under_cells(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float) -> Array:
+    """Fields (nz, 9, my, mx) of gridded loads by wavenumbers in both directions."""
+    reach_x, reach_y = _reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y)
+    length, most = max(length, reach_x, reach_y), float(layout.limit.max())
+    along, across = quadrature(most, reach_x, length), quadrature(most, reach_y, length)
+    if len(along[0]) * len(across[0]) > _MOST:
+        raise InputError(_too_many(layout, max(reach_x, reach_y), f"{len(along[0])} x {len(across[0])}", _MOST))
+    smallest = math.hypot(along[0][0], across[0][0])
+    planes = [_plane(layout, row, smallest) for row in range(len(layout.depths))]
+    spectra = [cells_spectrum(one.array, one.grid.dx, one.grid.dy, one.grid.x0, one.grid.y0) for one in loads]
+    return synthesise(spectra, planes, x, y, along, across)
+
+
+def _plane(layout: _Layout, row: int, smallest: float) -> Plane:
+    one = slice(row, row + 1)
+    alone = replace(layout, depths=layout.depths[one], below=layout.below[one], split=layout.split[one])
 
     def values(k: Array) -> Array:
-        result = _rows(k, stack, depth, below)
-        return result - _rows(k, top, depth, below) if split else result
+        plane, transverse = alone.kernels(k)
+        rows: Array = np.concatenate([plane[0].reshape(8, -1), transverse[0]])
+        return rows
 
+    layer, limit = layout.where[row], float(layout.limit[row])
+    shear, poisson = layout.stack.shear[layer], layout.stack.poisson[layer]
     return Plane(tabulated(values, smallest, 1.5 * limit), shear, poisson, limit)
 
 
-def _rows(k: Array, stack: Stack, depth: float, below: bool) -> Array:
-    """Kernels (10, nk) in the order of `kernels.wavenumbers.Plane`."""
-    result = transfer(k, stack, [depth], [below])
-    rows: Array = np.concatenate([result.plane[0].reshape(8, -1), result.transverse[0]])
-    return rows
+def _too_many(layout: _Layout, reach: float, needed: str, most: float) -> str:
+    worst, top = float(layout.depths[int(np.argmax(layout.limit))]), float(layout.stack.interfaces[0])
+    return (
+        f"depth {worst:g} m under a top layer of {top:g} m with points up to {reach:g} m from "
+        f"the load needs {needed} wavenumbers, more than {most:g}: leave out the "
+        "depths around thin layers near the surface or compute fewer distant points at a time"
+    )
 
 
 def _reach(extents: Sequence[tuple[float, float]], points: Array) -> float:
     low, high = min(extent[0] for extent in extents), max(extent[1] for extent in extents)
     return float(max(points.max() - low, high - points.min()))
-
-
-def _spectrum(load: SurfaceLoad) -> Spectrum:
-    if isinstance(load, UniformDisc):
-        return disc_spectrum(load.radius, load.pressure, load.x, load.y)
-    assert isinstance(load, GridLoad)
-    grid = load.grid
-    return cells_spectrum(load.array, grid.dx, grid.dy, grid.x0, grid.y0)
