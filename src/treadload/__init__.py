@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
     from treadload.grid import Grid
     from treadload.materials import Elastic, HuetSayegh, Model2S2P1D, PowerLawCreep, Prony, as_prony
-    from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
+    from treadload.pavement import BONDED, FRICTIONLESS, HALF_BONDED, Bond, Layer, Pavement, TemperatureProfile
     from treadload.reporting import report
     from treadload.response import Response, UniformDisc, UniformRectangle, solve_response
     from treadload.results import load, save, to_tree
@@ -67,13 +67,14 @@ _HOME = {
     "GeometryError": "errors",
     "Grid": "grid",
     "Groove": "tire",
+    "HALF_BONDED": "pavement",
     "HuetSayegh": "materials",
     "InputError": "errors",
     "LateralGrooves": "tire",
     "Layer": "pavement",
-    "Model2S2P1D": "materials",
     "MepdgBottomUp": "damage",
     "MepdgTopDown": "damage",
+    "Model2S2P1D": "materials",
     "Pavement": "pavement",
     "PowerLawCreep": "materials",
     "Prony": "materials",
@@ -82,6 +83,7 @@ _HOME = {
     "Rolling": "contact",
     "RollingResistance": "contact",
     "ShellFatigue": "damage",
+    "TemperatureProfile": "pavement",
     "Tire": "tire",
     "TransientResult": "contact",
     "TreadProfile": "tire",
@@ -111,6 +113,7 @@ _HOME = {
 __all__ = [
     "BONDED",
     "FRICTIONLESS",
+    "HALF_BONDED",
     "AsphaltInstitute",
     "AsphaltInstituteSubgrade",
     "Bond",
@@ -141,6 +144,7 @@ __all__ = [
     "Rolling",
     "RollingResistance",
     "ShellFatigue",
+    "TemperatureProfile",
     "Tire",
     "TransientResult",
     "TreadProfile",

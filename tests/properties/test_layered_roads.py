@@ -87,6 +87,38 @@ def test_the_spring_between_layers(stiffness):
         assert np.abs(stress + stiffness * slide.to_numpy()).max() <= 1e-7 * np.abs(stress).max()
 
 
+def test_half_bonded_is_the_mean_of_two_roads():
+    # Interfaces switch together: two roads, not four.
+    half = road(tl.HALF_BONDED, tl.HALF_BONDED)
+    points = {"depths": [0.0, 0.06, 0.21], "x": [-0.05, 0.1], "y": [0.0]}
+    pressed = tl.UniformRectangle(0.2, 0.1, 5e5)
+    found = tl.solve_response(pressed, half, **points).dataset
+    stuck, free = (
+        tl.solve_response(pressed, road(bond, bond), **points).dataset for bond in (tl.BONDED, tl.FRICTIONLESS)
+    )
+    # The same two sums: round-off alone.
+    close(found, {name: (stuck[name] + free[name]) / 2 for name in NAMES}, 1e-14)
+    # Principal values are those of the mean tensor, which for the largest lie below the mean of the two.
+    largest = found["principal_strain_1"]
+    assert (largest <= (stuck["principal_strain_1"] + free["principal_strain_1"]) / 2 + 1e-15).all()
+    tensor = np.empty((*largest.shape, 3, 3))
+    for i, one in enumerate("xyz"):
+        for j, other in enumerate("xyz"):
+            tensor[..., i, j] = found[f"strain_{''.join(sorted(one + other))}"]
+    np.testing.assert_allclose(np.linalg.eigvalsh(tensor)[..., -1], largest, atol=1e-12 * float(abs(largest).max()))
+
+
+def test_half_bonded_layers_of_one_material_slide_in_one_of_two_roads():
+    built = tl.Pavement([tl.Layer(ASPHALT, 0.1, bond=tl.HALF_BONDED), tl.Layer(ASPHALT)])
+    points = {"depths": [0.0, 0.1], "x": [0.0], "y": [0.0]}
+    found, whole, free = (
+        tl.solve_response(tl.UniformDisc(0.1, 5e5), one, **points)
+        for one in (built, tl.Pavement.half_space(ASPHALT), built.bond_limits[1])
+    )
+    assert found.stats["method"] == "disc and layered+disc"
+    close(found.dataset, {name: (whole.dataset[name] + free.dataset[name]) / 2 for name in NAMES}, 1e-14)
+
+
 def test_what_nothing_holds_is_not_given():
     points = {"depths": [0.0, 0.1, 0.5], "x": [0.0], "y": [0.0]}
     slab = road(other=tl.FRICTIONLESS)

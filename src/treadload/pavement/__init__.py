@@ -1,5 +1,16 @@
 """The road and its layers."""
 
-from treadload.pavement.structure import BONDED, FRICTIONLESS, Bond, Layer, Pavement
+from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
+from treadload.pavement.structure import Layer, Pavement
+from treadload.pavement.temperature import TemperatureProfile
 
-__all__ = ["BONDED", "FRICTIONLESS", "Bond", "Layer", "Pavement"]
+__all__ = [
+    "BONDED",
+    "FRICTIONLESS",
+    "HALF_BONDED",
+    "Bond",
+    "HalfBonded",
+    "Layer",
+    "Pavement",
+    "TemperatureProfile",
+]

@@ -3,44 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Material, TemperatureDependent
+from treadload.materials.celsius import check_celsius
+from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
+from treadload.pavement.temperature import TemperatureProfile
 
-
-@dataclass(frozen=True)
-class Bond:
-    """How a layer holds to the one below: shear = stiffness x relative sliding; the layers never part.
-
-    stiffness: Pa/m, >= 0; infinite when bonded, 0 without friction. It matters between some 1e9 and 1e12 Pa/m.
-    Raises InputError for a negative stiffness.
-    Source: Goodman, Taylor and Brekke (1968), J. Soil Mech. Found. Div. ASCE 94, 637-659.
-    """
-
-    stiffness: float
-
-    def __post_init__(self) -> None:
-        if not self.stiffness >= 0:
-            raise InputError(
-                f"the stiffness of a bond must be >= 0 Pa/m, got {self.stiffness}; 0 is frictionless, "
-                "infinity is bonded"
-            )
-
-    def __str__(self) -> str:
-        if self == BONDED:
-            return "bonded"
-        return "frictionless" if self == FRICTIONLESS else f"spring of {self.stiffness / 1e6:g} MPa/m"
-
-
-BONDED = Bond(math.inf)
-"""No relative sliding."""
-FRICTIONLESS = Bond(0.0)
-"""No shear between the layers."""
+_KINDS = "Elastic, a viscoelastic material such as Prony, or one that depends on temperature"
 
 
 @dataclass(frozen=True)
@@ -55,17 +32,26 @@ class Layer:
     material: Material | TemperatureDependent
     thickness: float | None = None
     name: str = ""
-    bond: Bond = BONDED
+    bond: Bond | HalfBonded = BONDED
 
     def __post_init__(self) -> None:
+        # The protocols themselves would evaluate limits that a fluid has not.
+        if not (
+            isinstance(self.material, Elastic | TemperatureDependent) or hasattr(self.material, "complex_modulus")
+        ):
+            raise InputError(
+                f"layer {self.name!r}: material must be {_KINDS}, got {type(self.material).__name__} "
+                f"{self.material!r}"
+            )
         if self.thickness is not None and not (math.isfinite(self.thickness) and self.thickness > 0):
             raise InputError(
                 f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness}; "
                 "leave it out for the last layer"
             )
-        if not isinstance(self.bond, Bond):
+        if not isinstance(self.bond, Bond | HalfBonded):
             raise InputError(
-                f"layer {self.name!r}: bond must be BONDED, FRICTIONLESS or Bond(stiffness=...), got {self.bond!r}"
+                f"layer {self.name!r}: bond must be BONDED, HALF_BONDED, FRICTIONLESS or Bond(stiffness=...), "
+                f"got {self.bond!r}"
             )
 
     @property
@@ -89,6 +75,11 @@ class Layer:
             )
         return self.material
 
+    @property
+    def depends_on_temperature(self) -> bool:
+        """True if the material is known only once its temperature is."""
+        return isinstance(self.material, TemperatureDependent)
+
 
 @dataclass(frozen=True)
 class Pavement:
@@ -106,6 +97,11 @@ class Pavement:
         object.__setattr__(self, "rigid_base", bool(rigid_base))
         if not self.layers:
             raise InputError("a pavement needs at least one layer, got none")
+        for number, layer in enumerate(self.layers, start=1):
+            if not isinstance(layer, Layer):
+                raise InputError(
+                    f"layer {number} must be a Layer, got {type(layer).__name__}; write Layer(material, thickness)"
+                )
         for number, layer in enumerate(self.layers[:-1], start=1):
             if layer.thickness is None:
                 raise InputError(
@@ -166,3 +162,116 @@ class Pavement:
     def is_homogeneous(self) -> bool:
         """True if the road is one half-space: one material, bonded, without rigid base."""
         return len(self.distinct_layers) == 1 and not self.rigid_base
+
+    @property
+    def is_viscoelastic(self) -> bool:
+        """True if a layer is viscoelastic: its response needs the speed of the load.
+
+        Raises InputError for a layer that needs a temperature.
+        """
+        return any(not isinstance(layer.resolved, Elastic) for layer in self.layers)
+
+    @property
+    def glassy(self) -> Pavement:
+        """The elastic road of fast loads: viscoelastic layers at their glassy limit.
+
+        Raises InputError for a layer that needs a temperature.
+        """
+        return self._with_materials([_limit(layer.resolved, "glassy") for layer in self.layers])
+
+    @property
+    def rubbery(self) -> Pavement:
+        """The elastic road of slow loads: viscoelastic layers at their rubbery limit.
+
+        Raises InputError for a layer that needs a temperature, and for a fluid, which has no such limit.
+        """
+        return self._with_materials([_limit(layer.resolved, "rubbery") for layer in self.layers])
+
+    @property
+    def bond_limits(self) -> tuple[Pavement, ...]:
+        """The roads whose mean response is that of this one: itself, or without its half-bonded interfaces two.
+
+        The first of two has all of them bonded, the second all frictionless.
+        """
+        if all(layer.bond != HALF_BONDED for layer in self.layers):
+            return (self,)
+        return tuple(
+            Pavement(
+                [replace(layer, bond=bond) if layer.bond == HALF_BONDED else layer for layer in self.layers],
+                rigid_base=self.rigid_base,
+            )
+            for bond in (BONDED, FRICTIONLESS)
+        )
+
+    def at_temperature(
+        self, temperature: float | Sequence[float | None] | TemperatureProfile, *, extrapolate: bool = False
+    ) -> Pavement:
+        """The road with the materials that its layers have at a temperature; others stay as they are.
+
+        temperature: °C, one for all layers; or a list with one a layer, None to leave that layer as it is; or a
+        TemperatureProfile, of which a layer takes the temperature at its middle, as is usual.
+        extrapolate: True to go beyond the data of materials and profile.
+        Raises InputError for what looks like kelvin, a list of another length, temperatures outside the data, and
+        a profile for a layer that goes down for ever, which has no middle.
+        """
+        found = [
+            self._resolved(layer, value, extrapolate)
+            for layer, value in zip(self.layers, self._temperatures(temperature, extrapolate), strict=True)
+        ]
+        return self._with_materials(found)
+
+    def _temperatures(
+        self, temperature: float | Sequence[float | None] | TemperatureProfile, extrapolate: bool
+    ) -> list[float | None]:
+        """Temperature of each layer, °C; None where it is not needed or not given."""
+        if isinstance(temperature, TemperatureProfile):
+            return [
+                self._middle_temperature(number, temperature, extrapolate) if layer.depends_on_temperature else None
+                for number, layer in enumerate(self.layers)
+            ]
+        if isinstance(temperature, str) or not isinstance(temperature, Iterable):
+            return [check_celsius(temperature)] * len(self.layers)
+        values = list(temperature)
+        if len(values) != len(self.layers):
+            raise InputError(
+                f"a list of temperatures needs one for each of the {len(self.layers)} layers, None to leave a layer "
+                f"as it is, got {len(values)}"
+            )
+        return [None if value is None else check_celsius(value) for value in values]
+
+    def _middle_temperature(self, number: int, profile: TemperatureProfile, extrapolate: bool) -> float:
+        layer = self.layers[number]
+        if layer.thickness is None:
+            raise InputError(
+                f"layer {layer.name!r} goes down for ever and has no middle to read a temperature profile at; "
+                "give a list with one temperature a layer"
+            )
+        middle = float(self.interfaces[number]) - 0.5 * layer.thickness
+        with _naming(layer):
+            return profile.temperature_at(middle, extrapolate=extrapolate)
+
+    @staticmethod
+    def _resolved(layer: Layer, temperature: float | None, extrapolate: bool) -> Material | TemperatureDependent:
+        if temperature is None or not isinstance(layer.material, TemperatureDependent):
+            return layer.material
+        with _naming(layer):
+            return layer.material.at(temperature, extrapolate=extrapolate)
+
+    def _with_materials(self, materials: Sequence[Material | TemperatureDependent]) -> Pavement:
+        pairs = zip(self.layers, materials, strict=True)
+        return Pavement([replace(layer, material=one) for layer, one in pairs], rigid_base=self.rigid_base)
+
+
+def _limit(material: Material, which: Literal["glassy", "rubbery"]) -> Elastic:
+    if isinstance(material, Elastic):
+        return material
+    return material.glassy if which == "glassy" else material.rubbery
+
+
+@contextmanager
+def _naming(layer: Layer) -> Iterator[None]:
+    """Say of which layer an InputError speaks."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"layer {layer.name!r}: {error}") from error

@@ -16,7 +16,7 @@ from treadload.pavement import Pavement
 from treadload.response.fields import response_dataset
 from treadload.response.half_space import half_space_response
 from treadload.response.layered import layered_response
-from treadload.response.loads import GridLoad, Load, UniformRectangle, common_grid, gather
+from treadload.response.loads import GridLoad, Load, SurfaceLoad, UniformRectangle, common_grid, gather
 from treadload.response.solution import Response
 
 
@@ -33,7 +33,8 @@ def solve_response(
 
     loads: a contact, a dataset with pressure, traction_x and traction_y (Pa) over y and x, a GridLoad, a
     UniformDisc, a UniformRectangle, or a list of these, whose responses add up in one pass. road: a half-space
-    or layers. depths: m, >= 0, 0 is the surface.
+    or elastic layers; half-bonded interfaces make it the mean of two responses, see `Pavement.bond_limits`.
+    depths: m, >= 0, 0 is the surface.
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
     vertical slice. side: of an interface that a depth falls on, "above" or "below"; stress and strain of a
     half-space have no jump there, and the horizontal displacement of layers jumps only where they slide.
@@ -59,12 +60,11 @@ def solve_response(
     cells = [load.cell if isinstance(load, UniformRectangle) else load for load in superposed]
     material = road.distinct_layers[0].elastic
     if road.is_homogeneous:
-        solved = half_space_response(cells, material, at_depths, at_x, at_y)
         words = f"one material, {material}"
     else:
-        solved = layered_response(cells, road, at_depths, at_x, at_y, below=side == "below")
         words = f"{len(road.layers)} layer(s){' on a rigid base' if road.rigid_base else ''}, top {material}"
-    stress, strain, displacement, method = solved
+    limits = [_solve(cells, limit, at_depths, at_x, at_y, below=side == "below") for limit in road.bond_limits]
+    stress, strain, displacement, method = _mean(limits)
     dataset = response_dataset(
         stress,
         strain,
@@ -87,6 +87,27 @@ def solve_response(
             "horizontal displacement has no finite value and is NaN; stress and strain hold",
         )
     return Response(dataset, stats, warnings)
+
+
+# Stress, strain and displacement, and how they were found.
+_Fields = tuple[Array, Array, Array, str]
+
+
+def _solve(
+    loads: Sequence[SurfaceLoad], road: Pavement, depths: Array, x: Array, y: Array, *, below: bool
+) -> _Fields:
+    if road.is_homogeneous:
+        return half_space_response(loads, road.distinct_layers[0].elastic, depths, x, y)
+    return layered_response(loads, road, depths, x, y, below=below)
+
+
+def _mean(solved: Sequence[_Fields]) -> _Fields:
+    """Mean of the fields; one alone is not copied."""
+    if len(solved) == 1:
+        return solved[0]
+    stress, strain, displacement, methods = zip(*solved, strict=True)
+    how = " and ".join(dict.fromkeys(methods))
+    return np.mean(stress, axis=0), np.mean(strain, axis=0), np.mean(displacement, axis=0), how
 
 
 def _warnings(loads: Sequence[GridLoad], depths: Array) -> tuple[str, ...]:

@@ -1,0 +1,61 @@
+"""How a layer holds to the one below it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from treadload.errors import InputError
+
+
+@dataclass(frozen=True)
+class Bond:
+    """How a layer holds to the one below: shear = stiffness x relative sliding; the layers never part.
+
+    stiffness: Pa/m, >= 0; infinite when bonded, 0 without friction. It matters between some 1e9 and 1e12 Pa/m.
+    Raises InputError for a negative stiffness.
+    Source: Goodman, Taylor and Brekke (1968), J. Soil Mech. Found. Div. ASCE 94, 637-659.
+    """
+
+    stiffness: float
+
+    def __post_init__(self) -> None:
+        if isinstance(self.stiffness, str) or not self.stiffness >= 0:
+            raise InputError(
+                f"the stiffness of a bond must be >= 0 Pa/m, got {self.stiffness}; 0 is frictionless, "
+                "infinity is bonded"
+            )
+
+    def __str__(self) -> str:
+        if self == BONDED:
+            return "bonded"
+        return "frictionless" if self == FRICTIONLESS else f"spring of {self.stiffness / 1e6:g} MPa/m"
+
+
+@dataclass(frozen=True)
+class HalfBonded:
+    """The French half-bonded interface: the mean of two responses, one bonded and one frictionless.
+
+    All half-bonded interfaces of a road are bonded in the one and frictionless in the other.
+    Source: semi-bonded interfaces of NF P98-086; the rule reproduces both stresses of its table I.5, quoted by a
+    secondary source.
+    """
+
+    @property
+    def stiffness(self) -> float:
+        """None of its own: raises InputError. Solve the roads of `Pavement.bond_limits`."""
+        raise InputError(
+            "a half-bonded interface has no stiffness: it is the mean of a bonded and a frictionless response; "
+            "take the roads of Pavement.bond_limits, or Bond(stiffness=...) for a spring"
+        )
+
+    def __str__(self) -> str:
+        return "half-bonded"
+
+
+BONDED = Bond(math.inf)
+"""No relative sliding."""
+HALF_BONDED = HalfBonded()
+"""Half-way between bonded and frictionless by the French rule."""
+FRICTIONLESS = Bond(0.0)
+"""No shear between the layers."""
