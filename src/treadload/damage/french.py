@@ -300,6 +300,15 @@ def equivalent_axles(
         "aggressiveness": aggressiveness,
     }.items():
         check_positive(name, value, "number", "leave out a traffic that does not run")
+    total = growth_factor(years, growth, kind)
+    return _DAYS * vehicles_per_day * total * aggressiveness
+
+
+def growth_factor(years: float, growth: float, kind: Literal["geometric", "arithmetic"] = "geometric") -> float:
+    """C: passes over years n, > 0, over those of the first year, for a growth t a year.
+
+    kind: ((1+t)^n - 1)/t "geometric", or n (1 + (n-1) t/2) "arithmetic". Raises InputError.
+    """
     if not growth > -1:
         raise InputError(f"growth must be above -1 a year, got {growth}; 2 % a year is 0.02")
     if kind == "geometric":
@@ -310,7 +319,7 @@ def equivalent_axles(
         raise InputError(f'kind must be "geometric" or "arithmetic", got {kind!r}')
     if not total > 0:
         raise InputError(f"a growth of {growth:g} a year leaves no traffic over {years:g} years")
-    return _DAYS * vehicles_per_day * total * aggressiveness
+    return total
 
 
 def _look_up(what: str, table: Mapping[str, Mapping[str, float]], material: str, traffic: str) -> float:

@@ -1,0 +1,251 @@
+"""Traffic, wander and climate: how often which wheel passes where, and on how warm a road."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.special import ndtr
+
+from treadload.contact.friction import FrictionLaw
+from treadload.contact.maneuver import STRAIGHT, Maneuver
+from treadload.damage.french import growth_factor
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+
+# Shares that come from a table with few digits.
+_ROUND_OFF = 1e-6
+# Wander is cut where 6e-7 of the wheels are left, and the rest scaled to one.
+_SIGMAS = 5.0
+
+
+@dataclass(frozen=True)
+class AxleClass:
+    """One row of a traffic: wheels of a kind under one load that roll in one way.
+
+    name: for tables. share: of all passes, in [0, 1]. wheel_load: N on each wheel. inflation_pressure: Pa.
+    wheels: (x, y) of the wheels that act together, m, the wheel path at y = 0: one wheel, dual wheels, the duals
+    of a tandem. maneuver: how they roll. friction: coefficient or law. speed: m/s, for viscoelastic roads.
+    Raises InputError.
+    """
+
+    name: str
+    share: float
+    wheel_load: float
+    inflation_pressure: float
+    wheels: tuple[tuple[float, float], ...] = ((0.0, 0.0),)
+    maneuver: Maneuver = STRAIGHT
+    friction: float | FrictionLaw = 0.7
+    speed: float | None = None
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.share <= 1:
+            raise InputError(f"the share of {self.name!r} must lie in [0, 1], got {self.share}; 30 % is 0.3")
+        for word in ("wheel_load", "inflation_pressure"):
+            value = getattr(self, word)
+            if not (math.isfinite(value) and value > 0):
+                raise InputError(f"{word} of {self.name!r} must be positive, got {value}")
+        try:
+            wheels = tuple((float(x), float(y)) for x, y in self.wheels)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"wheels of {self.name!r} must be pairs (x, y) in m, got {self.wheels!r}") from error
+        if not wheels or not np.isfinite(wheels).all():
+            raise InputError(f"{self.name!r} needs at least one wheel at finite (x, y) in m, got {self.wheels!r}")
+        object.__setattr__(self, "wheels", wheels)
+
+
+@dataclass(frozen=True)
+class Wander:
+    """Where the wheels run across the road, as offsets from the middle of the wheel path.
+
+    offsets: m, rising. shares: of the passes at each offset, summing to 1; none at all for a normal law.
+    deviation: standard deviation of a normal law, m, >= 0; 0 for wheels that never wander.
+    Build it with none, normal or measured. Raises InputError.
+    """
+
+    deviation: float = 0.0
+    offsets: tuple[float, ...] = ()
+    shares: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.deviation) and self.deviation >= 0):
+            raise InputError(f"the deviation of wander must be >= 0 m, got {self.deviation}; 0.25 is usual")
+        if len(self.offsets) != len(self.shares):
+            raise InputError(f"wander has {len(self.offsets)} offsets but {len(self.shares)} shares")
+        if self.offsets:
+            if self.deviation:
+                raise InputError("wander is either normal or measured: give a deviation or offsets, not both")
+            if not (np.diff(self.offsets) > 0).all():
+                raise InputError(f"the offsets of wander must rise, got {list(self.offsets)} m")
+            _check_shares("wander", self.shares)
+
+    @classmethod
+    def none(cls) -> Wander:
+        """Every wheel in the same track."""
+        return cls()
+
+    @classmethod
+    def normal(cls, deviation: float) -> Wander:
+        """Normally distributed tracks. deviation: standard deviation, m; 0.2 to 0.3 on motorways."""
+        return cls(deviation)
+
+    @classmethod
+    def measured(cls, offsets: Sequence[float], shares: Sequence[float]) -> Wander:
+        """A measured distribution. offsets: m, rising. shares: of the passes at each, summing to 1."""
+        return cls(0.0, tuple(float(o) for o in offsets), tuple(float(s) for s in shares))
+
+    @property
+    def reach(self) -> float:
+        """Largest offset that has a share, m."""
+        return _SIGMAS * self.deviation if not self.offsets else max(abs(o) for o in self.offsets)
+
+    def weights(self, spacing: float) -> Array:
+        """Shares (2 n + 1,) of the tracks -n..n, `spacing` m apart, summing to 1.
+
+        A normal law is integrated over each track's width; a measured offset is shared between its neighbours so
+        that its mean stays.
+        """
+        n = math.ceil(self.reach / spacing - 1e-9)
+        tracks = np.arange(-n, n + 1) * spacing
+        if self.offsets:
+            found = np.zeros(2 * n + 1)
+            at = np.asarray(self.offsets) / spacing + n
+            low = np.clip(np.floor(at).astype(int), 0, max(2 * n - 1, 0))
+            part = np.minimum(at - low, 1.0) if n else np.zeros(len(at))
+            np.add.at(found, low, (1 - part) * self.shares)
+            if n:
+                np.add.at(found, low + 1, part * self.shares)
+        elif n:
+            edges = np.append(tracks - spacing / 2, tracks[-1] + spacing / 2) / self.deviation
+            found = np.diff(ndtr(edges))
+        else:
+            found = np.ones(1)
+        weights: Array = found / found.sum()
+        return weights
+
+    def spread(self, damage: Array, spacing: float) -> Array:
+        """Damage of wheels that wander, from that of wheels in one track.
+
+        damage: (..., ny) on points `spacing` m apart, taken as zero beyond. Returns (..., ny + 2 n), n points more
+        on both sides: the sum over y does not change.
+        """
+        weights = self.weights(spacing)
+        ny, wide = damage.shape[-1], len(weights) - 1
+        result = np.zeros((*damage.shape[:-1], ny + wide))
+        for shift, weight in enumerate(weights):
+            result[..., shift : shift + ny] += weight * damage
+        return result
+
+    def __str__(self) -> str:
+        if self.offsets:
+            return f"measured wander at {len(self.offsets)} offsets, up to {self.reach * 1e3:g} mm"
+        return f"normal wander of {self.deviation * 1e3:g} mm" if self.deviation else "no wander"
+
+
+@dataclass(frozen=True)
+class Traffic:
+    """What passes: classes of wheels, how many a year, how that grows, and how it wanders.
+
+    classes: rows whose shares sum to 1. passes_per_year: of all classes, in the first year, over the wheel path.
+    growth: a year, > -1; kind: "geometric" or "arithmetic". wander: across the road. Raises InputError.
+    """
+
+    classes: tuple[AxleClass, ...]
+    passes_per_year: float
+    growth: float = 0.0
+    kind: Literal["geometric", "arithmetic"] = "geometric"
+    wander: Wander = Wander()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "classes", tuple(self.classes))
+        if not self.classes:
+            raise InputError("a traffic needs at least one class of axles, got none")
+        names = [row.name for row in self.classes]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise InputError(f"two classes of axles have the name {twice!r}; give them different names")
+        _check_shares("traffic", [row.share for row in self.classes])
+        if not (math.isfinite(self.passes_per_year) and self.passes_per_year >= 0):
+            raise InputError(f"passes_per_year must be >= 0, got {self.passes_per_year}")
+        growth_factor(1.0, self.growth, self.kind)
+
+    def passes(self, years: float) -> float:
+        """Passes of all classes over a number of years from the opening."""
+        return self.passes_per_year * growth_factor(years, self.growth, self.kind)
+
+    def years_to(self, passes: float) -> float:
+        """Years until so many passes; inf where a traffic that shrinks, or none, never makes them."""
+        if not passes >= 0:
+            raise InputError(f"passes must be >= 0, got {passes}")
+        if passes == 0:
+            return 0.0
+        if self.passes_per_year == 0 or math.isinf(passes):
+            return math.inf
+        ratio, growth = passes / self.passes_per_year, self.growth
+        if growth == 0:
+            return ratio
+        if self.kind == "geometric":
+            return math.log1p(ratio * growth) / math.log1p(growth) if ratio * growth > -1 else math.inf
+        # growth/2 n² + (1 - growth/2) n = ratio, the root that grows out of n = 0.
+        linear = 1 - growth / 2
+        square = linear**2 + 2 * growth * ratio
+        return 2 * ratio / (linear + math.sqrt(square)) if square >= 0 else math.inf
+
+
+@dataclass(frozen=True)
+class Season:
+    """A part of the year with its temperatures.
+
+    name: for tables. share: of the passes, in [0, 1]. temperature: °C, of all layers or one for each, surface
+    first.
+    """
+
+    name: str
+    share: float
+    temperature: float | tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.share <= 1:
+            raise InputError(f"the share of {self.name!r} must lie in [0, 1], got {self.share}; a month is 1/12")
+        if isinstance(self.temperature, Sequence):
+            object.__setattr__(self, "temperature", tuple(float(t) for t in self.temperature))
+        if not np.isfinite(self.temperature).all():
+            raise InputError(f"the temperature of {self.name!r} must be finite, got {self.temperature} °C")
+
+
+@dataclass(frozen=True)
+class Climate:
+    """The temperatures of the road over the passes. seasons: whose shares sum to 1. Raises InputError."""
+
+    seasons: tuple[Season, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "seasons", tuple(self.seasons))
+        if not self.seasons:
+            raise InputError("a climate needs at least one season, got none")
+        _check_shares("climate", [season.share for season in self.seasons])
+
+    @classmethod
+    def constant(cls, temperature: float) -> Climate:
+        """One temperature, °C, all the year, such as the equivalent one of a design method."""
+        return cls((Season("all year", 1.0, temperature),))
+
+    @classmethod
+    def equal_parts(cls, temperatures: Sequence[float], names: Sequence[str] = ()) -> Climate:
+        """Seasons of equal share, such as twelve months, with their temperatures, °C."""
+        if names and len(names) != len(temperatures):
+            raise InputError(f"there are {len(temperatures)} temperatures but {len(names)} names")
+        count = len(temperatures)
+        labels = names or [f"{k + 1} of {count}" for k in range(count)]
+        return cls(tuple(Season(n, 1 / count, t) for n, t in zip(labels, temperatures, strict=True)))
+
+
+def _check_shares(what: str, shares: Sequence[float]) -> None:
+    if not all(0 <= share <= 1 for share in shares):
+        raise InputError(f"the shares of a {what} must lie in [0, 1], got {list(shares)}")
+    total = math.fsum(shares)
+    if abs(total - 1) > _ROUND_OFF:
+        raise InputError(f"the shares of a {what} must sum to 1, got {total:.6g}; they count parts, not per cent")
