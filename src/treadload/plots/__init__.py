@@ -4,16 +4,20 @@ from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.files import png, save
+from treadload.plots.layers import both_sides
+from treadload.plots.places import places_under
 from treadload.plots.verdict import fatigue_line
 
 __all__ = [
     "ContactPlots",
     "ResponsePlots",
     "VerdictPlots",
+    "both_sides",
     "compare_pressure",
     "compare_strain",
     "creep_curves",
     "fatigue_line",
+    "places_under",
     "png",
     "save",
 ]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.plots import contact as contact_figures
+from treadload.plots import profile as profiles
 from treadload.plots import response as response_figures
 from treadload.plots import verdict as verdict_figures
 from treadload.plots.plan import Source
@@ -72,7 +74,18 @@ class ResponsePlots:
         self, strain: Strain = "principal", *, epsilon_6: float | None = None, ax: Axes | None = None
     ) -> Figure:
         """Strain against depth under the worst point, microstrain."""
-        return response_figures.profile(self._response, strain=strain, epsilon_6=epsilon_6, ax=ax)
+        return profiles.profile(self._response, strain=strain, epsilon_6=epsilon_6, ax=ax)
+
+    def strain_profiles(
+        self,
+        places: Mapping[str, tuple[float, float]] | None = None,
+        *,
+        strains: Sequence[profiles.Component] = ("xx", "yy", "principal"),
+        contact: Source | None = None,
+        epsilon_6: float | None = None,
+    ) -> Figure:
+        """Strains against depth under the tire's centre, a rib's middle and edge, or places given, microstrain."""
+        return profiles.strain_profiles(self._response, places, strains=strains, contact=contact, epsilon_6=epsilon_6)
 
 
 class VerdictPlots:

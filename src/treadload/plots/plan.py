@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap
+from matplotlib.transforms import offset_copy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
@@ -172,11 +173,15 @@ def frame_plan(ax: Axes, plan: Plan) -> None:
     ax.set_ylabel(Y_LABEL)
 
 
-def colour_bar(mesh: Any, ax: Axes, label: str, scale: Limits) -> Colorbar:
-    """Colour bar as high as its axes, with quantity and unit; an arrow where the scale is cut."""
+def colour_bar(mesh: Any, ax: Axes, label: str, scale: Limits, beyond: float = 0.0) -> Colorbar:
+    """Colour bar as high as its axes, with quantity and unit; an arrow where the scale is cut.
+
+    beyond: points that something else takes right of the axes.
+    """
     figure = figure_of(ax)
     # Own axes inside the map's: they follow its height whatever true scale leaves of it.
-    beside = ax.inset_axes((1.025, 0.0, 0.028, 1.0))
+    shifted = offset_copy(ax.transAxes, figure, x=beyond, units="points")
+    beside = ax.inset_axes((1.025, 0.0, 0.028, 1.0), transform=shifted)
     bar = figure.colorbar(mesh, cax=beside, label=label, extend=scale.extend, extendfrac=0.035)
     bar.outline.set(edgecolor=RULE, linewidth=0.7)
     return bar

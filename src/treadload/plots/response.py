@@ -12,12 +12,10 @@ from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.plots.layers import name_layers
 from treadload.plots.plan import (
-    DEPTH_LABEL,
     MICRO,
     MM,
-    X_LABEL,
-    Y_LABEL,
     Limits,
     Plan,
     Source,
@@ -26,7 +24,6 @@ from treadload.plots.plan import (
     contact_mask,
     draw_cells,
     draw_outline,
-    edges,
     empty_note,
     fields_of,
     limits,
@@ -34,14 +31,12 @@ from treadload.plots.plan import (
     peak_of,
     plane,
 )
+from treadload.plots.section import Section, draw_section
 from treadload.plots.strokes import draw_strokes, strokes
 from treadload.plots.style import (
-    CASES,
-    INK,
     MUTED,
     figure_and_axes,
     headline,
-    legend_below,
     measure,
     sequential,
     signed,
@@ -141,92 +136,17 @@ def depth_slice(
     extension at the least depth. ax: axes to draw into. Strokes show the direction's share in the section.
     Returns the figure. Raises InputError for a missing variable or fewer than two depths or points.
     """
-    data = fields_of(response, "principal_strain_1", "principal_direction_1", "depth")
-    name, other = _section_axis(data, along)
-    if data.sizes.get("depth", 1) < 2 or data.sizes[name] < 2:
-        raise InputError(
-            f"a section needs two depths and two points at least, the response has {data.sizes.get('depth', 1)} "
-            f"and {data.sizes[name]}; solve the response at more depths"
-        )
-    data = data.sortby("depth")
-    section = data.isel({other: _position(data, other, at)})
-    values = section["principal_strain_1"].transpose("depth", name).to_numpy() * MICRO
-    direction = section["principal_direction_1"].transpose("depth", name, "component").to_numpy()
-    across, down = (data[key].to_numpy() * MM for key in (name, "depth"))
-    aspect = float(np.ptp(down) / np.ptp(across))
-    figure, ax = figure_and_axes(ax, 6.8, min(7.5, max(2.1, 5.2 * aspect + 1.1)))
-    scale = limits(values)
-    mesh = ax.pcolormesh(
-        across, down, values, cmap=sequential("strain"), vmin=scale.low, vmax=scale.high, shading="gouraud",
-        rasterized=True,
-    )  # fmt: skip
-    colour_bar(mesh, ax, "microstrain", scale)
-    ax.set_aspect("equal")
-    ax.set_xlim(across[0], across[-1])
-    ax.set_ylim(down[-1], down[0])
-    ax.set_xlabel(X_LABEL if name == "x" else Y_LABEL)
-    ax.set_ylabel(DEPTH_LABEL)
-    row, column = peak_of(values)
-    if values[row, column] > 0:
-        in_section = direction[..., 0 if name == "x" else 1]
-        apart = max(float(np.ptp(across)) / 42, float(np.ptp(down)) / 24)
-        draw_strokes(
-            ax, strokes(values, in_section, direction[..., 2], across, down, _SIGNIFICANT * scale.high / 2, apart)
-        )
-        mark_peak(ax, float(across[column]), float(down[row]), measure(float(values[row, column])))
-    cut = f"{other} = {signed(float(section[other]) * MM)} mm"
-    title = "Section along travel" if name == "x" else "Section across travel"
-    detail = f"largest extension, three-dimensional, at {cut}; peak {np.nanmax(values):.1f} microstrain"
-    if scale.clipped:
-        detail += "; colours stop below"
+    section = Section.of(response, along, at)
+    layered = len(section.layers.interfaces) > 0
+    width = 5.2 + 1.1 * layered
+    figure, ax = figure_and_axes(ax, width + 1.6, min(7.5, max(2.1, 5.2 * section.aspect + 1.1)))
+    scale = limits(section.values)
+    mesh = draw_section(ax, section, scale)
+    colour_bar(mesh, ax, "microstrain", scale, beyond=name_layers(ax, section.layers, section.bottom))
+    title = "Section along travel" if section.name == "x" else "Section across travel"
+    detail = f"largest extension, three-dimensional, at {section.cut_in_words}; peak {np.nanmax(section.values):.1f}"
+    detail += " microstrain" + ("; colours stop below" if scale.clipped else "")
     headline(ax, title, detail)
-    _loaded_strip(ax, section, name, across)
-    return figure
-
-
-@styled
-def profile(
-    response: Source,
-    *,
-    strain: Strain = "principal",
-    epsilon_6: float | None = None,
-    ax: Axes | None = None,
-) -> Figure:
-    """Strain against depth under the worst point, microstrain.
-
-    response: with principal_strain_1 and in_plane_strain_1 over (depth, y, x). strain: the one whose largest
-    value at the least depth is the worst point. epsilon_6: strain of a million passes, drawn if given.
-    ax: axes to draw into. Returns the figure.
-    """
-    if strain not in _VARIABLE:
-        raise InputError(f'strain must be "principal" or "in-plane", got {strain!r}')
-    data = fields_of(response, *_VARIABLE.values(), "depth").sortby("depth")
-    row, column = peak_of(plane(data.isel(depth=0), _VARIABLE[strain]))
-    down = data["depth"].to_numpy() * MM
-    figure, ax = figure_and_axes(ax, 6.4, 4.8)
-    marker = "o" if len(down) < 15 else ""
-    for name, colour in zip(_VARIABLE, (CASES[0], CASES[1]), strict=True):
-        field = data[_VARIABLE[name]].transpose("depth", "y", "x").to_numpy() * MICRO
-        ax.plot(
-            field[:, row, column], down, color=colour, marker=marker, ms=4, label=f"{NAMES[name]}, under the point"
-        )
-        reach = np.nanmax(field, axis=(1, 2))
-        ax.plot(reach, down, color=colour, lw=0.9, ls=(0, (3, 2)), label=f"{NAMES[name]}, largest at that depth")
-    ax.axvline(0, color=MUTED, lw=0.7)
-    if epsilon_6 is not None:
-        ax.axvline(epsilon_6 * MICRO, color=INK, lw=0.9, ls=":", label=f"ε₆ = {epsilon_6 * MICRO:g}")
-    low = 0.0 if len(down) > 1 else down[0] - 1
-    ax.set_ylim(max(down[-1], low + 1), min(low, down[0]))
-    ax.set_xlabel("largest extension (microstrain)")
-    ax.set_ylabel(DEPTH_LABEL)
-    ax.grid(True)
-    ax.spines[["top", "right"]].set_visible(False)
-    handles, _ = ax.get_legend_handles_labels()
-    legend_below(ax, handles, columns=2)
-    x, y = float(data["x"][column]) * MM, float(data["y"][row]) * MM
-    headline(
-        ax, "Strain against depth", f"under the worst point at the least depth, x = {signed(x)}, y = {signed(y)} mm"
-    )
     return figure
 
 
@@ -246,33 +166,3 @@ def _outline(ax: Axes, source: Source | None) -> None:
     mask = contact_mask(data)
     if mask is not None:
         draw_outline(ax, mask, Plan.of(data), MUTED, 0.6)
-
-
-def _section_axis(data: xr.Dataset, along: str | None) -> tuple[str, str]:
-    if along not in (None, "travel", "across"):
-        raise InputError(f'along must be "travel" or "across", got {along!r}')
-    if along is None:
-        along = "across" if data.sizes["x"] < data.sizes["y"] and data.sizes["x"] == 1 else "travel"
-    return ("x", "y") if along == "travel" else ("y", "x")
-
-
-def _position(data: xr.Dataset, name: str, at: float | None) -> int:
-    """Index along `name` of a section at a coordinate, m, or through the largest extension."""
-    if at is not None:
-        return int(np.argmin(np.abs(data[name].to_numpy() - at)))
-    row, column = peak_of(plane(data.isel(depth=0), "principal_strain_1"))
-    return row if name == "y" else column
-
-
-def _loaded_strip(ax: Axes, section: xr.Dataset, name: str, across: Array) -> None:
-    """A bar on the surface where the tire touches."""
-    if "stress_zz" not in section or abs(float(section["depth"][0])) > 0:
-        return
-    pressed = -section["stress_zz"].isel(depth=0).to_numpy()
-    if not pressed.max(initial=0.0) > 0:
-        return
-    sides = edges(across)
-    touching = np.pad(pressed > 5e-3 * pressed.max(), 1).astype(int)
-    starts, ends = np.nonzero(np.diff(touching) == 1)[0], np.nonzero(np.diff(touching) == -1)[0]
-    for start, end in zip(starts, ends, strict=True):
-        ax.plot([sides[start], sides[end]], [0, 0], color=INK, lw=4, solid_capstyle="butt", clip_on=False, zorder=4)

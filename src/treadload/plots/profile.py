@@ -1,0 +1,174 @@
+"""Strain against depth: under the worst point, and under places that one names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.plots.layers import Layers, draw_interfaces, name_layers
+from treadload.plots.places import places_under
+from treadload.plots.plan import DEPTH_LABEL, MICRO, MM, Source, fields_of, peak_of, plane
+from treadload.plots.style import CASES, INK, MUTED, figure_and_axes, halo, headline, legend_below, signed, styled
+
+Component = Literal["xx", "yy", "zz", "in-plane", "principal"]
+COMPONENTS: dict[str, tuple[str, str, str]] = {
+    "xx": ("strain_xx", "Along travel", r"strain $\varepsilon_{xx}$"),
+    "yy": ("strain_yy", "Across travel", r"strain $\varepsilon_{yy}$"),
+    "zz": ("strain_zz", "Vertical", r"strain $\varepsilon_{zz}$"),
+    "in-plane": ("in_plane_strain_1", "Largest extension, horizontal", "strain in the horizontal plane"),
+    "principal": ("principal_strain_1", "Largest extension", "three-dimensional strain"),
+}
+_WORST: dict[str, tuple[str, str]] = {
+    "principal": ("principal_strain_1", "three-dimensional"),
+    "in-plane": ("in_plane_strain_1", "in the horizontal plane"),
+}
+# Up to so many depths each is marked.
+_MARKED = 15
+
+
+@styled
+def profile(
+    response: Source,
+    *,
+    strain: Literal["principal", "in-plane"] = "principal",
+    epsilon_6: float | None = None,
+    ax: Axes | None = None,
+) -> Figure:
+    """Strain against depth under the worst point, microstrain.
+
+    response: with principal_strain_1 and in_plane_strain_1 over (depth, y, x). strain: the one whose largest
+    value at the least depth is the worst point. epsilon_6: strain of a million passes, drawn if given.
+    ax: axes to draw into. Interfaces of layers are drawn and named, and the strain jumps there.
+    Returns the figure. Raises InputError for a missing variable or another word for strain.
+    """
+    if strain not in _WORST:
+        raise InputError(f'strain must be "principal" or "in-plane", got {strain!r}')
+    data = fields_of(response, *(name for name, _ in _WORST.values()), "depth").sortby("depth")
+    row, column = peak_of(plane(data.isel(depth=0), _WORST[strain][0]))
+    down, layers = data["depth"].to_numpy() * MM, Layers.of(data)
+    figure, ax = figure_and_axes(ax, 6.4 + 1.1 * (len(layers.interfaces) > 0), 4.8)
+    for (variable, words), colour in zip(_WORST.values(), CASES, strict=False):
+        field = data[variable].transpose("depth", "y", "x").to_numpy() * MICRO
+        draw_profile(ax, field[:, row, column], down, layers, color=colour, label=f"{words}, under the point")
+        reach = np.nanmax(field, axis=(1, 2))
+        thin: dict[str, Any] = {"lw": 0.9, "ls": (0, (3, 2)), "label": f"{words}, largest at that depth"}
+        draw_profile(ax, reach, down, layers, False, color=colour, **thin)
+    _draw_line(ax, epsilon_6)
+    frame_profile(ax, down)
+    draw_interfaces(ax, layers, float(down[-1]))
+    name_layers(ax, layers, float(down[-1]))
+    ax.set_xlabel("largest extension (microstrain)")
+    handles, _ = ax.get_legend_handles_labels()
+    legend_below(ax, handles, columns=2)
+    x, y = float(data["x"][column]) * MM, float(data["y"][row]) * MM
+    headline(
+        ax, "Strain against depth", f"under the worst point at the least depth, x = {signed(x)}, y = {signed(y)} mm"
+    )
+    return figure
+
+
+@styled
+def strain_profiles(
+    response: Source,
+    places: Mapping[str, tuple[float, float]] | None = None,
+    *,
+    strains: Sequence[Component] = ("xx", "yy", "principal"),
+    contact: Source | None = None,
+    epsilon_6: float | None = None,
+) -> Figure:
+    """Strain against depth under several places, a panel for each strain, on one scale in microstrain.
+
+    response: with the strains over (depth, y, x); `both_sides` of two responses shows the jump at an interface
+    to its full height. places: name to x and y in m, the nearest points of the response are taken; if left out
+    the tire's centre, a rib's middle and its edge, told by the contact or by the stress at the surface.
+    strains: "xx", "yy", "zz", "in-plane", "principal". epsilon_6: strain of a million passes, drawn with the
+    largest extensions. Returns the figure. Raises InputError for missing variables, depths or an unknown strain.
+    """
+    unknown = [name for name in strains if name not in COMPONENTS]
+    if unknown or not strains:
+        raise InputError(f"strains must be of {', '.join(COMPONENTS)}, got {', '.join(unknown) or 'none'}")
+    data = fields_of(response, *(COMPONENTS[name][0] for name in strains), "depth").sortby("depth")
+    if data.sizes.get("depth", 1) < 2:
+        raise InputError("a profile needs two depths at least, the response has 1; solve the response at more depths")
+    named = dict(places) if places is not None else places_under(contact if contact is not None else response)
+    if not named:
+        raise InputError("give one place at least, a name with its x and y in m")
+    down, layers = data["depth"].to_numpy() * MM, Layers.of(data)
+    width = 2.75 * len(strains) + 1.6 + 1.0 * (len(layers.interfaces) > 0)
+    figure = Figure(figsize=(width, 5.0), layout="constrained")
+    panels: list[Axes] = list(figure.subplots(1, len(strains), sharex=True, sharey=True, squeeze=False)[0])
+    handles = []
+    for number, (name, (x, y)) in enumerate(named.items()):
+        colour = CASES[number % len(CASES)]
+        here = data.isel(x=nearest(data, "x", x), y=nearest(data, "y", y))
+        for ax, component in zip(panels, strains, strict=True):
+            values = here[COMPONENTS[component][0]].to_numpy() * MICRO
+            draw_profile(ax, values, down, layers, color=colour, label=name)
+        at = f"x = {signed(float(here['x']) * MM)}, y = {signed(float(here['y']) * MM)} mm"
+        handles.append(Line2D([], [], color=colour, lw=1.8, label=f"{name}: {at}"))
+    for ax, component in zip(panels, strains, strict=True):
+        frame_profile(ax, down)
+        draw_interfaces(ax, layers, float(down[-1]))
+        if component in _WORST:
+            _draw_line(ax, epsilon_6)
+        _, title, words = COMPONENTS[component]
+        headline(ax, title, words, 24)
+        ax.set_xlabel("microstrain")
+    for ax in panels[1:]:
+        ax.set_ylabel("")
+    name_layers(panels[-1], layers, float(down[-1]))
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), len(strains)))
+    return figure
+
+
+def draw_profile(ax: Axes, values: Array, down: Array, layers: Layers, marked: bool = True, **style: Any) -> None:
+    """A strain (nz,), microstrain, against rising depths (nz,), mm: a line in each layer, a jump at interfaces.
+
+    Where both sides of an interface are known a thin line joins them. marked: show the depths if they are few.
+    """
+    label = style.pop("label", None)
+    marker = "o" if marked and len(down) < _MARKED else ""
+    last: int | None = None
+    for rows in layers.pieces(down):
+        if rows.stop <= rows.start:
+            continue
+        ax.plot(values[rows], down[rows], marker=marker, ms=4, label=label, **style)
+        label = None
+        # Depths a hair apart are the two sides of an interface.
+        if last is not None and down[rows.start] - down[last] < 0.01:
+            joint = {**style, "lw": 0.9, "ls": (0, (1, 1.2)), "zorder": 2.7}
+            ax.plot(values[[last, rows.start]], down[[last, rows.start]], marker="o", ms=3, **joint)
+        last = rows.stop - 1
+
+
+def frame_profile(ax: Axes, down: Array) -> None:
+    """Depth down the page, mm, from the surface; a line at no strain."""
+    ax.axvline(0, color=MUTED, lw=0.7)
+    low = 0.0 if len(down) > 1 else down[0] - 1
+    ax.set_ylim(max(down[-1], low + 1), min(low, down[0]))
+    ax.set_ylabel(DEPTH_LABEL)
+    ax.grid(True)
+    ax.spines[["top", "right"]].set_visible(False)
+
+
+def nearest(data: xr.Dataset, name: str, value: float) -> int:
+    """Index of the point nearest to a coordinate, m."""
+    return int(np.argmin(np.abs(data[name].to_numpy() - value)))
+
+
+def _draw_line(ax: Axes, epsilon_6: float | None) -> None:
+    if epsilon_6 is not None:
+        ax.axvline(epsilon_6 * MICRO, color=INK, lw=0.9, ls=":")
+        ax.annotate(
+            f"ε₆ = {epsilon_6 * MICRO:g}", (epsilon_6 * MICRO, 0.02), xycoords=ax.get_xaxis_transform(),
+            xytext=(-3, 0), textcoords="offset points", rotation=90, ha="right", va="bottom", fontsize=8.5,
+            path_effects=halo(),
+        )  # fmt: skip
