@@ -37,6 +37,8 @@ if TYPE_CHECKING:
         ShellFatigue,
         Verdict,
         assess,
+        crack_rose,
+        envelope,
         equivalent_axles,
     )
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
@@ -94,7 +96,9 @@ _HOME = {
     "Verdict": "damage",
     "as_prony": "materials",
     "assess": "damage",
+    "crack_rose": "damage",
     "creep_curve": "contact",
+    "envelope": "damage",
     "equivalent_axles": "damage",
     "example_mesh": "tire",
     "load": "results",
@@ -156,7 +160,9 @@ __all__ = [
     "__version__",
     "as_prony",
     "assess",
+    "crack_rose",
     "creep_curve",
+    "envelope",
     "equivalent_axles",
     "example_mesh",
     "load",

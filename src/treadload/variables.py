@@ -16,6 +16,7 @@ _COORDINATES = {
     "x": ("m", "position along the direction of travel"),
     "y": ("m", "position to the right of travel"),
     "creepage": ("1", "prescribed creepage, along x or y"),
+    "trace_angle": ("rad", "middle of a class of trace angles, from travel towards the right"),
     "depth": ("m", "depth below the road surface, positive down"),
 }
 
@@ -89,6 +90,10 @@ _DAMAGE = {
     "crack_angle": ("rad", "angle of the crack's trace on the surface from travel towards the right"),
     "crack_dip": ("rad", "angle of the crack plane from the horizontal, π/2 is vertical"),
     "crack_orientation": ("1", "0 none, 1 longitudinal, 2 transverse, 3 oblique, 4 horizontal"),
+    "instant_x": ("m", "position along travel, in the wheel's frame, where a point of the road extends most"),
+    "extension_direction": ("1", "unit vector of the largest extension at its worst instant"),
+    "trace_share": ("1", "share of the cracks in a class of trace angles"),
+    "orientation_share": ("1", "share of the cracks of an orientation"),
     "worst_x": ("m", "position along travel of the largest extension"),
     "worst_y": ("m", "position to the right of travel of the largest extension"),
     "worst_strain": ("1", "largest extension strain of the field"),

@@ -9,8 +9,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from treadload import variables
-from treadload.damage import FatigueLine, assess
-from treadload.damage.verdict import ORIENTATIONS, crack_plane
+from treadload.damage import FatigueLine, FrenchBituminous, FrenchSubgrade, assess
+from treadload.damage.direction import ORIENTATIONS, crack_plane
+from treadload.damage.fatigue import warnings_of
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.materials import Elastic
@@ -175,3 +176,24 @@ def test_ahead_of_a_driving_footprint_the_road_is_torn_across():
     assert verdict.orientation == "transverse"
     # At the leading edge, inside or outside it by half a cell.
     assert float(verdict.dataset["worst_x"]) == pytest.approx(0.1, abs=0.0051)
+
+
+def test_a_law_in_place_of_a_line():
+    law = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
+    verdict = assess(field([unit(0)], [1e-4]), law)
+    # Round-off of an eigenvalue, to the fifth power.
+    assert float(verdict.dataset["worst_passes"]) == pytest.approx(law.allowable_passes(1e-4), rel=1e-11)
+    assert verdict.dataset.attrs["epsilon_6"] == law.at_a_million
+    assert verdict.warnings == warnings_of(law, 1e-4)
+    assert "recalled" in verdict.summary()
+    assert "the law of fatigue allows" in verdict.summary()
+
+
+def test_extrapolation_stands_in_the_summary():
+    verdict = assess(field([unit(0)], [1e-2]), LINE)
+    assert any(line.startswith("warning: ") and "extrapolated" in line for line in verdict.summary().splitlines())
+
+
+def test_a_law_that_reads_no_extension_is_refused():
+    with pytest.raises(InputError, match="reads the vertical strain on the subgrade"):
+        assess(field([unit(0)], [1e-4]), FrenchSubgrade())

@@ -7,6 +7,7 @@ from treadload.damage.american import (
     MepdgTopDown,
     ShellFatigue,
 )
+from treadload.damage.direction import crack_rose, envelope
 from treadload.damage.fatigue import FatigueLaw, FatigueLine
 from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade, equivalent_axles
 from treadload.damage.verdict import Verdict, assess
@@ -24,5 +25,7 @@ __all__ = [
     "ShellFatigue",
     "Verdict",
     "assess",
+    "crack_rose",
+    "envelope",
     "equivalent_axles",
 ]

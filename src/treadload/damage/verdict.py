@@ -3,41 +3,46 @@
 from __future__ import annotations
 
 import importlib
+import json
 import math
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.damage.fatigue import FatigueLine
+from treadload.damage.direction import (
+    NONE,
+    OBLIQUE_TOLERANCE,
+    ORIENTATIONS,
+    READINGS,
+    HasDataset,
+    Reading,
+    check_reading,
+    check_tolerance,
+    crack_plane,
+    extension,
+    orientation,
+)
+from treadload.damage.fatigue import SUBGRADE, TENSION, FatigueLine, PowerLaw, warnings_of
 from treadload.errors import InputError
-from treadload.kernels.arrays import Array
 
-# Values of `crack_orientation`.
-ORIENTATIONS = ("none", "longitudinal", "transverse", "oblique", "horizontal")
-_NONE, _LONGITUDINAL, _TRANSVERSE, _OBLIQUE, _HORIZONTAL = range(5)
 # Depths of a response are met to within this, m: round-off of a file or of a unit.
 _SAME_DEPTH = 1e-9
 
 
-class _HasDataset(Protocol):
-    @property
-    def dataset(self) -> xr.Dataset: ...
-
-
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """What a fatigue line says of a strain field.
+    """What a law of fatigue says of a strain field.
 
     dataset: fields (y, x) extension_strain, allowable_passes, crack_angle, crack_dip, crack_orientation;
-    scalars worst_*; NaN angle and dip where nothing extends. line: the fatigue line. strain: the strain
+    scalars worst_*; NaN angle and dip where nothing extends. line: the law of fatigue. strain: the strain
     that the verdict reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
     """
 
     dataset: xr.Dataset
-    line: FatigueLine
+    line: PowerLaw
     strain: str
 
     @property
@@ -50,14 +55,19 @@ class Verdict:
         """Orientation of the crack at the worst point, in a word of `ORIENTATIONS`."""
         data = self.dataset
         if data["worst_strain"] <= 0:
-            return ORIENTATIONS[_NONE]
+            return ORIENTATIONS[NONE]
         worst = data["crack_orientation"].sel(x=data["worst_x"], y=data["worst_y"])
         return ORIENTATIONS[int(worst)]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences for the user: numbers of the law without a source, extrapolation."""
+        return tuple(json.loads(self.dataset.attrs["warnings"]))
 
     def summary(self) -> str:
         """Worst strain and place, both readings of the strain, passes, the way of the crack, and a verdict."""
         data = self.dataset
-        depth, read = float(data.attrs["depth"]), _NAMES[self.strain]
+        depth, read = float(data.attrs["depth"]), READINGS[self.strain]
         strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
         lines = [
             f"{self.line}, read with the {read} strain at depth {depth * 1e3:g} mm",
@@ -65,18 +75,22 @@ class Verdict:
             f"largest extension, horizontal plane:  {data.attrs['largest_in_plane_strain'] * 1e6:.1f} microstrain",
         ]
         if strain <= 0:
+            lines += [f"warning: {text}" for text in self.warnings]
             return "\n".join([*lines, "Verdict: nothing extends here; this criterion sees no crack."])
+        million = "ε₆" if isinstance(self.line, FatigueLine) else "what allows a million passes"
         angle, dip = float(data["worst_crack_angle"]), float(data["worst_crack_dip"])
-        against = f"{strain * 1e6:.1f} microstrain is {strain / self.line.epsilon_6:.2f} of ε₆"
+        against = f"{strain * 1e6:.1f} microstrain is {strain / self.line.at_a_million:.2f} of {million}"
         lines += [
             f"worst point: x = {float(data['worst_x']) * 1e3:.1f} mm, y = {float(data['worst_y']) * 1e3:.1f} mm; "
             f"{against}",
             f"crack: {_crack_in_words(self.orientation, angle, dip)}",
             f"allowable passes: {passes:.3g}",
+            *(f"warning: {text}" for text in self.warnings),
         ]
+        name = "fatigue line" if isinstance(self.line, FatigueLine) else "law of fatigue"
         few = "fewer" if passes < 1e6 else "more"
         lines.append(
-            f"Verdict: the fatigue line allows {passes:.2g} passes at the worst point, {few} than a million; "
+            f"Verdict: the {name} allows {passes:.2g} passes at the worst point, {few} than a million; "
             f"{_article(self.orientation)} {self.orientation} crack is the first to expect."
         )
         return "\n".join(lines)
@@ -86,12 +100,12 @@ class Verdict:
 
 
 def assess(
-    response: _HasDataset,
-    line: FatigueLine,
+    response: HasDataset,
+    line: PowerLaw,
     *,
     depth: float = 0.0,
-    strain: Literal["principal", "in-plane"] = "principal",
-    oblique_tolerance: float = math.radians(15),
+    strain: Reading = "principal",
+    oblique_tolerance: float = OBLIQUE_TOLERANCE,
 ) -> Verdict:
     """Where and which way a road cracks under repeated passes of a load.
 
@@ -99,7 +113,7 @@ def assess(
     on the surface is perpendicular to the direction's horizontal projection.
 
     response: with principal_strain_1, principal_direction_1, in_plane_strain_1 and in_plane_angle_1 over
-    (depth, y, x). line: of the material at that depth. depth: one of the response's depths, m.
+    (depth, y, x). line: fatigue line or another law that reads an extension. depth: one of the response's depths, m.
     strain: "principal" reads the three-dimensional extension, which at the surface contains the shear of
     the load itself; "in-plane" the largest in the horizontal plane, whose cracks are vertical.
     oblique_tolerance: rad, in (0, π/4]. A trace within it of the direction of travel is longitudinal, within
@@ -108,33 +122,29 @@ def assess(
     has roots and logarithms: the largest value still grows as the cells of the contact shrink.
     Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance.
     """
-    if strain not in _NAMES:
-        raise InputError(f'strain must be "principal" or "in-plane", got {strain!r}')
-    if not 0 < oblique_tolerance <= math.pi / 4:
-        raise InputError(f"oblique_tolerance must lie in (0, π/4] rad, got {oblique_tolerance}")
+    check_reading(strain)
+    check_tolerance(oblique_tolerance)
+    if line.quantity in (SUBGRADE, TENSION):
+        raise InputError(
+            f"a verdict reads an extension, but {line} reads the {line.quantity}; take a law of extension"
+        )
     plane = _plane(response.dataset, depth)
-    principal, in_plane = (plane[name].to_numpy() for name in ("principal_strain_1", "in_plane_strain_1"))
-    if strain == "principal":
-        extension, direction = principal, plane["principal_direction_1"].transpose("y", "x", "component").to_numpy()
-    else:
-        extension, angle = in_plane, plane["in_plane_angle_1"].to_numpy()
-        direction = np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
-
+    largest, direction = extension(plane, strain)
     crack_angle, dip = crack_plane(direction)
-    opens = extension > 0
+    opens = largest > 0
     crack_angle, dip = np.where(opens, crack_angle, np.nan), np.where(opens, dip, np.nan)
-    passes = line.allowable_passes(extension)
-    row, column = np.unravel_index(int(np.nanargmax(extension)), extension.shape)
+    passes = line.allowable_passes(largest)
+    row, column = np.unravel_index(int(np.nanargmax(largest)), largest.shape)
     dims, none = ("y", "x"), ()
     fields: dict[str, tuple[tuple[str, ...], object]] = {
-        "extension_strain": (dims, extension),
+        "extension_strain": (dims, largest),
         "allowable_passes": (dims, passes),
         "crack_angle": (dims, crack_angle),
         "crack_dip": (dims, dip),
         "crack_orientation": (dims, orientation(crack_angle, dip, oblique_tolerance)),
         "worst_x": (none, float(plane["x"][column])),
         "worst_y": (none, float(plane["y"][row])),
-        "worst_strain": (none, extension[row, column]),
+        "worst_strain": (none, largest[row, column]),
         "worst_passes": (none, passes[row, column]),
         "worst_crack_angle": (none, crack_angle[row, column]),
         "worst_crack_dip": (none, dip[row, column]),
@@ -144,41 +154,15 @@ def assess(
         {"y": plane["y"].to_numpy(), "x": plane["x"].to_numpy()},
         depth=float(plane["depth"]),
         strain=strain,
-        epsilon_6=line.epsilon_6,
-        slope=line.slope,
+        law=str(line),
+        epsilon_6=line.at_a_million,
+        slope=line.exponent,
         oblique_tolerance=oblique_tolerance,
-        largest_principal_strain=float(np.nanmax(principal)),
-        largest_in_plane_strain=float(np.nanmax(in_plane)),
+        largest_principal_strain=float(plane["principal_strain_1"].max()),
+        largest_in_plane_strain=float(plane["in_plane_strain_1"].max()),
+        warnings=json.dumps(warnings_of(line, largest), ensure_ascii=False),
     )
     return Verdict(dataset, line, strain)
-
-
-def crack_plane(direction: Array) -> tuple[Array, Array]:
-    """Angle of the trace and dip of the plane perpendicular to a unit vector (..., 3).
-
-    Returns the angle of the trace from travel towards the right, rad, in (-π/2, π/2], and the dip from the
-    horizontal, rad, in [0, π/2]. A vertical direction has dip 0 and no trace: its angle is NaN.
-    """
-    x, y, z = direction[..., 0], direction[..., 1], direction[..., 2]
-    flat = np.hypot(x, y)
-    # The trace lies along (-y, x); a line has no sense, so the half turn that points backwards is folded.
-    angle = np.arctan2(x, -y)
-    angle = np.where(angle > np.pi / 2, angle - np.pi, np.where(angle <= -np.pi / 2, angle + np.pi, angle))
-    return np.where(flat > 0, angle, np.nan), np.arctan2(flat, np.abs(z))
-
-
-def orientation(angle: Array, dip: Array, tolerance: float) -> Array:
-    """Codes of `ORIENTATIONS` (...) from the angle of the trace and the dip (...), rad; none where dip is NaN."""
-    steep = np.abs(angle)
-    code = np.full(np.shape(dip), _OBLIQUE, dtype=np.int8)
-    code = np.where(steep <= tolerance, _LONGITUDINAL, code)
-    code = np.where(steep >= math.pi / 2 - tolerance, _TRANSVERSE, code)
-    code = np.where(dip <= tolerance, _HORIZONTAL, code)
-    codes: Array = np.where(np.isnan(dip), _NONE, code).astype(np.int8)
-    return codes
-
-
-_NAMES = {"principal": "three-dimensional", "in-plane": "in-plane"}
 
 
 def _plane(data: xr.Dataset, depth: float) -> xr.Dataset:

@@ -12,8 +12,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from treadload.damage.direction import ORIENTATIONS
 from treadload.damage.fatigue import FatigueLine
-from treadload.damage.verdict import ORIENTATIONS
 from treadload.errors import InputError
 from treadload.plots.plan import (
     MICRO,

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.damage.verdict import ORIENTATIONS
+from treadload.damage.direction import ORIENTATIONS
 from treadload.errors import InputError
 from treadload.plots.plan import MICRO, MM, Plan, peak_of, plane
 from treadload.plots.style import power_of_ten, signed
