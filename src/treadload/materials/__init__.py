@@ -1,20 +1,46 @@
 """Materials: what deforms, and how."""
 
 from treadload.materials.elastic import Elastic
+from treadload.materials.fit import Fit, fit_2s2p1d, fit_huet_sayegh, fit_prony
 from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
 from treadload.materials.kinds import Material, TemperatureDependent, Viscoelastic
+from treadload.materials.measured import (
+    FrequencySweep,
+    RelaxationTest,
+    read_isotherms,
+    read_master_curve,
+    read_shift_factors,
+)
 from treadload.materials.power_law import PowerLawCreep
 from treadload.materials.series import as_prony
+from treadload.materials.shifting import MasterCurve, master_curve
+from treadload.materials.temperature import WLF, Arrhenius, QuadraticShift, TabulatedShift, Thermorheological
 from treadload.materials.viscoelastic import Prony
 
 __all__ = [
+    "WLF",
+    "Arrhenius",
     "Elastic",
+    "Fit",
+    "FrequencySweep",
     "HuetSayegh",
+    "MasterCurve",
     "Material",
     "Model2S2P1D",
     "PowerLawCreep",
     "Prony",
+    "QuadraticShift",
+    "RelaxationTest",
+    "TabulatedShift",
     "TemperatureDependent",
+    "Thermorheological",
     "Viscoelastic",
     "as_prony",
+    "fit_2s2p1d",
+    "fit_huet_sayegh",
+    "fit_prony",
+    "master_curve",
+    "read_isotherms",
+    "read_master_curve",
+    "read_shift_factors",
 ]

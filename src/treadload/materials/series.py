@@ -39,18 +39,24 @@ def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance
         long_term = material.rubbery.modulus
     except InputError:
         long_term = 0.0
+    glassy = material.glassy.modulus
     decades = math.log10(highest / lowest)
     omega = np.geomspace(lowest, highest, math.ceil(_POINTS * decades) + 3)
     between = np.sqrt(omega[1:] * omega[:-1])
     modulus, checked = material.complex_modulus(omega), material.complex_modulus(between)
-    found, error = None, math.inf
+    error = math.inf
     for density in _DENSITIES:
         count = math.ceil(density * (decades + 2 * _BEYOND)) + 1
         inner = np.geomspace(10**-_BEYOND / highest, 10**_BEYOND / lowest, count)
         times = np.concatenate([10 ** -_FAR[::-1] / highest, inner, 10**_FAR / lowest])
-        strengths = relaxation_strengths(omega, modulus, times, long_term, material.glassy.modulus)
+        rows, spring, values = frequency_rows(omega, modulus, times)
+        # The glassy limit is one equation more.
+        strengths = solve_non_negative(
+            np.vstack([rows, np.full(times.size, 1 / glassy)]),
+            np.append(values - long_term * spring, 1 - long_term / glassy),
+        )
         found = prony_of(strengths, times, long_term, material.poisson)
-        at_once = abs(found.modulus / material.glassy.modulus - 1)
+        at_once = abs(found.modulus / glassy - 1)
         error = max(at_once, float(np.abs(found.complex_modulus(between) / checked - 1).max()))
         if error <= tolerance:
             return found
@@ -60,30 +66,27 @@ def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance
     )
 
 
-def relaxation_strengths(
-    omega: Array, modulus: ComplexArray, times: Array, long_term: float | None, glassy: float | None = None
-) -> Array:
-    """Moduli that relax with given times, ≥ 0, by least squares of the relative error of the complex modulus.
+def frequency_rows(omega: Array, modulus: ComplexArray, times: Array) -> tuple[Array, Array, Array]:
+    """The equations of relaxation in frequency, real parts before imaginary ones, all over |E*|.
 
-    omega: (n,), rad/s. modulus: (n,), E*, Pa. times: (m,), s. long_term, glassy: moduli, Pa; None where unknown.
-    Returns (m,) in Pa, or (m + 1,) with the long-term modulus last where that is unknown.
+    omega: (n,), rad/s. modulus: (n,), E*, Pa. times: (m,), s. Returns (2n, m), of a unit strength at each time,
+    (2n,), of a unit spring, and (2n,), of the modulus.
     """
     scale = 1 / np.abs(modulus)
     wt = 1j * omega[:, None] * times
-    matrix = scale[:, None] * wt / (1 + wt)
-    target = scale * (modulus - (long_term or 0.0))
-    if long_term is None:
-        matrix = np.column_stack([matrix, scale])
-    rows, values = [matrix.real, matrix.imag], [target.real, target.imag]
-    if glassy is not None:
-        rows.append(np.full((1, matrix.shape[1]), 1 / glassy))
-        values.append(np.array([1 - (long_term or 0.0) / glassy]))
-    return solve_non_negative(np.vstack(rows), np.concatenate(values))
+    rows, values = scale[:, None] * wt / (1 + wt), scale * modulus
+    return (
+        np.vstack([rows.real, rows.imag]),
+        np.concatenate([scale, np.zeros_like(scale)]),
+        np.concatenate([values.real, values.imag]),
+    )
 
 
 def solve_non_negative(matrix: Array, target: Array) -> Array:
-    """X ≥ 0 that minimises |matrix · x - target|. Columns are brought to one length first."""
+    """The x ≥ 0 that minimises |matrix · x - target|. Columns are brought to one length first."""
     length = np.linalg.norm(matrix, axis=0)
+    # A term that is over before the data begin gives nothing.
+    length[length == 0] = 1.0
     return np.asarray(nnls(matrix / length, target, maxiter=50 * matrix.shape[1])[0] / length)
 
 

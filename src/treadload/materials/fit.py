@@ -1,0 +1,168 @@
+"""Materials from measured curves: a Prony series, Huet-Sayegh or 2S2P1D nearest to them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from treadload.errors import ConvergenceError, InputError
+from treadload.kernels.arrays import Array, ComplexArray
+from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
+from treadload.materials.measured import FrequencySweep, Measured
+from treadload.materials.operational import Operational
+from treadload.materials.series import frequency_rows, prony_of, solve_non_negative
+from treadload.materials.viscoelastic import Prony
+
+M = TypeVar("M", Prony, HuetSayegh, Model2S2P1D)
+_Model = TypeVar("_Model", HuetSayegh, Model2S2P1D)
+
+
+@dataclass(frozen=True)
+class Fit(Generic[M]):
+    """A material and how well it follows the data.
+
+    rms_error, max_error: of |E*fit - E*| / |E*|, or of E(t) likewise, over the points.
+    """
+
+    material: M
+    rms_error: float
+    max_error: float
+
+    def __str__(self) -> str:
+        return f"{self.material}; off by {self.rms_error:.2%} (rms), {self.max_error:.2%} (largest)"
+
+
+def fit_prony(
+    data: Measured, *, poisson: float, terms: int | None = None, times: Sequence[float] | None = None
+) -> Fit[Prony]:
+    """The Prony series nearest to a curve, by non-negative least squares of the relative error.
+
+    data: of one temperature. poisson: Poisson's ratio, constant. terms: number of times, evenly spaced in log over
+    the range of the data, and a decade past its ends for a sweep, whose loss tells of what is near; two a decade if
+    left out: one leaves a ripple of 3 %, two of 0.05 %. times: (m,), s, instead. Terms that come out with no
+    strength are left out. What relaxes further away goes to the ends: the two limits hold for the range measured,
+    and a curve that falls to nothing gives a fluid.
+    Returns a Fit. Raises InputError.
+    Source: Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519 (the spectrum from data); Lawson & Hanson (1974),
+    Solving Least Squares Problems, chapter 23 (the method).
+    """
+    tau = _times(data, terms, times)
+    rows, spring, values = _rows(data, tau)
+    found = solve_non_negative(np.column_stack([rows, spring]), values)
+    return _judged(prony_of(found[:-1], tau, float(found[-1]), poisson), data)
+
+
+def fit_huet_sayegh(data: Measured, *, poisson: float) -> Fit[HuetSayegh]:
+    """The Huet-Sayegh model nearest to a curve, by least squares of the logarithm of the modulus.
+
+    data: of one temperature, best several decades. poisson: Poisson's ratio. Of several starts the best is kept.
+    Returns a Fit. Raises InputError for fewer points than parameters, ConvergenceError if no start gets anywhere.
+    """
+
+    def build(p: Array) -> HuetSayegh:
+        glassy, static, delta, tau = np.exp(p[:4])
+        k, h = _exponents(p)
+        return HuetSayegh(glassy, min(static, 0.999999 * glassy), delta, k, h, tau, poisson)
+
+    return _nearest(data, build, ())
+
+
+def fit_2s2p1d(data: Measured, *, poisson: float) -> Fit[Model2S2P1D]:
+    """The 2S2P1D model nearest to a curve, by least squares of the logarithm of the modulus.
+
+    As fit_huet_sayegh. β is known only as far as the data reach slow flow.
+    """
+
+    def build(p: Array) -> Model2S2P1D:
+        glassy, static, delta, tau = np.exp(p[:4])
+        k, h = _exponents(p)
+        return Model2S2P1D(glassy, min(static, 0.999999 * glassy), delta, k, h, float(np.exp(p[6])), tau, poisson)
+
+    return _nearest(data, build, (math.log(300.0),))
+
+
+# Trials of τ start a decade apart; bounds on ln δ and ln β, and on the two exponents' parts.
+_DELTA, _BETA, _PART = (-4.0, 5.0), (-3.0, 25.0), (0.01, 0.99)
+
+
+def _exponents(p: Array) -> tuple[float, float]:
+    """k, and h as its place between k and 1: 0 < k < h < 1 whatever the search does."""
+    return float(p[4]), float(p[4] + p[5] * (1 - p[4]))
+
+
+def _nearest(data: Measured, build: Callable[[Array], _Model], more: tuple[float, ...]) -> Fit[_Model]:
+    measured = data.modulus
+    count = 6 + len(more)
+    if measured.size * (2 if np.iscomplexobj(measured) else 1) < count:
+        raise InputError(f"{count} parameters need more data, got {data}")
+    high, low = math.log(np.abs(measured).max()), math.log(np.abs(measured).min())
+    reach = _reach(data)
+
+    def misfit(p: Array) -> Array:
+        ratio = np.log(_modulus_of(build(p), data) / measured)
+        return np.concatenate([ratio.real, ratio.imag]) if np.iscomplexobj(ratio) else ratio
+
+    lower = [high, low - 12.0, _DELTA[0], math.log(reach[0]) - 20, _PART[0], _PART[0], *[_BETA[0] for _ in more]]
+    upper = [high + 5.0, high, _DELTA[1], math.log(reach[1]) + 20, _PART[1], _PART[1], *[_BETA[1] for _ in more]]
+    starts = [
+        np.array([high + 0.4, low - 0.5, math.log(2.0), math.log(tau), 0.2, 0.45, *more])
+        for tau in np.geomspace(*reach, max(2, round(math.log10(reach[1] / reach[0])) + 1))
+    ]
+    # The starts of least misfit are followed down; the others lie on flat ground.
+    starts.sort(key=lambda p: float((misfit(p) ** 2).sum()))
+    tried = [least_squares(misfit, p, bounds=(lower, upper), x_scale="jac") for p in starts[:3]]
+    best = min(tried, key=lambda result: float(result.cost))
+    if not best.success:
+        raise ConvergenceError(
+            f"the fit stopped at a misfit of {math.sqrt(2 * best.cost / measured.size):.2g}; give data over more "
+            "decades, or use fit_prony",
+            math.sqrt(2 * best.cost / measured.size),
+        )
+    return _judged(build(best.x), data)
+
+
+def _judged(material: M, data: Measured) -> Fit[M]:
+    measured = data.modulus
+    error = np.abs(_modulus_of(material, data) / measured - 1)
+    return Fit(material, float(np.sqrt((error**2).mean())), float(error.max()))
+
+
+def _modulus_of(material: Prony | Operational, data: Measured) -> Array | ComplexArray:
+    if isinstance(data, FrequencySweep):
+        return material.complex_modulus(data.omega)
+    return material.relaxation_modulus(data.time)
+
+
+def _reach(data: Measured) -> tuple[float, float]:
+    """Shortest and longest time that the data tell of, s."""
+    if isinstance(data, FrequencySweep):
+        return 1 / float(data.omega[-1]), 1 / float(data.omega[0])
+    return float(data.time[0]), float(data.time[-1])
+
+
+def _times(data: Measured, terms: int | None, times: Sequence[float] | None) -> Array:
+    first, last = _reach(data)
+    if isinstance(data, FrequencySweep):
+        first, last = first / 10, last * 10
+    if times is not None:
+        tau = np.unique(np.asarray(times, dtype=float))
+        if terms is not None or tau.size == 0 or not (np.isfinite(tau) & (tau > 0)).all():
+            raise InputError(f"give positive times of the terms, s, or their number, got {times!r} and {terms!r}")
+        return tau
+    count = max(1, round(2 * math.log10(last / first))) + 1 if terms is None else terms
+    if count < 1:
+        raise InputError(f"a Prony series needs at least one term, got {count}")
+    return np.geomspace(first, last, count) if count > 1 else np.array([math.sqrt(first * last)])
+
+
+def _rows(data: Measured, tau: Array) -> tuple[Array, Array, Array]:
+    """Equations of relaxation: of a unit strength at each time, of a unit spring, and the data, all over |data|."""
+    if isinstance(data, FrequencySweep):
+        return frequency_rows(data.omega, data.modulus, tau)
+    scale = 1 / data.modulus
+    return scale[:, None] * np.exp(-data.time[:, None] / tau), scale, np.ones_like(scale)

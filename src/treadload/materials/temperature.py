@@ -1,0 +1,325 @@
+"""Temperature: one factor on all times of a material, and the laws it follows.
+
+Log is to base 10 for WLF and tables, as they are printed; natural for the others. Temperatures are in °C.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import PchipInterpolator
+from scipy.optimize import least_squares
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.materials.huet_sayegh import HuetSayegh
+from treadload.materials.kinds import Viscoelastic
+from treadload.materials.operational import positive
+
+_KELVIN = 273.15
+_GAS = 8.31446261815324  # J/(mol K), exact since 2019.
+_DECADE = math.log(10)
+# Factors that a float can hold, in decades.
+_DECADES = 300.0
+
+
+class ShiftLaw(Protocol):
+    """How the times of a material depend on temperature."""
+
+    @property
+    def reference(self) -> float:
+        """Temperature at which the factor is 1, °C."""
+
+    def factor(self, temperature: ArrayLike) -> Array:
+        """AT at temperatures, °C: all times are this much longer than at the reference."""
+
+
+class Shiftable(Viscoelastic, Protocol):
+    """A viscoelastic material all of whose times can be multiplied by a factor."""
+
+    def slowed(self, factor: float) -> Self:
+        """The same material with its times multiplied by a factor > 0."""
+
+
+@dataclass(frozen=True)
+class WLF:
+    """log aT = -c₁ (T - Tᵣ) / (c₂ + T - Tᵣ), log to base 10.
+
+    c1: C₁ > 0. c2: C₂ > 0, K. reference: Tᵣ, °C. It holds above Tᵣ - C₂, and is meant for temperatures above
+    that of the glass transition.
+    Raises InputError.
+
+    Source: Williams, Landel & Ferry (1955), J. Am. Chem. Soc. 77, 3701-3707.
+    """
+
+    c1: float
+    c2: float
+    reference: float
+
+    def __post_init__(self) -> None:
+        positive("c1", self.c1, "mixes are near 15")
+        positive("c2", self.c2, "in K; mixes are near 120")
+        _celsius(self.reference, "reference")
+
+    @classmethod
+    def fit(cls, temperatures: Sequence[float], log_factors: Sequence[float], reference: float) -> WLF:
+        """The law nearest to measured log₁₀ aT, in the sense of least squares.
+
+        temperatures: (n,), °C, n ≥ 3. log_factors: (n,). reference: °C, where it is 0.
+        Raises InputError for too few data, and where the nearest law has no C₁, C₂ > 0.
+        """
+        t, y = _measured(temperatures, log_factors, 3)
+        rise = t - reference
+        # y C₂ + rise C₁ = -y rise is linear in the two: a start. C₂ must keep all of the data in its range.
+        start = np.linalg.lstsq(np.column_stack([rise, y]), -y * rise, rcond=None)[0]
+        least = max(0.0, -float(rise.min()))
+        c1, c2 = max(float(start[0]), 1e-3), max(float(start[1]), 1.05 * least + 1e-3)
+        found = least_squares(
+            lambda p: p[0] * rise / (p[1] + rise) + y, (c1, c2), bounds=((0, least), np.inf), x_scale=(c1, c2)
+        ).x
+        if not (found[0] > 1e-6 and least * (1 + 1e-6) < found[1] < 1e5):
+            raise InputError(
+                f"these shift factors follow no WLF law (C₁ = {found[0]:g}, C₂ = {found[1]:g} K); leave out "
+                "temperatures below the glass transition, or use Arrhenius.fit or TabulatedShift"
+            )
+        return cls(float(found[0]), float(found[1]), reference)
+
+    def factor(self, temperature: ArrayLike) -> Array:
+        """AT at temperatures, °C. Raises InputError at and below Tᵣ - C₂, where the law ends."""
+        rise = _celsius(temperature) - self.reference
+        if (rise <= -self.c2).any():
+            raise InputError(
+                f"WLF holds above {self.reference - self.c2:g} °C (its reference less C₂), "
+                f"got {rise.min() + self.reference:g} °C"
+            )
+        return _power(-self.c1 * rise / (self.c2 + rise))
+
+    def __str__(self) -> str:
+        return f"WLF, C₁ = {self.c1:.4g}, C₂ = {self.c2:.4g} K from {self.reference:g} °C"
+
+
+@dataclass(frozen=True)
+class Arrhenius:
+    """ln aT = Eₐ/R (1/T - 1/Tᵣ), with absolute temperatures.
+
+    activation_energy: Eₐ, J/mol, > 0. reference: Tᵣ, °C. Raises InputError.
+    """
+
+    activation_energy: float
+    reference: float
+
+    def __post_init__(self) -> None:
+        positive("activation_energy", self.activation_energy, "in J/mol; mixes are near 2e5")
+        _celsius(self.reference, "reference")
+
+    @classmethod
+    def fit(cls, temperatures: Sequence[float], log_factors: Sequence[float], reference: float) -> Arrhenius:
+        """The law nearest to measured log₁₀ aT, in the sense of least squares.
+
+        temperatures: (n,), °C, n ≥ 2. log_factors: (n,). reference: °C, where it is 0. Raises InputError.
+        """
+        t, y = _measured(temperatures, log_factors, 2)
+        x = (1 / (t + _KELVIN) - 1 / (reference + _KELVIN)) / _GAS
+        return cls(float(x @ y / (x @ x) * _DECADE), reference)
+
+    def factor(self, temperature: ArrayLike) -> Array:
+        """AT at temperatures, °C, above absolute zero."""
+        kelvin = _celsius(temperature) + _KELVIN
+        return _power(self.activation_energy / _GAS * (1 / kelvin - 1 / (self.reference + _KELVIN)) / _DECADE)
+
+    def __str__(self) -> str:
+        return f"Arrhenius, {self.activation_energy / 1e3:.4g} kJ/mol from {self.reference:g} °C"
+
+
+@dataclass(frozen=True)
+class QuadraticShift:
+    """ln aT = a₁ (T - Tᵣ) + a₂ (T² - Tᵣ²): the law of Huet and Sayegh, ln τ = A₀ + A₁ T + A₂ T².
+
+    a1: A₁, 1/°C. a2: A₂, 1/°C². reference: Tᵣ, °C; at 0 °C τ = exp(A₀). It holds where times fall as it gets
+    warmer, that is where a₁ + 2 a₂ T < 0.
+    Raises InputError.
+    """
+
+    a1: float
+    a2: float
+    reference: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.a1) and math.isfinite(self.a2)):
+            raise InputError(f"a1 and a2 must be finite, got {self.a1:g} and {self.a2:g}")
+        self._check(_celsius(self.reference, "reference"))
+
+    @classmethod
+    def fit(cls, temperatures: Sequence[float], log_factors: Sequence[float], reference: float) -> QuadraticShift:
+        """The law nearest to measured log₁₀ aT, in the sense of least squares.
+
+        temperatures: (n,), °C, n ≥ 3. log_factors: (n,). reference: °C, where it is 0. Raises InputError.
+        """
+        t, y = _measured(temperatures, log_factors, 3)
+        columns = np.column_stack([t - reference, t**2 - reference**2])
+        a1, a2 = np.linalg.lstsq(columns, y * _DECADE, rcond=None)[0]
+        return cls(float(a1), float(a2), reference)
+
+    def factor(self, temperature: ArrayLike) -> Array:
+        """AT at temperatures, °C. Raises InputError where the parabola has turned and times would grow again."""
+        t = _celsius(temperature)
+        self._check(t)
+        return _power((self.a1 * (t - self.reference) + self.a2 * (t**2 - self.reference**2)) / _DECADE)
+
+    def _check(self, t: Array) -> None:
+        turned = t[self.a1 + 2 * self.a2 * t >= 0]
+        if turned.size:
+            where = f"{-self.a1 / (2 * self.a2):g} °C" if self.a2 else "all temperatures"
+            raise InputError(
+                f"times must fall as it gets warmer: the law a1 = {self.a1:g}, a2 = {self.a2:g} turns at {where}, "
+                f"got {turned.flat[0]:g} °C; stay on its falling side"
+            )
+
+    def __str__(self) -> str:
+        return f"ln aT = {self.a1:g} T + {self.a2:g} T², from {self.reference:g} °C"
+
+
+@dataclass(frozen=True)
+class TabulatedShift:
+    """Measured log₁₀ aT, interpolated over temperature by a monotone cubic.
+
+    temperatures: (n,), °C, n ≥ 2, increasing or decreasing. log_factors: (n,), log₁₀ aT, falling as it gets warmer.
+    reference: °C, inside the table; factors are relative to it. Raises InputError.
+    Source: Fritsch & Carlson (1980), SIAM J. Numer. Anal. 17, 238-246 (the interpolant).
+    """
+
+    temperatures: tuple[float, ...]
+    log_factors: tuple[float, ...]
+    reference: float
+
+    def __post_init__(self) -> None:
+        t, y = _measured(self.temperatures, self.log_factors, 2)
+        order = np.argsort(t)
+        t, y = t[order], y[order]
+        if not (np.diff(t) > 0).all():
+            raise InputError("a table of shift factors needs each temperature once")
+        if not (np.diff(y) < 0).all():
+            worst = int(np.argmax(np.diff(y)))
+            raise InputError(
+                f"shift factors must fall as it gets warmer, got log aT = {y[worst]:g} at {t[worst]:g} °C and "
+                f"{y[worst + 1]:g} at {t[worst + 1]:g} °C"
+            )
+        object.__setattr__(self, "temperatures", tuple(t.tolist()))
+        object.__setattr__(self, "log_factors", tuple(y.tolist()))
+        self._check(_celsius(self.reference, "reference"))
+
+    @cached_property
+    def _curve(self) -> PchipInterpolator:
+        return PchipInterpolator(self.temperatures, self.log_factors)
+
+    def factor(self, temperature: ArrayLike) -> Array:
+        """AT at temperatures, °C. Raises InputError outside the table."""
+        t = _celsius(temperature)
+        self._check(t)
+        return _power(self._curve(t) - float(self._curve(self.reference)))
+
+    def _check(self, t: Array) -> None:
+        outside = t[(t < self.temperatures[0]) | (t > self.temperatures[-1])]
+        if outside.size:
+            raise InputError(
+                f"the table of shift factors covers {self.temperatures[0]:g} to {self.temperatures[-1]:g} °C, got "
+                f"{outside.flat[0]:g} °C; fit a law to it to go further, e.g. WLF.fit"
+            )
+
+    def __str__(self) -> str:
+        return (
+            f"table of {len(self.temperatures)} shift factors, {self.temperatures[0]:g} to "
+            f"{self.temperatures[-1]:g} °C, from {self.reference:g} °C"
+        )
+
+
+@dataclass(frozen=True)
+class Thermorheological:
+    """A thermorheologically simple material: temperature changes all of its times alike, and nothing else.
+
+    material: at the reference temperature of the shift: Prony, HuetSayegh, Model2S2P1D, PowerLawCreep, or any
+    Viscoelastic with `slowed`. shift: WLF, Arrhenius, QuadraticShift or TabulatedShift.
+    tested: (lowest, highest) temperature of the tests behind them, °C; None if unknown, then all are allowed.
+    Raises InputError.
+    """
+
+    material: Shiftable
+    shift: ShiftLaw
+    tested: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        if self.tested is not None:
+            low, high = (float(t) for t in self.tested)
+            if not -_KELVIN < low < high < math.inf:
+                raise InputError(f"tested must be (lowest, highest) temperature, °C, got {low:g} and {high:g}")
+            object.__setattr__(self, "tested", (low, high))
+
+    @classmethod
+    def huet_sayegh(
+        cls,
+        glassy_modulus: float,
+        static_modulus: float,
+        delta: float,
+        k: float,
+        h: float,
+        coefficients: tuple[float, float, float],
+        poisson: float,
+        *,
+        tested: tuple[float, float] | None = None,
+    ) -> Thermorheological:
+        """A Huet-Sayegh mix as its parameters are published: ln τ = A₀ + A₁ T + A₂ T², τ in s, T in °C.
+
+        coefficients: (A₀, A₁, A₂). The rest as for HuetSayegh and Thermorheological. Raises InputError.
+        """
+        a0, a1, a2 = coefficients
+        mix = HuetSayegh(glassy_modulus, static_modulus, delta, k, h, math.exp(a0), poisson)
+        return cls(mix, QuadraticShift(a1, a2), tested)
+
+    def at(self, temperature: float, *, extrapolate: bool = False) -> Viscoelastic:
+        """The material at a temperature, °C: of the same kind, its times multiplied by aT.
+
+        Raises InputError outside the tested temperatures unless told to extrapolate, and outside of the shift's law.
+        """
+        if self.tested is not None and not extrapolate and not self.tested[0] <= temperature <= self.tested[1]:
+            raise InputError(
+                f"the material was tested from {self.tested[0]:g} to {self.tested[1]:g} °C, got {temperature:g} °C; "
+                "to trust its law outside, ask for it with extrapolate=True"
+            )
+        return self.material.slowed(float(self.shift.factor(temperature)))
+
+    def __str__(self) -> str:
+        tested = f", tested from {self.tested[0]:g} to {self.tested[1]:g} °C" if self.tested else ""
+        return f"{self.material}; {self.shift}{tested}"
+
+
+def _celsius(temperature: ArrayLike, name: str = "a temperature") -> Array:
+    t = np.asarray(temperature, dtype=float)
+    bad = t[~(np.isfinite(t) & (t > -_KELVIN))]
+    if bad.size:
+        raise InputError(f"{name} must be in °C, above absolute zero at -273.15, got {bad.flat[0]:g}")
+    return t
+
+
+def _power(log: Array) -> Array:
+    if (np.abs(log) > _DECADES).any():
+        raise InputError(
+            f"the shift reaches {np.abs(log).max():.0f} decades of time, more than {_DECADES:.0f}; "
+            "check its constants and the temperature"
+        )
+    return np.asarray(10.0**log)
+
+
+def _measured(temperatures: Sequence[float], log_factors: Sequence[float], least: int) -> tuple[Array, Array]:
+    t, y = _celsius(temperatures, "temperatures"), np.asarray(log_factors, dtype=float)
+    if t.ndim != 1 or t.shape != y.shape or t.size < least or not np.isfinite(y).all():
+        raise InputError(
+            f"shift factors need at least {least} temperatures and as many finite log factors, got {t.size} and "
+            f"{y.size}"
+        )
+    return t, y
