@@ -1,7 +1,7 @@
 """Materials: what deforms, and how."""
 
 from treadload.materials.elastic import Elastic
-from treadload.materials.fit import Fit, fit_2s2p1d, fit_huet_sayegh, fit_prony
+from treadload.materials.fit import MaterialFit, fit_2s2p1d, fit_huet_sayegh, fit_prony
 from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
 from treadload.materials.kinds import Material, TemperatureDependent, Viscoelastic
 from treadload.materials.measured import (
@@ -21,11 +21,11 @@ __all__ = [
     "WLF",
     "Arrhenius",
     "Elastic",
-    "Fit",
     "FrequencySweep",
     "HuetSayegh",
     "MasterCurve",
     "Material",
+    "MaterialFit",
     "Model2S2P1D",
     "PowerLawCreep",
     "Prony",

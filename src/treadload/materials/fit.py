@@ -23,7 +23,7 @@ _Model = TypeVar("_Model", HuetSayegh, Model2S2P1D)
 
 
 @dataclass(frozen=True)
-class Fit(Generic[M]):
+class MaterialFit(Generic[M]):
     """A material and how well it follows the data.
 
     rms_error, max_error: of |E*fit - E*| / |E*|, or of E(t) likewise, over the points.
@@ -39,7 +39,7 @@ class Fit(Generic[M]):
 
 def fit_prony(
     data: Measured, *, poisson: float, terms: int | None = None, times: Sequence[float] | None = None
-) -> Fit[Prony]:
+) -> MaterialFit[Prony]:
     """The Prony series nearest to a curve, by non-negative least squares of the relative error.
 
     data: of one temperature. poisson: Poisson's ratio, constant. terms: number of times, evenly spaced in log over
@@ -47,7 +47,7 @@ def fit_prony(
     left out: one leaves a ripple of 3 %, two of 0.05 %. times: (m,), s, instead. Terms that come out with no
     strength are left out. What relaxes further away goes to the ends: the two limits hold for the range measured,
     and a curve that falls to nothing gives a fluid.
-    Returns a Fit. Raises InputError.
+    Returns a MaterialFit. Raises InputError.
     Source: Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519 (the spectrum from data); Lawson & Hanson (1974),
     Solving Least Squares Problems, chapter 23 (the method).
     """
@@ -57,11 +57,12 @@ def fit_prony(
     return _judged(prony_of(found[:-1], tau, float(found[-1]), poisson), data)
 
 
-def fit_huet_sayegh(data: Measured, *, poisson: float) -> Fit[HuetSayegh]:
+def fit_huet_sayegh(data: Measured, *, poisson: float) -> MaterialFit[HuetSayegh]:
     """The Huet-Sayegh model nearest to a curve, by least squares of the logarithm of the modulus.
 
     data: of one temperature, best several decades. poisson: Poisson's ratio. Of several starts the best is kept.
-    Returns a Fit. Raises InputError for fewer points than parameters, ConvergenceError if no start gets anywhere.
+    Returns a MaterialFit. Raises InputError for fewer points than parameters, ConvergenceError if no start gets
+    anywhere.
     """
 
     def build(p: Array) -> HuetSayegh:
@@ -72,7 +73,7 @@ def fit_huet_sayegh(data: Measured, *, poisson: float) -> Fit[HuetSayegh]:
     return _nearest(data, build, ())
 
 
-def fit_2s2p1d(data: Measured, *, poisson: float) -> Fit[Model2S2P1D]:
+def fit_2s2p1d(data: Measured, *, poisson: float) -> MaterialFit[Model2S2P1D]:
     """The 2S2P1D model nearest to a curve, by least squares of the logarithm of the modulus.
 
     As fit_huet_sayegh. β is known only as far as the data reach slow flow.
@@ -95,7 +96,7 @@ def _exponents(p: Array) -> tuple[float, float]:
     return float(p[4]), float(p[4] + p[5] * (1 - p[4]))
 
 
-def _nearest(data: Measured, build: Callable[[Array], _Model], more: tuple[float, ...]) -> Fit[_Model]:
+def _nearest(data: Measured, build: Callable[[Array], _Model], more: tuple[float, ...]) -> MaterialFit[_Model]:
     measured = data.modulus
     count = 6 + len(more)
     if measured.size * (2 if np.iscomplexobj(measured) else 1) < count:
@@ -126,10 +127,10 @@ def _nearest(data: Measured, build: Callable[[Array], _Model], more: tuple[float
     return _judged(build(best.x), data)
 
 
-def _judged(material: M, data: Measured) -> Fit[M]:
+def _judged(material: M, data: Measured) -> MaterialFit[M]:
     measured = data.modulus
     error = np.abs(_modulus_of(material, data) / measured - 1)
-    return Fit(material, float(np.sqrt((error**2).mean())), float(error.max()))
+    return MaterialFit(material, float(np.sqrt((error**2).mean())), float(error.max()))
 
 
 def _modulus_of(material: Prony | Operational, data: Measured) -> Array | ComplexArray:
