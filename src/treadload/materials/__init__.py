@@ -4,6 +4,7 @@ from treadload.materials.elastic import Elastic
 from treadload.materials.fit import MaterialFit, fit_2s2p1d, fit_huet_sayegh, fit_prony
 from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
 from treadload.materials.kinds import Material, TemperatureDependent, Viscoelastic
+from treadload.materials.library import mix, mixes, read_mixes
 from treadload.materials.measured import (
     FrequencySweep,
     RelaxationTest,
@@ -11,6 +12,7 @@ from treadload.materials.measured import (
     read_master_curve,
     read_shift_factors,
 )
+from treadload.materials.mixture import HydraulicMix, Mix, RoadMaterial, Unbound
 from treadload.materials.power_law import PowerLawCreep
 from treadload.materials.series import as_prony
 from treadload.materials.shifting import MasterCurve, master_curve
@@ -23,24 +25,31 @@ __all__ = [
     "Elastic",
     "FrequencySweep",
     "HuetSayegh",
+    "HydraulicMix",
     "MasterCurve",
     "Material",
     "MaterialFit",
+    "Mix",
     "Model2S2P1D",
     "PowerLawCreep",
     "Prony",
     "QuadraticShift",
     "RelaxationTest",
+    "RoadMaterial",
     "TabulatedShift",
     "TemperatureDependent",
     "Thermorheological",
+    "Unbound",
     "Viscoelastic",
     "as_prony",
     "fit_2s2p1d",
     "fit_huet_sayegh",
     "fit_prony",
     "master_curve",
+    "mix",
+    "mixes",
     "read_isotherms",
     "read_master_curve",
+    "read_mixes",
     "read_shift_factors",
 ]

@@ -1,6 +1,7 @@
 """The road and its layers."""
 
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
+from treadload.pavement.catalogue import Structure, read_structures, structures
 from treadload.pavement.structure import Layer, Pavement
 from treadload.pavement.temperature import TemperatureProfile
 
@@ -12,5 +13,8 @@ __all__ = [
     "HalfBonded",
     "Layer",
     "Pavement",
+    "Structure",
     "TemperatureProfile",
+    "read_structures",
+    "structures",
 ]

@@ -130,6 +130,25 @@ class Pavement:
         """A road of one material, as deep as you like."""
         return cls([Layer(material, name=name)])
 
+    @classmethod
+    def from_catalogue(
+        cls,
+        name: str,
+        *,
+        temperature: float | Sequence[float | None] | TemperatureProfile | None = None,
+        frequency: float | None = None,
+    ) -> Pavement:
+        """A catalogued road by name, for one "6 BBSG3 / 15 GB3 / PF3"; `structures()` lists them.
+
+        temperature: as for `at_temperature`; left out, the bituminous layers wait for theirs. frequency: of
+        loading, Hz, at which their moduli are read; left out, that of their data, 10 Hz for the French ones.
+        Raises InputError for an unknown name, which it compares with the known ones, and as `at_temperature` does.
+        """
+        from treadload.pavement.catalogue import find_structure
+
+        road = find_structure(name).build(frequency=frequency)
+        return road if temperature is None else road.at_temperature(temperature)
+
     @property
     def surface_material(self) -> Elastic:
         """Elastic material of the top layer; of a viscoelastic one the limit of fast loads.
