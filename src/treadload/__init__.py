@@ -86,7 +86,17 @@ if TYPE_CHECKING:
         structures,
     )
     from treadload.reporting import report
-    from treadload.response import Response, UniformDisc, UniformRectangle, solve_response
+    from treadload.response import (
+        GridLoad,
+        Response,
+        UniformDisc,
+        UniformRectangle,
+        axle,
+        dual_wheels,
+        place,
+        solve_response,
+        tandem,
+    )
     from treadload.results import load, save, to_tree
     from treadload.study import Result, run_case
     from treadload.tire import Groove, LateralGrooves, Tire, TreadProfile, example_mesh, modulus_from_inflation
@@ -110,6 +120,7 @@ _HOME = {
     "FrequencySweep": "materials",
     "GeometryError": "errors",
     "Grid": "grid",
+    "GridLoad": "response",
     "Groove": "tire",
     "HALF_BONDED": "pavement",
     "HuetSayegh": "materials",
@@ -149,8 +160,10 @@ _HOME = {
     "WLF": "materials",
     "as_prony": "materials",
     "assess": "damage",
+    "axle": "response",
     "crack_rose": "damage",
     "creep_curve": "contact",
+    "dual_wheels": "response",
     "envelope": "damage",
     "equivalent_axles": "damage",
     "example_mesh": "tire",
@@ -162,6 +175,7 @@ _HOME = {
     "mix": "materials",
     "mixes": "materials",
     "modulus_from_inflation": "tire",
+    "place": "response",
     "read_isotherms": "materials",
     "read_master_curve": "materials",
     "read_mixes": "materials",
@@ -175,6 +189,7 @@ _HOME = {
     "solve_response": "response",
     "solve_transient": "contact",
     "structures": "pavement",
+    "tandem": "response",
     "to_tree": "results",
     "turn_on_the_spot": "contact",
 }
@@ -200,6 +215,7 @@ __all__ = [
     "FrequencySweep",
     "GeometryError",
     "Grid",
+    "GridLoad",
     "Groove",
     "HuetSayegh",
     "HydraulicMix",
@@ -238,8 +254,10 @@ __all__ = [
     "__version__",
     "as_prony",
     "assess",
+    "axle",
     "crack_rose",
     "creep_curve",
+    "dual_wheels",
     "envelope",
     "equivalent_axles",
     "example_mesh",
@@ -251,6 +269,7 @@ __all__ = [
     "mix",
     "mixes",
     "modulus_from_inflation",
+    "place",
     "read_isotherms",
     "read_master_curve",
     "read_mixes",
@@ -264,6 +283,7 @@ __all__ = [
     "solve_response",
     "solve_transient",
     "structures",
+    "tandem",
     "to_tree",
     "turn_on_the_spot",
 ]

@@ -1,7 +1,18 @@
 """Stress, strain and displacement in the road."""
 
+from treadload.response.gears import axle, dual_wheels, place, tandem
 from treadload.response.loads import GridLoad, UniformDisc, UniformRectangle
 from treadload.response.solution import Response
 from treadload.response.solve import solve_response
 
-__all__ = ["GridLoad", "Response", "UniformDisc", "UniformRectangle", "solve_response"]
+__all__ = [
+    "GridLoad",
+    "Response",
+    "UniformDisc",
+    "UniformRectangle",
+    "axle",
+    "dual_wheels",
+    "place",
+    "solve_response",
+    "tandem",
+]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.bilinear import bilinear_on_grid
 from treadload.kernels.disc import disc_fields
 from treadload.kernels.displacement import displacement_on_grid
 from treadload.kernels.interior import stress_on_grid
@@ -25,7 +26,8 @@ def half_space_response(
     `kernels.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where x and y
     lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
     "direct" elsewhere, slower, "disc" for discs.
-    Exact for loads uniform on each cell; near the surface that shows as an error O(dx), see the kernel.
+    Exact for loads uniform on each cell or bilinear between cells; near the surface the first leaves an error
+    O(dx), see the kernels.
     """
     stress = np.zeros((6, len(depths), len(y), len(x)))
     displacement = np.zeros((3, len(depths), len(y), len(x)))
@@ -42,8 +44,11 @@ def half_space_response(
             continue
         grid = load.grid
         at_x, at_y = x - grid.x0, y - grid.y0
-        part, method = stress_on_grid(load.array, grid.dx, grid.dy, depths, poisson, at_x, at_y)
-        moved = displacement_on_grid(load.array, grid.dx, grid.dy, depths, shear, poisson, at_x, at_y)
+        if load.interpolation == "bilinear":
+            part, moved, method = bilinear_on_grid(load.array, grid.dx, grid.dy, depths, shear, poisson, at_x, at_y)
+        else:
+            part, method = stress_on_grid(load.array, grid.dx, grid.dy, depths, poisson, at_x, at_y)
+            moved = displacement_on_grid(load.array, grid.dx, grid.dy, depths, shear, poisson, at_x, at_y)
         stress += np.moveaxis(part, 1, 0)
         displacement += np.moveaxis(moved, 1, 0)
         methods.add(method)

@@ -15,7 +15,6 @@ from treadload.kernels.layered import Stack, transfer
 from treadload.kernels.tensors import strain_from_stress
 from treadload.kernels.wavenumbers import (
     Plane,
-    cells_spectrum,
     quadrature,
     synthesise,
     tabulated,
@@ -155,7 +154,7 @@ def _under_cells(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array,
         raise InputError(_too_many(layout, max(reach_x, reach_y), f"{len(along[0])} x {len(across[0])}", _MOST))
     smallest = math.hypot(along[0][0], across[0][0])
     planes = [_plane(layout, row, smallest) for row in range(len(layout.depths))]
-    spectra = [cells_spectrum(one.array, one.grid.dx, one.grid.dy, one.grid.x0, one.grid.y0) for one in loads]
+    spectra = [load.spectrum for load in loads]
     return synthesise(spectra, planes, x, y, along, across)
 
 

@@ -1,11 +1,16 @@
-"""What loads the road: pressure and shear on a grid, uniform discs and rectangles."""
+"""What loads the road: pressure and shear on a grid, uniform discs and rectangles.
+
+Each load is a frozen description with a place; `moved` and `mirrored` give copies elsewhere. `response.gears` puts
+wheels together, `response.measured` reads recorded stress.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 import xarray as xr
@@ -13,6 +18,9 @@ import xarray as xr
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
+from treadload.kernels.bilinear import bilinear_spectrum
+from treadload.kernels.wavenumbers import Spectrum, cells_spectrum
+from treadload.response import measured
 
 # Round-off of coordinates that went through a file, as a part of a cell.
 _EVEN = 1e-4
@@ -31,18 +39,27 @@ class HasDataset(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class GridLoad:
-    """Pressure and shear, uniform on each cell of a grid.
+    """Pressure and shear on the cells of a grid.
 
     grid: the cells. pressure: (ny, nx), Pa, >= 0. traction_x, traction_y: (ny, nx), Pa, shear exerted by
     the tire on the road; None: no shear. Arrays are copied; InputError for a wrong shape or value.
+    interpolation: "constant": uniform on each cell. "bilinear": bilinear between the cells' centres, falling to
+    zero one cell beyond the outermost centres; same force, no steps. Under smooth shear the strain at the surface
+    then converges like dx² instead of dx: for a Gaussian and cells of 0.16 of its standard deviation, the largest
+    error at cell centres falls from 4.5 % of the largest strain to 0.5 %. Two cells deep and deeper the two are
+    alike, "constant" being twice as near. "bilinear" does not help where the load itself has steps, as at the
+    edges of ribs: it blurs them over a cell.
     """
 
     grid: Grid
     pressure: Array
     traction_x: Array | None = None
     traction_y: Array | None = None
+    interpolation: Literal["constant", "bilinear"] = "constant"
 
     def __post_init__(self) -> None:
+        if self.interpolation not in ("constant", "bilinear"):
+            raise InputError(f'interpolation must be "constant" or "bilinear", got {self.interpolation!r}')
         for name in ("pressure", "traction_x", "traction_y"):
             given = getattr(self, name)
             values = np.zeros(self.grid.shape) if given is None else np.array(given, dtype=float)
@@ -55,18 +72,80 @@ class GridLoad:
             object.__setattr__(self, name, values)
         lowest = float(self.pressure.min())
         if lowest < -_TINY * float(self.pressure.max(initial=0.0)):
+            where = tuple(int(i) for i in np.unravel_index(int(self.pressure.argmin()), self.grid.shape))
             raise InputError(
-                f"pressure must not be negative, got {lowest:g} Pa; pressure counts compression positive, "
-                "unlike stress_zz"
+                f"pressure must not be negative, got {lowest:g} Pa in cell (y, x) = {where}; pressure counts "
+                "compression positive, unlike stress_zz"
             )
 
     @classmethod
-    def from_dataset(cls, dataset: xr.Dataset) -> GridLoad:
+    def from_arrays(
+        cls,
+        pressure: Array,
+        traction_x: Array | None = None,
+        traction_y: Array | None = None,
+        *,
+        spacing: float | str | tuple[float | str, float | str],
+        x0: float | None = None,
+        y0: float | None = None,
+        shear_on: Literal["road", "tire"] = "road",
+        interpolation: Literal["constant", "bilinear"] = "constant",
+    ) -> GridLoad:
+        """Load from arrays of stress, such as a sensor's.
+
+        pressure: (ny, nx), Pa, rows along y (to the right), columns along x (travel). traction_x, traction_y:
+        likewise. spacing: of the cells, m or a text with a unit, or (dx, dy). x0, y0: centre of the first cell, m;
+        None: the origin lies in the middle. shear_on: the body that the recorded shear acts on; what the tire
+        feels, "tire", changes its sign. InputError for a wrong shape or value.
+        """
+        values = np.asarray(pressure, dtype=float)
+        if values.ndim != 2 or not values.size:
+            raise InputError(f"pressure must be an array of rows along y, columns along x; got shape {values.shape}")
+        sign = measured.shear_sign(shear_on)
+        along, across = (
+            None if part is None else sign * np.asarray(part, float) for part in (traction_x, traction_y)
+        )
+        return cls(measured.grid_of(values.shape, spacing, x0, y0), values, along, across, interpolation)
+
+    @classmethod
+    def from_csv(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        spacing: float | str | tuple[float | str, float | str] | None = None,
+        x0: float | None = None,
+        y0: float | None = None,
+        units: Mapping[str, str] | None = None,
+        missing: Literal["error", "zero"] = "error",
+        noise: float | str = 0.0,
+        shear_on: Literal["road", "tire"] = "road",
+        interpolation: Literal["constant", "bilinear"] = "constant",
+    ) -> GridLoad:
+        """Load from a text file, a table of points or a matrix of pressures; see `measured.read_csv`."""
+        sign = measured.shear_sign(shear_on)
+        read = measured.read_csv(path, spacing=spacing, x0=x0, y0=y0, units=units, missing=missing, noise=noise)
+        grid, pressure, traction_x, traction_y = read
+        return cls(grid, pressure, sign * traction_x, sign * traction_y, interpolation)
+
+    @classmethod
+    def from_file(
+        cls, path: str | os.PathLike[str], *, interpolation: Literal["constant", "bilinear"] = "constant"
+    ) -> GridLoad:
+        """Load from a NetCDF file: the contact of a saved result, or pressure over y and x. See `from_dataset`."""
+        return cls.from_dataset(measured.read_netcdf(path), interpolation=interpolation)
+
+    @classmethod
+    def from_dataset(
+        cls, dataset: xr.Dataset | HasDataset, *, interpolation: Literal["constant", "bilinear"] = "constant"
+    ) -> GridLoad:
         """Load from `pressure`, `traction_x` and `traction_y` over `y` and `x`; a missing shear is none.
 
-        Attributes dx and dy of the dataset give the cell where a single coordinate cannot.
+        dataset: a dataset, or a result that has one, such as a contact. Its attributes dx and dy give the cell
+        where a single coordinate cannot.
         Raises InputError if pressure or a coordinate is missing, or the coordinates are not evenly spaced.
         """
+        if not isinstance(dataset, xr.Dataset):
+            dataset = dataset.dataset
         missing = [name for name in ("pressure", "x", "y") if name not in dataset.variables]
         if missing:
             raise InputError(f"a load needs pressure over y and x; {', '.join(missing)} missing in the dataset")
@@ -82,7 +161,40 @@ class GridLoad:
 
         pressure = field("pressure")
         assert pressure is not None
-        return cls(Grid(nx, ny, dx, dy, x0, y0), pressure, field("traction_x"), field("traction_y"))
+        grid = Grid(nx, ny, dx, dy, x0, y0)
+        return cls(grid, pressure, field("traction_x"), field("traction_y"), interpolation)
+
+    @property
+    def spectrum(self) -> Spectrum:
+        """Its Fourier transform, exact for its interpolation, see `kernels.wavenumbers.cells_spectrum`."""
+        transform = bilinear_spectrum if self.interpolation == "bilinear" else cells_spectrum
+        return transform(self.array, self.grid.dx, self.grid.dy, self.grid.x0, self.grid.y0)
+
+    def moved(self, x: float = 0.0, y: float = 0.0) -> GridLoad:
+        """The same load moved by x and y, m."""
+        _check_move(x, y)
+        return replace(self, grid=replace(self.grid, x0=self.grid.x0 + x, y0=self.grid.y0 + y))
+
+    def mirrored(self) -> GridLoad:
+        """Its image in the plane y = 0, as the left wheel of an axle is the right one's: traction_y turns round."""
+        grid = replace(self.grid, y0=-(self.grid.y0 + (self.grid.ny - 1) * self.grid.dy))
+        pressure, along, across = self.array[:, ::-1]
+        return replace(self, grid=grid, pressure=pressure, traction_x=along, traction_y=-across)
+
+    @property
+    def normal_load(self) -> float:
+        """Force on the road, N, down."""
+        return float(self.array[0].sum() * self.grid.cell_area)
+
+    @property
+    def tractive_force(self) -> float:
+        """Force of the road on the tire along travel, N: minus the sum of traction_x, positive when driving."""
+        return -float(self.array[1].sum() * self.grid.cell_area)
+
+    @property
+    def lateral_force(self) -> float:
+        """Force of the road on the tire to the right, N: minus the sum of traction_y."""
+        return -float(self.array[2].sum() * self.grid.cell_area)
 
     @property
     def array(self) -> Array:
@@ -92,13 +204,15 @@ class GridLoad:
 
     @property
     def extent_x(self) -> tuple[float, float]:
-        """First and last edge along x, m."""
-        return self.grid.x0 - 0.5 * self.grid.dx, self.grid.x0 + (self.grid.nx - 0.5) * self.grid.dx
+        """First and last loaded point along x, m."""
+        edge = (1.0 if self.interpolation == "bilinear" else 0.5) * self.grid.dx
+        return self.grid.x0 - edge, self.grid.x0 + (self.grid.nx - 1) * self.grid.dx + edge
 
     @property
     def extent_y(self) -> tuple[float, float]:
-        """First and last edge along y, m."""
-        return self.grid.y0 - 0.5 * self.grid.dy, self.grid.y0 + (self.grid.ny - 0.5) * self.grid.dy
+        """First and last loaded point along y, m."""
+        edge = (1.0 if self.interpolation == "bilinear" else 0.5) * self.grid.dy
+        return self.grid.y0 - edge, self.grid.y0 + (self.grid.ny - 1) * self.grid.dy + edge
 
 
 @dataclass(frozen=True)
@@ -115,6 +229,20 @@ class UniformDisc:
 
     def __post_init__(self) -> None:
         _check_uniform("disc", {"radius": self.radius}, self.pressure, {"x": self.x, "y": self.y})
+
+    def moved(self, x: float = 0.0, y: float = 0.0) -> UniformDisc:
+        """The same load moved by x and y, m."""
+        _check_move(x, y)
+        return replace(self, x=self.x + x, y=self.y + y)
+
+    def mirrored(self) -> UniformDisc:
+        """Its image in the plane y = 0."""
+        return replace(self, y=-self.y)
+
+    @property
+    def normal_load(self) -> float:
+        """Force on the road, N, down."""
+        return math.pi * self.radius**2 * self.pressure
 
     @property
     def extent_x(self) -> tuple[float, float]:
@@ -147,6 +275,30 @@ class UniformRectangle:
         others = {name: getattr(self, name) for name in ("x", "y", "traction_x", "traction_y")}
         _check_uniform("rectangle", {"length": self.length, "width": self.width}, self.pressure, others)
 
+    def moved(self, x: float = 0.0, y: float = 0.0) -> UniformRectangle:
+        """The same load moved by x and y, m."""
+        _check_move(x, y)
+        return replace(self, x=self.x + x, y=self.y + y)
+
+    def mirrored(self) -> UniformRectangle:
+        """Its image in the plane y = 0: traction_y turns round."""
+        return replace(self, y=-self.y, traction_y=-self.traction_y)
+
+    @property
+    def normal_load(self) -> float:
+        """Force on the road, N, down."""
+        return self.length * self.width * self.pressure
+
+    @property
+    def tractive_force(self) -> float:
+        """Force of the road on the tire along travel, N, positive when driving."""
+        return -self.length * self.width * self.traction_x
+
+    @property
+    def lateral_force(self) -> float:
+        """Force of the road on the tire to the right, N."""
+        return -self.length * self.width * self.traction_y
+
     @property
     def cell(self) -> GridLoad:
         """The same as a grid of one cell."""
@@ -156,10 +308,11 @@ class UniformRectangle:
 
 
 Load = GridLoad | UniformDisc | UniformRectangle | HasDataset | xr.Dataset
+PlacedLoad = GridLoad | UniformDisc | UniformRectangle
 SurfaceLoad = GridLoad | UniformDisc
 
 
-def gather(loads: Load | Sequence[Load]) -> tuple[GridLoad | UniformDisc | UniformRectangle, ...]:
+def gather(loads: Load | Sequence[Load]) -> tuple[PlacedLoad, ...]:
     """Loads to superpose, from one or several contacts, datasets, GridLoads, discs and rectangles."""
     single = isinstance(loads, (GridLoad, UniformDisc, UniformRectangle, xr.Dataset, HasDataset))
     several: Any = [loads] if single else loads
@@ -171,7 +324,7 @@ def gather(loads: Load | Sequence[Load]) -> tuple[GridLoad | UniformDisc | Unifo
     return tuple(_load(item) for item in several)
 
 
-def common_grid(several: Sequence[GridLoad | UniformDisc | UniformRectangle]) -> Grid:
+def common_grid(several: Sequence[PlacedLoad]) -> Grid:
     """Smallest grid that holds every load's cells; InputError if the loads do not share one lattice."""
     loads = [load for load in several if isinstance(load, GridLoad)]
     if len(loads) < len(several):
@@ -207,7 +360,12 @@ def _check_uniform(kind: str, sizes: dict[str, float], pressure: float, others: 
             raise InputError(f"{name} of a {kind} must be finite, got {value}")
 
 
-def _load(item: Load) -> GridLoad | UniformDisc | UniformRectangle:
+def _check_move(x: float, y: float) -> None:
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise InputError(f"a load moves by finite numbers of metres, got x = {x}, y = {y}")
+
+
+def _load(item: Load) -> PlacedLoad:
     if isinstance(item, (GridLoad, UniformDisc, UniformRectangle)):
         return item
     if isinstance(item, xr.Dataset):

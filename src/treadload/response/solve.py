@@ -79,7 +79,7 @@ def solve_response(
         **({"interfaces": road.interfaces} if len(road.interfaces) else {}),
     )
     stats = {"seconds": time.perf_counter() - start, "method": method, "points": stress[0].size}
-    gridded = [load for load in superposed if isinstance(load, GridLoad)]
+    gridded = [load for load in superposed if isinstance(load, GridLoad) and load.interpolation == "constant"]
     warnings = _warnings(gridded, at_depths)
     if np.isnan(displacement).any():
         warnings += (

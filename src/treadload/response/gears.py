@@ -1,0 +1,73 @@
+"""Wheels put together: dual wheels, axles and groups of axles, for `solve_response` to superpose in one pass.
+
+y points to the right, x ahead. A load is a contact, a dataset, a GridLoad, a UniformDisc or a UniformRectangle;
+several make a group. Every function returns a tuple of loads, so that they nest:
+
+    wheel = UniformDisc(0.125, 0.662e6)
+    axle(wheel, track=1.8, dual_spacing=0.375)        # the French standard axle of 130 kN
+    tandem(axle(contact, track=2.0), wheelbase=1.35)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from treadload.errors import InputError
+from treadload.response.loads import Load, PlacedLoad, gather
+
+
+def place(load: Load, *, x: float = 0.0, y: float = 0.0, mirror: bool = False) -> PlacedLoad:
+    """A load elsewhere: mirrored in the plane y = 0 if asked, then moved by x and y, m.
+
+    load: one load; a contact becomes a GridLoad. Raises InputError for several loads or a move that is no number.
+    """
+    one = gather(load)
+    if len(one) != 1:
+        raise InputError(f"place takes one load, got {len(one)}; place each of them")
+    placed = one[0].mirrored() if mirror else one[0]
+    return placed.moved(x, y)
+
+
+def dual_wheels(load: Load, spacing: float) -> tuple[PlacedLoad, ...]:
+    """Two like wheels side by side, at y = -spacing/2 and y = spacing/2 from where the load stands.
+
+    spacing: between the wheels' centres, m, > 0. Raises InputError for another.
+    """
+    _check("the spacing of dual wheels", spacing)
+    return tuple(one.moved(y=side * spacing / 2) for side in (-1, 1) for one in gather(load))
+
+
+def axle(load: Load | Sequence[Load], track: float, dual_spacing: float | None = None) -> tuple[PlacedLoad, ...]:
+    """An axle: the wheel at y = track/2 on the right and its mirror image on the left.
+
+    load: the right wheel, centred at y = 0. track: between the centres of the wheels, or of the pairs of dual
+    wheels, m, > 0. dual_spacing: between the centres of dual wheels, m, smaller than the track; None: single
+    wheels. Raises InputError for a wrong length.
+    """
+    _check("the track of an axle", track)
+    wheels = gather(load)
+    if dual_spacing is not None:
+        if dual_spacing >= track:
+            raise InputError(f"the dual spacing {dual_spacing:g} m must be smaller than the track, {track:g} m")
+        wheels = tuple(wheel for one in wheels for wheel in dual_wheels(one, dual_spacing))
+    right = tuple(wheel.moved(y=track / 2) for wheel in wheels)
+    return (*(wheel.mirrored() for wheel in right), *right)
+
+
+def tandem(loads: Load | Sequence[Load], wheelbase: float, axles: int = 2) -> tuple[PlacedLoad, ...]:
+    """Like axles behind each other, centred along x on where the loads stand.
+
+    loads: one axle, or one wheel. wheelbase: between neighbouring axles, m, > 0. axles: 2 a tandem, 3 a tridem.
+    Raises InputError for a wrong length or number.
+    """
+    _check("the wheelbase", wheelbase)
+    if isinstance(axles, bool) or not isinstance(axles, int) or axles < 1:
+        raise InputError(f"axles must be a whole number of at least 1, got {axles!r}")
+    one = gather(loads)
+    return tuple(load.moved(x=((axles - 1) / 2 - k) * wheelbase) for k in range(axles) for load in one)
+
+
+def _check(name: str, value: float) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise InputError(f"{name} must be a positive number of metres, got {value}")
