@@ -27,9 +27,11 @@ def test_layers():
     assert road == Pavement((Layer(ASPHALT, 0.08), Layer(SOIL)))
 
 
-@pytest.mark.parametrize("thickness", [0.0, -0.1, math.nan, math.inf])
+@pytest.mark.parametrize("thickness", [0.0, -0.1, math.nan, math.inf, "6 cm"])
 def test_thickness_must_be_positive(thickness):
-    with pytest.raises(InputError, match="thickness"):
+    with pytest.raises(
+        InputError, match=f"layer 'top': thickness must be .* metres, got {thickness!r}; leave it out"
+    ):
         Layer(ASPHALT, thickness, name="top")
 
 

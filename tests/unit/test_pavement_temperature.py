@@ -5,7 +5,7 @@ import math
 import pytest
 
 from treadload.errors import InputError
-from treadload.materials import Elastic
+from treadload.materials import WLF, Elastic, Prony, Thermorheological
 from treadload.pavement import HALF_BONDED, Layer, Pavement, TemperatureProfile
 from treadload.response import UniformDisc, solve_response
 
@@ -111,3 +111,18 @@ def test_solving_needs_a_temperature():
     with pytest.raises(InputError, match="layer 'base' depends on temperature"):
         solve_response(disc, ROAD.at_temperature([20.0, None, None]), **points)
     assert solve_response(disc, ROAD.at_temperature(20.0), **points).dataset["displacement_z"] > 0
+
+
+def test_a_viscoelastic_mix_takes_its_temperature_and_stays_viscoelastic():
+    solid = Prony(8e9, ((0.5, 0.1), (0.4, 1.0)), 0.35)
+    mix = Thermorheological(solid, WLF(10.0, 100.0, 20.0), tested=(0.0, 40.0))
+    road = Pavement([Layer(mix, 0.1, "top"), Layer(SOIL, name="soil")])
+    warm = road.at_temperature(30.0)
+    assert warm.is_viscoelastic
+    # log aT = -10 x 10 / 110: all times shorter by that.
+    found = warm.layers[0].resolved.complex_modulus(1.0)
+    assert found == pytest.approx(solid.complex_modulus(10 ** (-100 / 110)), rel=1e-12)
+    assert warm.glassy == Pavement([Layer(Elastic(8e9, 0.35), 0.1, "top"), Layer(SOIL, name="soil")])
+    with pytest.raises(InputError, match=r"layer 'top': .*extrapolate=True"):
+        road.at_temperature(50.0)
+    assert road.at_temperature(50.0, extrapolate=True).is_viscoelastic

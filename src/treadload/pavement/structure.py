@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import Literal
 
 import numpy as np
@@ -43,9 +44,11 @@ class Layer:
                 f"layer {self.name!r}: material must be {_KINDS}, got {type(self.material).__name__} "
                 f"{self.material!r}"
             )
-        if self.thickness is not None and not (math.isfinite(self.thickness) and self.thickness > 0):
+        if self.thickness is not None and not (
+            isinstance(self.thickness, Real) and math.isfinite(self.thickness) and self.thickness > 0
+        ):
             raise InputError(
-                f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness}; "
+                f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness!r}; "
                 "leave it out for the last layer"
             )
         if not isinstance(self.bond, Bond | HalfBonded):

@@ -83,8 +83,8 @@ def solve_response(
     warnings = _warnings(gridded, at_depths)
     if np.isnan(displacement).any():
         warnings += (
-            "a net shear force acts above a frictionless interface, where nothing holds the layers: their "
-            "horizontal displacement has no finite value and is NaN; stress and strain hold",
+            "a net shear force acts above a frictionless or half-bonded interface, where nothing holds the layers: "
+            "their horizontal displacement has no finite value and is NaN; stress and strain hold",
         )
     return Response(dataset, stats, warnings)
 
