@@ -12,13 +12,8 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.hankel import AxialPlanes, Disc, synthesise_discs
 from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.synthesis import Cells, ElasticPlane, rule, synthesise_cells
 from treadload.kernels.tensors import strain_from_stress
-from treadload.kernels.wavenumbers import (
-    Plane,
-    quadrature,
-    synthesise,
-    tabulated,
-)
 from treadload.pavement import Pavement
 from treadload.response.half_space import half_space_response
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
@@ -149,27 +144,27 @@ def _under_cells(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array,
     """Fields (nz, 9, my, mx) of gridded loads by wavenumbers in both directions."""
     reach_x, reach_y = _reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y)
     length, most = max(length, reach_x, reach_y), float(layout.limit.max())
-    along, across = quadrature(most, reach_x, length), quadrature(most, reach_y, length)
+    along, across = rule(most, reach_x, length), rule(most, reach_y, length)
     if len(along[0]) * len(across[0]) > _MOST:
         raise InputError(_too_many(layout, max(reach_x, reach_y), f"{len(along[0])} x {len(across[0])}", _MOST))
-    smallest = math.hypot(along[0][0], across[0][0])
-    planes = [_plane(layout, row, smallest) for row in range(len(layout.depths))]
-    spectra = [load.spectrum for load in loads]
-    return synthesise(spectra, planes, x, y, along, across)
+    cells = [
+        Cells(one.array, grid.dx, grid.dy, grid.x0, grid.y0, 2 if one.interpolation == "bilinear" else 1)
+        for one in loads
+        for grid in [one.grid]
+    ]
+    return synthesise_cells(cells, [_plane(layout, row) for row in range(len(layout.depths))], x, y, along, across)
 
 
-def _plane(layout: _Layout, row: int, smallest: float) -> Plane:
+def _plane(layout: _Layout, row: int) -> ElasticPlane:
     one = slice(row, row + 1)
     alone = replace(layout, depths=layout.depths[one], below=layout.below[one], split=layout.split[one])
 
-    def values(k: Array) -> Array:
+    def kernels(k: Array) -> tuple[Array, Array]:
         plane, transverse = alone.kernels(k)
-        rows: Array = np.concatenate([plane[0].reshape(8, -1), transverse[0]])
-        return rows
+        return plane[0], transverse[0]
 
-    layer, limit = layout.where[row], float(layout.limit[row])
-    shear, poisson = layout.stack.shear[layer], layout.stack.poisson[layer]
-    return Plane(tabulated(values, smallest, 1.5 * limit), shear, poisson, limit)
+    layer = layout.where[row]
+    return ElasticPlane(kernels, layout.stack.shear[layer], layout.stack.poisson[layer], float(layout.limit[row]))
 
 
 def _too_many(layout: _Layout, reach: float, needed: str, most: float) -> str:

@@ -1,0 +1,120 @@
+"""Gridded loads on layers by wavenumbers: the closed form, the wave frame's own synthesis, the rule of panels."""
+
+import math
+
+import numpy as np
+import pytest
+
+from treadload.kernels import synthesis
+from treadload.kernels.bilinear import bilinear_on_grid
+from treadload.kernels.displacement import displacement_on_grid
+from treadload.kernels.interior import stress_on_grid
+from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.synthesis import Cells, ElasticPlane, rule, synthesise_cells
+from treadload.kernels.wavenumbers import Plane, cells_spectrum, quadrature, synthesise, tabulated
+
+ALONE = Stack([2e9], [0.35], [], [])
+LAYERS = Stack([3e9, 1e8, 2e7], [0.35, 0.5, 0.4], [0.08, 0.3], [1e9, math.inf])
+DEPTHS = np.array([0.05, 0.2, 0.7])
+X, Y = np.array([-0.1, 0.0, 0.13]), np.array([-0.07, 0.02])
+LOAD = np.random.default_rng(1).uniform(0, 1e6, (3, 4, 5))
+
+
+def cells(load=LOAD, x0=-0.06, y0=-0.03):
+    return Cells(load, 0.03, 0.02, x0, y0)
+
+
+def plane(stack, depth):
+    def kernels(k):
+        result = transfer(k, stack, [depth], [False])
+        return result.plane[0], result.transverse[0]
+
+    layer = stack.layer_at(depth, False)
+    return ElasticPlane(kernels, stack.shear[layer], stack.poisson[layer], 36 / depth)
+
+
+def solved(loads, stack, depths=DEPTHS, x=X, y=Y):
+    nodes = rule(36 / depths.min(), 0.3, 2.0)
+    return synthesise_cells(loads, [plane(stack, z) for z in depths], x, y, nodes, nodes)
+
+
+def close(found, exact, tolerance):
+    for rows in (slice(0, 6), slice(6, 9)):
+        np.testing.assert_allclose(
+            found[:, rows], exact[:, rows], atol=tolerance * np.abs(exact[:, rows]).max(), rtol=0
+        )
+
+
+@pytest.mark.parametrize("parts", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)])
+def test_cells_in_a_half_space_are_the_closed_form(parts):
+    load = LOAD * np.array(parts)[:, None, None]
+    stress, _ = stress_on_grid(load, 0.03, 0.02, DEPTHS, 0.35, X + 0.06, Y + 0.03)
+    moved = displacement_on_grid(load, 0.03, 0.02, DEPTHS, 2e9, 0.35, X + 0.06, Y + 0.03)
+    # What the quadrature leaves of displacement, which falls as 1/k; the issue asks for 1e-8.
+    close(solved([cells(load)], ALONE), np.concatenate([stress, moved], axis=1), 2e-9)
+
+
+def test_bilinear_loads_in_a_half_space_are_the_closed_form():
+    load = Cells(LOAD, 0.03, 0.02, -0.06, -0.03, 2)
+    stress, moved, _ = bilinear_on_grid(LOAD, 0.03, 0.02, DEPTHS, 2e9, 0.35, X + 0.06, Y + 0.03)
+    close(solved([load], ALONE), np.concatenate([stress, moved], axis=1), 2e-9)
+
+
+def test_layers_by_the_fields_in_the_wave_frame():
+    nodes = quadrature(36 / DEPTHS.min(), 0.3, 2.0)
+
+    def other(depth):
+        def kernel(k):
+            result = transfer(k, LAYERS, [depth], [False])
+            return np.concatenate([result.plane[0].reshape(8, -1), result.transverse[0]])
+
+        mine = plane(LAYERS, depth)
+        return Plane(tabulated(kernel, 1e-9, 1.5 * mine.limit), mine.shear, mine.poisson, mine.limit)
+
+    exact = synthesise(
+        [cells_spectrum(LOAD, 0.03, 0.02, -0.06, -0.03)], [other(z) for z in DEPTHS], X, Y, nodes, nodes
+    )
+    # Another rule, other unknowns and no derivative taken on the way back.
+    close(solved([cells()], LAYERS), exact, 2e-9)
+
+
+def test_loads_add_up_and_blocks_change_nothing(monkeypatch):
+    whole = solved([cells(), cells(2 * LOAD, 0.05)], LAYERS)
+    monkeypatch.setattr(synthesis, "_BLOCK", 3000)
+    parts = solved([cells()], LAYERS) + solved([cells(2 * LOAD, 0.05)], LAYERS)
+    # Round-off of sums in another order.
+    close(whole, parts, 1e-11)
+
+
+def test_pressure_alone_takes_the_short_way_to_the_same():
+    load = LOAD * np.array([1.0, 0, 0])[:, None, None]
+    # A shear that is not zero but nothing takes the long way.
+    almost = load + np.array([0, 1e-200, 0])[:, None, None]
+    close(solved([cells(load)], LAYERS), solved([cells(almost)], LAYERS), 1e-13)
+
+
+def test_the_rule_integrates_what_is_singular_at_zero_and_what_turns():
+    points, weights = rule(40.0, 2.0, 2.0)
+    assert weights.sum() == pytest.approx(40, rel=1e-12)
+    kx, ky = np.meshgrid(points, points)
+    k = np.hypot(kx, ky)
+    # ∬ over the plane of exp(-k) cos(kx) / k is 2π / √2; the square around zero is taken by Gauss.
+    found = 4 * (np.outer(weights, weights) * np.exp(-k) * np.cos(kx) / k).sum()
+    assert found == pytest.approx(2 * np.pi / np.sqrt(2), rel=1e-7)
+    for reach in (0.3, 2.0, 30.0):
+        points, weights = rule(300.0, reach, max(reach, 2.0))
+        turning = (weights * np.cos(points * reach)).sum()
+        # Exactly sin(kr) / r: 1e-10 a panel, some tens of panels.
+        assert turning == pytest.approx(np.sin(300 * reach) / reach, abs=1e-9 * 300)
+
+
+def test_panels_of_a_rule_converge(monkeypatch):
+    exact = solved([cells()], LAYERS)
+    errors = []
+    for fewer in (5, 3, 1):
+        monkeypatch.setattr(synthesis, "_SOME", 10 - fewer)
+        error = np.abs(solved([cells()], LAYERS) - exact)[:, :6].max()
+        errors.append(float(error / np.abs(exact[:, :6]).max()))
+    # Each point takes a factor of 2.5² = 6; 3 is asserted.
+    assert errors[1] < errors[0] / 9
+    assert errors[2] < max(errors[1] / 9, 1e-11)
