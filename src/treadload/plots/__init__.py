@@ -1,11 +1,13 @@
 """Figures of contact, response and verdict: functions of datasets that return a matplotlib Figure."""
 
 from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
+from treadload.plots.bowl import deflection_bowl
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.files import png, save
 from treadload.plots.layers import both_sides
 from treadload.plots.places import places_under
+from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.verdict import fatigue_line
 
 __all__ = [
@@ -14,8 +16,11 @@ __all__ = [
     "VerdictPlots",
     "both_sides",
     "compare_pressure",
+    "compare_roads",
     "compare_strain",
+    "compare_temperatures",
     "creep_curves",
+    "deflection_bowl",
     "fatigue_line",
     "places_under",
     "png",

@@ -7,7 +7,7 @@ import xarray as xr
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import BoolArray
-from treadload.plots.plan import Source, fields_of, plane
+from treadload.plots.plan import Source, edges, fields_of, plane
 
 # Share of the largest pressure below which a cell does not count as touched: transforms leave a little stress.
 _TOUCHED = 5e-3
@@ -41,9 +41,9 @@ def pressure_of(source: Source) -> xr.Dataset:
 def load_centre(source: Source) -> tuple[float, float]:
     """X and y, m, of the centre of pressure of a contact or of the load on a response's surface."""
     data = pressure_of(source)
-    pressure, x, y = plane(data, "pressure"), data["x"].to_numpy(), data["y"].to_numpy()
-    total = pressure.sum()
-    return float((pressure.sum(axis=0) * x).sum() / total), float((pressure.sum(axis=1) * y).sum() / total)
+    x, y = data["x"].to_numpy(), data["y"].to_numpy()
+    load = plane(data, "pressure") * np.outer(np.diff(edges(y)), np.diff(edges(x)))
+    return float((load.sum(axis=0) * x).sum() / load.sum()), float((load.sum(axis=1) * y).sum() / load.sum())
 
 
 def places_under(contact: Source) -> dict[str, tuple[float, float]]:
