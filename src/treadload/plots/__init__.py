@@ -6,6 +6,7 @@ from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.files import png, save
 from treadload.plots.layers import both_sides
+from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
 from treadload.plots.places import places_under
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.verdict import fatigue_line
@@ -14,7 +15,9 @@ __all__ = [
     "ContactPlots",
     "ResponsePlots",
     "VerdictPlots",
+    "black_diagram",
     "both_sides",
+    "cole_cole",
     "compare_pressure",
     "compare_roads",
     "compare_strain",
@@ -22,7 +25,9 @@ __all__ = [
     "creep_curves",
     "deflection_bowl",
     "fatigue_line",
+    "master_curve",
     "places_under",
     "png",
     "save",
+    "shift_factors",
 ]
