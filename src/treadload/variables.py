@@ -102,7 +102,27 @@ _DAMAGE = {
     "worst_crack_dip": ("rad", "crack_dip at the largest extension"),
 }
 
-VARIABLES: Mapping[str, tuple[str, str]] = {**_COORDINATES, **_CONTACT, **_HISTORY, **_RESPONSE, **_DAMAGE}
+_CRITERIA = {
+    "mazars_onset_ratio": ("1", "equivalent strain of Mazars over the strain at which damage begins"),
+    "von_mises_strain": ("1", "equivalent strain of von Mises, √(½ Σ (εᵢ - εⱼ)²)"),
+    "distortion_energy": ("J/m^3", "energy of the change of shape per volume"),
+    "vertical_shear_strain": ("1", "largest engineering shear strain between the vertical and the horizontal"),
+    "horizontal_tension": ("Pa", "largest principal stress in the horizontal plane, tension positive"),
+    "tension_behind": ("Pa", "largest horizontal tension of the surface behind the load"),
+    "tension_behind_x": ("m", "position along travel of the largest horizontal tension behind the load"),
+    **{f"residual_stress_{c}": ("Pa", f"stress component {c} that the passes before left") for c in _TENSOR},
+    "residual_tension": ("Pa", "largest horizontal tension left by the passes before"),
+    "total_tension": ("Pa", "largest horizontal tension of the passes before and the wheel together"),
+}
+
+VARIABLES: Mapping[str, tuple[str, str]] = {
+    **_COORDINATES,
+    **_CONTACT,
+    **_HISTORY,
+    **_RESPONSE,
+    **_DAMAGE,
+    **_CRITERIA,
+}
 
 
 def attributes(name: str) -> dict[str, str]:

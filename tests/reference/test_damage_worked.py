@@ -6,7 +6,9 @@ from the formulas outside this package. Its twelve printed digits bound every to
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from treadload.damage.american import (
@@ -17,7 +19,10 @@ from treadload.damage.american import (
     bottom_up_cracking,
     top_down_cracking,
 )
+from treadload.damage.criteria import compute_criteria
 from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.kernels import tensors
+from treadload.response.fields import response_dataset
 
 WORKED = json.loads((Path(__file__).parents[1] / "data" / "damage" / "worked.json").read_text(encoding="utf-8"))
 # Half a unit of the last of twelve digits, on numbers that may begin with a one.
@@ -114,3 +119,26 @@ def test_asphalt_institute_as_a_public_program_prints_it():
     # Three digits.
     assert f"{AsphaltInstitute(3e9).allowable_passes(237.7e-6):.2e}" == "1.03e+06"
     assert f"{AsphaltInstituteSubgrade().allowable_passes(344.2e-6):.2e}" == "4.36e+06"
+
+
+@pytest.mark.parametrize("case", WORKED["tensor_criteria"], ids=range(4))
+def test_criteria_of_a_tensor(case):
+    full = np.array(case["stress_MPa"]) * 1e6
+    stress = full[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].reshape(6, 1, 1, 1)
+    strain = tensors.strain_from_stress(stress, case["E_MPa"] * 1e6, case["nu"])
+    response = SimpleNamespace(dataset=response_dataset(stress, strain, np.zeros(1), np.zeros(1), np.zeros(1)))
+    found = {name: float(values.squeeze()) for name, values in compute_criteria(response).items()}
+    # The stress has twelve digits, and their differences lose one.
+    known = {
+        "extension_strain": case["principal_strain"][2],
+        "mazars_strain": case["mazars_equivalent_strain"],
+        "mazars_onset_ratio": case["mazars_equivalent_strain"] / 100e-6,
+        "octahedral_shear_stress": case["octahedral_shear_stress"] * 1e6,
+        "mean_stress": case["mean_stress"] * 1e6,
+        "von_mises_strain": case["von_mises_strain_Sousa"],
+        "distortion_energy": case["distortion_energy_MPa"] * 1e6,
+    }
+    for name, value in known.items():
+        assert found[name] == pytest.approx(value, rel=5 * PRINTED), name
+    principal, _ = tensors.principal(strain)
+    np.testing.assert_allclose(principal.squeeze()[::-1], case["principal_strain"], rtol=5 * PRINTED)

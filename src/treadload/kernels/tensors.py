@@ -70,9 +70,25 @@ def octahedral_shear(stress: Array) -> Array:
     return value
 
 
-def von_mises(stress: Array) -> Array:
-    """Equivalent stress of von Mises (...), from (6, ...): 3/√2 of the octahedral shear stress."""
-    value: Array = 3 / np.sqrt(2.0) * octahedral_shear(stress)
+def von_mises(tensor: Array) -> Array:
+    """Equivalent value of von Mises, √(½ ((t₁-t₂)² + (t₂-t₃)² + (t₃-t₁)²)), of a stress or strain (6, ...)."""
+    value: Array = 3 / np.sqrt(2.0) * octahedral_shear(tensor)
+    return value
+
+
+def distortion_energy(stress: Array, strain: Array) -> Array:
+    """Energy of the change of shape per volume, ½ s:e of the deviators (...), from stress and strain (6, ...).
+
+    In an elastic body (1 + ν)/(6E) Σ (σᵢ-σⱼ)² = 3 τ_oct² / (4G), whichever its moduli.
+    """
+    normal = (stress[:3] - mean(stress)) * (strain[:3] - mean(strain))
+    value: Array = 0.5 * normal.sum(axis=0) + (stress[3:] * strain[3:]).sum(axis=0)
+    return value
+
+
+def vertical_shear(strain: Array) -> Array:
+    """Largest engineering shear strain between the vertical and the horizontal, 2 √(ε_xz² + ε_yz²), of (6, ...)."""
+    value: Array = 2 * np.hypot(strain[4], strain[5])
     return value
 
 

@@ -1,0 +1,141 @@
+"""Stress that a road carries besides that of the wheel on it: of the wheels before, and of the cold."""
+
+from __future__ import annotations
+
+from typing import Literal, Protocol
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
+
+from treadload import variables
+from treadload.damage.criteria import STRESS, field
+from treadload.damage.direction import HasDataset
+from treadload.errors import InputError
+from treadload.kernels import tensors
+from treadload.kernels.arrays import Array
+from treadload.kernels.thermal import reduced_steps, restrained_stress
+from treadload.materials import Prony
+
+_DIMS = ("depth", "y", "x")
+
+
+class Shift(Protocol):
+    """How the times of a material depend on temperature."""
+
+    def factor(self, temperature: ArrayLike) -> Array:
+        """aT: all times are this much longer than at the reference."""
+
+
+def residual_after(response: HasDataset, *, spacing: float, passes: int) -> xr.Dataset:
+    """Stress that earlier wheels have left when the next one comes, on a road of linear viscoelastic layers.
+
+    Wheels follow each other at one speed and spacing. Superposition holds: the wheel n places ahead leaves at x what
+    the steady field of one wheel holds at x - n·spacing, so that N passes leave Σₙ σ(x - n·spacing), n = 1 … N.
+    What stays is not a stress for ever. Tractions are given, and where all of a road relaxes alike, stress follows
+    them without memory; only layers that relax unlike keep some, and as solids they let it fade. Part of the sum is
+    what the wheels ahead still press through the road: at a spacing long against the load it is small.
+
+    response: of a wheel in steady motion, with x that reach passes·spacing behind the places of interest.
+    spacing: m, > 0, speed times headway. passes: N ≥ 1. Values between the response's x are splined: O(dx⁴).
+    Returns over (depth, y, x), on the x that have all their tails: residual_stress_xx …, residual_tension, the
+    largest in the horizontal plane, and total_tension with the wheel's own. Its attribute `last_pass` is the largest
+    stress of the earliest pass over that of the sum: where it is not small, more passes would leave more.
+    Raises InputError where the response does not reach far enough.
+    Source: the mechanism is Wang's, as cited by the paper of this method; the definition is this package's.
+    """
+    if not (np.isfinite(spacing) and spacing > 0):
+        raise InputError(f"spacing must be a positive number of metres, got {spacing}")
+    if passes < 1:
+        raise InputError(f"passes must be at least 1, got {passes}")
+    data = response.dataset.sortby("x")
+    x = data["x"].to_numpy()
+    reach = passes * spacing
+    kept = x - reach >= x[0] - 1e-9 * reach
+    if not kept.any() or len(x) < 4:
+        raise InputError(
+            f"{passes} passes {spacing:g} m apart need a response that reaches {reach:g} m behind the wheel, "
+            f"its x span {np.ptp(x):g} m; let x reach further back or take fewer passes"
+        )
+    stress = np.stack([field(data, name) for name in STRESS])
+    tail = CubicSpline(x, stress, axis=-1)
+    places = x[kept]
+    left = np.zeros((*stress.shape[:-1], len(places)))
+    for number in range(1, passes + 1):
+        earliest = tail(np.maximum(places - number * spacing, x[0]))
+        left += earliest
+    largest = float(np.abs(left).max())
+    fields = {f"residual_{name}": (_DIMS, part) for name, part in zip(STRESS, left, strict=True)}
+    fields["residual_tension"] = (_DIMS, tensors.in_plane_principal(left)[0])
+    fields["total_tension"] = (_DIMS, tensors.in_plane_principal(left + stress[..., kept])[0])
+    return variables.dataset(
+        fields,
+        {"depth": data["depth"].to_numpy(), "y": data["y"].to_numpy(), "x": places},
+        spacing=spacing,
+        passes=passes,
+        last_pass=float(np.abs(earliest).max()) / largest if largest > 0 else 0.0,
+    )
+
+
+def thermal_stress(
+    material: Prony,
+    shift: Shift,
+    time: ArrayLike,
+    temperature: ArrayLike,
+    *,
+    expansion: float,
+    restraint: Literal["plane", "line"] = "plane",
+) -> Array:
+    """Stress of a restrained material that cools, σ(t) = -k α ∫ E(ξ(t) - ξ(t')) dT, tension positive.
+
+    ξ = ∫ dt / aT is the reduced time. material: its relaxation at the shift's reference temperature. shift: a law
+    with `factor(temperature)`. time: (nt,), s, increasing; the material is free of stress at the first. temperature:
+    °C, (nt,), or (nt, n) of n depths. expansion: α, 1/K, of length; mixes are near 2.5e-5. restraint: "plane" holds
+    both horizontal directions, as a wide road is held, k = 1/(1 - ν); "line" one of them, k = 1.
+    Temperature is linear in time between the given instants. Returns (nt, ...), Pa.
+    Method: each term of the series is carried on exactly for strain that is linear in reduced time over a step
+    (Taylor, Pister & Goudreau, 1970, Int. J. Numer. Meth. Eng. 2): exact where aT is constant, else O(step²).
+    Raises InputError.
+    """
+    at, warmth = np.asarray(time, dtype=float), np.asarray(temperature, dtype=float)
+    if at.ndim != 1 or len(at) < 2 or not np.isfinite(at).all() or not (np.diff(at) > 0).all():
+        raise InputError(f"time must be at least two increasing numbers of s, got {time!r}")
+    if warmth.shape[:1] != at.shape or not np.isfinite(warmth).all():
+        raise InputError(
+            f"temperature must have a finite number of °C for each of {len(at)} times, got shape {warmth.shape}"
+        )
+    if not (np.isfinite(expansion) and 0 <= expansion < 1e-2):
+        raise InputError(f"expansion must be a number of 1/K in [0, 0.01), got {expansion}; mixes are near 2.5e-5")
+    if restraint not in ("plane", "line"):
+        raise InputError(f'restraint must be "plane" or "line", got {restraint!r}')
+    moduli = np.array([material.modulus * share for share, _ in material.terms])
+    times = np.array([tau for _, tau in material.terms])
+    steps = reduced_steps(at, warmth, shift.factor)
+    stress = restrained_stress(-expansion * np.diff(warmth, axis=0), steps, moduli, times, material.long_term_modulus)
+    return stress / (1 - material.poisson) if restraint == "plane" else stress
+
+
+def add_thermal_stress(response: HasDataset, stress: ArrayLike) -> xr.Dataset:
+    """A response's dataset with a thermal stress added to both horizontal normal stresses.
+
+    stress: Pa, tension positive, one for all depths or (depth,): an instant of `thermal_stress` with restraint
+    "plane". Invariants of the stress follow; the strains stay those of the traffic, for a restrained road that cools
+    does not strain. Linear viscoelasticity lets the two add up. Raises InputError.
+    """
+    data = response.dataset
+    given = np.asarray(stress, dtype=float)
+    if given.shape not in ((), (data.sizes["depth"],)) or not np.isfinite(given).all():
+        raise InputError(
+            f"stress must be one finite number of Pa or one for each of {data.sizes['depth']} depths, "
+            f"got shape {given.shape}"
+        )
+    total = np.stack([field(data, name) for name in STRESS])
+    total[:2] += np.broadcast_to(given, data.sizes["depth"])[:, None, None]
+    known = {
+        **dict(zip(STRESS, total, strict=True)),
+        "von_mises_stress": tensors.von_mises(total),
+        "octahedral_shear_stress": tensors.octahedral_shear(total),
+        "mean_stress": tensors.mean(total),
+    }
+    return data.assign({name: (_DIMS, part, variables.attributes(name)) for name, part in known.items()})

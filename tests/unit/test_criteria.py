@@ -1,0 +1,161 @@
+"""Criteria as fields of a response, what they need, and where they peak."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import treadload as tl
+from treadload import variables
+from treadload.damage import FatigueLine, FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.damage.criteria import NAMES, NEAR_SURFACE, compute_criteria, peak, reading, tension_behind
+from treadload.damage.energy_ratio import EnergyRatio
+from treadload.errors import InputError
+from treadload.response.fields import response_dataset
+
+ROAD = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
+LINE = np.linspace(-0.4, 0.4, 33)
+WHEEL = tl.UniformRectangle(0.2, 0.25, 8e5, traction_x=-2e5)
+RESPONSE = tl.solve_response(WHEEL, ROAD, depths=[0.0, 0.02, 0.05, 0.1], x=LINE, y=[-0.13, 0.0, 0.11])
+MIX = EnergyRatio(creep_compliance=1e-10, slope=0.5, strength=2e6, fracture_energy=2500, resilient_modulus=1e10)
+
+
+def without(*names):
+    return SimpleNamespace(dataset=RESPONSE.dataset.drop_vars(names))
+
+
+def test_all_that_the_response_has_fields_for():
+    found = compute_criteria(RESPONSE)
+    assert set(found.data_vars) == set(NAMES) - {"dissipated_energy"}
+    for name, values in found.items():
+        assert values.dims == ("depth", "y", "x"), name
+        assert values.attrs == variables.attributes(str(name))
+        assert np.isfinite(values).all()
+    # The response names some of them itself.
+    for name in ("mazars_strain", "octahedral_shear_stress", "mean_stress"):
+        np.testing.assert_allclose(found[name], RESPONSE.dataset[name], rtol=1e-12)
+    np.testing.assert_allclose(found["extension_strain"], RESPONSE.dataset["principal_strain_1"], rtol=1e-12)
+    assert set(compute_criteria(without("strain_xx")).data_vars) == {
+        "octahedral_shear_stress",
+        "mean_stress",
+        "horizontal_tension",
+    }
+
+
+def test_dissipated_energy_is_the_passages_own():
+    energy = ("depth", "y"), np.full((4, 3), 12.5), {"units": "J/m^3"}
+    response = SimpleNamespace(dataset=RESPONSE.dataset.assign(dissipated_energy=energy))
+    found = compute_criteria(response, ["dissipated_energy"])
+    assert found["dissipated_energy"].attrs == {"units": "J/m^3"}
+    assert peak(found, "dissipated_energy") == {"value": 12.5, "depth": 0.0, "y": -0.13}
+
+
+def test_the_onset_divides_mazars_strain():
+    found = compute_criteria(RESPONSE, ["mazars_onset_ratio"], mazars_onset=50e-6)
+    np.testing.assert_allclose(found["mazars_onset_ratio"], RESPONSE.dataset["mazars_strain"] / 50e-6, rtol=1e-12)
+    assert found.attrs["mazars_onset"] == 50e-6
+
+
+def test_a_wheels_shear_peaks_near_its_edge_and_its_extension_where_it_drags():
+    found = compute_criteria(RESPONSE)
+    shear = peak(found, "vertical_shear_strain", deepest=NEAR_SURFACE)
+    assert shear["depth"] <= NEAR_SURFACE
+    assert abs(abs(shear["y"]) - 0.125) < 0.02 or abs(abs(shear["x"]) - 0.1) < 0.03
+    # Shear on a free surface is the traction: γ = q/G under the wheel, nothing beside it.
+    surface = found["vertical_shear_strain"].sel(depth=0, y=0)
+    assert float(surface.sel(x=0)) == pytest.approx(2e5 / ROAD.surface_material.shear_modulus, rel=1e-9)
+    assert float(abs(surface.sel(x=0.4))) < 1e-15
+    deep = peak(found, "vertical_shear_strain")
+    assert deep["value"] >= shear["value"]
+
+
+def test_what_a_law_reads():
+    data = RESPONSE.dataset
+    xr_equal = np.testing.assert_array_equal
+    xr_equal(reading(FatigueLine(1e-4, -0.2), RESPONSE), data["principal_strain_1"])
+    bituminous = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
+    xr_equal(reading(bituminous, RESPONSE), data["in_plane_strain_1"])
+    xr_equal(reading(FrenchSubgrade(), RESPONSE), -data["strain_zz"])
+    stress = reading(FrenchHydraulic(0.75e6, -1 / 15, 1, 0.05, 1.4), RESPONSE)
+    mid, half = (data["stress_xx"] + data["stress_yy"]) / 2, (data["stress_xx"] - data["stress_yy"]) / 2
+    np.testing.assert_allclose(stress, mid + np.hypot(half, data["stress_xy"]), rtol=1e-12)
+
+
+def test_tension_behind_a_dragging_wheel():
+    """The wheel pushes the road back, so that the surface is pressed together behind it and pulled before it."""
+    driving, braking = (
+        RESPONSE,
+        tl.solve_response(tl.UniformRectangle(0.2, 0.25, 8e5, traction_x=2e5), ROAD, depths=[0.0], x=LINE, y=[0.0]),
+    )
+    behind = tension_behind(braking)
+    at = braking.dataset.sel(depth=0, y=0)
+    # On the axis of symmetry the largest tension is σ_xx where it exceeds σ_yy.
+    mask = at["x"] < -0.1
+    expected = np.maximum(at["stress_xx"], at["stress_yy"]).where(mask)
+    assert float(behind["tension_behind"][0]) == pytest.approx(float(expected.max()), rel=1e-9)
+    assert float(behind["tension_behind_x"][0]) == float(at["x"][int(expected.argmax("x"))])
+    assert float(behind["tension_behind"][0]) > float(tension_behind(driving)["tension_behind"][1])
+    # The row beside the wheel, at y = -0.13, counts behind the same rear.
+    assert (tension_behind(driving)["tension_behind_x"] < -0.1).all()
+
+
+def test_tension_behind_does_not_ask_for_an_order_of_x():
+    backwards = SimpleNamespace(dataset=RESPONSE.dataset.isel(x=slice(None, None, -1)))
+    np.testing.assert_array_equal(
+        tension_behind(backwards)["tension_behind"], tension_behind(RESPONSE)["tension_behind"]
+    )
+
+
+def test_energy_ratio_in_the_units_of_its_source():
+    # Worked by hand from the printed form: σ = 150 psi, St = 2 MPa, D₁ = 1e-10/Pa, DCSE_f = 2.5 - 0.2 kJ/m³.
+    psi = 6894.757293168361
+    a = 0.0299 * 150**-3.10 * (6.36 - 2.0) + 2.46e-8
+    known = a * 2.3 / (0.5**2.98 * 1e-10 * psi)
+    assert MIX.limit == pytest.approx(2300, rel=1e-12)
+    assert float(MIX.ratio(150 * psi)) == pytest.approx(known, rel=1e-12)
+    assert float(MIX.needed(150 * psi)) == pytest.approx(2300 / known, rel=1e-12)
+
+
+def test_energy_ratio_falls_with_tension_and_says_its_doubt():
+    tension = np.array([-1e6, 0.0, 1e5, 1e6, 2e6])
+    ratio = MIX.ratio(tension)
+    assert np.isinf(ratio[:2]).all()
+    assert (np.diff(ratio[2:]) < 0).all()
+    assert not MIX.verified
+    assert "recalled" in MIX.doubt
+
+
+def free(stress_zz=0.0):
+    stress = np.zeros((6, 1, 1, 5))
+    stress[2] = stress_zz
+    at = np.zeros(1), np.zeros(1), np.linspace(-0.1, 0.1, 5)
+    return SimpleNamespace(dataset=response_dataset(stress, stress / 1e9, *at))
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: compute_criteria(RESPONSE, ["stress"]), "unknown criterion 'stress'; known are dissipated_energy"),
+        (
+            lambda: compute_criteria(RESPONSE, ["dissipated_energy"]),
+            "needs dissipated_energy, which the response lacks; solve a moving wheel on a viscoelastic road",
+        ),
+        (
+            lambda: compute_criteria(without("stress_xy"), ["mean_stress"]),
+            "the criterion mean_stress needs stress_xy, which the response lacks",
+        ),
+        (lambda: compute_criteria(RESPONSE, mazars_onset=100), r"plain strain in \(0, 0.01\), got 100"),
+        (lambda: peak(compute_criteria(RESPONSE, ["mean_stress"]), "mazars"), "hold mean_stress, got 'mazars'"),
+        (lambda: peak(compute_criteria(RESPONSE, ["mean_stress"]), "mean_stress", deepest=-1.0), "up to -1.0 m"),
+        (lambda: tension_behind(SimpleNamespace(dataset=RESPONSE.dataset.isel(depth=[1]))), "with depth 0"),
+        (lambda: tension_behind(free()), "no pressure stands on the surface"),
+        (lambda: tension_behind(free(-1e6)), "reaches the first x of the response, -0.1 m"),
+        (lambda: EnergyRatio(1e-10, 2.0, 2e6, 2500, 1e10), r"slope must lie in \(0, 1\), got 2.0"),
+        (lambda: EnergyRatio(1e-10, 0.5, 7e6, 2500, 1e10), "below 6.36 MPa in this regression, got 7 MPa"),
+        (lambda: EnergyRatio(1e-10, 0.5, 2e6, 100, 1e10), r"St²/\(2 MR\) = 200 J/m³"),
+        (lambda: EnergyRatio(-1.0, 0.5, 2e6, 100, 1e10), "creep_compliance must be a positive number of 1/Pa"),
+    ],
+)
+def test_refusals(make, message):
+    with pytest.raises(InputError, match=message):
+        make()
