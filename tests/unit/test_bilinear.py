@@ -85,6 +85,32 @@ def test_differences_and_averages_agree_where_they_take_turns():
         np.testing.assert_allclose(far[6:], exact[6:], atol=5e-11)
 
 
+@pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="long doubles are doubles here")
+def test_extended_precision_finds_the_same_in_square_and_long_cells():
+    one, at = np.ones((3, 1, 1)), np.array([0.2, 0.5, 3.3, 10.2, 23.0, 30.0, 50.0])
+    for dx, dy, tolerance in ((0.003, 0.003, 1e-12), (0.003, 0.2, 2e-11)):
+        x, y = max(dx, dy) * at, max(dx, dy) * np.array([0.0, 0.37, 5.0])
+        for depth in (0.0, 0.001, 0.01):
+            stress, moved, _ = bilinear_on_grid(one, dx, dy, np.array([depth]), 1.0, NU, x, y)
+            exact = np.array([[extended(i, j, dx, dy, depth) for i in x] for j in y]).transpose(2, 0, 1)
+            # Round-off: (24 cells)² over dx dy of 1e-16 in stress, by 24 cells more in displacement.
+            np.testing.assert_allclose(stress[0], exact[:6], atol=tolerance)
+            np.testing.assert_allclose(moved[0], exact[6:], atol=60 * tolerance * np.sqrt(dx * dy))
+
+
+def extended(x, y, dx, dy, depth):
+    """The nine fields at one point under one cell, by differences of G in the 19 digits of long doubles."""
+    number = np.longdouble
+    at_x, at_y = number(x) + number(dx) * np.arange(-1, 2), number(y) + number(dy) * np.arange(-1, 2)
+    functions = bilinear._at_nodes(at_x[None, None, :], at_y[None, :, None], number(depth))
+    fields = np.zeros(9)
+    for values, uses in bilinear._combined(functions, number(depth), number(NU)):
+        kernel = np.diff(np.diff(values, 2, axis=1), 2, axis=2) / (number(dx) * number(dy))
+        for _, component in uses:
+            fields[component] += float(kernel[0, 0, 0])
+    return fields
+
+
 def test_weights_average_polynomials_over_a_window():
     weights, at = bilinear._window_average(), np.arange(-4, 5)
     # ∫ s⁸ over (-1/2, 1/2) = 1 / (9·2⁸); round-off of 4⁸.

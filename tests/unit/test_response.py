@@ -1,5 +1,6 @@
 """solve_response: the dataset, grids, superposition, slices, text and refusals."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -244,6 +245,8 @@ def test_depths_within_half_a_cell_warn():
     shallow = solve_response(make_load(), ROAD, depths=[0.0, 0.001], y=0.02)
     assert "depth 1 mm is less than half a cell, 1.5 mm" in shallow.warnings[0]
     assert shallow.warnings[0] in shallow.summary()
+    smooth = replace(make_load(), interpolation="bilinear")
+    assert not solve_response(smooth, ROAD, depths=[0.0, 0.001], y=0.02).warnings
 
 
 def test_points_between_the_cells_read_smooth_shear_better():

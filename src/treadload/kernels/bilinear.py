@@ -8,8 +8,9 @@ mean of a box over a cell, so the field is that of uniform cells averaged over a
 
 where δx δy F is the field of a uniform cell, see `kernels.interior`, and δ are central differences over a cell.
 F is a sum of a few elementary functions; `_at_nodes` has the integral G of each in closed form, continuous
-everywhere, the surface included. Differences of G lose (R / dx)² of the digits at a distance R: beyond 24 cells
-the field of the uniform cells is averaged instead, by nine values per direction, which leaves 1e-11 of it.
+everywhere, the surface included. Differences of G lose (R / dx)² of the precision at a distance R: beyond 24
+cells the field of the uniform cells is averaged instead, by nine values per direction. Either way 2e-13 of the
+cell's load is left, measured in extended precision; in cells a hundred times as long as wide, 1e-11.
 
 Source: the integrals G were found as polynomials times the functions of F, exact rational coefficients, and are
 held by tests against quadrature. Load, signs and units as in `kernels.interior`.

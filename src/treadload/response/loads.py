@@ -46,8 +46,8 @@ class GridLoad:
     interpolation: "constant": uniform on each cell. "bilinear": bilinear between the cells' centres, falling to
     zero one cell beyond the outermost centres; same force, no steps. Under smooth shear the strain at the surface
     then converges like dx² instead of dx: for a Gaussian and cells of 0.16 of its standard deviation, the largest
-    error at cell centres falls from 4.5 % of the largest strain to 0.5 %. Two cells deep and deeper the two are
-    alike, "constant" being twice as near. "bilinear" does not help where the load itself has steps, as at the
+    error at cell centres falls from 4.5 % of the largest strain to 0.5 %. Two cells deep and deeper both converge
+    like dx², "constant" being twice as near. "bilinear" does not help where the load itself has steps, as at the
     edges of ribs: it blurs them over a cell.
     """
 

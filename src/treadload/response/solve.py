@@ -41,7 +41,7 @@ def solve_response(
     Returns a Response with fields (depth, y, x), tension positive, tensor shear strain, displacement_z down.
     At the surface stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear
     leaves an error O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell
-    of depth.
+    of depth. A GridLoad with interpolation="bilinear" has neither, see there.
     Raises InputError for a wrong value, depths below a rigid base and depths that need too many wavenumbers.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`; on
     layers the same with the top layer's material, plus wavenumbers, see `kernels.layered`.
@@ -119,7 +119,8 @@ def _warnings(loads: Sequence[GridLoad], depths: Array) -> tuple[str, ...]:
         return ()
     return (
         f"depth {shallow.min() * 1e3:g} mm is less than half a cell, {half * 1e3:g} mm: "
-        "strain there shows the steps of the load between cells; take the surface or a finer contact",
+        "strain there shows the steps of the load between cells; take the surface, a finer contact or a GridLoad "
+        'with interpolation="bilinear"',
     )
 
 
