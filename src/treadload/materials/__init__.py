@@ -14,6 +14,12 @@ from treadload.materials.measured import (
 )
 from treadload.materials.mixture import HydraulicMix, Mix, RoadMaterial, Unbound
 from treadload.materials.power_law import PowerLawCreep
+from treadload.materials.published import (
+    PublishedMaterial,
+    published_material,
+    published_materials,
+    read_published,
+)
 from treadload.materials.series import as_prony
 from treadload.materials.shifting import MasterCurve, master_curve
 from treadload.materials.temperature import WLF, Arrhenius, QuadraticShift, TabulatedShift, Thermorheological
@@ -33,6 +39,7 @@ __all__ = [
     "Model2S2P1D",
     "PowerLawCreep",
     "Prony",
+    "PublishedMaterial",
     "QuadraticShift",
     "RelaxationTest",
     "RoadMaterial",
@@ -48,8 +55,11 @@ __all__ = [
     "master_curve",
     "mix",
     "mixes",
+    "published_material",
+    "published_materials",
     "read_isotherms",
     "read_master_curve",
     "read_mixes",
+    "read_published",
     "read_shift_factors",
 ]

@@ -24,7 +24,7 @@ class PowerLawCreep(Operational):
     poisson: Poisson's ratio, in (-1, 0.5], constant.
     Raises InputError.
 
-    Source: the modified power law of asphalt, e.g. Levenberg (2016), ELLVA1, in this form; its complex modulus is
+    Source: the modified power law of asphalt, in the form of Levenberg's program ELLVA1; its complex modulus is
     that of the exact transform, no approximate interconversion.
     """
 

@@ -19,6 +19,7 @@ from typing_extensions import Protocol
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.materials.celsius import check_celsius
 from treadload.materials.huet_sayegh import HuetSayegh
 from treadload.materials.kinds import Viscoelastic
 from treadload.materials.operational import positive
@@ -287,7 +288,9 @@ class Thermorheological:
 
         Raises InputError outside the tested temperatures unless told to extrapolate, and outside of the shift's law.
         """
-        if self.tested is not None and not extrapolate and not self.tested[0] <= temperature <= self.tested[1]:
+        if self.tested is None:
+            temperature = check_celsius(temperature)
+        elif not (extrapolate or self.tested[0] <= temperature <= self.tested[1]):
             raise InputError(
                 f"the material was tested from {self.tested[0]:g} to {self.tested[1]:g} °C, got {temperature:g} °C; "
                 "to trust its law outside, ask for it with extrapolate=True"
