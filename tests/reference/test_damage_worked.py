@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import treadload as tl
 from treadload.damage.american import (
     AsphaltInstitute,
     AsphaltInstituteSubgrade,
@@ -19,7 +20,7 @@ from treadload.damage.american import (
     bottom_up_cracking,
     top_down_cracking,
 )
-from treadload.damage.criteria import compute_criteria
+from treadload.damage.criteria import compute_criteria, reading
 from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.kernels import tensors
 from treadload.response.fields import response_dataset
@@ -96,6 +97,31 @@ def test_life_of_structures(name):
     assert law.allowable_passes(life["eps_t_max"] * 1e-6) == pytest.approx(
         life["NE_fatigue_at_risk_5pct"], rel=6 * PRINTED
     )
+
+
+BITUMEN = {"6 BBSG3 / 15 GB3 / PF3": (0.06, 9e9), "8 BBSG3 / 15 GB3 / PF3": (0.08, 9e9)}
+
+
+@pytest.mark.parametrize("name", BITUMEN)
+def test_strains_of_structures_under_the_french_axle(name):
+    """The layered response, read by the laws: twin discs of 32.5 kN, bonded layers at 15 °C."""
+    surfacing, base = BITUMEN[name]
+    layers = [(7e9, surfacing), (base, 0.15), (120e6, None)]
+    road = tl.Pavement([tl.Layer(tl.Elastic(modulus, 0.35), thickness) for modulus, thickness in layers])
+    wheels = [tl.UniformDisc(0.125, 0.662e6, y=side * 0.1875) for side in (-1, 1)]
+    bottom = surfacing + 0.15
+    # The rows of the JSON: x = 0 under a wheel, 0.1875 m between the two.
+    at = {"depths": [bottom], "x": [0.0], "y": [-0.1875, 0.0]}
+    above = tl.solve_response(wheels, road, **at)
+    below = tl.solve_response(wheels, road, **at, side="below")
+    law = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
+    extension = reading(law, above).squeeze()
+    compression = reading(FrenchSubgrade(), below).squeeze()
+    rows = [row for row in WORKED["worked_structures"]["rows"] if row["structure"] == name and "x" in row]
+    for number, row in enumerate(rows):
+        # Both solvers claim 1e-8 and better; the load's radius and pressure are as printed.
+        assert 1e6 * float(extension[number]) == pytest.approx(row["eps_t_base_microstrain"], rel=1e-6)
+        assert 1e6 * float(compression[number]) == pytest.approx(row["eps_z_subgrade_microstrain"], rel=1e-6)
 
 
 @pytest.mark.parametrize("case", WORKED["mepdg"]["worked_Nf"], ids=lambda c: f"{c['mode']}-{c['hac_in']}")

@@ -20,12 +20,16 @@ SOLID = tl.Prony(3e10, ((0.3, 1.0), (0.4, 100.0), (0.29, 1e4)), 0.35)
 class Constant:
     """A shift that no temperature changes."""
 
+    reference = 10.0
+
     def factor(self, temperature):
         return np.full(np.shape(temperature), 2.0)
 
 
 class Exponential:
     """log₁₀ aT = -0.1 (T - 10)."""
+
+    reference = 10.0
 
     def factor(self, temperature):
         return 10 ** (-0.1 * (np.asarray(temperature) - 10))
@@ -179,6 +183,10 @@ def thermal(**changed):
         (lambda: thermal(temperature=[10.0]), r"for each of 2 times, got shape \(1,\)"),
         (lambda: thermal(temperature=[10.0, math.nan]), "finite number of °C"),
         (lambda: thermal(expansion=25.0), "mixes are near 2.5e-5"),
+        (
+            lambda: thermal_stress(tl.Elastic(1e9, 0.3), Constant(), [0, 1], [1, 0], expansion=0),
+            "needs a Prony series, got Elastic; make one with as_prony",
+        ),
         (lambda: thermal(restraint="none"), '"plane" or "line", got \'none\''),
         (
             lambda: add_thermal_stress(tail(np.linspace(-3, 0, 9), 1.0), [1e6, 2e6]),

@@ -22,6 +22,7 @@ from treadload.damage.fatigue import (
     check_strain,
 )
 from treadload.errors import InputError
+from treadload.materials import HydraulicMix, Mix, Unbound
 
 _SOURCE = (
     "NF P98-086 (2019), as coded in the public program UI_ChausseeNeuve (romeoolouro, commit f00e26e), "
@@ -87,6 +88,27 @@ class FrenchBituminous(PowerLaw):
         check_positive("calibration", self.calibration, "number", "k_c is 1 to 1.3")
         check_positive("modulus_ratio", self.modulus_ratio, "number", "E(10 °C)/E(15 °C) is near 1.3")
         _check_rest(self.risk, self.platform_modulus, self.thickness_scatter)
+
+    @classmethod
+    def of(
+        cls,
+        mix: Mix,
+        *,
+        thickness: float,
+        risk: float,
+        temperature: float = 15.0,
+        platform_modulus: float | None = None,
+        thickness_scatter: float | None = None,
+    ) -> FrenchBituminous:
+        """The law of a mix of the catalogue at its equivalent temperature, °C; the rest as above.
+
+        Raises InputError for a mix without a fatigue line and a temperature outside its table.
+        """
+        if mix.epsilon_6 is None or mix.slope is None or mix.scatter is None or mix.calibration is None:
+            raise InputError(f"mix {mix.name!r} has no fatigue line; give epsilon_6, slope, scatter and calibration")
+        ratio = mix.modulus_ratio(temperature)
+        numbers = mix.epsilon_6, mix.slope, mix.scatter, thickness, risk, mix.calibration, ratio
+        return cls(*numbers, platform_modulus, thickness_scatter)
 
     @property
     def doubt(self) -> str:
@@ -159,6 +181,27 @@ class FrenchHydraulic(PowerLaw):
     quantity: ClassVar[str] = TENSION
     source: ClassVar[str] = _SOURCE
 
+    @classmethod
+    def of(
+        cls,
+        mix: HydraulicMix,
+        *,
+        risk: float,
+        platform_modulus: float | None = None,
+        joints: float | None = None,
+        thickness_scatter: float | None = None,
+    ) -> FrenchHydraulic:
+        """The law of a treated material of the catalogue; joints and thickness_scatter in place of its own.
+
+        Raises InputError where neither the material nor the caller tells the joints or the scatter.
+        """
+        k_d = mix.joints if joints is None else joints
+        spread = mix.thickness_scatter if thickness_scatter is None else thickness_scatter
+        if k_d is None or spread is None:
+            missing = "joints" if k_d is None else "thickness_scatter"
+            raise InputError(f"{missing} of {mix.name!r} depends on the structure; give {missing}=")
+        return cls(mix.sigma_6, mix.slope, mix.scatter, risk, mix.calibration, k_d, platform_modulus, spread)
+
     def __post_init__(self) -> None:
         check_positive("sigma_6", self.sigma_6, "number of Pa", "0.75 MPa is 0.75e6")
         check_slope(self.slope)
@@ -192,14 +235,15 @@ class FrenchHydraulic(PowerLaw):
 
 @dataclass(frozen=True)
 class FrenchSubgrade(PowerLaw):
-    """Allowable compression of soil and unbound layers, ε_z = A NE^-0.222; compression counts positive.
+    """Allowable compression of soil and unbound layers, ε_z = A NE^b; compression counts positive.
 
     constant: A, plain strain of one pass: 0.012 for medium and heavy traffic, 0.016 for light traffic, 0.0144 for
-    the unbound layer of an inverted structure.
+    the unbound layer of an inverted structure. slope: b.
     Source: NF P98-086 (2019) by a secondary source.
     """
 
     constant: float = 0.012
+    slope: float = -0.222
 
     quantity: ClassVar[str] = SUBGRADE
     source: ClassVar[str] = _SOURCE
@@ -208,16 +252,31 @@ class FrenchSubgrade(PowerLaw):
         check_positive("constant", self.constant, "strain", "12000 microstrain is 0.012")
         if self.constant > 1:
             raise InputError(f"constant must be a plain strain, got {self.constant}; 12000 microstrain is 0.012")
+        check_slope(self.slope)
+
+    @classmethod
+    def of(cls, soil: Unbound, traffic: Literal["heavy", "light", "inverted"] = "heavy") -> FrenchSubgrade:
+        """The law of an unbound material or platform of the catalogue.
+
+        traffic: "light" or "heavy", which is medium too; "inverted" for the unbound layer of an inverted structure.
+        Raises InputError.
+        """
+        constants = {"heavy": soil.constant, "light": soil.constant_light, "inverted": soil.constant_inverted}
+        constant = constants.get(traffic)
+        if constant is None:
+            known = ", ".join(name for name, value in constants.items() if value is not None)
+            raise InputError(f"{soil.name!r} has a law for the traffic {known}, got {traffic!r}")
+        return cls(constant, soil.slope)
 
     @property
     def at_a_million(self) -> float:
-        """A (10⁶)^-0.222."""
+        """A (10⁶)^b."""
         return float(self.constant * 1e6**self.exponent)
 
     @property
     def exponent(self) -> float:
-        """-0.222."""
-        return -0.222
+        """Slope b."""
+        return self.slope
 
     def __str__(self) -> str:
         return f"French method, subgrade, {self.constant * 1e6:g} microstrain x N^{self.exponent:g}"

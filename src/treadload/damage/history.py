@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 import xarray as xr
@@ -17,15 +17,9 @@ from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.kernels.thermal import reduced_steps, restrained_stress
 from treadload.materials import Prony
+from treadload.materials.temperature import ShiftLaw
 
 _DIMS = ("depth", "y", "x")
-
-
-class Shift(Protocol):
-    """How the times of a material depend on temperature."""
-
-    def factor(self, temperature: ArrayLike) -> Array:
-        """aT: all times are this much longer than at the reference."""
 
 
 def residual_after(response: HasDataset, *, spacing: float, passes: int) -> xr.Dataset:
@@ -80,7 +74,7 @@ def residual_after(response: HasDataset, *, spacing: float, passes: int) -> xr.D
 
 def thermal_stress(
     material: Prony,
-    shift: Shift,
+    shift: ShiftLaw,
     time: ArrayLike,
     temperature: ArrayLike,
     *,
@@ -89,15 +83,20 @@ def thermal_stress(
 ) -> Array:
     """Stress of a restrained material that cools, σ(t) = -k α ∫ E(ξ(t) - ξ(t')) dT, tension positive.
 
-    ξ = ∫ dt / aT is the reduced time. material: its relaxation at the shift's reference temperature. shift: a law
-    with `factor(temperature)`. time: (nt,), s, increasing; the material is free of stress at the first. temperature:
-    °C, (nt,), or (nt, n) of n depths. expansion: α, 1/K, of length; mixes are near 2.5e-5. restraint: "plane" holds
-    both horizontal directions, as a wide road is held, k = 1/(1 - ν); "line" one of them, k = 1.
+    ξ = ∫ dt / aT is the reduced time. material: its relaxation at the shift's reference temperature; `as_prony` makes
+    a series of other models. shift: WLF or another law of time and temperature. time: (nt,), s, increasing; the
+    material is free of stress at the first. temperature: °C, (nt,), or (nt, n) of n depths. expansion: α, 1/K, of
+    length; mixes are near 2.5e-5. restraint: "plane" holds both horizontal directions, as a wide road is held,
+    k = 1/(1 - ν); "line" one of them, k = 1.
     Temperature is linear in time between the given instants. Returns (nt, ...), Pa.
     Method: each term of the series is carried on exactly for strain that is linear in reduced time over a step
     (Taylor, Pister & Goudreau, 1970, Int. J. Numer. Meth. Eng. 2): exact where aT is constant, else O(step²).
     Raises InputError.
     """
+    if not isinstance(material, Prony):
+        raise InputError(
+            f"thermal stress needs a Prony series, got {type(material).__name__}; make one with as_prony"
+        )
     at, warmth = np.asarray(time, dtype=float), np.asarray(temperature, dtype=float)
     if at.ndim != 1 or len(at) < 2 or not np.isfinite(at).all() or not (np.diff(at) > 0).all():
         raise InputError(f"time must be at least two increasing numbers of s, got {time!r}")
