@@ -164,7 +164,8 @@ def _kernels(
             yield _differences(values, 2) / (dx * dy), uses
         return
     average = _window_average()
-    far = _combined(_at_corners(*places(_SIDE + 0.5, 2 * _SIDE + 1), z), z, nu)
+    corner_x, corner_y = places(_SIDE + 0.5, 2 * _SIDE + 1)
+    far = _combined(_Corners(corner_x, corner_y, z, *_elementary(corner_x, corner_y, z)), z, nu)
     inside = near[:, rows, columns]
     for values, uses in far:
         cells = _differences(values, 1)
@@ -197,14 +198,81 @@ def _window_average() -> Array:
 
 
 @dataclass(frozen=True)
-class _Functions:
-    """The functions of the distance to a corner that fields are made of, or their integrals over x and y.
+class _Corners:
+    """The functions of the distance x, y, z to a corner that fields are made of.
 
     r: R. log_x, log_y: asinh(x / √(y² + z²)), asinh(y / √(x² + z²)). log_r: ln(R + z). turn: atan(x y / z R).
-    turn_x, turn_y: the angles of `kernels.interior`. over_x: z x y / ((x² + z²) R). deep_x: z² y / ((x² + z²) R).
-    part: z / R. slope_x: x / (R + z). steep_x: z x / (R (R + z)). x_log_y: x log_y.
-    tilt_x: y log_r + z log_y + x turn_x. over_y … tilt_y: the same with x and y exchanged.
+    turn_x, turn_y: the angles of `kernels.interior`. Those below follow from them, evaluated when asked for, to
+    keep little in memory; singular points, which lie near and are not used, are finite.
     """
+
+    x: Array
+    y: Array
+    z: float
+    r: Array
+    log_x: Array
+    log_y: Array
+    log_r: Array
+    turn: Array
+    turn_x: Array
+    turn_y: Array
+
+    @property
+    def part(self) -> Array:
+        return self.z / _not_zero(self.r)
+
+    @property
+    def over_x(self) -> Array:
+        return self.part * self.y * (self.x / _not_zero(self.x**2 + self.z**2))
+
+    @property
+    def over_y(self) -> Array:
+        return self.part * self.x * (self.y / _not_zero(self.y**2 + self.z**2))
+
+    @property
+    def deep_x(self) -> Array:
+        return self.part * self.z * (self.y / _not_zero(self.x**2 + self.z**2))
+
+    @property
+    def deep_y(self) -> Array:
+        return self.part * self.z * (self.x / _not_zero(self.y**2 + self.z**2))
+
+    @property
+    def slope_x(self) -> Array:
+        return self.x / _not_zero(self.r + self.z)
+
+    @property
+    def slope_y(self) -> Array:
+        return self.y / _not_zero(self.r + self.z)
+
+    @property
+    def steep_x(self) -> Array:
+        return self.part * self.slope_x
+
+    @property
+    def steep_y(self) -> Array:
+        return self.part * self.slope_y
+
+    @property
+    def x_log_y(self) -> Array:
+        return self.x * self.log_y
+
+    @property
+    def y_log_x(self) -> Array:
+        return self.y * self.log_x
+
+    @property
+    def tilt_x(self) -> Array:
+        return self.y * self.log_r + self.z * self.log_y + self.x * self.turn_x
+
+    @property
+    def tilt_y(self) -> Array:
+        return self.x * self.log_r + self.z * self.log_x + self.y * self.turn_y
+
+
+@dataclass(frozen=True)
+class _Nodes:
+    """Integrals over x and y of the functions of `_Corners`, by their names."""
 
     r: Array
     log_x: Array
@@ -228,7 +296,7 @@ class _Functions:
     tilt_y: Array
 
 
-def _combined(f: _Functions, z: float, nu: float) -> Iterator[_Part]:
+def _combined(f: _Corners | _Nodes, z: float, nu: float) -> Iterator[_Part]:
     """Stress, and displacement times the shear modulus, from the functions: `kernels.interior`, `.displacement`."""
     unit, soft = 1 / (2 * math.pi), 1 - 2 * nu
     yield unit * (f.over_x - 2 * nu * f.turn - soft * f.turn_x), ((_P, _XX),)
@@ -259,6 +327,10 @@ def _combined(f: _Functions, z: float, nu: float) -> Iterator[_Part]:
     yield -half * (2 * nu * f.r + soft * z * f.log_r), ((_QX, _UY), (_QY, _UX))
 
 
+def _not_zero(values: Array) -> Array:
+    return np.where(values == 0, 1, values)
+
+
 def _elementary(x: Array, y: Array, z: float) -> tuple[Array, ...]:
     """r, log_x, log_y, log_r, turn, turn_x, turn_y; where a logarithm is infinite it is zero."""
     x2, y2 = x * x + z * z, y * y + z * z
@@ -272,45 +344,14 @@ def _elementary(x: Array, y: Array, z: float) -> tuple[Array, ...]:
     return r, log_x, log_y, log_r, turn, turn_x, turn_y
 
 
-def _at_corners(x: Array, y: Array, z: float) -> _Functions:
-    """The functions themselves, finite at singular points, which lie near and are not used."""
-    r, log_x, log_y, log_r, turn, turn_x, turn_y = _elementary(x, y, z)
-    x2, y2 = x * x + z * z, y * y + z * z
-    x2, y2, far = np.where(x2 == 0, 1, x2), np.where(y2 == 0, 1, y2), np.where(r == 0, 1, r)
-    part = z / far
-    slope_x, slope_y = x / (far + z), y / (far + z)
-    return _Functions(
-        r=r,
-        log_x=log_x,
-        log_y=log_y,
-        log_r=log_r,
-        turn=turn,
-        turn_x=turn_x,
-        turn_y=turn_y,
-        over_x=part * y * (x / x2),
-        over_y=part * x * (y / y2),
-        deep_x=part * z * (y / x2),
-        deep_y=part * z * (x / y2),
-        part=part,
-        slope_x=slope_x,
-        slope_y=slope_y,
-        steep_x=part * slope_x,
-        steep_y=part * slope_y,
-        x_log_y=x * log_y,
-        y_log_x=y * log_x,
-        tilt_x=y * log_r + z * log_y + x * turn_x,
-        tilt_y=x * log_r + z * log_x + y * turn_y,
-    )
-
-
-def _at_nodes(x: Array, y: Array, z: float) -> _Functions:
+def _at_nodes(x: Array, y: Array, z: float) -> _Nodes:
     """Integrals over x and y of the functions, less what second differences take away."""
     r, log_x, log_y, log_r, turn, turn_x, turn_y = _elementary(x, y, z)
     xx, yy, xy, zz = x * x, y * y, x * y, z * z
     by_y, by_x, over = y * log_y, x * log_x, x * log_y + y * log_x
     flat_x, flat_y = (yy - zz) / 2 * log_x, (xx - zz) / 2 * log_y
     edge_x, edge_y = z * (x * log_r - y * turn_x + y * turn), z * (y * log_r - x * turn_y + x * turn)
-    return _Functions(
+    return _Nodes(
         r=xy * r / 3 + x * (zz / 2 + xx / 6) * log_y + y * (zz / 2 + yy / 6) * log_x - z**3 / 3 * turn,
         log_x=xy * log_x + flat_y - x * z * turn - y * r / 2,
         log_y=xy * log_y + flat_x - y * z * turn - x * r / 2,

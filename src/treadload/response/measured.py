@@ -124,7 +124,7 @@ def _rows(path: Path) -> list[_Row]:
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
-        raise InputError(f"cannot read {path}: it is no UTF-8 text ({error.reason} at byte {error.start})") from error
+        raise InputError(f"cannot read {path}: it is no UTF-8 text (byte {error.start}); save it as UTF-8") from error
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
     lines = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
     if not lines:
