@@ -1,0 +1,102 @@
+"""A criterion: what a law reads, and where in the road."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+
+from treadload.damage.direction import Reading, check_reading, crack_plane, extension
+from treadload.damage.fatigue import SUBGRADE, TENSION, FatigueLaw
+from treadload.errors import InputError
+from treadload.kernels import tensors
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.response.fields import COMPONENTS
+
+Place = Literal["top", "bottom"]
+
+# At which a law that depends on temperature is asked what it reads.
+_ANY_TEMPERATURE = 15.0
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """A place in the road and the law that says after how many passes it fails there.
+
+    name: for tables and figures. law: a law of fatigue; or a function that gives it at a temperature of the
+    layer, °C. layer: counted from the surface, 0 is the top one, negative from the bottom. place: "top" or
+    "bottom" of the layer. strain: "principal" reads the extension in space, "in-plane" in the horizontal plane;
+    laws of the subgrade read the vertical compression instead, laws of tension the largest horizontal stress.
+    Raises InputError.
+    """
+
+    name: str
+    law: FatigueLaw | Callable[[float], FatigueLaw]
+    layer: int = 0
+    place: Place = "bottom"
+    strain: Reading = "in-plane"
+
+    def __post_init__(self) -> None:
+        if self.place not in ("top", "bottom"):
+            raise InputError(f'place of the criterion {self.name!r} must be "top" or "bottom", got {self.place!r}')
+        check_reading(self.strain)
+
+    def law_at(self, temperature: float) -> FatigueLaw:
+        """The law at a temperature of the layer, °C."""
+        return self.law(temperature) if callable(self.law) else self.law
+
+    @property
+    def quantity(self) -> str:
+        """What the law reads."""
+        return self.law_at(_ANY_TEMPERATURE).quantity
+
+    @property
+    def side(self) -> Literal["above", "below"]:
+        """Side of the interface on which the layer lies."""
+        return "below" if self.place == "top" else "above"
+
+    def number(self, road: Pavement) -> int:
+        """Number of the layer from the surface, 0 the top one. Raises InputError for one that is not there."""
+        count = len(road.layers)
+        if not -count <= self.layer < count:
+            raise InputError(
+                f"the criterion {self.name!r} reads layer {self.layer}, the road has {count}: "
+                f"{-count} to {count - 1} are there"
+            )
+        return self.layer % count
+
+    def depth(self, road: Pavement) -> float:
+        """Depth at which it reads, m. Raises InputError for the bottom of a layer that has none."""
+        number = self.number(road)
+        if self.place == "top":
+            return float(road.interfaces[number - 1]) if number else 0.0
+        if number >= len(road.interfaces):
+            raise InputError(
+                f"the criterion {self.name!r} reads the bottom of the last layer, which goes down for ever; "
+                'read its top, or a layer above it'
+            )
+        return float(road.interfaces[number])
+
+    def read(self, data: xr.Dataset) -> Array:
+        """What the law reads (y, x) of a response at the criterion's one depth, positive where it does harm."""
+        if self.quantity == SUBGRADE:
+            return -data["strain_zz"].transpose("y", "x").to_numpy()
+        if self.quantity == TENSION:
+            stress = np.stack([data[f"stress_{name}"].transpose("y", "x").to_numpy() for name in COMPONENTS])
+            return tensors.in_plane_principal(stress)[0]
+        return extension(data.transpose("y", "x", ...), self.strain)[0]
+
+    def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
+        """Angle of the trace and dip (y, x), rad, of the crack across what it reads; NaN for a subgrade."""
+        if self.quantity == SUBGRADE:
+            none = np.full((data.sizes["y"], data.sizes["x"]), np.nan)
+            return none, none
+        if self.quantity == TENSION:
+            stress = np.stack([data[f"stress_{name}"].transpose("y", "x").to_numpy() for name in COMPONENTS])
+            angle = tensors.in_plane_principal(stress)[1]
+            return crack_plane(np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1))
+        return crack_plane(extension(data.transpose("y", "x", ...), self.strain)[1])
