@@ -115,6 +115,14 @@ _CRITERIA = {
     "total_tension": ("Pa", "largest horizontal tension of the passes before and the wheel together"),
 }
 
+_LIFE = {
+    "damage_per_year": ("1", "Miner's damage of the first year, after wander; 1 is failure"),
+    "damage_share": ("1", "share of the damage at the worst place"),
+    "life_years": ("1", "years until the damage at the worst place is 1"),
+    "life_passes": ("1", "passes until the damage at the worst place is 1"),
+    "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
+}
+
 VARIABLES: Mapping[str, tuple[str, str]] = {
     **_COORDINATES,
     **_CONTACT,
@@ -122,6 +130,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_RESPONSE,
     **_DAMAGE,
     **_CRITERIA,
+    **_LIFE,
 }
 
 

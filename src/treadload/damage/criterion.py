@@ -77,7 +77,7 @@ class Criterion:
         if number >= len(road.interfaces):
             raise InputError(
                 f"the criterion {self.name!r} reads the bottom of the last layer, which goes down for ever; "
-                'read its top, or a layer above it'
+                "read its top, or a layer above it"
             )
         return float(road.interfaces[number])
 

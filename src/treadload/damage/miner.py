@@ -17,8 +17,6 @@ from treadload.damage.traffic import Climate, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
-DIMENSIONS = ("criterion", "axle_class", "season", "y")
-
 
 @dataclass(frozen=True, eq=False)
 class Life:
@@ -92,7 +90,9 @@ def miner(
     values = np.asarray(readings, dtype=float)
     expected = (len(criteria), len(traffic.classes), len(climate.seasons))
     if values.ndim != 4 or values.shape[:3] != expected:
-        raise InputError(f"readings must be (criterion, axle_class, season, y) = {expected} and y, got {values.shape}")
+        raise InputError(
+            f"readings must be (criterion, axle_class, season, y) = {expected} and y, got {values.shape}"
+        )
     at = np.asarray(readings["y"] if y is None and isinstance(readings, xr.DataArray) else y, dtype=float)
     if at.shape != (values.shape[3],) or len(at) < 2 or np.ptp(np.diff(at)) > 1e-6 * abs(at[1] - at[0]):
         raise InputError(f"y must be {values.shape[3]} evenly spaced values in m, got shape {at.shape}")

@@ -158,10 +158,10 @@ def _contact(tire: Tire, road: Pavement, state: tuple[Any, ...], spacing: float)
 def _across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
     """Evenly spaced y, m, over all wheels of all classes and a margin."""
     dy = float(contacts[0].dataset.attrs["dy"])
-    half = max(
-        max(abs(float(contact.dataset["y"][0])), abs(float(contact.dataset["y"][-1]))) + max(abs(y) for _, y in row.wheels)
-        for contact, row in zip(contacts, classes, strict=True)
-    )
+    half = 0.0
+    for contact, row in zip(contacts, classes, strict=True):
+        own = float(np.abs(contact.dataset["y"]).max())
+        half = max(half, own + max(abs(y) for _, y in row.wheels))
     n = int(np.ceil((half + _MARGIN) / dy))
     return dy * np.arange(-n, n + 1)
 
@@ -186,7 +186,7 @@ def _readings(contact: Contact, row: AxleClass, road: Pavement, criteria: Sequen
 
 
 def _along(contact: Contact, row: AxleClass, deep: bool) -> Array:
-    """x of the passage, m: the cells under the wheels, or coarser and further where fields are smooth."""
+    """Where along x a passage is read, m: under the wheels, or coarser and further where fields are smooth."""
     own = contact.dataset["x"].to_numpy()
     centres = sorted({x for x, _ in row.wheels})
     if not deep:
