@@ -1,0 +1,147 @@
+"""Miner's sum: parts add up, damage is linear in passes, wander and growth follow their closed forms."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from treadload.damage import FatigueLine, FrenchSubgrade
+from treadload.damage.criterion import Criterion
+from treadload.damage.miner import miner
+from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.errors import InputError
+from treadload.materials import Elastic
+from treadload.pavement import Layer, Pavement
+
+LINE = FatigueLine(100e-6, -0.2)
+CRITERIA = (Criterion("top", LINE, place="top", strain="principal"), Criterion("soil", FrenchSubgrade(), -1, "top"))
+Y = np.arange(-30, 31) * 0.02
+
+
+def classes(*shares):
+    return tuple(AxleClass(f"class {k}", share, 30e3 + k, 8e5) for k, share in enumerate(shares))
+
+
+def readings(count, seasons, seed=0):
+    peaks = np.random.default_rng(seed).uniform(50e-6, 200e-6, (2, count, seasons, 1))
+    return peaks * np.exp(-0.5 * (Y / 0.1) ** 2)
+
+
+def test_a_mixed_traffic_is_the_sum_of_its_parts():
+    shares, climate = (0.5, 0.3, 0.2), Climate.equal_parts([0.0, 15.0, 30.0])
+    values = readings(3, 3)
+    traffic = Traffic(classes(*shares), 1e5, wander=Wander.normal(0.2))
+    whole = miner(values, CRITERIA, traffic, climate, y=Y).dataset["damage_per_year"].to_numpy()
+    parts = 0.0
+    for k, share in enumerate(shares):
+        for s, season in enumerate(climate.seasons):
+            alone = replace(traffic, classes=classes(1.0), passes_per_year=1e5 * share * season.share)
+            one = miner(values[:, k : k + 1, s : s + 1], CRITERIA, alone, Climate.constant(15.0), y=Y)
+            parts = parts + one.dataset["damage_per_year"].to_numpy()
+    assert np.abs(whole - parts).max() <= 1e-12 * whole.max()
+
+
+@given(st.floats(1.0, 1e7), st.floats(0.1, 50))
+def test_damage_is_linear_in_passes(passes, factor):
+    values = readings(1, 1)
+    climate = Climate.constant(15.0)
+    one, more = (
+        miner(values, CRITERIA, Traffic(classes(1.0), n), climate, y=Y).dataset["damage_per_year"].to_numpy()
+        for n in (passes, passes * factor)
+    )
+    assert more == pytest.approx(factor * one, rel=1e-12)
+
+
+@given(st.floats(1.0, 3.0))
+def test_more_strain_never_lives_longer(factor):
+    values = readings(1, 1)
+    traffic, climate = Traffic(classes(1.0), 1e5), Climate.constant(15.0)
+    less, more = (miner(v, CRITERIA, traffic, climate, y=Y) for v in (values, values * factor))
+    assert (more.dataset["life_years"] <= less.dataset["life_years"] * (1 + 1e-12)).all()
+
+
+def test_one_strain_lives_as_long_as_its_line_says():
+    values = np.full((1, 1, 1, len(Y)), 120e-6)
+    traffic = Traffic(classes(1.0), 1e5, growth=0.02)
+    life = miner(values, CRITERIA[:1], traffic, Climate.constant(15.0), y=Y)
+    assert life.dataset["life_passes"].item() == pytest.approx(LINE.allowable_passes(120e-6), rel=1e-12)
+    assert traffic.passes(life.years("top")) == pytest.approx(LINE.allowable_passes(120e-6), rel=1e-9)
+    assert life.governing == "top"
+    assert "top governs" in life.summary()
+
+
+def test_shares_of_the_worst_place_add_up_to_one():
+    life = miner(readings(3, 2), CRITERIA, Traffic(classes(0.2, 0.3, 0.5), 1e5), Climate.equal_parts([5, 25]), y=Y)
+    assert life.dataset["damage_share"].sum(("axle_class", "season")).to_numpy() == pytest.approx([1, 1], rel=1e-12)
+
+
+def test_a_law_of_its_temperature_is_asked_at_the_layers():
+    asked = []
+
+    def law(temperature):
+        asked.append(temperature)
+        return FatigueLine((100 + temperature) * 1e-6, -0.2)
+
+    criteria = (Criterion("warm", law, place="top"),)
+    climate = Climate((Season("w", 0.5, (1.0, 2.0)), Season("s", 0.5, (31.0, 22.0))))
+    values = np.full((1, 1, 2, len(Y)), 120e-6)
+    with pytest.raises(InputError, match="layer_temperatures"):
+        miner(values, criteria, Traffic(classes(1.0), 1e5), climate, y=Y)
+    layers = np.array([[1.0, 31.0]])
+    life = miner(values, criteria, Traffic(classes(1.0), 1e5), climate, y=Y, layer_temperatures=layers)
+    expected = sum(0.5e5 / FatigueLine((100 + t) * 1e-6, -0.2).allowable_passes(120e-6) for t in (1.0, 31.0))
+    assert life.dataset["damage_per_year"].max().item() == pytest.approx(expected, rel=1e-12)
+    assert {1.0, 31.0} <= set(asked)
+
+
+def test_no_strain_lives_for_ever():
+    life = miner(np.zeros((2, 1, 1, len(Y))), CRITERIA, Traffic(classes(1.0), 1e5), Climate.constant(15.0), y=Y)
+    assert math.isinf(life.years("soil"))
+    assert "no criterion is ever used up" in life.summary()
+
+
+def test_extrapolation_is_told():
+    values = np.full((1, 1, 1, len(Y)), 1e-6)
+    life = miner(values, CRITERIA[:1], Traffic(classes(1.0), 1e5), Climate.constant(15.0), y=Y)
+    assert any("extrapolated" in text for text in life.warnings)
+
+
+ROAD = Pavement([Layer(Elastic(5e9, 0.35), 0.1), Layer(Elastic(1e8, 0.35))])
+
+
+def test_a_criterion_knows_its_depth_and_side():
+    assert Criterion("a", LINE, 0, "top").depth(ROAD) == 0
+    assert Criterion("a", LINE, 0, "bottom").depth(ROAD) == pytest.approx(0.1)
+    assert Criterion("a", LINE, -1, "top").depth(ROAD) == pytest.approx(0.1)
+    assert (Criterion("a", LINE, 0, "bottom").side, Criterion("a", LINE, -1, "top").side) == ("above", "below")
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Criterion("a", LINE, place="middle"), '"top" or "bottom"'),
+        (lambda: Criterion("a", LINE, strain="shear"), "principal"),
+        (lambda: Criterion("a", LINE, -1).depth(ROAD), "goes down for ever"),
+        (lambda: Criterion("a", LINE, 5).depth(ROAD), "reads layer 5"),
+        (
+            lambda: miner(np.zeros((1, 1, 1, 5)), CRITERIA, Traffic(classes(1.0), 1), Climate.constant(1.0), y=Y),
+            "readings must be",
+        ),
+        (
+            lambda: miner(
+                np.zeros((2, 1, 1, 3)),
+                CRITERIA,
+                Traffic(classes(1.0), 1),
+                Climate.constant(1.0),
+                y=np.array([0, 1, 5]),
+            ),
+            "evenly spaced",
+        ),
+    ],
+)
+def test_bad_input_is_named(make, words):
+    with pytest.raises(InputError, match=words):
+        make()
