@@ -18,6 +18,7 @@ from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS
 
 Place = Literal["top", "bottom"]
+Side = Literal["above", "below"]
 
 # At which a law that depends on temperature is asked what it reads.
 _ANY_TEMPERATURE = 15.0
@@ -55,7 +56,7 @@ class Criterion:
         return self.law_at(_ANY_TEMPERATURE).quantity
 
     @property
-    def side(self) -> Literal["above", "below"]:
+    def side(self) -> Side:
         """Side of the interface on which the layer lies."""
         return "below" if self.place == "top" else "above"
 

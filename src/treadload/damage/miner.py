@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -24,13 +25,14 @@ class Life:
 
     dataset: damage_per_year (criterion, y), of the first year, after wander; damage_share (criterion, axle_class,
     season) of it at the worst y; life_years, life_passes, worst_y, largest_reading (criterion). criteria, traffic,
-    climate: what was asked. warnings: sentences for the user.
+    climate: what was asked. stats: solves and errors behind the readings. warnings: sentences for the user.
     """
 
     dataset: xr.Dataset
     criteria: tuple[Criterion, ...]
     traffic: Traffic
     climate: Climate
+    stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 
     @property
@@ -64,6 +66,11 @@ class Life:
             lines.append("Verdict: no criterion is ever used up by this traffic.")
         else:
             lines.append(f"Verdict: {self.governing} governs, after {_years(self.years(self.governing))}.")
+        if self.stats:
+            lines.append(
+                "solved: {contacts} contacts and {responses} responses for {combinations} combinations; readings "
+                "interpolated over temperature err by {interpolation_error:.1g} at most".format(**self.stats)
+            )
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
     def __str__(self) -> str:
@@ -149,7 +156,7 @@ def miner(
         sources=json.dumps([criterion.law_at(15.0).source for criterion in criteria], ensure_ascii=False),
         quantities=json.dumps([criterion.quantity for criterion in criteria], ensure_ascii=False),
     )
-    return Life(dataset, tuple(criteria), traffic, climate, tuple(dict.fromkeys(warnings)))
+    return Life(dataset, tuple(criteria), traffic, climate, warnings=tuple(dict.fromkeys(warnings)))
 
 
 def _years(years: float) -> str:

@@ -14,7 +14,7 @@ import xarray as xr
 from scipy.interpolate import PchipInterpolator
 
 from treadload.contact import Contact, solve_contact
-from treadload.damage.criterion import Criterion
+from treadload.damage.criterion import Criterion, Side
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -170,7 +170,7 @@ def _readings(contact: Contact, row: AxleClass, road: Pavement, criteria: Sequen
     """(criterion, y): the largest reading over the passage."""
     loads = [place(contact, x=at_x, y=at_y) for at_x, at_y in row.wheels]
     found = np.empty((len(criteria), len(y)))
-    groups: dict[tuple[bool, str], list[int]] = {}
+    groups: dict[tuple[bool, Side], list[int]] = {}
     depths = [criterion.depth(road) for criterion in criteria]
     for k, criterion in enumerate(criteria):
         groups.setdefault((depths[k] > _DEEP, criterion.side), []).append(k)
@@ -178,7 +178,7 @@ def _readings(contact: Contact, row: AxleClass, road: Pavement, criteria: Sequen
         at = sorted({depths[k] for k in members})
         x = _along(contact, row, deep)
         rows = np.append(np.arange(y[0], y[-1], _COARSE), y[-1]) if deep else y
-        data = solve_response(loads, road, depths=at, x=x, y=rows, side=side, speed=row.speed).dataset  # type: ignore[arg-type]
+        data = solve_response(loads, road, depths=at, x=x, y=rows, side=side).dataset
         for k in members:
             worst = criteria[k].read(data.isel(depth=at.index(depths[k]))).max(axis=1)
             found[k] = PchipInterpolator(rows, worst)(y) if deep else worst

@@ -1,0 +1,49 @@
+"""The life of a road under a traffic and a climate, from the tire to the governing criterion."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+
+from treadload.damage.criterion import Criterion
+from treadload.damage.miner import Life, miner
+from treadload.damage.traffic import Climate, Traffic
+from treadload.pavement import Pavement
+from treadload.study.passages import Progress, solve_passages
+from treadload.tire import Tire
+
+
+def design_life(
+    tire: Tire,
+    road: Pavement,
+    traffic: Traffic,
+    climate: Climate,
+    criteria: Sequence[Criterion],
+    *,
+    spacing: float = 6e-3,
+    tolerance: float = 3e-3,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> Life:
+    """How many years a road lasts, by every criterion.
+
+    Arguments as in `solve_passages`: what each law reads as every class of axle passes in every season; then
+    Miner's sum after wander, see `miner`. stats of the result: contacts and responses solved, combinations that
+    they serve, the largest relative error of readings interpolated over temperature, seconds.
+    Raises InputError, and ConvergenceError of a contact.
+    """
+    start = time.perf_counter()
+    passages = solve_passages(
+        tire, road, traffic, climate, criteria,
+        spacing=spacing, tolerance=tolerance, workers=workers, progress=progress,
+    )  # fmt: skip
+    life = miner(passages.readings, criteria, traffic, climate, layer_temperatures=passages.layer_temperatures)
+    stats = {
+        "contacts": passages.contacts,
+        "responses": passages.responses,
+        "combinations": passages.combinations,
+        "interpolation_error": passages.interpolation_error,
+        "seconds": time.perf_counter() - start,
+    }
+    return replace(life, stats=stats)

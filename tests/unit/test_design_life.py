@@ -1,0 +1,118 @@
+"""From tire to life: what is solved, what is interpolated and how well."""
+
+import math
+
+import numpy as np
+import pytest
+
+from treadload.contact.maneuver import Maneuver
+from treadload.damage import FatigueLine, FrenchSubgrade
+from treadload.damage.criterion import Criterion
+from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.errors import InputError
+from treadload.materials import Elastic
+from treadload.pavement import Pavement
+from treadload.response import solve_response
+from treadload.study.life import design_life
+from treadload.study.passages import solve_passages
+from treadload.tire import Tire
+
+TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
+ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+CRITERIA = (
+    Criterion("top-down", FatigueLine(100e-6, -0.2), 0, "top", "principal"),
+    Criterion("base", FatigueLine(90e-6, -0.2), 1),
+    Criterion("soil", FrenchSubgrade(), -1, "top"),
+)
+LIGHT = AxleClass("light", 0.6, 15e3, 700e3)
+HEAVY = AxleClass("heavy", 0.4, 32.5e3, 850e3, ((0.0, -0.17), (0.0, 0.17)), Maneuver.braking(2.0))
+COARSE = {"spacing": 12e-3, "workers": 1}
+
+
+def test_interpolated_readings_stay_within_the_tolerance():
+    traffic = Traffic((LIGHT, HEAVY), 1e5)
+    climate = Climate.equal_parts([2.0, 6.0, 11.0, 15.0, 19.0, 24.0, 28.0])
+    exact = solve_passages(TIRE, ROAD, traffic, climate, CRITERIA, tolerance=0, **COARSE)
+    few = solve_passages(TIRE, ROAD, traffic, climate, CRITERIA, tolerance=0.02, **COARSE)
+    assert exact.responses == 14
+    assert few.responses < 14
+    assert few.interpolation_error <= 0.02
+    size = exact.readings.max("y")
+    error = float((abs(few.readings - exact.readings).max("y") / size).max())
+    # The light class is not the one that chose the temperatures: allow it twice the tolerance.
+    assert 0 < error <= 0.04
+
+
+def test_equal_states_share_a_contact_and_equal_roads_a_response():
+    again = AxleClass("again", 0.5, LIGHT.wheel_load, LIGHT.inflation_pressure, ((0.0, 0.1),))
+    traffic = Traffic((AxleClass("light", 0.5, 15e3, 700e3), again), 1e5)
+    road = Pavement.half_space(Elastic(5e9, 0.35))
+    passages = solve_passages(TIRE, road, traffic, Climate.equal_parts([5, 15, 25, 35]), CRITERIA[:1], **COARSE)
+    assert (passages.contacts, passages.responses, passages.combinations) == (1, 2, 8)
+
+
+def test_the_readings_are_those_of_the_response():
+    """One class on one road: the largest over x of the fields that solve_response gives on its own."""
+    from treadload.contact import Rolling, solve_contact
+
+    traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5)
+    passages = solve_passages(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA, **COARSE)
+    road = ROAD.at_temperature(15.0)
+    contact = solve_contact(TIRE, road, Rolling(normal_load=32.5e3, friction=0.7), spacing=12e-3)
+    top = solve_response(contact, road, depths=[0.0]).dataset["principal_strain_1"].max().item()
+    assert passages.readings.sel(criterion="top-down").max().item() == pytest.approx(top, rel=1e-9)
+    x = np.arange(-0.3, 0.3, 0.01)
+    base = solve_response(contact, road, depths=[0.21], x=x, y=x).dataset["in_plane_strain_1"].max().item()
+    # 20 mm between the points of a deep criterion: 0.5 % of a field that is 0.2 m wide.
+    assert passages.readings.sel(criterion="base").max().item() == pytest.approx(base, rel=5e-3)
+
+
+def test_heavier_wheels_live_shorter_and_wander_lives_longer():
+    def lives(load, wander):
+        traffic = Traffic((AxleClass("one", 1.0, load, 820e3),), 1e5, wander=wander)
+        life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA, **COARSE)
+        return life.dataset["life_years"].to_numpy()
+
+    light, heavy, spread = lives(25e3, Wander()), lives(40e3, Wander()), lives(40e3, Wander.normal(0.25))
+    assert (heavy < light).all()
+    assert (spread > heavy).all()
+
+
+def test_seasons_of_layers_and_laws_that_follow_them():
+    seasons = Climate((Season("winter", 0.5, (0.0, 4.0, 8.0)), Season("summer", 0.5, (35.0, 28.0, 15.0))))
+    law = lambda temperature: FatigueLine((80 + temperature) * 1e-6, -0.2)  # noqa: E731
+    traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5)
+    life = design_life(TIRE, ROAD, traffic, seasons, (Criterion("base", law, 1),), **COARSE)
+    assert life.stats["responses"] == 2
+    assert 0 < life.years("base") < math.inf
+    assert "solved: 1 contacts and 2 responses" in life.summary()
+
+
+def test_a_soft_road_in_summer_is_read_warmer_than_in_winter():
+    traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5)
+    passages = solve_passages(TIRE, ROAD, traffic, Climate.equal_parts([0.0, 30.0]), CRITERIA, **COARSE)
+    assert (passages.readings.isel(season=1).max("y") > passages.readings.isel(season=0).max("y")).all()
+
+
+def test_a_wheel_beside_the_path_is_read_there():
+    shifted = AxleClass("one", 1.0, 32.5e3, 820e3, ((0.0, 0.24),))
+    passages = solve_passages(TIRE, ROAD, Traffic((shifted,), 1), Climate.constant(15.0), CRITERIA[2:], **COARSE)
+    worst = passages.readings["y"].to_numpy()[int(np.argmax(passages.readings.to_numpy()[0, 0, 0]))]
+    assert worst == pytest.approx(0.24, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"criteria": ()}, "at least one criterion"),
+        ({"criteria": (Criterion("deep", FatigueLine(1e-4, -0.2), -1),)}, "goes down for ever"),
+        ({"climate": Climate((Season("a", 1.0, (1.0, 2.0)),))}, "temperature"),
+        ({"climate": Climate.constant(60.0)}, "60"),
+        ({"tolerance": 2.0}, "tolerance"),
+    ],
+)
+def test_bad_input_is_named(change, words):
+    asked = {"climate": Climate.constant(15.0), "criteria": CRITERIA, "tolerance": 1e-3, **change}
+    with pytest.raises(InputError, match=words):
+        solve_passages(TIRE, ROAD, Traffic((LIGHT, HEAVY), 1), asked["climate"], asked["criteria"],
+                       tolerance=asked["tolerance"], **COARSE)  # fmt: skip
