@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadload.damage import FatigueLine, FrenchSubgrade
@@ -44,6 +44,7 @@ def test_a_mixed_traffic_is_the_sum_of_its_parts():
     assert np.abs(whole - parts).max() <= 1e-12 * whole.max()
 
 
+@settings(deadline=None, max_examples=25)
 @given(st.floats(1.0, 1e7), st.floats(0.1, 50))
 def test_damage_is_linear_in_passes(passes, factor):
     values = readings(1, 1)
@@ -55,6 +56,7 @@ def test_damage_is_linear_in_passes(passes, factor):
     assert more == pytest.approx(factor * one, rel=1e-12)
 
 
+@settings(deadline=None, max_examples=25)
 @given(st.floats(1.0, 3.0))
 def test_more_strain_never_lives_longer(factor):
     values = readings(1, 1)
