@@ -18,6 +18,7 @@ from scipy.interpolate import PPoly
 from scipy.special import j1
 
 from treadload.kernels.arrays import Array, ComplexArray
+from treadload.kernels.layered import Scalars
 
 # Panels start at this over the length of the problem; what lies below is 1e-9 of a field that falls as 1/k.
 _SMALLEST = 1e-7
@@ -155,26 +156,27 @@ def synthesise(
             break
         rows = np.searchsorted(ky_all, max(plane.limit for plane in planes), side="right")
         load = sum(spectrum(kx, ky_all[:rows]) for spectrum in spectra)
-        turn = np.exp(1j * np.outer(kx, x)) * wx[:, None]
-        # Real and imaginary parts interleaved, as numpy stores complex numbers: Re(a b) is one real product.
-        back = np.empty((2 * len(kx), len(x)))
-        back[::2], back[1::2] = turn.real, -turn.imag
+        back = along_lines(kx, wx, x)
         for field, plane in zip(result, planes, strict=True):
             if kx[0] > plane.limit:
                 continue
             n = int(np.searchsorted(ky_all, plane.limit, side="right"))
-            fields = _fields(np.asarray(load)[:, :, :n], plane, kx, ky_all[:n])
-            part = _times(even[:, :n], fields[0].reshape(n, -1)) + 1j * _times(odd[:, :n], fields[1].reshape(n, -1))
-            flat = part.reshape(len(y) * 9, len(kx)).view(float)
+            k = np.hypot(kx[None, :], ky_all[:n, None])
+            kernel = np.moveaxis(plane.kernel(k), -1, 0)
+            fields = plane_fields(np.asarray(load)[:, :, :n], kernel, plane.shear, plane.poisson, kx, ky_all[:n])
+            flat = across_lines(even[:, :n], odd[:, :n], fields).reshape(len(y) * 9, len(kx)).view(float)
             field += (flat @ back).reshape(len(y), 9, len(x)).transpose(1, 0, 2)
     return result
 
 
-def _fields(load: ComplexArray, plane: Plane, kx: Array, ky: Array) -> ComplexArray:
-    """Even and odd parts of the fields in wavenumbers, (2, nky, 9, nkx)."""
+def plane_fields(load: ComplexArray, kernel: Array, shear: Scalars, poisson: float, kx: Array, ky: Array) -> ComplexArray:
+    """Stress and displacement at one depth in wavenumbers, in the order of `synthesise`.
+
+    load: (2, 3, nky, nkx), see `Spectrum`. kernel: (10, nky, nkx), see `Plane`. shear: shear modulus there, Pa, one
+    or (nkx,), real or complex. poisson: ν there. Returns their parts even and odd in ky, (2, nky, 9, nkx).
+    """
     k = np.hypot(kx[None, :], ky[:, None])
     c, s = kx[None, :] / k, ky[:, None] / k
-    kernel = np.moveaxis(plane.kernel(k), -1, 0)
     pressure, shear_x, shear_y = load[:, 0], load[:, 1], load[:, 2]
     # s is odd in ky: what it multiplies changes parity, [::-1].
     push = 1j * (c * shear_x + s * shear_y[::-1])
@@ -182,7 +184,7 @@ def _fields(load: ComplexArray, plane: Plane, kx: Array, ky: Array) -> ComplexAr
     u_k, u_z = push * kernel[0] + pressure * kernel[1], push * kernel[2] + pressure * kernel[3]
     f_k, f_z = push * kernel[4] + pressure * kernel[5], push * kernel[6] + pressure * kernel[7]
     u_t, f_t = twist * kernel[8], twist * kernel[9]
-    nu, double = plane.poisson, 2 * plane.shear
+    nu, double = poisson, 2 * shear
     kk = (double * u_k - nu * f_z) / (1 - nu)
     tt = nu * (double * u_k - f_z) / (1 - nu)
     kt = (0.5j * double) * u_t
@@ -200,6 +202,23 @@ def _fields(load: ComplexArray, plane: Plane, kx: Array, ky: Array) -> ComplexAr
     fields[:, :, 7] = s * u_k[::-1] + c * u_t
     fields[:, :, 8] = u_z / k
     return fields
+
+
+def across_lines(even: Array, odd: Array, fields: ComplexArray) -> ComplexArray:
+    """Fields (2, nky, m, nkx) on lines of y, (my, m, nkx). even, odd: cosines and sines times weights, (my, nky)."""
+    flat = fields.reshape(2, fields.shape[1], -1)
+    return (_times(even, flat[0]) + 1j * _times(odd, flat[1])).reshape(len(even), *fields.shape[2:])
+
+
+def along_lines(kx: Array, weights: Array, x: Array) -> Array:
+    """Matrix (2 nkx, mx) that takes values over kx > 0, seen as real numbers, to the field at x.
+
+    Real and imaginary parts alternate, as numpy stores complex numbers: Re(a b) is one real product.
+    """
+    turn = np.exp(1j * np.outer(kx, x)) * weights[:, None]
+    back = np.empty((2 * len(kx), len(x)))
+    back[::2], back[1::2] = turn.real, -turn.imag
+    return back
 
 
 def _times(a: Array, b: ComplexArray) -> ComplexArray:

@@ -1,0 +1,184 @@
+"""Layers under a load that moves steadily along x: moduli that depend on kx.
+
+Fields g(x - V t, y) vary in time as exp(-i kx V t): at kx > 0 a viscoelastic layer has the modulus conj E*(kx V),
+everything else is as at rest. Kernels depend on kx and |k|, still even in ky, and fields are real. E* has a cusp
+at kx = 0, which the panels that shrink towards it resolve.
+
+Source: theory as in Chabot, Chupin, Deloffre and Duhamel (2010), Road Mater. Pavement Des. 11, 227-250, ViscoRoute;
+reflection from the bottom up as in `kernels.layered`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from treadload.kernels.arrays import Array, ComplexArray
+from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.wavenumbers import Spectrum, across_lines, along_lines, plane_fields
+
+# Wavenumbers of a block: keeps what the layers and depths hold for each near the cache.
+_BLOCK = 6_000
+
+Modulus = Callable[[Array], ComplexArray]
+"""kx (nkx,) > 0 → Young's modulus, Pa, complex."""
+
+
+@dataclass(frozen=True)
+class Body:
+    """Layers from the surface down, some of which have a modulus for each kx.
+
+    moduli: Young's modulus of each layer, Pa, or a function of kx. poisson, thickness, spring, rigid: as in
+    `kernels.layered.Stack`.
+    """
+
+    moduli: Sequence[float | Modulus]
+    poisson: Sequence[float]
+    thickness: Sequence[float]
+    spring: Sequence[float]
+    rigid: bool = False
+
+    def modulus(self, layer: int, kx: Array) -> Array | ComplexArray:
+        """Young's modulus of a layer, (nkx,), Pa."""
+        modulus = self.moduli[layer]
+        return modulus(kx) if callable(modulus) else np.full(len(kx), float(modulus))
+
+    def shear(self, layer: int, kx: Array) -> Array | ComplexArray:
+        """Shear modulus of a layer, (nkx,), Pa."""
+        return self.modulus(layer, kx) / (2 * (1 + self.poisson[layer]))
+
+    def stack(self, kx: Array, rows: int, layers: int | None = None) -> Stack:
+        """The layers for wavenumbers (rows, nkx) in one line; only the first ones, as a half-space, if told."""
+        shear = [np.tile(self.shear(layer, kx), rows) for layer in range(len(self.moduli))[:layers]]
+        if layers is not None:
+            return Stack(shear, self.poisson[:layers], [], [])
+        return Stack(shear, self.poisson, self.thickness, self.spring, self.rigid)
+
+
+@dataclass(frozen=True)
+class Level:
+    """One depth.
+
+    depth: m. layer: that holds it. below: whether a value on an interface is that of the layer below it.
+    split: True for the field less that of a half-space of the top layer.
+    """
+
+    depth: float
+    layer: int
+    below: bool
+    split: bool = False
+
+
+def moving_fields(
+    spectra: Sequence[Spectrum],
+    body: Body,
+    levels: Sequence[Level],
+    limit: float,
+    x: Array,
+    y: Array,
+    along: tuple[Array, Array],
+    across: tuple[Array, Array],
+) -> Array:
+    """Stress, displacement and strain under loads that move.
+
+    spectra: of loads that add up. levels: (nz) depths whose waves matter up to `limit`, 1/m. x: (mx,), y: (my,), m,
+    moving with the loads. along, across: nodes and weights in kx and in ky, see `wavenumbers.quadrature`.
+    Returns (nz, 15, my, mx): stress xx, yy, zz, xy, xz, yz in Pa, displacement x, y, z in m, strain as stress.
+    Works in blocks of wavenumbers; one pass through the layers serves all levels.
+    """
+    result = np.zeros((len(levels), 15, len(y), len(x)))
+    for kx, weights, lines in _lines(spectra, body, levels, limit, y, along, across):
+        back = along_lines(kx, weights, x)
+        for field, level, line in zip(result, levels, lines, strict=True):
+            nu, compliance = body.poisson[level.layer], 1 / body.modulus(level.layer, kx)
+            everything = np.concatenate([line, _unit_strain(line[:, :6], nu) * compliance], axis=1)
+            flat = everything.reshape(len(y) * 15, len(kx)).view(float)
+            field += (flat @ back).reshape(len(y), 15, len(x)).transpose(1, 0, 2)
+    return result
+
+
+def dissipated_energy(
+    spectra: Sequence[Spectrum],
+    body: Body,
+    levels: Sequence[Level],
+    limit: float,
+    y: Array,
+    along: tuple[Array, Array],
+    across: tuple[Array, Array],
+) -> Array:
+    """Energy that a passage dissipates per volume, (nz, my), J/m³: W = -∫ σ_ij ∂ε_ij/∂x dx.
+
+    Arguments as in `moving_fields`, none of the levels split. By Parseval one sum over kx of
+    kx Im(1/E) ((1 + ν) |σ|² - ν |tr σ|²).
+    """
+    energy = np.zeros((len(levels), len(y)))
+    for kx, weights, lines in _lines(spectra, body, levels, limit, y, along, across):
+        for row, level, line in zip(energy, levels, lines, strict=True):
+            nu, loss = body.poisson[level.layer], (1 / body.modulus(level.layer, kx)).imag
+            stress = line[:, :6]
+            product = stress.conj() * _unit_strain(stress, nu)
+            # Shear stands twice in the tensor. Lines hold 1/π of the transform over x.
+            work = (product[:, :3] + 2 * product[:, 3:]).sum(axis=1).real
+            row += math.pi * (work @ (weights * kx * loss))
+    return energy
+
+
+def _unit_strain(stress: ComplexArray, nu: float) -> ComplexArray:
+    """Strain (my, 6, nkx) for a modulus of 1 Pa."""
+    strain = (1 + nu) * stress
+    strain[:, :3] -= nu * stress[:, :3].sum(axis=1, keepdims=True)
+    return strain
+
+
+def _lines(
+    spectra: Sequence[Spectrum],
+    body: Body,
+    levels: Sequence[Level],
+    limit: float,
+    y: Array,
+    along: tuple[Array, Array],
+    across: tuple[Array, Array],
+) -> Iterator[tuple[Array, Array, list[ComplexArray]]]:
+    """Blocks of kx: nodes, weights, and at each level stress and displacement (my, 9, nkx) on the lines of y."""
+    (kx_all, wx_all), (ky_all, wy_all) = along, across
+    # Twice for kx < 0 and twice for ky < 0.
+    even = np.cos(np.outer(y, ky_all)) * (wy_all / math.pi**2)
+    odd = np.sin(np.outer(y, ky_all)) * (wy_all / math.pi**2)
+    start = 0
+    while start < len(kx_all) and kx_all[start] < limit:
+        # Waves count within a circle.
+        rows = max(1, int(np.searchsorted(ky_all, math.sqrt(limit**2 - kx_all[start] ** 2))))
+        block = slice(start, start + max(1, _BLOCK // rows))
+        start = block.stop
+        kx, ky = kx_all[block], ky_all[:rows]
+        load = np.asarray(sum(spectrum(kx, ky) for spectrum in spectra))
+        kernels = _kernels(body, levels, kx, ky)
+        lines = [
+            across_lines(
+                even[:, :rows],
+                odd[:, :rows],
+                plane_fields(load, kernel, body.shear(level.layer, kx), body.poisson[level.layer], kx, ky),
+            )
+            for level, kernel in zip(levels, kernels, strict=True)
+        ]
+        yield kx, wx_all[block], lines
+
+
+def _kernels(body: Body, levels: Sequence[Level], kx: Array, ky: Array) -> ComplexArray:
+    """(nz, 10, nky, nkx) in the order of `wavenumbers.Plane`."""
+    shape = len(ky), len(kx)
+    k = np.hypot(kx[None, :], ky[:, None]).ravel()
+
+    def rows(stack: Stack, some: Sequence[Level]) -> ComplexArray:
+        found = transfer(k, stack, [level.depth for level in some], [level.below for level in some])
+        joined: ComplexArray = np.concatenate([found.plane.reshape(len(some), 8, -1), found.transverse], axis=1)
+        return joined.reshape(len(some), 10, *shape)
+
+    kernels = rows(body.stack(kx, len(ky)), levels)
+    split = [number for number, level in enumerate(levels) if level.split]
+    if split:
+        kernels[split] -= rows(body.stack(kx, len(ky), 1), [levels[number] for number in split])
+    return kernels
