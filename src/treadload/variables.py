@@ -81,6 +81,7 @@ _RESPONSE = {
     "von_mises_stress": ("Pa", "von Mises equivalent stress"),
     "octahedral_shear_stress": ("Pa", "octahedral shear stress"),
     "mean_stress": ("Pa", "mean stress, tension positive"),
+    "dissipated_energy": ("J/m^3", "energy per volume that one passage of the moving load dissipates"),
     "mazars_strain": ("1", "equivalent strain of Mazars, from the extensions alone"),
 }
 

@@ -56,16 +56,16 @@ def delayed_fields(
     """Stress and displacement that q gives an elastic half-space.
 
     cells: the load p. terms: of the creep compliance. depths: (nz,), m. shear: G of E₀, Pa. poisson: ν.
-    x: (mx,), y: (my,), m. Returns (nz, 6, my, mx), Pa, and (nz, 3, my, mx), m. Along x the field is taken at
-    centres of cells, where it is most accurate, and interpolated with cubics.
+    x: (mx,), y: (my,), m. Returns (nz, 6, my, mx), Pa, and (nz, 3, my, mx), m. Along x the field is taken
+    between the cells, where steps of shear leave no error O(dx), and interpolated with cubics.
     """
     clear = max(float(np.ptp(x)) / 2, float(np.ptp(y)) / 2, cells.load.shape[1] * cells.dy, 2 * cells.dx)
     rear = cells.x0 - 0.5 * cells.dx
     behind = math.ceil((rear - min(rear, float(x.min())) + clear) / cells.dx)
     wake, remains = _near(cells, terms, behind)
     start = cells.x0 - behind * cells.dx
-    centres, weights = _cubics((x - start) / cells.dx)
-    at = start + cells.dx * centres
+    edges, weights = _cubics((x - start) / cells.dx + 0.5)
+    at = start + cells.dx * (edges - 0.5)
     fields = _fields(Cells(wake, cells.dx, cells.dy, start, cells.y0), depths, shear, poisson, at, y) @ weights.T
     few_x, from_x = _carriers(x)
     few_y, from_y = _carriers(y)
@@ -85,7 +85,7 @@ def _fields(cells: Cells, depths: Array, shear: float, poisson: float, x: Array,
 
 
 def _near(cells: Cells, terms: Sequence[Term], behind: int) -> tuple[Array, Array]:
-    """q on the load's cells and as many behind it, and fⱼ times what each term carries there, (3, ny, terms)."""
+    """Means of q on the load's cells and some behind it; fⱼ times what each term carries there, (3, ny, terms)."""
     load = np.pad(cells.load, ((0, 0), (0, 0), (behind, 0)))
     wake = np.zeros_like(load)
     remains = np.empty((*load.shape[:2], len(terms)))

@@ -12,6 +12,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -50,10 +51,16 @@ def quadrature(limit: float, reach: float, length: float) -> tuple[Array, Array]
         edges.append(min(limit, _RATIO * edges[-1], edges[-1] + widest))
     nodes, weights = [], []
     for low, high in itertools.pairwise(edges):
-        points, share = np.polynomial.legendre.leggauss(_FEW if high * length < _CALM else _POINTS)
+        points, share = _gauss(_FEW if high * length < _CALM else _POINTS)
         nodes.append(0.5 * (high - low) * points + 0.5 * (high + low))
         weights.append(0.5 * (high - low) * share)
     return np.concatenate(nodes), np.concatenate(weights)
+
+
+@lru_cache(maxsize=8)
+def _gauss(count: int) -> tuple[Array, Array]:
+    points, share = np.polynomial.legendre.leggauss(count)
+    return points, share
 
 
 def cells_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -> Spectrum:
@@ -169,7 +176,9 @@ def synthesise(
     return result
 
 
-def plane_fields(load: ComplexArray, kernel: Array, shear: Scalars, poisson: float, kx: Array, ky: Array) -> ComplexArray:
+def plane_fields(
+    load: ComplexArray, kernel: Array, shear: Scalars, poisson: float, kx: Array, ky: Array
+) -> ComplexArray:
     """Stress and displacement at one depth in wavenumbers, in the order of `synthesise`.
 
     load: (2, 3, nky, nkx), see `Spectrum`. kernel: (10, nky, nkx), see `Plane`. shear: shear modulus there, Pa, one

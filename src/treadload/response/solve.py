@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from treadload import variables
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
@@ -17,6 +18,7 @@ from treadload.response.fields import response_dataset
 from treadload.response.half_space import half_space_response
 from treadload.response.layered import layered_response
 from treadload.response.loads import GridLoad, Load, SurfaceLoad, UniformRectangle, common_grid, gather
+from treadload.response.moving import MovingFields, at_speed, moving_response
 from treadload.response.solution import Response
 
 
@@ -27,24 +29,31 @@ def solve_response(
     depths: ArrayLike,
     x: ArrayLike | None = None,
     y: ArrayLike | None = None,
+    speed: float | None = None,
     side: Literal["above", "below"] = "above",
 ) -> Response:
     """Stress, strain and displacement in a road under pressure and shear.
 
     loads: a contact, a dataset with pressure, traction_x and traction_y (Pa) over y and x, a GridLoad, a
     UniformDisc, a UniformRectangle, or a list of these, whose responses add up in one pass. road: a half-space
-    or elastic layers; half-bonded interfaces make it the mean of two responses, see `Pavement.bond_limits`.
+    or layers; half-bonded interfaces make it the mean of two responses, see `Pavement.bond_limits`.
     depths: m, >= 0, 0 is the surface.
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
     vertical slice. side: of an interface that a depth falls on, "above" or "below"; stress and strain of a
     half-space have no jump there, and the horizontal displacement of layers jumps only where they slide.
+    speed: at which the loads travel along +x, m/s, needed where a layer is viscoelastic. The result is then the
+    steady state, seen from the loads, without inertia: what a fixed point lives through is a line along x read
+    from front to rear, at the time -x / speed. 0 and infinity give the elastic limits.
     Returns a Response with fields (depth, y, x), tension positive, tensor shear strain, displacement_z down.
     At the surface stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear
     leaves an error O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell
     of depth. A GridLoad with interpolation="bilinear" has neither, see there.
-    Raises InputError for a wrong value, depths below a rigid base and depths that need too many wavenumbers.
+    Where layers are viscoelastic `dissipated_energy` (depth, y) is the energy that one passage dissipates.
+    Raises InputError for a wrong value, a speed that is missing or negative, a layer that needs a temperature or
+    is a fluid, depths below a rigid base and depths that need too many wavenumbers.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`; on
-    layers the same with the top layer's material, plus wavenumbers, see `kernels.layered`.
+    layers the same with the top layer's material, plus wavenumbers, see `kernels.layered`; under moving
+    loads see `kernels.moving`.
     """
     start = time.perf_counter()
     if side not in ("above", "below"):
@@ -58,13 +67,11 @@ def solve_response(
     at_y = _coordinates("y", y if y is not None or grid is None else grid.y)
 
     cells = [load.cell if isinstance(load, UniformRectangle) else load for load in superposed]
-    material = road.distinct_layers[0].elastic
-    if road.is_homogeneous:
-        words = f"one material, {material}"
-    else:
-        words = f"{len(road.layers)} layer(s){' on a rigid base' if road.rigid_base else ''}, top {material}"
-    limits = [_solve(cells, limit, at_depths, at_x, at_y, below=side == "below") for limit in road.bond_limits]
-    stress, strain, displacement, method = _mean(limits)
+    road = at_speed(road, speed)
+    solved = _mean(
+        [_solve(cells, limit, speed, at_depths, at_x, at_y, below=side == "below") for limit in road.bond_limits]
+    )
+    stress, strain, displacement = solved.stress, solved.strain, solved.displacement
     dataset = response_dataset(
         stress,
         strain,
@@ -72,15 +79,18 @@ def solve_response(
         at_y,
         at_x,
         displacement=displacement,
-        road=words,
-        modulus=material.modulus,
-        poisson=material.poisson,
+        road=_in_words(road),
+        modulus=road.surface_material.modulus,
+        poisson=road.surface_material.poisson,
         layer_names=json.dumps([layer.name for layer in road.layers], ensure_ascii=False),
         **({"interfaces": road.interfaces} if len(road.interfaces) else {}),
+        **({} if speed is None else {"speed": float(speed)}),
     )
-    stats = {"seconds": time.perf_counter() - start, "method": method, "points": stress[0].size}
+    if speed is not None:
+        dataset["dissipated_energy"] = (("depth", "y"), solved.energy, variables.attributes("dissipated_energy"))
+    stats = {"seconds": time.perf_counter() - start, "method": solved.method, "points": stress[0].size}
     gridded = [load for load in superposed if isinstance(load, GridLoad) and load.interpolation == "constant"]
-    warnings = _warnings(gridded, at_depths)
+    warnings = _warnings(gridded, at_depths) + solved.warnings
     if np.isnan(displacement).any():
         warnings += (
             "a net shear force acts above a frictionless or half-bonded interface, where nothing holds the layers: "
@@ -89,25 +99,45 @@ def solve_response(
     return Response(dataset, stats, warnings)
 
 
-# Stress, strain and displacement, and how they were found.
-_Fields = tuple[Array, Array, Array, str]
-
-
 def _solve(
-    loads: Sequence[SurfaceLoad], road: Pavement, depths: Array, x: Array, y: Array, *, below: bool
-) -> _Fields:
+    loads: Sequence[SurfaceLoad],
+    road: Pavement,
+    speed: float | None,
+    depths: Array,
+    x: Array,
+    y: Array,
+    *,
+    below: bool,
+) -> MovingFields:
+    if road.is_viscoelastic:
+        assert speed is not None
+        return moving_response(loads, road, speed, depths, x, y, below=below)
     if road.is_homogeneous:
-        return half_space_response(loads, road.distinct_layers[0].elastic, depths, x, y)
-    return layered_response(loads, road, depths, x, y, below=below)
+        stress, strain, displacement, method = half_space_response(loads, road.surface_material, depths, x, y)
+    else:
+        stress, strain, displacement, method = layered_response(loads, road, depths, x, y, below=below)
+    return MovingFields(stress, strain, displacement, np.zeros((len(depths), len(y))), method)
 
 
-def _mean(solved: Sequence[_Fields]) -> _Fields:
+def _mean(solved: Sequence[MovingFields]) -> MovingFields:
     """Mean of the fields; one alone is not copied."""
     if len(solved) == 1:
         return solved[0]
-    stress, strain, displacement, methods = zip(*solved, strict=True)
-    how = " and ".join(dict.fromkeys(methods))
-    return np.mean(stress, axis=0), np.mean(strain, axis=0), np.mean(displacement, axis=0), how
+    return MovingFields(
+        np.mean([one.stress for one in solved], axis=0),
+        np.mean([one.strain for one in solved], axis=0),
+        np.mean([one.displacement for one in solved], axis=0),
+        np.mean([one.energy for one in solved], axis=0),
+        " and ".join(dict.fromkeys(one.method for one in solved)),
+        tuple(dict.fromkeys(text for one in solved for text in one.warnings)),
+    )
+
+
+def _in_words(road: Pavement) -> str:
+    material = road.layers[0].resolved
+    if road.is_homogeneous:
+        return f"one material, {material}"
+    return f"{len(road.layers)} layer(s){' on a rigid base' if road.rigid_base else ''}, top {material}"
 
 
 def _warnings(loads: Sequence[GridLoad], depths: Array) -> tuple[str, ...]:
