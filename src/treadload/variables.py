@@ -81,8 +81,11 @@ _RESPONSE = {
     "von_mises_stress": ("Pa", "von Mises equivalent stress"),
     "octahedral_shear_stress": ("Pa", "octahedral shear stress"),
     "mean_stress": ("Pa", "mean stress, tension positive"),
-    "dissipated_energy": ("J/m^3", "energy per volume that one passage of the moving load dissipates"),
     "mazars_strain": ("1", "equivalent strain of Mazars, from the extensions alone"),
+}
+
+_MOVING = {
+    "dissipated_energy": ("J/m^3", "energy per volume that one passage of the moving load dissipates"),
 }
 
 _DAMAGE = {
@@ -129,6 +132,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_CONTACT,
     **_HISTORY,
     **_RESPONSE,
+    **_MOVING,
     **_DAMAGE,
     **_CRITERIA,
     **_LIFE,

@@ -169,3 +169,32 @@ def test_wake_of_one_term_is_its_integral(length):
 
     # Fifty cells of the load: second order.
     np.testing.assert_allclose(moved[0, 2, 0], [expected(at) for at in x], rtol=1e-5)
+
+
+def test_bilinear_loads_and_half_bonded_layers_keep_their_limits():
+    soft = GridLoad(GRID, load().pressure, load().traction_x, load().traction_y, interpolation="bilinear")
+    half = road(bond=tl.HALF_BONDED)
+    points = {"depths": [0.0, 0.15], "x": [-0.1, 0.013], "y": [0.0]}
+    for speed in (1e-9, 1e9):
+        moved = tl.solve_response(soft, half, speed=speed, **points).dataset
+        fixed = tl.solve_response(soft, half, speed=0 if speed < 1 else math.inf, **points).dataset
+        for name in KINDS[:12]:
+            assert np.abs(moved[name] - fixed[name]).max() <= 1e-6 * np.abs(fixed[name]).max(), name
+
+
+def test_bilinear_wake_is_that_of_finer_cells():
+    """Half-space, in between the limits: the bilinear load against itself on cells of a sixth."""
+    x, y = GRID.x[:, None], GRID.y
+    pressure = 1e6 * np.cos(8 * x.T) * np.cos(10 * y[:, None])
+    soft = GridLoad(GRID, pressure, 0.2 * pressure, interpolation="bilinear")
+    fine = Grid(60, 48, 0.02 / 6, 0.02 / 6, -0.1 + 0.01 / 6, -0.08 + 0.01 / 6)
+    hats = [np.maximum(0, 1 - np.abs(f[:, None] - c) / 0.02) for f, c in ((fine.y, GRID.y), (fine.x, GRID.x))]
+    parts = [hats[0] @ field @ hats[1].T for field in (soft.pressure, soft.traction_x)]
+    points = {"depths": [0.02], "x": [-0.13, -0.05, 0.0], "y": [0.01], "speed": 1.0}
+    one = tl.solve_response(soft, tl.Pavement.half_space(SOLID), **points).dataset
+    other = tl.solve_response(GridLoad(fine, *parts), tl.Pavement.half_space(SOLID), **points).dataset
+    for name in KINDS[6:]:
+        # Both stand for the same load to second order in 3 mm over 20 mm of depth.
+        assert np.abs(one[name] - other[name]).max() <= 5e-3 * max(
+            float(np.abs(other[n]).max()) for n in (KINDS[6:12] if "strain" in name else KINDS[12:])
+        ), name
