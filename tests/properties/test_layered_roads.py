@@ -5,7 +5,7 @@ import pytest
 
 import treadload as tl
 from treadload.grid import Grid
-from treadload.response import GridLoad
+from treadload.response import GridLoad, layered
 
 ASPHALT, BASE, SOIL = tl.Elastic(7e9, 0.35), tl.Elastic(9e9, 0.3), tl.Elastic(5e7, 0.4)
 GRID = Grid(9, 7, 0.02, 0.02, -0.08, -0.06)
@@ -136,3 +136,26 @@ def test_a_rigid_base_does_not_move():
     for axis in "xyz":
         moved = np.abs(data[f"displacement_{axis}"].to_numpy())
         assert moved[1].max() <= 1e-9 * moved[0].max()
+
+
+def test_waves_alone_are_the_half_space_split_off_and_what_the_layers_add(monkeypatch):
+    points = {"depths": [0.0, 0.02, 0.05], "x": np.linspace(-0.1, 0.1, 4), "y": [0.0, 0.013]}
+    monkeypatch.setattr(layered, "_WAVE_COST", 0.0)
+    alone = tl.solve_response(load(), road(), **points).dataset
+    monkeypatch.setattr(layered, "_WAVE_COST", 1e9)
+    split = tl.solve_response(load(), road(), **points).dataset
+    close(alone, split, 1e-8)
+
+
+def test_a_thin_surfacing_under_a_footprint_is_not_refused():
+    thin = tl.Pavement([tl.Layer(tl.Elastic(3e9, 0.35), 0.01), tl.Layer(BASE, 0.2), tl.Layer(SOIL)])
+    cells = Grid.centred(0.06, 0.06, 3e-3)
+    pressure = 8e5 * np.ones(cells.shape)
+    patch = GridLoad(cells, pressure, 0.3 * pressure, -0.1 * pressure)
+    points = {"depths": [0.0, 0.005, 0.01, 0.02], "x": [-0.031, 0.0, 0.4], "y": [0.0]}
+    found = tl.solve_response(patch, thin, **points).dataset
+    # The same as one rectangle: its waves are those of no cells at all.
+    one = tl.UniformRectangle(0.06, 0.06, 8e5, traction_x=0.3 * 8e5, traction_y=-0.1 * 8e5)
+    whole = tl.solve_response(one, thin, **points).dataset
+    for depth in points["depths"]:
+        close(found.sel(depth=depth), whole.sel(depth=depth), 1e-8)

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.convolution import Padding
-from treadload.kernels.interior import as_lattices, loaded_part
+from treadload.kernels.lattice import as_lattices, loaded_part
 from treadload.kernels.wavenumbers import Spectrum, cells_spectrum
 
 _XX, _YY, _ZZ, _XY, _XZ, _YZ, _UX, _UY, _UZ = range(9)

@@ -21,13 +21,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from treadload.kernels.arrays import Array, ComplexArray
-from treadload.kernels.convolution import Padding
+from treadload.kernels.arrays import Array
+from treadload.kernels.lattice import Corner, Corners, at_points, on_grid, on_lattice
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _XX, _YY, _ZZ, _XY, _XZ, _YZ = range(6)
@@ -35,16 +35,6 @@ _P, _QX, _QY = range(3)
 
 # Distances below this part of a cell are zero: round-off of coordinates, not geometry.
 _SNAP = 1e-9
-# Output coordinates whose place within a cell differs by less than this part of a cell share a lattice.
-_SAME_PLACE = 1e-6
-# Points times corners evaluated at once: keeps the temporaries of the direct sum in cache.
-_BLOCK = 200_000
-# Measured: a padded cell of a lattice costs about twice as much as a point-corner pair of the direct sum.
-_LATTICE_COST = 2.0
-
-_Indices = NDArray[np.integer[Any]]
-_Use = tuple[int, int]
-_Corner = tuple[Array, tuple[_Use, ...]]
 
 
 def rectangle_stress(x: Array, y: Array, z: float, dx: float, dy: float, poisson: float) -> Array:
@@ -60,10 +50,10 @@ def rectangle_stress(x: Array, y: Array, z: float, dx: float, dy: float, poisson
     for sign_x in (1, -1):
         for sign_y in (1, -1):
             corner_x, corner_y = x + sign_x * dx / 2, y + sign_y * dy / 2
-            for values, uses in _corners(corner_x, corner_y, z, dx, dy, poisson):
+            for values, uses in stress_corners(elementary(corner_x, corner_y, z, dx, dy), poisson):
                 for load, component in uses:
                     stress[load, component] += sign_x * sign_y * values
-    if _is_surface(z, dx, dy):
+    if is_surface(z, dx, dy):
         inside = _share(x, dx) * _share(y, dy)
         for k, unit in enumerate(np.eye(3)):
             _add_surface_load(stress[k], np.multiply.outer(unit, inside), poisson)
@@ -90,56 +80,9 @@ def stress_on_lattice(
     """
     _, ny, nx = load.shape
     my, mx = (ny, nx) if shape is None else shape
-    padding = Padding.of((ny, nx), (my, mx))
-    active = [k for k in range(3) if load[k].any()]
-    transformed = {k: padding.forward(load[k]) for k in active}
-    # Neighbouring offsets share their corners: one more corner than offsets each way.
-    corner_x = (x0 + dx * (np.arange(nx + mx) - nx + 0.5))[None, :]
-    corner_y = (y0 + dy * (np.arange(ny + my) - ny + 0.5))[:, None]
-    place = np.ix_(np.arange(1 - ny, my) % padding.shape[0], np.arange(1 - nx, mx) % padding.shape[1])
-    share_x = _share(x0 + dx * (np.arange(mx)[:, None] - np.arange(nx)), dx)
-    share_y = _share(y0 + dy * (np.arange(my)[:, None] - np.arange(ny)), dy)
-
-    stress = np.zeros((len(depths), 6, my, mx))
-    kernel = np.zeros(padding.shape)
-    for field, depth in zip(stress, depths, strict=True):
-        spectra: dict[int, ComplexArray] = {}
-        for values, uses in _corners(corner_x, corner_y, float(depth), dx, dy, poisson):
-            wanted = [(k, component) for k, component in uses if k in transformed]
-            if not wanted:
-                continue
-            kernel[place] = np.diff(np.diff(values, axis=0), axis=1)
-            spectrum = padding.spectrum(kernel)
-            for k, component in wanted:
-                product = spectrum * transformed[k]
-                spectra[component] = spectra[component] + product if component in spectra else product
-        for component, spectrum in spectra.items():
-            field[component] = padding.inverse(spectrum)
-        if _is_surface(float(depth), dx, dy):
-            _add_surface_load(field, share_y @ load @ share_x.T, poisson)
+    stress = on_lattice(load, dx, dy, depths, _corners(dx, dy, poisson), 6, (my, mx), x0, y0)
+    add_standing_load(stress, load, dx, dy, depths, poisson, x0 + dx * np.arange(mx), y0 + dy * np.arange(my))
     return stress
-
-
-def corner_jumps(load: Array) -> Array:
-    """Second differences (3, corners) of a load (3, ny, nx): corners carry it with a quarter of the evaluations."""
-    jumps: Array = np.diff(np.diff(np.pad(load, ((0, 0), (1, 1), (1, 1))), axis=1), axis=2).reshape(3, -1)
-    return jumps
-
-
-def corner_blocks(
-    shape: tuple[int, int], dx: float, dy: float, x: Array, y: Array
-) -> Iterator[tuple[slice, Array, Array]]:
-    """Blocks of points with their distances from all corners of (ny, nx) cells: memory does not grow with the points.
-
-    x, y: (n,) position of the points relative to the centre of the first cell, m. Yields the block, then X
-    (block, 1, nx + 1) and Y (block, ny + 1, 1), m.
-    """
-    ny, nx = shape
-    edge_x, edge_y = dx * (np.arange(nx + 1) - 0.5), dy * (np.arange(ny + 1) - 0.5)
-    step = max(1, _BLOCK // (edge_x.size * edge_y.size))
-    for start in range(0, len(x), step):
-        block = slice(start, start + step)
-        yield block, x[block, None, None] - edge_x[None, None, :], y[block, None, None] - edge_y[None, :, None]
 
 
 def stress_at_points(load: Array, dx: float, dy: float, depths: Array, poisson: float, x: Array, y: Array) -> Array:
@@ -150,20 +93,11 @@ def stress_at_points(load: Array, dx: float, dy: float, depths: Array, poisson: 
     Returns (nz, 6, n), Pa. Works in blocks of points: memory does not grow with their number.
     """
     _, ny, nx = load.shape
-    jumps = corner_jumps(load)
-    active = [k for k in range(3) if load[k].any()]
-    stress = np.zeros((len(depths), 6, len(x)))
-    for block, corner_x, corner_y in corner_blocks((ny, nx), dx, dy, x, y):
-        for field, depth in zip(stress, depths, strict=True):
-            for values, uses in _corners(corner_x, corner_y, float(depth), dx, dy, poisson):
-                for k, component in uses:
-                    if k in active:
-                        field[component, block] += values.reshape(len(values), -1) @ jumps[k]
-            if _is_surface(float(depth), dx, dy):
-                share_x = _share(x[block, None] - dx * np.arange(nx), dx)
-                share_y = _share(y[block, None] - dy * np.arange(ny), dy)
-                local = np.einsum("nj,kji,ni->kn", share_y, load, share_x, optimize=True)
-                _add_surface_load(field[:, block], local, poisson)
+    stress = at_points(load, dx, dy, depths, _corners(dx, dy, poisson), 6, x, y)
+    for row in np.flatnonzero(is_surface(depths, dx, dy)):
+        share_x = _share(x[:, None] - dx * np.arange(nx), dx)
+        share_y = _share(y[:, None] - dy * np.arange(ny), dy)
+        _add_surface_load(stress[row], np.einsum("nj,kji,ni->kn", share_y, load, share_x, optimize=True), poisson)
     return stress
 
 
@@ -178,65 +112,34 @@ def stress_on_grid(
     *,
     method: str = "auto",
 ) -> tuple[Array, str]:
-    """Stress on the grid of any coordinates x and y, by the cheaper of the two ways.
-
-    Coordinates that are a whole number of cells apart form a lattice; a grid twice as fine as the load's
-    is four of them. Each goes through `stress_on_lattice`, unless summing directly costs less.
+    """Stress on the grid of any coordinates x and y, by the cheaper of the two ways, see `kernels.lattice.on_grid`.
 
     load: (3, ny, nx), Pa. dx, dy: cell, m. depths: (nz,), m, >= 0. poisson: Poisson's ratio.
     x: (mx,), y: (my,): coordinates relative to the centre of the first cell, m, in any order.
     method: "auto", "fft" or "direct". Returns (nz, 6, my, mx), Pa, and the method used.
     """
-    stress = np.zeros((len(depths), 6, len(y), len(x)))
-    part_loaded = loaded_part(load)
-    if part_loaded is None:
-        return stress, "none"
-    load, row, column = part_loaded
-    x, y = x - dx * column, y - dy * row
-    lattices_x, lattices_y = as_lattices(x, dx), as_lattices(y, dy)
-    _, ny, nx = load.shape
-    if method == "auto":
-        padded = sum(nx + count for _, count, _, _ in lattices_x) * sum(ny + count for _, count, _, _ in lattices_y)
-        pairs = len(x) * len(y) * (nx + 1) * (ny + 1)
-        method = "fft" if _LATTICE_COST * padded <= pairs else "direct"
-    if method == "direct":
-        grid_y, grid_x = np.meshgrid(y, x, indexing="ij")
-        points = stress_at_points(load, dx, dy, depths, poisson, grid_x.ravel(), grid_y.ravel())
-        return points.reshape(stress.shape), method
-    for y0, count_y, at_y, from_y in lattices_y:
-        for x0, count_x, at_x, from_x in lattices_x:
-            part = stress_on_lattice(load, dx, dy, depths, poisson, shape=(count_y, count_x), x0=x0, y0=y0)
-            stress[:, :, at_y[:, None], at_x] = part[:, :, from_y[:, None], from_x]
+    stress, method = on_grid(load, dx, dy, depths, _corners(dx, dy, poisson), 6, x, y, method)
+    add_standing_load(stress, load, dx, dy, depths, poisson, x, y)
     return stress, method
 
 
-def loaded_part(load: Array) -> tuple[Array, int, int] | None:
-    """The load (3, ny, nx) without unloaded margins, its first row and column; None without load."""
-    rows, columns = np.flatnonzero(load.any(axis=(0, 2))), np.flatnonzero(load.any(axis=(0, 1)))
-    if not len(rows):
-        return None
-    # Unloaded rows and columns around the footprint do nothing but cost.
-    part = load[:, rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    return part, int(rows[0]), int(columns[0])
-
-
-def as_lattices(x: Array, dx: float) -> list[tuple[float, int, _Indices, _Indices]]:
-    """Coordinates as lattices of spacing dx: first point, number of points, indices into x and into the lattice."""
-    cells = x / dx
-    whole = np.floor(cells + _SAME_PLACE)
-    place = cells - whole
-    order = np.argsort(place, kind="stable")
-    cuts = np.nonzero(np.diff(place[order]) > _SAME_PLACE)[0] + 1
-    lattices: list[tuple[float, int, _Indices, _Indices]] = []
-    for members in np.split(order, cuts):
-        first, last = whole[members].min(), whole[members].max()
-        start = dx * (first + place[members].mean())
-        lattices.append((float(start), int(last - first) + 1, members, (whole[members] - first).astype(int)))
-    return lattices
-
-
-def _is_surface(z: float, dx: float, dy: float) -> bool:
+def is_surface(z: Array | float, dx: float, dy: float) -> Any:
+    """Whether a depth is the surface."""
     return z <= _SNAP * min(dx, dy)
+
+
+def add_standing_load(
+    stress: Array, load: Array, dx: float, dy: float, depths: Array, poisson: float, x: Array, y: Array
+) -> None:
+    """Add to stress (nz, 6 or more, my, mx) what the load gives where it stands itself, at depths of the surface."""
+    rows = np.flatnonzero(is_surface(depths, dx, dy))
+    if not rows.size:
+        return
+    _, ny, nx = load.shape
+    share_x, share_y = _share(x[:, None] - dx * np.arange(nx), dx), _share(y[:, None] - dy * np.arange(ny), dy)
+    local = share_y @ load @ share_x.T
+    for row in rows:
+        _add_surface_load(stress[row], local, poisson)
 
 
 def _snapped(x: Array, dx: float) -> Array:
@@ -258,66 +161,95 @@ def _add_surface_load(stress: Array, load: Array, poisson: float) -> None:
     stress[_YZ] -= load[_QY]
 
 
-def _corners(x: Array, y: Array, z: float, dx: float, dy: float, poisson: float) -> Iterator[_Corner]:
+@dataclass(frozen=True)
+class Elementary:
+    """Functions of the distance x, y, z to a corner, m, that the fields of a rectangle are made of.
+
+    r: R. log_x, log_y: asinh(x / √(y² + z²)), asinh(y / √(x² + z²)). log_r: ln(R + z). turn: atan(x y / z R).
+    turn_x, turn_y: atan(x y (R - z) / (x² R + z y²)) and the same with x and y exchanged.
+    At the surface z is zero and so is turn: its jump under the load is left to `add_standing_load`.
+    """
+
+    x: Array
+    y: Array
+    z: float
+    r: Array
+    log_x: Array
+    log_y: Array
+    log_r: Array
+    turn: Array | float
+    turn_x: Array
+    turn_y: Array
+
+
+def elementary(x: Array, y: Array, z: float, dx: float, dy: float) -> Elementary:
+    """The functions at (x, y, z) from a corner of cells dx by dy, broadcast from x and y."""
+    x, y = _snapped(x, dx), _snapped(y, dy)
+    surface = is_surface(z, dx, dy)
+    if surface:
+        z = 0.0
+        # Σ ln|k| over k ≠ 0 is that of its integral plus ln 2π: the cut on an edge takes the rest away.
+        edge_x = np.where(x == 0, dx / (2 * math.pi), np.abs(x))
+        edge_y = np.where(y == 0, dy / (2 * math.pi), np.abs(y))
+        r = np.hypot(x, y)
+        # The same for a lattice of corners: 0.27 of a square cell.
+        far = np.where(r == 0, 0.27 * math.sqrt(dx * dy), r)
+    else:
+        edge_x, edge_y = np.sqrt(x * x + z * z), np.sqrt(y * y + z * z)
+        r = np.sqrt(x * x + y * y + z * z)
+        far = r + z
+    # R - z without cancellation deep below the load.
+    slope = x * y * ((x * x + y * y) / far)
+    return Elementary(
+        x=x,
+        y=y,
+        z=z,
+        r=r,
+        log_x=np.arcsinh(x / edge_y),
+        log_y=np.arcsinh(y / edge_x),
+        log_r=np.log(far),
+        turn=0.0 if surface else np.arctan2(x * y, z * r),
+        turn_x=np.arctan2(slope, x * x * r + z * y * y),
+        turn_y=np.arctan2(slope, y * y * r + z * x * x),
+    )
+
+
+def _corners(dx: float, dy: float, poisson: float) -> Corners:
+    return lambda x, y, z: stress_corners(elementary(x, y, z, dx, dy), poisson)
+
+
+def stress_corners(e: Elementary, nu: float) -> Iterator[Corner]:
     """Functions of the distance to a corner whose alternating sum is the stress of a rectangle.
 
-    Yields each function, broadcast from x and y, with the (load, component) pairs that use it.
+    Yields each with the (load, component) pairs that use it. At the surface, z → 0+, without the part of the load
+    itself, see `add_standing_load`.
     """
-    x, y = _snapped(x, dx), _snapped(y, dy)
-    if _is_surface(z, dx, dy):
-        return _surface_corners(x, y, dx, dy, poisson)
-    return _interior_corners(x, y, z, poisson)
-
-
-def _interior_corners(x: Array, y: Array, z: float, nu: float) -> Iterator[_Corner]:
-    x2, y2, unit = x * x + z * z, y * y + z * z, 1 / (2 * math.pi)
-    r = np.sqrt(x2 + y * y)
-    xy, zr, s = x * y, z / r, unit / (r + z)
-    log_y, log_x = unit * np.arcsinh(y / np.sqrt(x2)), unit * np.arcsinh(x / np.sqrt(y2))
-    turn = unit * np.arctan2(xy, z * r)
-    # R - z without cancellation deep below the load.
-    slope = xy * ((x * x + y * y) / (r + z))
-    turn_x = unit * np.arctan2(slope, x * x * r + z * y * y)
-    turn_y = unit * np.arctan2(slope, y * y * r + z * x * x)
-    a, b = unit * zr * (x / x2) * y, unit * zr * x * (y / y2)
-    yield -2 * nu * turn + a - (1 - 2 * nu) * turn_x, ((_P, _XX),)
-    yield -2 * nu * turn + b - (1 - 2 * nu) * turn_y, ((_P, _YY),)
-    yield -turn - a - b, ((_P, _ZZ),)
-    yield -unit * ((1 - 2 * nu) * np.log(r + z) + zr), ((_P, _XY),)
-    yield a - turn, ((_QX, _XZ),)
-    yield b - turn, ((_QY, _YZ),)
-    yield -unit * zr, ((_QX, _YZ), (_QY, _XZ))
-    c, d = unit * z * zr * (y / x2), unit * z * zr * (x / y2)
-    yield c, ((_P, _XZ), (_QX, _ZZ))
-    yield d, ((_P, _YZ), (_QY, _ZZ))
-    ys, xs = y * s, x * s
-    yield 2 * log_y + (2 * nu + zr) * ys - c, ((_QX, _XX),)
-    yield 2 * log_x + (2 * nu + zr) * xs - d, ((_QY, _YY),)
-    yield 2 * nu * log_y - (2 * nu + zr) * ys, ((_QX, _YY),)
-    yield 2 * nu * log_x - (2 * nu + zr) * xs, ((_QY, _XX),)
-    yield log_x - (2 * nu + zr) * xs, ((_QX, _XY),)
-    yield log_y - (2 * nu + zr) * ys, ((_QY, _XY),)
-
-
-def _surface_corners(x: Array, y: Array, dx: float, dy: float, nu: float) -> Iterator[_Corner]:
-    """Limits for z → 0+, without the part of the load itself (`_add_surface_load`)."""
-    unit = 1 / (2 * math.pi)
-    r = np.hypot(x, y)
-    # Σ ln|k| over k ≠ 0 is that of its integral plus ln 2π: the cut on an edge takes the rest away.
-    edge_x = np.where(x == 0, dx / (2 * math.pi), np.abs(x))
-    edge_y = np.where(y == 0, dy / (2 * math.pi), np.abs(y))
-    log_y, log_x = unit * np.arcsinh(y / edge_x), unit * np.arcsinh(x / edge_y)
-    far = np.where(r == 0, 1.0, r)
-    ys, xs = unit * y / far, unit * x / far
-    xy = x * y
-    yield -(1 - 2 * nu) * unit * np.arctan2(xy, x * x), ((_P, _XX),)
-    yield -(1 - 2 * nu) * unit * np.arctan2(xy, y * y), ((_P, _YY),)
-    # The same for a lattice of corners: 0.27 of a square cell.
-    corner = 0.27 * math.sqrt(dx * dy)
-    yield -(1 - 2 * nu) * unit * np.log(np.where(r == 0, corner, r)), ((_P, _XY),)
-    yield 2 * log_y + 2 * nu * ys, ((_QX, _XX),)
-    yield 2 * log_x + 2 * nu * xs, ((_QY, _YY),)
-    yield 2 * nu * (log_y - ys), ((_QX, _YY),)
-    yield 2 * nu * (log_x - xs), ((_QY, _XX),)
-    yield log_x - 2 * nu * xs, ((_QX, _XY),)
-    yield log_y - 2 * nu * ys, ((_QY, _XY),)
+    unit, x, y, z = 1 / (2 * math.pi), e.x, e.y, e.z
+    turn: Any = e.turn
+    log_x, log_y, soft = 2 * unit * e.log_x, 2 * unit * e.log_y, 1 - 2 * nu
+    far = e.r + z if z > 0 else np.where(e.r == 0, 1.0, e.r)
+    zr: Any = z / e.r if z > 0 else 0.0
+    a: Any = 0.0
+    b: Any = 0.0
+    if z > 0:
+        a, b = zr * (x / (x * x + z * z)) * y, zr * x * (y / (y * y + z * z))
+    yield unit * (a - 2 * nu * turn - soft * e.turn_x), ((_P, _XX),)
+    yield unit * (b - 2 * nu * turn - soft * e.turn_y), ((_P, _YY),)
+    yield -unit * (soft * e.log_r + zr), ((_P, _XY),)
+    across_x, across_y = unit * (2 * nu + zr) * x / far, unit * (2 * nu + zr) * y / far
+    c: Any = 0.0
+    d: Any = 0.0
+    if z > 0:
+        c, d = (unit * z) * zr * (y / (x * x + z * z)), (unit * z) * zr * (x / (y * y + z * z))
+        yield c, ((_P, _XZ), (_QX, _ZZ))
+        yield d, ((_P, _YZ), (_QY, _ZZ))
+        yield -unit * (turn + a + b), ((_P, _ZZ),)
+        yield unit * (a - turn), ((_QX, _XZ),)
+        yield unit * (b - turn), ((_QY, _YZ),)
+        yield -unit * zr, ((_QX, _YZ), (_QY, _XZ))
+    yield log_y + across_y - c, ((_QX, _XX),)
+    yield log_x + across_x - d, ((_QY, _YY),)
+    yield nu * log_y - across_y, ((_QX, _YY),)
+    yield nu * log_x - across_x, ((_QY, _XX),)
+    yield 0.5 * log_x - across_x, ((_QX, _XY),)
+    yield 0.5 * log_y - across_y, ((_QY, _XY),)

@@ -9,8 +9,7 @@ import numpy as np
 from treadload.kernels.arrays import Array
 from treadload.kernels.bilinear import bilinear_on_grid
 from treadload.kernels.disc import disc_fields
-from treadload.kernels.displacement import displacement_on_grid
-from treadload.kernels.interior import stress_on_grid
+from treadload.kernels.displacement import fields_on_grid
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.response.loads import SurfaceLoad, UniformDisc
@@ -44,11 +43,8 @@ def half_space_response(
             continue
         grid = load.grid
         at_x, at_y = x - grid.x0, y - grid.y0
-        if load.interpolation == "bilinear":
-            part, moved, method = bilinear_on_grid(load.array, grid.dx, grid.dy, depths, shear, poisson, at_x, at_y)
-        else:
-            part, method = stress_on_grid(load.array, grid.dx, grid.dy, depths, poisson, at_x, at_y)
-            moved = displacement_on_grid(load.array, grid.dx, grid.dy, depths, shear, poisson, at_x, at_y)
+        on_grid = bilinear_on_grid if load.interpolation == "bilinear" else fields_on_grid
+        part, moved, method = on_grid(load.array, grid.dx, grid.dy, depths, shear, poisson, at_x, at_y)
         stress += np.moveaxis(part, 1, 0)
         displacement += np.moveaxis(moved, 1, 0)
         methods.add(method)

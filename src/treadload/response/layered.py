@@ -11,9 +11,11 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.hankel import AxialPlanes, Disc, synthesise_discs
+from treadload.kernels.lattice import grid_cost
 from treadload.kernels.layered import Stack, transfer
 from treadload.kernels.synthesis import Cells, ElasticPlane, rule, synthesise_cells
 from treadload.kernels.tensors import strain_from_stress
+from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.response.half_space import half_space_response
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
@@ -23,6 +25,8 @@ from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 _FALL = 33.0
 # Nearer to the first interface than this part of its depth the split gains nothing and costs the closed form.
 _SPLIT = 0.9
+# A wavenumber costs so many pairs of a point and a corner in the closed form, measured.
+_WAVE_COST = 1.4
 # A net shear force below this part of the shear in all is round-off.
 _NET = 1e-9
 # Wavenumbers that one response may take: about a minute.
@@ -39,8 +43,8 @@ def layered_response(
     depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates. below: whether a depth on an interface takes
     the layer below it.
     Returns stress (6, nz, my, mx) in Pa, strain likewise, displacement (3, nz, my, mx) in m, z down; and the
-    method. In the top layer the closed form of a half-space of its material carries the steps of the load;
-    what the layers add falls off like exp(-k (2 h - z)). Deeper the waves fall off like exp(-k z) themselves.
+    method. Near the surface the closed form of a half-space of the top layer carries the steps of the load; what
+    the layers add falls off like exp(-k (2 h - z)). Deeper the waves fall off like exp(-k z) themselves.
     Displacement along a net shear force is NaN in the layers above a frictionless interface: nothing holds them.
     Raises InputError below a rigid base and where that decay is too slow for the distance of the points.
     """
@@ -58,26 +62,22 @@ def layered_response(
         raise InputError(
             f"depth {depths.max():g} m lies below the rigid base at {stack.interfaces[-1]:g} m; leave it out"
         )
-    top = stack.interfaces[0]
-    split = [layer == 0 and z < _SPLIT * top for z, layer in zip(depths, where, strict=True)]
-    limits = [_FALL / (2 * top - z if near else z) for z, near in zip(depths, split, strict=True)]
     length = max(float(stack.interfaces[-1]) * (max(stack.shear) / min(stack.shear)) ** (1 / 3), float(depths.max()))
-    waves = np.zeros((len(depths), 9, len(y), len(x)))
+    near = [layer == 0 and z < _SPLIT * stack.interfaces[0] for z, layer in zip(depths, where, strict=True)]
+    layout = _Layout(stack, depths, where, below, near)
+    fields = np.zeros((len(depths), 9, len(y), len(x)))
+    methods = {"layered"}
     discs = [load for load in loads if isinstance(load, UniformDisc)]
     gridded = [load for load in loads if isinstance(load, GridLoad)]
-    layout = _Layout(stack, depths, where, [below] * len(depths), split, np.array(limits))
     if discs:
-        waves += _under_discs(discs, layout, x, y, length)
+        fields += _under_discs(discs, layout, x, y, length)
+        methods.add(_add_top(fields, discs, layout, materials[0], x, y))
     if gridded:
-        waves += _under_cells(gridded, layout, x, y, length)
-    stress, displacement = np.moveaxis(waves[:, :6], 1, 0).copy(), np.moveaxis(waves[:, 6:], 1, 0).copy()
-    method = "layered"
-    shallow = [row for row, near in enumerate(split) if near]
-    if shallow:
-        part, _, moved, used = half_space_response(loads, materials[0], depths[shallow], x, y)
-        stress[:, shallow] += part
-        displacement[:, shallow] += moved
-        method = f"layered+{used}"
+        layout = replace(layout, split=_worth_splitting(gridded, layout, x, y, length))
+        fields += _under_cells(gridded, layout, x, y, length)
+        methods.add(_add_top(fields, gridded, layout, materials[0], x, y))
+    stress, displacement = np.moveaxis(fields[:, :6], 1, 0).copy(), np.moveaxis(fields[:, 6:], 1, 0).copy()
+    method = "+".join(sorted(methods - {"none"}, key=lambda name: (name != "layered", name)))
     drifting = _drifting(stack, loads)
     for component, drifts in enumerate(drifting):
         if drifts:
@@ -109,20 +109,67 @@ class _Layout:
     stack: Stack
     depths: Array
     where: list[int]
-    below: list[bool]
+    below: bool
     split: list[bool]
-    limit: Array
+
+    @property
+    def limit(self) -> Array:
+        """Largest wavenumber that matters at each depth, 1/m."""
+        top = float(self.stack.interfaces[0])
+        return np.array(
+            [_FALL / (2 * top - z if near else z) for z, near in zip(self.depths, self.split, strict=True)]
+        )
+
+    @property
+    def rows(self) -> list[int]:
+        """Depths at which the half-space is split off."""
+        return [row for row, near in enumerate(self.split) if near]
 
     def kernels(self, k: Array) -> tuple[Array, Array]:
         """What unit loads do, (nz, 4, 2, nk) and (nz, 2, nk), without the half-space where it is split off."""
-        result = transfer(k, self.stack, list(self.depths), self.below)
-        rows = [row for row, near in enumerate(self.split) if near]
+        result = transfer(k, self.stack, list(self.depths), [self.below] * len(self.depths))
+        rows = self.rows
         if rows:
             top = Stack([self.stack.shear[0]], [self.stack.poisson[0]], [], [])
             alone = transfer(k, top, list(self.depths[rows]), [False] * len(rows))
             result.plane[rows] -= alone.plane
             result.transverse[rows] -= alone.transverse
         return result.plane, result.transverse
+
+
+def _add_top(
+    fields: Array, loads: Sequence[SurfaceLoad], layout: _Layout, material: Elastic, x: Array, y: Array
+) -> str:
+    """Add the top layer's half-space where it was split off; the method that gave it."""
+    if not layout.rows:
+        return "none"
+    stress, _, displacement, method = half_space_response(loads, material, layout.depths[layout.rows], x, y)
+    fields[layout.rows, :6] += np.moveaxis(stress, 1, 0)
+    fields[layout.rows, 6:] += np.moveaxis(displacement, 1, 0)
+    return method
+
+
+def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float) -> list[bool]:
+    """Where the half-space is split off: not at depths where the waves alone cost less than its closed form."""
+    closed = sum(grid_cost(one.array, one.grid.dx, one.grid.dy, x - one.grid.x0, y - one.grid.y0) for one in loads)
+
+    def worth(row: int) -> bool:
+        z = float(layout.depths[row])
+        if not layout.split[row] or z == 0:
+            return layout.split[row]
+        along, across = _rules(loads, _FALL / z, x, y, length)
+        return closed < _WAVE_COST * len(along[0]) * len(across[0])
+
+    return [worth(row) for row in range(len(layout.depths))]
+
+
+def _rules(
+    loads: Sequence[GridLoad], limit: float, x: Array, y: Array, length: float
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Nodes and weights in kx and ky up to a limit."""
+    reach_x, reach_y = _reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y)
+    longest = max(length, reach_x, reach_y)
+    return rule(limit, reach_x, longest), rule(limit, reach_y, longest)
 
 
 def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Array, length: float) -> Array:
@@ -142,11 +189,10 @@ def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Arr
 
 def _under_cells(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float) -> Array:
     """Fields (nz, 9, my, mx) of gridded loads by wavenumbers in both directions."""
-    reach_x, reach_y = _reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y)
-    length, most = max(length, reach_x, reach_y), float(layout.limit.max())
-    along, across = rule(most, reach_x, length), rule(most, reach_y, length)
+    along, across = _rules(loads, float(layout.limit.max()), x, y, length)
     if len(along[0]) * len(across[0]) > _MOST:
-        raise InputError(_too_many(layout, max(reach_x, reach_y), f"{len(along[0])} x {len(across[0])}", _MOST))
+        reach = max(_reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y))
+        raise InputError(_too_many(layout, reach, f"{len(along[0])} x {len(across[0])}", _MOST))
     cells = [
         Cells(one.array, grid.dx, grid.dy, grid.x0, grid.y0, 2 if one.interpolation == "bilinear" else 1)
         for one in loads
@@ -157,7 +203,7 @@ def _under_cells(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array,
 
 def _plane(layout: _Layout, row: int) -> ElasticPlane:
     one = slice(row, row + 1)
-    alone = replace(layout, depths=layout.depths[one], below=layout.below[one], split=layout.split[one])
+    alone = replace(layout, depths=layout.depths[one], where=layout.where[one], split=layout.split[one])
 
     def kernels(k: Array) -> tuple[Array, Array]:
         plane, transverse = alone.kernels(k)
