@@ -75,7 +75,7 @@ def solve_coupled(
     Bodies whose Dundurs' β is below the tolerance count as alike. Raises InputError where nothing touches or
     friction cannot carry the forces, ConvergenceError with the residual reached.
     """
-    coupled = abs(influence.bodies.dundurs) > tolerance
+    coupled = abs(influence.dundurs) > tolerance
     offset: Array = np.zeros(grid.shape)
     if coupled and start is not None:
         offset = influence.gap_by_shear(start.tangential.shear)
@@ -110,7 +110,7 @@ def solve_coupled(
         change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
     raise ConvergenceError(
         f"normal and tangential contact did not settle in {_MOST_ROUNDS} rounds: the pressure still changes by "
-        f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.bodies.dundurs:.3f}); "
+        f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.dundurs:.3f}); "
         "lower the friction or raise the tolerance",
         change,
     )

@@ -41,10 +41,15 @@ class Influence:
         """True if loads work on each other's displacements alike, as in elastic bodies."""
         return True
 
+    @property
+    def dundurs(self) -> float:
+        """Dundurs' β: how strongly pressure and shear are coupled."""
+        return self.bodies.dundurs
+
     @cached_property
     def normal(self) -> Convolution:
         """Gap opening by pressure, m/Pa."""
-        quadrant = rectangle.normal_by_pressure(*self.padding.quadrant, self.dx, self.dy, self.bodies)
+        quadrant = self._by_pressure(*self.padding.quadrant)
         return Convolution.of_kernel(self.padding, self.padding.wrap(quadrant), even=True)
 
     def tangential(self, padding: Padding) -> Array | ComplexArray:
@@ -52,13 +57,13 @@ class Influence:
 
         Real for symmetric operators.
         """
-        xx, yy, xy = rectangle.tangential_by_shear(*padding.quadrant, self.dx, self.dy, self.bodies)
+        xx, yy, xy = self._by_shear(*padding.quadrant)
         wrapped = padding.wrap(xx), padding.wrap(yy), padding.wrap(xy, -1, -1)
         return np.array([padding.spectrum(kernel).real for kernel in wrapped])
 
     def self_influence(self, *, rolls: bool) -> float:
         """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
-        xx = rectangle.tangential_by_shear(1, 2, self.dx, self.dy, self.bodies)[0]
+        xx = self._by_shear(1, 2)[0]
         return float(xx[0, 0] - xx[0, 1]) if rolls else float(xx[0, 0])
 
     @cached_property
@@ -91,8 +96,20 @@ class Influence:
         return self.padding.inverse(np.array(spectra))
 
     def _coupling(self, padding: Padding) -> ComplexArray:
-        k_x, k_y = rectangle.coupling(*padding.quadrant, self.dx, self.dy, self.bodies)
+        k_x, k_y = self._crosswise(*padding.quadrant)
         return np.array([padding.spectrum(padding.wrap(k_x, -1, 1)), padding.spectrum(padding.wrap(k_y, 1, -1))])
+
+    def _by_pressure(self, ny: int, nx: int) -> Array:
+        """u_n by p (ny, nx) at offsets 0, 1, 2, … of whole cells both ways, m/Pa; so the others below."""
+        return rectangle.normal_by_pressure(ny, nx, self.dx, self.dy, self.bodies)
+
+    def _by_shear(self, ny: int, nx: int) -> Array:
+        """u_x by q_x, u_y by q_y, u_x by q_y = u_y by q_x: (3, ny, nx)."""
+        return np.array(rectangle.tangential_by_shear(ny, nx, self.dx, self.dy, self.bodies))
+
+    def _crosswise(self, ny: int, nx: int) -> Array:
+        """k_x, k_y: (2, ny, nx), the coupling of pressure and shear."""
+        return np.array(rectangle.coupling(ny, nx, self.dx, self.dy, self.bodies))
 
 
 def stiffness_symbol(shape: tuple[int, int], dx: float, dy: float, contact_modulus: float) -> Array:
@@ -100,7 +117,7 @@ def stiffness_symbol(shape: tuple[int, int], dx: float, dy: float, contact_modul
 
     Source: Johnson (1985), Contact Mechanics, section 13.2 (sinusoidal pressure on a half-space).
     """
-    symbol: Array = 0.5 * contact_modulus * _wavenumbers(shape, dx, dy)[0]
+    symbol: Array = 0.5 * contact_modulus * wavenumbers(shape, dx, dy)[0]
     return symbol
 
 
@@ -109,7 +126,7 @@ def tangential_stiffness_symbols(shape: tuple[int, int], dx: float, dy: float, b
 
     On the unpadded, periodic grid. Source: Johnson (1985), Contact Mechanics, section 3 (Cerruti).
     """
-    k, cosine, sine = _wavenumbers(shape, dx, dy)
+    k, cosine, sine = wavenumbers(shape, dx, dy)
     stiffness = 0.5 * bodies.shear_modulus * k
     ratio = bodies.poisson / (1 - bodies.poisson)
     return np.array(
@@ -117,7 +134,7 @@ def tangential_stiffness_symbols(shape: tuple[int, int], dx: float, dy: float, b
     )
 
 
-def _wavenumbers(shape: tuple[int, int], dx: float, dy: float) -> tuple[Array, Array, Array]:
+def wavenumbers(shape: tuple[int, int], dx: float, dy: float) -> tuple[Array, Array, Array]:
     """|k|, k_x/|k|, k_y/|k|; at k = 0 that of the finite patch: a uniform load on it is no rigid motion."""
     ny, nx = shape
     kx = 2 * np.pi * fft.rfftfreq(nx, dx)[None, :]

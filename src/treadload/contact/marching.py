@@ -258,7 +258,7 @@ def _press(
         normal, start = fitting, tangential
     raise ConvergenceError(
         f"pressure and shear did not settle in {_MOST_ROUNDS} rounds of a step: the pressure still changes by "
-        f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.bodies.dundurs:.3f}); "
+        f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.dundurs:.3f}); "
         "take smaller steps, lower the friction or raise the tolerance",
         change,
     )

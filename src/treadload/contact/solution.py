@@ -64,12 +64,22 @@ class Contact:
             f"creepage      x {float(d.creepage_x):z.5f}, y {float(d.creepage_y):z.5f}, spin {float(d.spin):g} rad/m",
             f"slip zone     {100 * self.slip_fraction:.1f} % of the contact area",
         ]
+        if "road_share" in self.stats:
+            lines.append(self._road_line())
         if "friction_work_total" in d:
             power = f", {float(d.friction_power_total):.1f} W" if "friction_power_total" in d else ""
             lines.append(f"sliding loses {float(d.friction_work_total):z.3f} J per m travelled{power}")
         if "flash_temperature" in d:
             lines.append(f"flash heat    {float(d.flash_temperature.max()):.1f} K at most")
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+
+    def _road_line(self) -> str:
+        share, change = 100 * self.stats["road_share"], 100 * self.stats["layer_share"]
+        line = f"road          gives {share:.2g} % of the compliance: {'negligible' if share < 1 else 'it matters'}"
+        if self.road.is_homogeneous:
+            return line
+        how = "they are in" if self.stats["layers_solved"] else "left out"
+        return f"{line}; its layers change it by {change:+.2g} %, {how}"
 
     @property
     def plot(self) -> Any:

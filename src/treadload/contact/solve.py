@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, Literal, get_args
 
 import numpy as np
 
 from treadload.contact.coupling import Coupled, Progress, Start, solve_coupled
 from treadload.contact.friction import Coulomb
 from treadload.contact.influence import Influence
+from treadload.contact.layered import LayeredInfluence, images_of, road_share
 from treadload.contact.normal import solve_normal
 from treadload.contact.solution import Contact
 from treadload.contact.tangential import TangentialSolution
-from treadload.contact.viscoelastic import ViscoelasticInfluence, check_rolling, combined
+from treadload.contact.viscoelastic import ViscoelasticInfluence, check_rolling, combined, elastic
 from treadload.contact.wheel import Rolling
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
@@ -22,6 +25,7 @@ from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.rectangle import CombinedElasticity
 from treadload.materials import Elastic, Prony
 from treadload.pavement import Pavement
+from treadload.pavement.stack import stack_of
 from treadload.tire import Tire
 from treadload.variables import dataset
 
@@ -30,6 +34,11 @@ _LOCATING_CELLS = 64
 _MARGIN = 0.024
 _MOST_CELLS = 4_000_000
 _FINEST, _COARSEST = 1e-12, 1e-2
+# A change of compliance by the layers that a user should hear of.
+_LAYERS_MATTER = 0.01
+
+RoadCompliance = Literal["half_space", "layers"]
+Operators = Callable[[Grid], Influence]
 
 
 def solve_contact(
@@ -39,22 +48,26 @@ def solve_contact(
     *,
     spacing: float | None = None,
     tolerance: float = 1e-6,
+    road_compliance: RoadCompliance = "half_space",
     start: Contact | None = None,
     progress: Progress | None = None,
 ) -> Contact:
     """Contact pressure and shear, stick and slip, of a tire that rolls steadily on a road.
 
-    tire: its surface and material; a viscoelastic one needs the rolling speed. road: the surface material
-    deforms as a half-space (the layers below matter little for the contact of a soft tire). rolling: load or
-    approach, forces or creepages, friction.
+    tire: its surface and material; a viscoelastic one needs the rolling speed. rolling: load or approach,
+    forces or creepages, friction.
+    road: road_compliance says how its surface gives way: as a "half_space" of the top layer's material, which
+    serves every soft tire, or as the "layers" do, which a steel wheel or a plate needs. The stats tell how much
+    of the compliance is the road's (road_share) and what its layers change (layer_share); a warning says when
+    layers left out matter. An elastic tire and elastic layers only.
     spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
     tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp,
     and of the coupling between them. start: a contact near this one: its grid serves again, and the search
     begins at its fields. progress: called with a line of text at every stage.
     Returns the fields on a grid that holds the whole contact patch.
-    Raises InputError for forces beyond friction, GeometryError if the contact is larger than the surface,
-    ConvergenceError with the residual reached.
-    Method: Kalker (1990) on half-spaces; dissimilar materials by `contact.coupling`.
+    Raises InputError for forces beyond friction and for friction above a frictionless interface, GeometryError if
+    the contact is larger than the surface, ConvergenceError with the residual reached.
+    Method: Kalker (1990) on half-spaces; dissimilar materials by `contact.coupling`, layers by `kernels.images`.
     """
     began = time.perf_counter()
     tell = progress or (lambda text: None)
@@ -66,11 +79,15 @@ def solve_contact(
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
     check_rolling(tire.half_space, road.surface_material, rolling.speed)
+    _check_compliance(road_compliance, tire, road)
     # Slow rolling makes the largest contact of a viscoelastic tire.
     bodies = combined(tire.half_space, road.surface_material, "rubbery")
     tell("locating the contact")
-    grid, gap = place(tire, rolling, bodies, spacing) if start is None else _same_place(tire, start, spacing)
-    influence = Influence(grid.shape, grid.dx, grid.dy, bodies)
+    on = _operators(bodies, road, road_compliance)
+    grid, gap = place(tire, rolling, on, spacing) if start is None else _same_place(tire, start, spacing)
+    influence = on(grid)
+    if isinstance(influence, LayeredInfluence) and rolling.law.largest > 0:
+        influence.check_held()
     if isinstance(tire.half_space, Prony):
         cells = grid.shape, grid.dx, grid.dy
         influence = ViscoelasticInfluence.of(*cells, tire.half_space, road.surface_material, rolling.speed)
@@ -89,13 +106,34 @@ def solve_contact(
     return _contact(tire, road, rolling, grid, gap, influence, pair, seconds)
 
 
+def _check_compliance(wanted: str, tire: Tire, road: Pavement) -> None:
+    """Refuse what layers cannot do."""
+    if wanted not in get_args(RoadCompliance):
+        raise InputError(f'road_compliance must be "half_space" or "layers", got {wanted!r}')
+    if wanted == "half_space" or road.is_homogeneous:
+        return
+    if isinstance(tire.half_space, Prony):
+        raise InputError(
+            f"the tire is viscoelastic ({tire.half_space}), and contact on layers takes an elastic one; "
+            'leave out road_compliance="layers", which changes next to nothing under rubber'
+        )
+
+
 def combine(tire: Elastic, road: Elastic) -> CombinedElasticity:
     """The elasticity of tire (body 1) and road (body 2) seen as one."""
     return CombinedElasticity.of(tire.shear_modulus, tire.poisson, road.shear_modulus, road.poisson)
 
 
-def place(tire: Tire, rolling: Rolling, bodies: CombinedElasticity, spacing: float | None) -> tuple[Grid, Array]:
-    """Grid that holds the contact with a margin, and the initial gap on it."""
+def _operators(bodies: CombinedElasticity, road: Pavement, compliance: RoadCompliance) -> Operators:
+    """What makes the influence operators of the two bodies on a grid; the road as a half-space, or its layers."""
+    if compliance == "half_space" or road.is_homogeneous:
+        return lambda grid: Influence(grid.shape, grid.dx, grid.dy, bodies)
+    images = images_of(stack_of(road))
+    return lambda grid: LayeredInfluence(grid.shape, grid.dx, grid.dy, bodies, images)
+
+
+def place(tire: Tire, rolling: Rolling, on: Operators, spacing: float | None) -> tuple[Grid, Array]:
+    """Grid that holds the contact with a margin, and the initial gap on it; `on` makes the operators on a grid."""
     if tire.fixed_grid is not None:
         grid = tire.fixed_grid
         if spacing is not None and not math.isclose(spacing, grid.dx, rel_tol=1e-9):
@@ -121,7 +159,7 @@ def place(tire: Tire, rolling: Rolling, bodies: CombinedElasticity, spacing: flo
         )
     coarse = Grid.centred(length, width, max(step, max(length, width) / _LOCATING_CELLS))
     first = solve_normal(
-        Influence(coarse.shape, coarse.dx, coarse.dy, bodies),
+        on(coarse),
         tire.height_map(coarse),
         load=rolling.normal_load,
         approach=rolling.approach,
@@ -192,7 +230,8 @@ def _contact(
     state = np.where(normal.pressure > 0, np.where(tangential.stick, 1, 2), 0).astype(np.int8)
     stiff = road.surface_material
     alone = CombinedElasticity.of(math.inf, 0.0, stiff.shear_modulus, stiff.poisson)
-    road_only = Influence(influence.shape, influence.dx, influence.dy, alone)
+    layered = isinstance(influence, LayeredInfluence)
+    road_only = replace(influence, bodies=alone) if layered else Influence(grid.shape, grid.dx, grid.dy, alone)
     displacement = road_only.displacement(normal.pressure, tangential.shear)
     known = rolling.creepages
     forces = tangential.shear.sum((1, 2)) * grid.cell_area
@@ -238,6 +277,9 @@ def _contact(
         fields["friction_power_total"] = ((), lost * rolling.speed)
     if slipping.temperature is not None:
         fields["flash_temperature"] = (plane, slipping.temperature)
+    share = road_share(
+        elastic(tire.half_space, "rubbery"), stack_of(road), float((normal.pressure > 0).sum()) * grid.cell_area
+    )
     stats = {
         "normal_iterations": pair.normal_iterations,
         "normal_residual": normal.residual,
@@ -249,12 +291,21 @@ def _contact(
         "friction_change": slipping.change,
         "coupling_rounds": pair.rounds,
         "coupling_change": pair.change,
-        "dundurs": influence.bodies.dundurs,
+        "dundurs": influence.dundurs,
+        "road_share": share.share,
+        "layer_share": share.layering,
+        "layers_solved": layered,
+        "images_residual": influence.images.residual if isinstance(influence, LayeredInfluence) else 0.0,
         "cells": grid.nx * grid.ny,
         "seconds": seconds,
     }
     warnings = list(tire.quality.warnings) if tire.quality is not None else []
     if tangential.splitting:
         warnings.append(f"Newton's method stalled; {tangential.splitting} steps of the slower splitting helped it on")
+    if not layered and abs(share.layering) > _LAYERS_MATTER:
+        warnings.append(
+            f"the layers of the road change the compliance of this contact by {100 * share.layering:.1f} %, and it "
+            'was solved on a half-space of the top layer; solve it with road_compliance="layers"'
+        )
     data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)
     return Contact(data, tire, road, rolling, stats, tuple(warnings))

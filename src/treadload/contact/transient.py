@@ -115,7 +115,7 @@ def solve_transient(
         "steps": int(ends.size),
         "newton_iterations": newton,
         "products": products,
-        "dundurs": scene.influence.bodies.dundurs,
+        "dundurs": scene.influence.dundurs,
         "cells": scene.grid.nx * scene.grid.ny,
         "seconds": time.perf_counter() - began,
     }
@@ -139,8 +139,12 @@ def set_scene(tire: Tire, road: Pavement, rolling: Sequence[Rolling], spacing: f
         if state.normal_load is not None:
             state.check_friction_limit(state.normal_load)
     heaviest = max(rolling, key=lambda state: state.normal_load or state.approach or 0.0)
-    grid, gap = place(tire, heaviest, bodies, spacing)
-    return Scene(tire, road, grid, gap, Influence(grid.shape, grid.dx, grid.dy, bodies))
+
+    def on(grid: Grid) -> Influence:
+        return Influence(grid.shape, grid.dx, grid.dy, bodies)
+
+    grid, gap = place(tire, heaviest, on, spacing)
+    return Scene(tire, road, grid, gap, on(grid))
 
 
 def standing(scene: Scene, rolling: Rolling) -> Stage:

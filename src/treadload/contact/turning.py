@@ -130,7 +130,7 @@ def turn_on_the_spot(
         "increments": int(ends.size),
         "newton_iterations": newton,
         "products": products,
-        "dundurs": scene.influence.bodies.dundurs,
+        "dundurs": scene.influence.dundurs,
         "cells": grid.nx * grid.ny,
         "seconds": time.perf_counter() - began,
     }

@@ -93,7 +93,7 @@ class ViscoelasticInfluence(Influence):
     @cached_property
     def _alone(self) -> list[tuple[Material, CombinedElasticity]]:
         """The materials that deform, each with its glassy elasticity against a rigid body."""
-        tire, road = (_elastic(material, "glassy") for material in (self.tire, self.road))
+        tire, road = (elastic(material, "glassy") for material in (self.tire, self.road))
         pairs = (
             (self.tire, CombinedElasticity.of(tire.shear_modulus, tire.poisson, math.inf, 0.0)),
             (self.road, CombinedElasticity.of(math.inf, 0.0, road.shear_modulus, road.poisson)),
@@ -144,11 +144,12 @@ class ViscoelasticInfluence(Influence):
 
 def combined(tire: Material, road: Material, limit: str) -> CombinedElasticity:
     """The elasticity of tire (body 1) and road (body 2) seen as one, in the "glassy" or the "rubbery" limit."""
-    one, other = _elastic(tire, limit), _elastic(road, limit)
+    one, other = elastic(tire, limit), elastic(road, limit)
     return CombinedElasticity.of(one.shear_modulus, one.poisson, other.shear_modulus, other.poisson)
 
 
-def _elastic(material: Material, limit: str) -> Elastic:
+def elastic(material: Material, limit: str) -> Elastic:
+    """An elastic material, or the "glassy" or the "rubbery" limit of a viscoelastic one."""
     if isinstance(material, Elastic):
         return material
     return material.glassy if limit == "glassy" else material.rubbery
