@@ -10,7 +10,6 @@ from treadload.contact import layered
 from treadload.contact.layered import LayeredInfluence, images_of
 from treadload.kernels.layered import Stack
 from treadload.kernels.rectangle import CombinedElasticity
-from treadload.pavement.stack import stack_of
 
 STACK = Stack([2.5e9, 1e8, 4e7], [0.35, 0.3, 0.45], [0.04, 0.1, math.inf], [1e9, math.inf])
 BODIES = CombinedElasticity.of(4e7, 0.45, STACK.shear[0], STACK.poisson[0])
@@ -151,11 +150,19 @@ def test_refused():
         tl.solve_contact(tire, road(), wheel, road_compliance="layers")
 
 
-def test_a_layer_that_is_not_elastic_is_refused():
+def test_layers_that_are_no_elastic_stack_are_refused():
     soft = tl.Prony.standard_linear_solid(4e9, 3e9, 5e-3, 0.35)
-    layers = tl.Pavement([tl.Layer(tl.Elastic(7e9, 0.35), 0.06), tl.Layer(soft, name="binder")])
-    with pytest.raises(tl.InputError, match="layer 'binder' is not elastic"):
-        stack_of(layers)
+    wearing = tl.Layer(tl.Elastic(7e9, 0.35), 0.06, "wearing course")
+    layers = tl.Pavement([wearing, tl.Layer(soft, name="binder")])
+    with pytest.raises(tl.InputError, match=r"layer 'binder' is viscoelastic .* \.glassy"):
+        contact(STEEL, layers, road_compliance="layers")
+    half = road(tl.HALF_BONDED)
+    with pytest.raises(tl.InputError, match=r"below layer 'wearing course' is half-bonded.*road\.bond_limits"):
+        contact(STEEL, half, road_compliance="layers")
+    # As a half-space both serve, and the share is that of the stiff limit.
+    bonded = contact(STEEL, road()).stats["road_share"]
+    assert contact(STEEL, half).stats["road_share"] == pytest.approx(bonded, rel=1e-12)
+    assert contact(STEEL, layers).stats["road_share"] > 0.9
 
 
 def test_a_fit_that_fails_is_refused(monkeypatch):

@@ -277,9 +277,9 @@ def _contact(
         fields["friction_power_total"] = ((), lost * rolling.speed)
     if slipping.temperature is not None:
         fields["flash_temperature"] = (plane, slipping.temperature)
-    share = road_share(
-        elastic(tire.half_space, "rubbery"), stack_of(road), float((normal.pressure > 0).sum()) * grid.cell_area
-    )
+    area = float((normal.pressure > 0).sum()) * grid.cell_area
+    # Of a road that changes with time or bond, the stiffest: the one that the half-space stands for.
+    share = road_share(elastic(tire.half_space, "rubbery"), stack_of(road.glassy.bond_limits[0]), area)
     stats = {
         "normal_iterations": pair.normal_iterations,
         "normal_residual": normal.residual,

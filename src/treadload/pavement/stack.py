@@ -1,4 +1,4 @@
-"""A road as the kernels of layered bodies want it."""
+"""An elastic road as the kernels of layered bodies want it."""
 
 from __future__ import annotations
 
@@ -6,23 +6,29 @@ import math
 
 from treadload.errors import InputError
 from treadload.kernels.layered import Stack
-from treadload.materials import Elastic
+from treadload.pavement.bonds import HalfBonded
 from treadload.pavement.structure import Pavement
 
 
 def stack_of(road: Pavement) -> Stack:
-    """Moduli, thicknesses and springs of the distinct layers. Raises InputError for layers that are not elastic."""
+    """Moduli, thicknesses and springs of the distinct layers, neighbours of one material taken as one.
+
+    Raises InputError for a layer that is not elastic and for a half-bonded interface, which is two roads.
+    """
     layers = road.distinct_layers
-    for layer in layers:
-        if not isinstance(layer.material, Elastic):
+    materials = [layer.elastic for layer in layers]
+    springs = []
+    for layer in layers[:-1]:
+        if isinstance(layer.bond, HalfBonded):
             raise InputError(
-                f"layer {layer.name!r} is not elastic ({layer.material}), and the contact on layers needs elastic "
-                "ones; give the modulus at the speed and temperature of the contact"
+                f"the interface below layer {layer.name!r} is half-bonded, which stands for the mean of two roads; "
+                "solve each of road.bond_limits"
             )
+        springs.append(layer.bond.stiffness)
     return Stack(
-        [layer.material.shear_modulus for layer in layers],
-        [layer.material.poisson for layer in layers],
+        [material.shear_modulus for material in materials],
+        [material.poisson for material in materials],
         [math.inf if layer.thickness is None else layer.thickness for layer in layers],
-        [layer.bond.stiffness for layer in layers[:-1]],
+        springs,
         road.rigid_base,
     )
