@@ -99,6 +99,21 @@ def test_convolution_of_creep_and_relaxation_is_time(material):
 
 
 @pytest.mark.parametrize("material", ALL, ids=str)
+def test_storage_follows_from_loss(material):
+    # Kramers and Kronig: E'(ω) = E∞ - (2/π) ∫ x E''(x) / (x² - ω²) dx. With x = ω exp(v), x² dv / (x² - ω²) is
+    # (1 + coth v)/2 dv: a principal value about v = 0.
+    omega, step = 3.0, 0.05
+    v = np.arange(-600.0, 600.0, step) + 0.5 * step
+    loss, here = material.complex_modulus(omega * np.exp(v)).imag, float(material.complex_modulus(omega).imag)
+    # coth is odd: E''(ω) within |v| < 1 adds nothing to the whole, and takes the pole away.
+    near = np.abs(v) < 1
+    regular = ((loss - here * near) / np.tanh(v)).sum() * step
+    storage = material.glassy.modulus - (regular + loss.sum() * step) / np.pi
+    # Midpoints of an analytic integrand; the jump at |v| = 1 cancels between its two sides.
+    assert storage == pytest.approx(float(material.complex_modulus(omega).real), rel=1e-6)
+
+
+@pytest.mark.parametrize("material", ALL, ids=str)
 def test_limits(material):
     assert isinstance(material, Viscoelastic)
     assert material.glassy == Elastic(material.glassy.modulus, material.poisson)

@@ -19,7 +19,7 @@ Transform = Callable[[ComplexArray], ComplexArray]
 _CONTOUR_NODES = 24
 # Step and ends of the double-exponential rule. For creep by powers t^n: 1e-14 for n up to 0.6, 2e-11 at n = 0.99.
 _STEP, _FIRST, _LAST = 1 / 16, -4.5, 3.75
-_BLOCK = 4096
+_BLOCK = 1024
 
 
 def inverse_carson(transform: Transform, time: ArrayLike) -> Array:
@@ -41,10 +41,11 @@ def inverse_carson(transform: Transform, time: ArrayLike) -> Array:
     return np.asarray((weights * transform(z / t[..., None])).real.sum(axis=-1))
 
 
-def carson(function: Transform, s: ArrayLike) -> ComplexArray:
+def carson(function: Callable[[Array, ComplexArray], ComplexArray], s: ArrayLike) -> ComplexArray:
     """Carson transform of f: ∫ f(u/s) exp(-u) du over u > 0, on the contour along which st is real.
 
-    function: f of complex t, s, analytic where |arg t| <= |arg s|, growing no faster than a power of t.
+    function: f(u/s) of u > 0 and complex s, arrays to be broadcast; f is analytic where |arg t| <= |arg s| and grows
+    no faster than a power of t.
     s: complex, 1/s, off the negative real axis, of any shape. Returns the transform, the shape of `s`.
     Source: Takahasi & Mori (1974), Publ. RIMS Kyoto Univ. 9, 721-741: u = exp(x - exp(-x)), trapezoidal in x.
     """
@@ -56,5 +57,5 @@ def carson(function: Transform, s: ArrayLike) -> ComplexArray:
     found = np.empty_like(flat)
     for start in range(0, flat.size, _BLOCK):
         part = slice(start, start + _BLOCK)
-        found[part] = function(u / flat[part, None]) @ weights
+        found[part] = function(u, flat[part, None]) @ weights
     return found.reshape(s.shape)

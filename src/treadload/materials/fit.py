@@ -19,7 +19,6 @@ from treadload.materials.series import frequency_rows, prony_of, solve_non_negat
 from treadload.materials.viscoelastic import Prony
 
 M = TypeVar("M", Prony, HuetSayegh, Model2S2P1D)
-_Model = TypeVar("_Model", HuetSayegh, Model2S2P1D)
 
 
 @dataclass(frozen=True)
@@ -64,39 +63,43 @@ def fit_huet_sayegh(data: Measured, *, poisson: float) -> MaterialFit[HuetSayegh
     Returns a MaterialFit. Raises InputError for fewer points than parameters, ConvergenceError if no start gets
     anywhere.
     """
-
-    def build(p: Array) -> HuetSayegh:
-        glassy, static, delta, tau = np.exp(p[:4])
-        k, h = _exponents(p)
-        return HuetSayegh(glassy, min(static, 0.999999 * glassy), delta, k, h, tau, poisson)
-
-    return _nearest(data, build, ())
+    return _judged(_huet_sayegh(_nearest(data, _huet_sayegh, poisson), poisson), data)
 
 
 def fit_2s2p1d(data: Measured, *, poisson: float) -> MaterialFit[Model2S2P1D]:
     """The 2S2P1D model nearest to a curve, by least squares of the logarithm of the modulus.
 
-    As fit_huet_sayegh. β is known only as far as the data reach slow flow.
+    As fit_huet_sayegh, whose result is one of the starts. β is known only as far as the data reach slow flow.
     """
-
-    def build(p: Array) -> Model2S2P1D:
-        glassy, static, delta, tau = np.exp(p[:4])
-        k, h = _exponents(p)
-        return Model2S2P1D(glassy, min(static, 0.999999 * glassy), delta, k, h, float(np.exp(p[6])), tau, poisson)
-
-    return _nearest(data, build, (math.log(300.0),))
+    simple = np.append(_nearest(data, _huet_sayegh, poisson), _BETA[1] / 2)
+    return _judged(_2s2p1d(_nearest(data, _2s2p1d, poisson, math.log(300.0), start=simple), poisson), data)
 
 
-# Trials of τ start a decade apart; bounds on ln δ and ln β, and on the two exponents' parts.
+# Bounds on ln δ and ln β, and on the exponents: k, and h as its place between k and 1.
 _DELTA, _BETA, _PART = (-4.0, 5.0), (-3.0, 25.0), (0.01, 0.99)
 
 
-def _exponents(p: Array) -> tuple[float, float]:
-    """k, and h as its place between k and 1: 0 < k < h < 1 whatever the search does."""
-    return float(p[4]), float(p[4] + p[5] * (1 - p[4]))
+def _huet_sayegh(p: Array, poisson: float) -> HuetSayegh:
+    """The model of ln E∞, ln E₀, ln δ, ln τ, k and (h - k)/(1 - k): whatever the search does, it is one."""
+    glassy, static, delta, tau = (float(value) for value in np.exp(p[:4]))
+    k, part = float(p[4]), float(p[5])
+    return HuetSayegh(glassy, min(static, 0.999999 * glassy), delta, k, k + part * (1 - k), tau, poisson)
 
 
-def _nearest(data: Measured, build: Callable[[Array], _Model], more: tuple[float, ...]) -> MaterialFit[_Model]:
+def _2s2p1d(p: Array, poisson: float) -> Model2S2P1D:
+    """The model of the same numbers and ln β."""
+    m = _huet_sayegh(p, poisson)
+    return Model2S2P1D(m.glassy_modulus, m.static_modulus, m.delta, m.k, m.h, math.exp(p[6]), m.tau, poisson)
+
+
+def _nearest(
+    data: Measured,
+    build: Callable[[Array, float], Operational],
+    poisson: float,
+    *more: float,
+    start: Array | None = None,
+) -> Array:
+    """Parameters of least misfit. more: values to start those from that Huet-Sayegh has not. start: one known."""
     measured = data.modulus
     count = 6 + len(more)
     if measured.size * (2 if np.iscomplexobj(measured) else 1) < count:
@@ -105,7 +108,7 @@ def _nearest(data: Measured, build: Callable[[Array], _Model], more: tuple[float
     reach = _reach(data)
 
     def misfit(p: Array) -> Array:
-        ratio = np.log(_modulus_of(build(p), data) / measured)
+        ratio = np.log(_modulus_of(build(p, poisson), data) / measured)
         return np.concatenate([ratio.real, ratio.imag]) if np.iscomplexobj(ratio) else ratio
 
     lower = [high, low - 12.0, _DELTA[0], math.log(reach[0]) - 20, _PART[0], _PART[0], *[_BETA[0] for _ in more]]
@@ -116,7 +119,10 @@ def _nearest(data: Measured, build: Callable[[Array], _Model], more: tuple[float
     ]
     # The starts of least misfit are followed down; the others lie on flat ground.
     starts.sort(key=lambda p: float((misfit(p) ** 2).sum()))
-    tried = [least_squares(misfit, p, bounds=(lower, upper), x_scale="jac") for p in starts[:3]]
+    tried = [
+        least_squares(misfit, np.clip(p, lower, upper), bounds=(lower, upper), x_scale="jac")
+        for p in (starts[:2] if start is None else [*starts[:2], start])
+    ]
     best = min(tried, key=lambda result: float(result.cost))
     if not best.success:
         raise ConvergenceError(
@@ -124,7 +130,7 @@ def _nearest(data: Measured, build: Callable[[Array], _Model], more: tuple[float
             "decades, or use fit_prony",
             math.sqrt(2 * best.cost / measured.size),
         )
-    return _judged(build(best.x), data)
+    return np.asarray(best.x)
 
 
 def _judged(material: M, data: Measured) -> MaterialFit[M]:

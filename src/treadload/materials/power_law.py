@@ -60,19 +60,21 @@ class PowerLawCreep(Operational):
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """D(t), 1/Pa, at times t ≥ 0, s, after a step of stress; the shape of `time`. In closed form."""
-        return np.asarray(self._creep(check_times(time)))
+        return np.asarray(self._creep((check_times(time) / self.tau) ** self.exponent))
 
     def operational_modulus(self, s: ArrayLike) -> ComplexArray:
         """S times Laplace's transform of the relaxation modulus, Pa; s complex, off the negative real axis."""
-        return np.asarray(1 / carson(self._creep, s))
+        n = self.exponent
+        # The powers of u > 0 and of s apart: few of them are taken.
+        return np.asarray(1 / carson(lambda u, s: self._creep(u**n * (s * self.tau) ** -n), s))
 
     def slowed(self, factor: float) -> PowerLawCreep:
         """The same material with its time τ multiplied by a factor > 0."""
         return replace(self, tau=self.tau * factor)
 
-    def _creep(self, t: Any) -> Any:
-        done = (t / self.tau) ** self.exponent
-        return (self.instantaneous_compliance + self.long_term_compliance * done) / (1 + done)
+    def _creep(self, power: Any) -> Any:
+        """D where (t/τ)ⁿ is `power`, real or complex."""
+        return (self.instantaneous_compliance + self.long_term_compliance * power) / (1 + power)
 
     def __str__(self) -> str:
         return (

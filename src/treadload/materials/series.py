@@ -12,8 +12,8 @@ from treadload.kernels.arrays import Array, ComplexArray
 from treadload.materials.kinds import Viscoelastic
 from treadload.materials.viscoelastic import Prony
 
-# Terms per decade tried in turn. Evenly spaced times leave 2 exp(-π²/ln(spacing)) of a smooth spectrum: 2e-4 with
-# two and a half a decade, 1e-7 with four.
+# Terms per decade tried in turn. Evenly spaced times leave 2 exp(-π²/ln(spacing)) of a smooth spectrum: 5e-5 with
+# two and a half a decade, 7e-8 with four.
 _DENSITIES = (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 # Times reach this many decades past the range, and then a few more, one a decade, to stand for all that relaxes
 # beyond: a modulus that rises by small powers of frequency does so for very long.
