@@ -102,6 +102,8 @@ def test_untested_temperatures_are_refused_unless_asked_for():
     assert MIX.at(45.0, extrapolate=True).glassy == MIX.at(0.0).glassy
     with pytest.raises(InputError, match="nan"):
         MIX.at(float("nan"))
+    with pytest.raises(InputError, match="kelvin"):
+        Thermorheological(MIX.material, LAWS[0]).at(298.15)
 
 
 @pytest.mark.parametrize(
