@@ -20,7 +20,8 @@ from treadload.damage.american import (
     bottom_up_cracking,
     top_down_cracking,
 )
-from treadload.damage.criteria import compute_criteria, reading
+from treadload.damage.criteria import compute_criteria
+from treadload.damage.criterion import Criterion
 from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.kernels import tensors
 from treadload.response.fields import response_dataset
@@ -115,8 +116,9 @@ def test_strains_of_structures_under_the_french_axle(name):
     above = tl.solve_response(wheels, road, **at)
     below = tl.solve_response(wheels, road, **at, side="below")
     law = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
-    extension = reading(law, above).squeeze()
-    compression = reading(FrenchSubgrade(), below).squeeze()
+    extension = Criterion("base", law, layer=1).read(above.dataset.isel(depth=0)).squeeze()
+    soil = Criterion("soil", FrenchSubgrade(), layer=2, place="top")
+    compression = soil.read(below.dataset.isel(depth=0)).squeeze()
     rows = [row for row in WORKED["worked_structures"]["rows"] if row["structure"] == name and "x" in row]
     for number, row in enumerate(rows):
         # Both solvers claim 1e-8 and better; the load's radius and pressure are as printed.

@@ -7,8 +7,7 @@ import pytest
 
 import treadload as tl
 from treadload import variables
-from treadload.damage import FatigueLine, FrenchBituminous, FrenchHydraulic, FrenchSubgrade
-from treadload.damage.criteria import NAMES, NEAR_SURFACE, compute_criteria, peak, reading, tension_behind
+from treadload.damage.criteria import NAMES, NEAR_SURFACE, compute_criteria, peak, tension_behind
 from treadload.damage.energy_ratio import EnergyRatio
 from treadload.errors import InputError
 from treadload.response.fields import response_dataset
@@ -67,18 +66,6 @@ def test_a_wheels_shear_peaks_near_its_edge_and_its_extension_where_it_drags():
     assert float(abs(surface.sel(x=0.4))) < 1e-15
     deep = peak(found, "vertical_shear_strain")
     assert deep["value"] >= shear["value"]
-
-
-def test_what_a_law_reads():
-    data = RESPONSE.dataset
-    xr_equal = np.testing.assert_array_equal
-    xr_equal(reading(FatigueLine(1e-4, -0.2), RESPONSE), data["principal_strain_1"])
-    bituminous = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
-    xr_equal(reading(bituminous, RESPONSE), data["in_plane_strain_1"])
-    xr_equal(reading(FrenchSubgrade(), RESPONSE), -data["strain_zz"])
-    stress = reading(FrenchHydraulic(0.75e6, -1 / 15, 1, 0.05, 1.4), RESPONSE)
-    mid, half = (data["stress_xx"] + data["stress_yy"]) / 2, (data["stress_xx"] - data["stress_yy"]) / 2
-    np.testing.assert_allclose(stress, mid + np.hypot(half, data["stress_xy"]), rtol=1e-12)
 
 
 def test_tension_behind_a_dragging_wheel():

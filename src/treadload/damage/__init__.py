@@ -7,7 +7,7 @@ from treadload.damage.american import (
     MepdgTopDown,
     ShellFatigue,
 )
-from treadload.damage.criteria import compute_criteria, peak, reading, tension_behind
+from treadload.damage.criteria import compute_criteria, peak, tension_behind
 from treadload.damage.direction import crack_rose, envelope
 from treadload.damage.energy_ratio import EnergyRatio
 from treadload.damage.fatigue import FatigueLaw, FatigueLine
@@ -35,7 +35,6 @@ __all__ = [
     "envelope",
     "equivalent_axles",
     "peak",
-    "reading",
     "residual_after",
     "tension_behind",
     "thermal_stress",

@@ -10,7 +10,6 @@ import xarray as xr
 
 from treadload import variables
 from treadload.damage.direction import HasDataset
-from treadload.damage.fatigue import EXTENSION, SUBGRADE, TENSION, FatigueLaw
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
@@ -26,7 +25,7 @@ NEAR_SURFACE = 0.05
 
 
 @dataclass(frozen=True)
-class Criterion:
+class CriterionField:
     """A field that tells where a road suffers.
 
     needs: variables of the response. of: stress (6, ...), strain (6, ...), Pa and 1 → field. source: who asks for it.
@@ -37,25 +36,27 @@ class Criterion:
     source: str
 
 
-CRITERIA: Mapping[str, Criterion] = {
-    "extension_strain": Criterion(
+CRITERIA: Mapping[str, CriterionField] = {
+    "extension_strain": CriterionField(
         STRAIN, lambda _, strain: tensors.principal(strain)[0][0], "largest extension, as in the paper of this method"
     ),
-    "mazars_strain": Criterion(
+    "mazars_strain": CriterionField(
         STRAIN, lambda _, strain: tensors.mazars(tensors.principal(strain)[0]), "Mazars (1986), Eng. Fract. Mech. 25"
     ),
-    "von_mises_strain": Criterion(
+    "von_mises_strain": CriterionField(
         STRAIN,
         lambda _, strain: tensors.von_mises(strain),
         "Sousa; the strain of a four-point beam test stands for (1 + ν) times itself",
     ),
-    "octahedral_shear_stress": Criterion(
+    "octahedral_shear_stress": CriterionField(
         STRESS, lambda stress, _: tensors.octahedral_shear(stress), "Lytton, with mean_stress"
     ),
-    "mean_stress": Criterion(STRESS, lambda stress, _: tensors.mean(stress), "Lytton, with octahedral_shear_stress"),
-    "distortion_energy": Criterion(STRESS + STRAIN, tensors.distortion_energy, "Kunst"),
-    "vertical_shear_strain": Criterion(STRAIN, lambda _, strain: tensors.vertical_shear(strain), "Yoo"),
-    "horizontal_tension": Criterion(
+    "mean_stress": CriterionField(
+        STRESS, lambda stress, _: tensors.mean(stress), "Lytton, with octahedral_shear_stress"
+    ),
+    "distortion_energy": CriterionField(STRESS + STRAIN, tensors.distortion_energy, "Kunst"),
+    "vertical_shear_strain": CriterionField(STRAIN, lambda _, strain: tensors.vertical_shear(strain), "Yoo"),
+    "horizontal_tension": CriterionField(
         STRESS, lambda stress, _: tensors.in_plane_principal(stress)[0], "Tamagny at the surface; Roque's input"
     ),
 }
@@ -120,21 +121,6 @@ def peak(criteria: xr.Dataset, name: str, *, deepest: float | None = None) -> di
     at = np.unravel_index(int(np.nanargmax(values.to_numpy())), values.shape)
     place = {str(dim): float(values[dim][int(number)]) for dim, number in zip(values.dims, at, strict=True)}
     return {"value": float(values.to_numpy()[at]), **place}
-
-
-def reading(law: FatigueLaw, response: HasDataset) -> xr.DataArray:
-    """What a law of fatigue reads of a response, over (depth, y, x), positive where it does harm.
-
-    An extension strain is the three-dimensional one for a Wöhler line, that in the horizontal plane for the laws of
-    design, which mean the bottom or the surface of a layer; the subgrade's strain is the vertical compression; a
-    tensile stress is the largest in the horizontal plane. The depth is the caller's to choose.
-    """
-    data = response.dataset
-    if law.quantity == TENSION:
-        return compute_criteria(response, ["horizontal_tension"])["horizontal_tension"]
-    if law.quantity == SUBGRADE:
-        return -data["strain_zz"]
-    return data["principal_strain_1" if law.quantity == EXTENSION else "in_plane_strain_1"]
 
 
 def tension_behind(response: HasDataset) -> xr.Dataset:

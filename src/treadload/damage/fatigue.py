@@ -12,7 +12,7 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
-# What a law reads; `reading` in `damage.criteria` takes it from a response.
+# What a law reads; `damage.criterion` takes it from a response.
 EXTENSION = "extension strain"
 BOTTOM_EXTENSION = "extension strain at the bottom of the asphalt"
 SURFACE_EXTENSION = "extension strain at the surface"
