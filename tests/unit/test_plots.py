@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 
 import matplotlib as mpl
@@ -10,6 +11,7 @@ import pytest
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 
 from treadload.contact import Contact, Rolling, solve_contact
 from treadload.damage import FatigueLine, Verdict, assess
@@ -418,3 +420,22 @@ def test_small_helpers():
     assert power_of_ten(1.2e5) == "1.2×10⁵"
     assert power_of_ten(float("inf")) == "∞"
     assert signed(-1.25, 2) == "\u22121.25"
+
+
+def test_png_is_trimmed_to_its_ink_and_leaves_the_figure_as_it_was(driving):
+    figure = driving[0].plot.pressure()
+    canvas, resolution = figure.canvas, figure.dpi
+    image = imread(io.BytesIO(png(figure, dpi=100)))
+    assert (figure.canvas, figure.dpi) == (canvas, resolution)
+    ink = (image[..., :3] < 1).any(axis=2)
+    # 0.08 inches of paper on each side.
+    rows, columns = np.nonzero(ink.any(axis=1))[0], np.nonzero(ink.any(axis=0))[0]
+    assert (rows[0], columns[0]) == (8, 8)
+    assert (rows[-1], columns[-1]) == (image.shape[0] - 9, image.shape[1] - 9)
+
+
+def test_png_holds_what_reaches_beyond_the_figure():
+    figure = Figure(figsize=(2, 2))
+    figure.text(0.9, 0.5, "a text far longer than the figure has room for", color="red")
+    image = imread(io.BytesIO(png(figure, dpi=50)))
+    assert image.shape[1] > 150

@@ -132,7 +132,10 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     low, high = 10.0 ** math.floor(math.log10(least)), 10.0 ** (math.floor(math.log10(least)) + _DECADES)
     mesh = draw_cells(ax, plan, np.minimum(values, 10 * high), sequential("strain").reversed(), Limits(low, high))
     mesh.set_norm(LogNorm(low, high))
-    colour_bar(mesh, ax, "allowable passes", Limits(low, high, True))
+    bar = colour_bar(mesh, ax, "allowable passes", Limits(low, high, True))
+    decades = [low * 10.0**k for k in range(_DECADES + 1)]
+    bar.set_ticks(decades, labels=[_decade(passes) for passes in decades])
+    bar.minorticks_off()
     row, column = np.unravel_index(int(np.nanargmin(values)), values.shape)
     mark_peak(ax, float(plan.x[column]), float(plan.y[row]), power_of_ten(least))
     headline(ax, "Allowable passes", f"fewest {power_of_ten(least)}; {_line_in_words(data)}")
@@ -176,6 +179,11 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
     headline(ax, "Cracks to expect", f"traces across the largest extension, {reads}; first at the ring")
     travel_arrow(ax)
     return figure
+
+
+def _decade(passes: float) -> str:
+    """A power of ten in characters that need no mathematics."""
+    return power_of_ten(passes).removeprefix("1.0×")
 
 
 def _listed(verdicts: Source | Sequence[Source]) -> list[Source]:
