@@ -75,11 +75,12 @@ class Contact:
 
     def _road_line(self) -> str:
         share, change = 100 * self.stats["road_share"], 100 * self.stats["layer_share"]
-        line = f"road          gives {share:.2g} % of the compliance: {'negligible' if share < 1 else 'it matters'}"
+        line = f"road          gives {share:.3g} % of the compliance: {'negligible' if share < 1 else 'it matters'}"
         if self.road.is_homogeneous:
             return line
         how = "they are in" if self.stats["layers_solved"] else "left out"
-        return f"{line}; its layers change it by {change:+.2g} %, {how}"
+        size = f"{change:+.2g}" if abs(change) < 10 else f"{change:+.0f}"
+        return f"{line}; its layers change it by {size} %, {how}"
 
     @property
     def plot(self) -> Any:
