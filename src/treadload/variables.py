@@ -119,6 +119,16 @@ _CRITERIA = {
     "total_tension": ("Pa", "largest horizontal tension of the passes before and the wheel together"),
 }
 
+_UNIFORM = {
+    "largest_extension": ("1", "largest principal strain of the plane, three-dimensional"),
+    "largest_in_plane_extension": ("1", "largest principal strain of the plane, horizontal"),
+    "largest_vertical_shear": ("1", "largest engineering shear strain between the vertical and the horizontal"),
+    "largest_vertical_compression": ("1", "largest vertical compression, positive"),
+    "largest_horizontal_tension": ("Pa", "largest principal stress of the plane, horizontal"),
+    "uniform_pressure": ("Pa", "pressure of the uniform loads"),
+    "uniform_area": ("m^2", "area of each uniform load"),
+}
+
 _LIFE = {
     "damage_per_year": ("1", "Miner's damage of the first year, after wander; 1 is failure"),
     "damage_share": ("1", "share of the damage at the worst place"),
@@ -136,6 +146,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_DAMAGE,
     **_CRITERIA,
     **_LIFE,
+    **_UNIFORM,
 }
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from treadload.contact.maneuver import Maneuver
 from treadload.damage import FatigueLine, FrenchSubgrade
-from treadload.damage.criterion import Criterion
+from treadload.damage.design import DesignCriterion
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
@@ -20,9 +20,9 @@ from treadload.tire import Tire
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 CRITERIA = (
-    Criterion("top-down", FatigueLine(100e-6, -0.2), 0, "top", "principal"),
-    Criterion("base", FatigueLine(90e-6, -0.2), 1),
-    Criterion("soil", FrenchSubgrade(), -1, "top"),
+    DesignCriterion("top-down", FatigueLine(100e-6, -0.2), 0, "top", "principal"),
+    DesignCriterion("base", FatigueLine(90e-6, -0.2), 1),
+    DesignCriterion("soil", FrenchSubgrade(), -1, "top"),
 )
 LIGHT = AxleClass("light", 0.6, 15e3, 700e3)
 HEAVY = AxleClass("heavy", 0.4, 32.5e3, 850e3, ((0.0, -0.17), (0.0, 0.17)), Maneuver.braking(2.0))
@@ -82,7 +82,7 @@ def test_seasons_of_layers_and_laws_that_follow_them():
     seasons = Climate((Season("winter", 0.5, (0.0, 4.0, 8.0)), Season("summer", 0.5, (35.0, 28.0, 15.0))))
     law = lambda temperature: FatigueLine((80 + temperature) * 1e-6, -0.2)  # noqa: E731
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5)
-    life = design_life(TIRE, ROAD, traffic, seasons, (Criterion("base", law, 1),), **COARSE)
+    life = design_life(TIRE, ROAD, traffic, seasons, (DesignCriterion("base", law, 1),), **COARSE)
     assert life.stats["responses"] == 2
     assert 0 < life.years("base") < math.inf
     assert "solved: 1 contacts and 2 responses" in life.summary()
@@ -105,7 +105,7 @@ def test_a_wheel_beside_the_path_is_read_there():
     ("change", "words"),
     [
         ({"criteria": ()}, "at least one criterion"),
-        ({"criteria": (Criterion("deep", FatigueLine(1e-4, -0.2), -1),)}, "goes down for ever"),
+        ({"criteria": (DesignCriterion("deep", FatigueLine(1e-4, -0.2), -1),)}, "goes down for ever"),
         ({"climate": Climate((Season("a", 1.0, (1.0, 2.0)),))}, "temperature"),
         ({"climate": Climate.constant(60.0)}, "60"),
         ({"tolerance": 2.0}, "tolerance"),

@@ -14,7 +14,7 @@ import xarray as xr
 from scipy.interpolate import PchipInterpolator
 
 from treadload.contact import Contact, solve_contact
-from treadload.damage.criterion import Criterion, Side
+from treadload.damage.design import DesignCriterion, Side
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -56,7 +56,7 @@ def solve_passages(
     road: Pavement,
     traffic: Traffic,
     climate: Climate,
-    criteria: Sequence[Criterion],
+    criteria: Sequence[DesignCriterion],
     *,
     spacing: float = 6e-3,
     tolerance: float = 3e-3,
@@ -166,7 +166,9 @@ def _across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
     return dy * np.arange(-n, n + 1)
 
 
-def _readings(contact: Contact, row: AxleClass, road: Pavement, criteria: Sequence[Criterion], y: Array) -> Array:
+def _readings(
+    contact: Contact, row: AxleClass, road: Pavement, criteria: Sequence[DesignCriterion], y: Array
+) -> Array:
     """(criterion, y): the largest reading over the passage."""
     loads = [place(contact, x=at_x, y=at_y) for at_x, at_y in row.wheels]
     found = np.empty((len(criteria), len(y)))

@@ -1,4 +1,4 @@
-"""A criterion: what a law reads, and where in the road."""
+"""A criterion of design: a place in the road, and the law that says after how many passes it fails there."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _ANY_TEMPERATURE = 15.0
 
 
 @dataclass(frozen=True)
-class Criterion:
+class DesignCriterion:
     """A place in the road and the law that says after how many passes it fails there.
 
     name: for tables and figures. law: a law of fatigue; or a function that gives it at a temperature of the

@@ -1,0 +1,40 @@
+"""What uniform loads do not see: largest strains over depth, under the computed contact and under uniform loads."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from treadload.plots.plan import Source, fields_of
+from treadload.plots.style import CASES, headline, styled
+
+_PANELS = {
+    "largest_extension": "Largest extension",
+    "largest_in_plane_extension": "Largest horizontal extension",
+    "largest_vertical_shear": "Largest vertical shear strain",
+}
+
+
+@styled
+def uniform_comparison(comparison: Source) -> Figure:
+    """Three panels of the largest strain at each depth, a line for each load.
+
+    comparison: a UniformComparison or its dataset. Returns the figure. Raises InputError if variables are missing.
+    """
+    data = fields_of(comparison, *_PANELS)
+    depths = 1e3 * np.asarray(data["depth"].to_numpy())
+    figure = Figure(figsize=(9.6, 4.4), layout="constrained")
+    axes = figure.subplots(1, len(_PANELS), sharey=True)
+    for ax, (name, title) in zip(axes, _PANELS.items(), strict=True):
+        for number, load in enumerate(data["load"].to_numpy()):
+            values = 1e6 * data[name].sel(load=load).to_numpy()
+            style = "o-" if number == 0 else "s--"
+            ax.plot(values, depths, style, ms=3.5, color=CASES[number % len(CASES)], label=str(load))
+        ax.grid(True)
+        ax.spines[["top", "right"]].set_visible(False)
+        ax.set_xlabel("microstrain")
+        headline(ax, title, letters=26)
+    axes[0].set_ylabel("depth (mm)")
+    axes[0].set_ylim(1.03 * depths.max(), -0.03 * depths.max())
+    axes[0].legend(loc="lower right")
+    return figure

@@ -1,0 +1,162 @@
+"""The computed contact beside the uniform loads of conventional design: what those do not see."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from treadload import variables
+from treadload.contact import Contact
+from treadload.errors import InputError
+from treadload.kernels import tensors
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.response import GridLoad, UniformDisc, UniformRectangle, place, solve_response
+from treadload.response.fields import COMPONENTS
+
+COMPUTED, DISC, RECTANGLE = "computed contact", "uniform disc", "uniform rectangle"
+
+# Largest of a field over the plane at each depth: name → (stress (6, ny, nx), strain (6, ny, nx)) → field.
+_READINGS: Mapping[str, Callable[[Array, Array], Array]] = {
+    "largest_extension": lambda stress, strain: tensors.principal(strain)[0][0],
+    "largest_in_plane_extension": lambda stress, strain: tensors.in_plane_principal(strain)[0],
+    "largest_vertical_shear": lambda stress, strain: tensors.vertical_shear(strain),
+    "largest_vertical_compression": lambda stress, strain: -strain[2],
+    "largest_horizontal_tension": lambda stress, strain: tensors.in_plane_principal(stress)[0],
+}
+# Points beyond the load, m, and their spacing where fields are as smooth as the depth.
+_MARGIN, _PER_DEPTH, _COARSE = 0.15, 4, 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class UniformComparison:
+    """Largest strains and stress under a computed contact and under uniform loads of the same force.
+
+    dataset: readings over (load, depth), see `treadload.variables`, with the loads' areas and pressures.
+    """
+
+    dataset: xr.Dataset
+
+    def ratio(self, reading: str, load: str = DISC) -> xr.DataArray:
+        """Reading under the computed contact over that under a uniform load, over depth."""
+        values = self.dataset[reading]
+        return values.sel(load=COMPUTED) / values.sel(load=load)
+
+    def summary(self) -> str:
+        """A table: extension and vertical shear at every depth, computed and uniform."""
+        data = self.dataset
+        names = [str(name) for name in data["load"].to_numpy()]
+        lines = [
+            "what uniform loads of the same force do not see: largest extension / in the plane / vertical shear "
+            "(microstrain)",
+            "depth (mm)  " + "  ".join(f"{name:>24}" for name in names),
+        ]
+        for depth in data["depth"].to_numpy():
+            row = data.sel(depth=depth)
+            cells = [
+                " / ".join(
+                    f"{1e6 * float(row[reading].sel(load=name)):.1f}"
+                    for reading in ("largest_extension", "largest_in_plane_extension", "largest_vertical_shear")
+                )
+                for name in names
+            ]
+            lines.append(f"{1e3 * depth:10.0f}  " + "  ".join(f"{cell:>24}" for cell in cells))
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.summary()
+
+
+def compare_uniform(
+    contact: Contact,
+    road: Pavement,
+    *,
+    depths: ArrayLike | None = None,
+    pressure: float | None = None,
+    slenderness: float = 1.0,
+    wheels: Sequence[tuple[float, float]] = ((0.0, 0.0),),
+) -> UniformComparison:
+    """The same wheel as conventional design loads the road: uniform pressure on a disc, or on a rectangle.
+
+    contact: the computed one; its forces are those of the uniform loads. road: elastic. depths: m; left out, the
+    surface, depths between 5 and 160 mm and the bottoms of the layers. pressure: of the uniform loads, Pa; left out, the
+    tire's inflation pressure, as design methods take it. slenderness: length along travel over width of the
+    rectangle. wheels: (x, y) of the wheels that act together, m.
+    The disc carries the normal load alone; the rectangle also the net shear, spread evenly.
+    Returns the largest readings at each depth, over the plane.
+    Raises InputError without a pressure.
+    """
+    load = GridLoad.from_dataset(contact.dataset)
+    uniform = contact.tire.inflation_pressure if pressure is None else pressure
+    if uniform is None:
+        raise InputError(
+            "the uniform loads need a pressure: the tire has no inflation pressure; give pressure= in Pa"
+        )
+    if not (math.isfinite(uniform) and uniform > 0):
+        raise InputError(f"pressure must be > 0 Pa, got {uniform}")
+    if not (math.isfinite(slenderness) and slenderness > 0):
+        raise InputError(f"slenderness must be > 0, got {slenderness}")
+    force = load.normal_load
+    area = force / uniform
+    length = math.sqrt(area * slenderness)
+    sheared = [float(part.sum()) * load.grid.cell_area / area for part in (load.array[1], load.array[2])]
+    loads: dict[str, GridLoad | UniformDisc | UniformRectangle] = {
+        COMPUTED: load,
+        DISC: UniformDisc(math.sqrt(area / math.pi), uniform),
+        RECTANGLE: UniformRectangle(length, area / length, uniform, traction_x=sheared[0], traction_y=sheared[1]),
+    }
+    at = _depths(road, load.grid.dx) if depths is None else np.unique(np.atleast_1d(np.asarray(depths, dtype=float)))
+    values = {name: np.empty((len(loads), len(at))) for name in _READINGS}
+    for number, one in enumerate(loads.values()):
+        placed = [place(one, x=x, y=y) for x, y in wheels]
+        for row, depth in enumerate(at):
+            for name, value in _largest(placed, road, float(depth), load, wheels).items():
+                values[name][number, row] = value
+    dataset = variables.dataset(
+        {
+            **{name: (("load", "depth"), value) for name, value in values.items()},
+            "uniform_pressure": ((), uniform),
+            "uniform_area": ((), area),
+        },
+        {"load": list(loads), "depth": at},
+        slenderness=slenderness,
+        wheels=len(wheels),
+        normal_load=force,
+    )
+    return UniformComparison(dataset)
+
+
+def _depths(road: Pavement, cell: float) -> Array:
+    inside = [z for z in (0.005, 0.01, 0.02, 0.04, 0.08, 0.12, 0.16) if z >= 0.5 * cell]
+    ends = road.interfaces
+    return np.unique(np.round([0.0, *[z for z in inside if not len(ends) or z < ends[-1]], *ends], 9))
+
+
+def _largest(
+    loads: Sequence[GridLoad | UniformDisc | UniformRectangle],
+    road: Pavement,
+    depth: float,
+    cells: GridLoad,
+    wheels: Sequence[tuple[float, float]],
+) -> dict[str, float]:
+    """Largest readings at one depth, on the contact's cells near the surface and on points a quarter depth apart."""
+    grid = cells.grid
+    step = min(_COARSE, max(grid.dx, depth / _PER_DEPTH))
+
+    def points(own: Array, spacing: float, centres: list[float]) -> Array:
+        if step > 2 * spacing:
+            return np.arange(own[0] + min(centres) - _MARGIN, own[-1] + max(centres) + _MARGIN, step)
+        return np.unique(np.round(np.concatenate([own + centre for centre in centres]), 9))
+
+    x = points(grid.x, grid.dx, sorted({x for x, _ in wheels}))
+    y = points(grid.y, grid.dy, sorted({y for _, y in wheels}))
+    data = solve_response(loads, road, depths=[depth], x=x, y=y).dataset.isel(depth=0)
+    stress, strain = (
+        np.stack([data[f"{kind}_{name}"].to_numpy() for name in COMPONENTS]) for kind in ("stress", "strain")
+    )
+    return {name: float(field(stress, strain).max()) for name, field in _READINGS.items()}
