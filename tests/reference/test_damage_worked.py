@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from treadload.damage.criterion import Criterion
 
 import treadload as tl
 from treadload.damage.american import (
@@ -21,7 +22,6 @@ from treadload.damage.american import (
     top_down_cracking,
 )
 from treadload.damage.criteria import compute_criteria
-from treadload.damage.criterion import Criterion
 from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.kernels import tensors
 from treadload.response.fields import response_dataset

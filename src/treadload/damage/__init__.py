@@ -8,32 +8,43 @@ from treadload.damage.american import (
     ShellFatigue,
 )
 from treadload.damage.criteria import compute_criteria, peak, tension_behind
+from treadload.damage.design import DesignCriterion
 from treadload.damage.direction import crack_rose, envelope
 from treadload.damage.energy_ratio import EnergyRatio
 from treadload.damage.fatigue import FatigueLaw, FatigueLine
 from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade, equivalent_axles
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
+from treadload.damage.miner import Life, miner
+from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.damage.verdict import Verdict, assess
 
 __all__ = [
     "AsphaltInstitute",
     "AsphaltInstituteSubgrade",
+    "AxleClass",
+    "Climate",
+    "DesignCriterion",
     "EnergyRatio",
     "FatigueLaw",
     "FatigueLine",
     "FrenchBituminous",
     "FrenchHydraulic",
     "FrenchSubgrade",
+    "Life",
     "MepdgBottomUp",
     "MepdgTopDown",
+    "Season",
     "ShellFatigue",
+    "Traffic",
     "Verdict",
+    "Wander",
     "add_thermal_stress",
     "assess",
     "compute_criteria",
     "crack_rose",
     "envelope",
     "equivalent_axles",
+    "miner",
     "peak",
     "residual_after",
     "tension_behind",

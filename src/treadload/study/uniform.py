@@ -84,7 +84,7 @@ def compare_uniform(
     """The same wheel as conventional design loads the road: uniform pressure on a disc, or on a rectangle.
 
     contact: the computed one; its forces are those of the uniform loads. road: elastic. depths: m; left out, the
-    surface, depths between 5 and 160 mm and the bottoms of the layers. pressure: of the uniform loads, Pa; left out, the
+    surface, some down to 160 mm and the bottoms of the layers. pressure: of the uniform loads, Pa; left out, the
     tire's inflation pressure, as design methods take it. slenderness: length along travel over width of the
     rectangle. wheels: (x, y) of the wheels that act together, m.
     The disc carries the normal load alone; the rectangle also the net shear, spread evenly.
