@@ -10,6 +10,7 @@ from treadload.contact import layered
 from treadload.contact.layered import LayeredInfluence, images_of
 from treadload.kernels.layered import Stack
 from treadload.kernels.rectangle import CombinedElasticity
+from treadload.materials import mix
 
 STACK = Stack([2.5e9, 1e8, 4e7], [0.35, 0.3, 0.45], [0.04, 0.1, math.inf], [1e9, math.inf])
 BODIES = CombinedElasticity.of(4e7, 0.45, STACK.shear[0], STACK.poisson[0])
@@ -163,6 +164,10 @@ def test_layers_that_are_no_elastic_stack_are_refused():
     bonded = contact(STEEL, road()).stats["road_share"]
     assert contact(STEEL, half).stats["road_share"] == pytest.approx(bonded, rel=1e-12)
     assert contact(STEEL, layers).stats["road_share"] > 0.9
+    # A layer that waits for its temperature has no share yet.
+    waiting = tl.Pavement([wearing, tl.Layer(mix("EB-GB3"), 0.15, "base"), tl.Layer(tl.Elastic(1e8, 0.35))])
+    assert "road_share" not in contact(STEEL, waiting).stats
+    assert "road  " not in contact(STEEL, waiting).summary()
 
 
 def test_a_fit_that_fails_is_refused(monkeypatch):

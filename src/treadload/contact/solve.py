@@ -13,7 +13,7 @@ import numpy as np
 from treadload.contact.coupling import Coupled, Progress, Start, solve_coupled
 from treadload.contact.friction import Coulomb
 from treadload.contact.influence import Influence
-from treadload.contact.layered import LayeredInfluence, images_of, road_share
+from treadload.contact.layered import LayeredInfluence, RoadShare, images_of, road_share
 from treadload.contact.normal import solve_normal
 from treadload.contact.solution import Contact
 from treadload.contact.tangential import TangentialSolution
@@ -277,10 +277,7 @@ def _contact(
         fields["friction_power_total"] = ((), lost * rolling.speed)
     if slipping.temperature is not None:
         fields["flash_temperature"] = (plane, slipping.temperature)
-    area = float((normal.pressure > 0).sum()) * grid.cell_area
-    # Of a road that changes with time or bond, the stiffest: the one that the half-space stands for.
-    share = road_share(elastic(tire.half_space, "rubbery"), stack_of(road.glassy.bond_limits[0]), area)
-    stats = {
+    stats: dict[str, Any] = {
         "normal_iterations": pair.normal_iterations,
         "normal_residual": normal.residual,
         "newton_iterations": pair.newton,
@@ -292,20 +289,29 @@ def _contact(
         "coupling_rounds": pair.rounds,
         "coupling_change": pair.change,
         "dundurs": influence.dundurs,
-        "road_share": share.share,
-        "layer_share": share.layering,
-        "layers_solved": layered,
-        "images_residual": influence.images.residual if isinstance(influence, LayeredInfluence) else 0.0,
         "cells": grid.nx * grid.ny,
         "seconds": seconds,
     }
     warnings = list(tire.quality.warnings) if tire.quality is not None else []
     if tangential.splitting:
         warnings.append(f"Newton's method stalled; {tangential.splitting} steps of the slower splitting helped it on")
-    if not layered and abs(share.layering) > _LAYERS_MATTER:
-        warnings.append(
-            f"the layers of the road change the compliance of this contact by {100 * share.layering:.1f} %, and it "
-            'was solved on a half-space of the top layer; solve it with road_compliance="layers"'
-        )
+    share = _share(tire, road, float((normal.pressure > 0).sum()) * grid.cell_area)
+    if share is not None:
+        stats |= {"road_share": share.share, "layer_share": share.layering, "layers_solved": layered}
+        if not layered and abs(share.layering) > _LAYERS_MATTER:
+            warnings.append(
+                f"the layers of the road change the compliance of this contact by {100 * share.layering:.1f} %, and "
+                'it was solved on a half-space of the top layer; solve it with road_compliance="layers"'
+            )
+    if isinstance(influence, LayeredInfluence):
+        stats["images_residual"] = influence.images.residual
     data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)
     return Contact(data, tire, road, rolling, stats, tuple(warnings))
+
+
+def _share(tire: Tire, road: Pavement, area: float) -> RoadShare | None:
+    """The road's share in a contact of an area, m²; None while a layer waits for its temperature."""
+    if any(layer.depends_on_temperature for layer in road.layers):
+        return None
+    # Of a road that changes with time or bond, the stiffest: the one that the half-space stands for.
+    return road_share(elastic(tire.half_space, "rubbery"), stack_of(road.glassy.bond_limits[0]), area)

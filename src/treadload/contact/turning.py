@@ -91,8 +91,8 @@ def turn_on_the_spot(
 ) -> TurnResult:
     """Torque that turns a standing wheel about z, and what the tread does to the road meanwhile.
 
-    tire, road, spacing, tolerance, progress: as in `solve_contact`. rolling: load, friction, and forces along
-    the road that act all the while; no creepages, no spin.
+    tire, spacing, tolerance, progress: as in `solve_contact`. road: as a half-space of its top layer.
+    rolling: load, friction, and forces along the road that act all the while; no creepages, no spin.
     angles: of the wheel at the end of every increment, rad, positive to the right; they may go to and fro.
     pivot: (x, y) that is held, m, such as where the kingpin meets the road; None: the wheel finds its centre,
     so that the forces along the road stay as they are given.
