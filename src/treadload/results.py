@@ -11,6 +11,7 @@ import json
 import os
 import platform
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from importlib import metadata
 from pathlib import Path
 
@@ -23,9 +24,9 @@ from treadload.damage import Verdict
 from treadload.errors import InputError
 from treadload.files import replacing
 from treadload.grid import Grid
-from treadload.materials import Prony
-from treadload.pavement import BONDED, Pavement
-from treadload.response import Response
+from treadload.materials import HuetSayegh, Model2S2P1D, Prony
+from treadload.pavement import BONDED, HALF_BONDED, LayerRow, Pavement, layer_rows
+from treadload.response import GridLoad, Response
 from treadload.tire import Tire
 from treadload.variables import dataset
 
@@ -57,12 +58,27 @@ CITATIONS = {
     "contact with slip-velocity dependent friction. J. Sound Vib. 331, 2141-2155.",
     "flash": "Jaeger, J. C. (1942). Moving sources of heat and the temperature at sliding contacts. Proc. R. Soc. "
     "N.S.W. 76, 203-224.",
+    "layers": "Kennett, B. L. N. (1983). Seismic Wave Propagation in Stratified Media. Cambridge University Press, "
+    "chapter 6: reflection from a stack of layers, from the bottom up.",
+    "sliding": "Goodman, R. E., Taylor, R. L., Brekke, T. L. (1968). A model for the mechanics of jointed rock. J. "
+    "Soil Mech. Found. Div. ASCE 94, 637-659.",
+    "half-bonded": "NF P98-086 (2019). Dimensionnement structurel des chaussées routières: semi-bonded interfaces.",
+    "huet": "Huet, C. (1963). Étude par une méthode d'impédance du comportement viscoélastique des matériaux "
+    "hydrocarbonés. Annales des Ponts et Chaussées 6, 373-429.",
+    "sayegh": "Sayegh, G. (1967). Viscoelastic properties of bituminous mixtures. Proc. 2nd Int. Conf. Structural "
+    "Design of Asphalt Pavements, Ann Arbor, 743-755.",
+    "2s2p1d": "Olard, F., Di Benedetto, H. (2003). General 2S2P1D model and relation between the linear viscoelastic "
+    "behaviours of bituminous binders and mixes. Road Mater. Pavement Des. 4, 185-224.",
+    "prony": "Park, S. W., Schapery, R. A. (1999). Methods of interconversion between linear viscoelastic material "
+    "functions. Int. J. Solids Struct. 36, 1653-1675.",
+    "moving": "Duhamel, D., Chabot, A., Tamagny, P., Harfouche, L. (2005). ViscoRoute: visco-elastic modeling for "
+    "asphalt pavements. Bull. Lab. Ponts Chaussées 258-259, 89-103.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
 }
 
 
-def citations(contact: Contact | None, response: Response | None) -> list[str]:
-    """References of the methods that these results really used."""
+def citations(contact: Contact | None, response: Response | None, road: Pavement | None = None) -> list[str]:
+    """References of the methods that these results really used; road: of the response."""
     used = ["chain"]
     if contact is not None:
         used += ["influence", "convolution", "normal", "preconditioner", "rolling", "newton"]
@@ -78,16 +94,43 @@ def citations(contact: Contact | None, response: Response | None) -> list[str]:
             used += ["memory", "pivoting"]
     if response is not None:
         used += [key for key in ("influence", "convolution", "stress") if key not in used]
+        used += _of_the_road(road if road is not None or contact is None else contact.road)
     return [CITATIONS[key] for key in used]
 
 
-def to_tree(
-    parts: Iterable[Contact | Response | Verdict], *, case: Case | None = None, title: str = ""
-) -> xr.DataTree:
-    """One tree of results: /contact, /response, /slice_along, /slice_across, /damage.
+def _of_the_road(road: Pavement | None) -> list[str]:
+    """Keys of the methods that a road calls for."""
+    if road is None or (road.is_homogeneous and not road.is_viscoelastic):
+        return []
+    bonds = [layer.bond for layer in road.layers[:-1]]
+    materials = [layer.resolved for layer in road.layers]
+    asked = {
+        "layers": not road.is_homogeneous,
+        "sliding": any(bond != BONDED for bond in bonds),
+        "half-bonded": HALF_BONDED in bonds,
+        "moving": road.is_viscoelastic,
+        "huet": any(isinstance(one, HuetSayegh | Model2S2P1D) for one in materials),
+        "sayegh": any(isinstance(one, HuetSayegh) for one in materials),
+        "2s2p1d": any(isinstance(one, Model2S2P1D) for one in materials),
+        "prony": any(isinstance(one, Prony) for one in materials),
+    }
+    return [key for key, used in asked.items() if used]
 
-    A response on a single row of y becomes /slice_along, on a single column of x /slice_across.
-    The root carries the title, the case as TOML text, versions, the date and the citations as JSON.
+
+def to_tree(
+    parts: Iterable[Contact | GridLoad | Response | Verdict],
+    *,
+    case: Case | None = None,
+    road: Pavement | None = None,
+    title: str = "",
+) -> xr.DataTree:
+    """One tree of results: /contact, /response, /slice_along, /slice_across, /bowl, /damage.
+
+    A response on a single row of y becomes /slice_along, on a single column of x /slice_across, on a single line of
+    the surface /bowl. A GridLoad, recorded in place of a contact, becomes /contact.
+    road: at its temperature; left out, that of the contact.
+    The root carries the title, the case as TOML text, the layers of the road as JSON, versions, the date and the
+    citations as JSON.
     """
     groups: dict[str, xr.Dataset] = {}
     contact: Contact | None = None
@@ -103,20 +146,26 @@ def to_tree(
                 "warnings": json.dumps(list(part.warnings)),
             }
             groups["contact"] = part.dataset.assign_attrs(about)
+        elif isinstance(part, GridLoad):
+            groups["contact"] = _footprint(part, road)
         elif isinstance(part, Verdict):
             sentence = part.summary().splitlines()[-1]
             groups["damage"] = part.dataset.assign_attrs(sentence=sentence)
         else:
             response = part
             stats = json.dumps(dict(part.stats), default=float)
-            groups[_response_group(part.dataset)] = part.dataset.assign_attrs(stats=stats)
+            warnings = json.dumps(list(part.warnings), ensure_ascii=False)
+            groups[_response_group(part.dataset)] = part.dataset.assign_attrs(stats=stats, warnings=warnings)
+    if road is None and contact is not None:
+        road = contact.road
     root = {
         "title": title or (case.title if case is not None else ""),
         "case": case.to_toml() if case is not None else "",
+        "layers": json.dumps([asdict(row) for row in _rows(road, case)], ensure_ascii=False),
         "treadload_version": __version__,
         "versions": json.dumps(_versions()),
         "created": datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
-        "citations": json.dumps(citations(contact, response), ensure_ascii=False),
+        "citations": json.dumps(citations(contact, response, road), ensure_ascii=False),
         "conventions": "x: travel, y: right, z: down; tension positive; traction: by the tire on the road; SI units",
     }
     return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **{f"/{k}": v for k, v in groups.items()}})
@@ -168,7 +217,52 @@ def write_csv(data: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     return Path(path)
 
 
+def road_in_rows(road: Pavement, case: Case | None = None) -> str:
+    """The layers of a road as a table in text: thickness, modulus, bond, temperature; the speed of the wheels.
+
+    road: at its temperature. case: that tells the temperatures and the speed.
+    """
+    rows = _rows(road, case)
+    speed = case.speed if case is not None and road.is_viscoelastic else None
+    lines = ["road from the surface down" + ("" if speed is None else f", wheels at {speed * 3.6:g} km/h")]
+    wide = max(len(row.name) for row in rows)
+    for number, row in enumerate(rows, start=1):
+        thickness = "" if row.thickness is None else f"{row.thickness * 1e3:g} mm"
+        told = [f"E = {row.modulus / 1e6:.5g} MPa", f"ν = {row.poisson:g}"]
+        if row.frequency is not None:
+            told[0] = f"|E*| = {row.modulus / 1e6:.4g} MPa at {row.frequency:g} Hz"
+        told += [f"{row.temperature:g} °C"] if row.temperature is not None else []
+        told += [f"{row.bond}{' to the next' if number < len(rows) else ''}"] if row.bond else []
+        lines.append(f"  {number}  {row.name:{wide}}  {thickness:>8}  " + ", ".join(told))
+    return "\n".join(lines)
+
+
+def _rows(road: Pavement | None, case: Case | None) -> tuple[LayerRow, ...]:
+    if road is None:
+        return ()
+    return layer_rows(road, case.pavement.layer_temperatures() if case is not None else ())
+
+
+def _footprint(load: GridLoad, road: Pavement | None) -> xr.Dataset:
+    """A recorded footprint with the names that a contact has."""
+    plane = ("y", "x")
+    pressure, along, across = load.array
+    fields: dict[str, tuple[tuple[str, ...], object]] = {
+        "pressure": (plane, pressure),
+        "traction_x": (plane, along),
+        "traction_y": (plane, across),
+        "normal_load": ((), load.normal_load),
+        "tractive_force": ((), load.tractive_force),
+        "lateral_force": ((), load.lateral_force),
+    }
+    words = {} if road is None else {"road": _road_in_words(road)}
+    cell = {"dx": load.grid.dx, "dy": load.grid.dy}
+    return dataset(fields, {"x": load.grid.x, "y": load.grid.y}, **cell, tire="recorded footprint", **words)
+
+
 def _response_group(data: xr.Dataset) -> str:
+    if data.sizes["depth"] == 1 and data.sizes["y"] == 1 and data.sizes["x"] > 1:
+        return "bowl"
     if data.sizes["y"] == 1 and data.sizes["x"] > 1:
         return "slice_along"
     if data.sizes["x"] == 1 and data.sizes["y"] > 1:

@@ -54,7 +54,7 @@ def test_a_rigid_base():
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"frictionless"', '"glued"', r"pavement\.layers\.1\.bond: .*'bonded' or 'frictionless'"),
+        ('"frictionless"', '"glued"', r"pavement\.layers\.1\.bond: .*'bonded', 'half-bonded' or 'frictionless'"),
         ('"1000 MPa/m"', '"-1 MPa/m"', "must be >= 0 Pa/m"),
         ('"1000 MPa/m"', '"1000 MPa"', "Pa/m"),
         (

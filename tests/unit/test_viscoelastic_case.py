@@ -49,6 +49,10 @@ def test_speed_is_needed():
         Case.from_text(text(speed=""))
 
 
-def test_a_road_stays_elastic():
-    with pytest.raises(InputError, match=r"pavement\.layers\.0\.material\.kind"):
-        Case.from_text(COARSE_CASE.replace('kind = "elastic"', 'kind = "prony"'))
+def test_a_viscoelastic_road_needs_a_speed():
+    asphalt = 'kind = "prony", terms = [[0.9, "10 ms"]]'
+    with pytest.raises(InputError, match=r"give the speed in \[rolling\] or \[response\]"):
+        Case.from_text(COARSE_CASE.replace('kind = "elastic"', asphalt))
+    case = Case.from_text(COARSE_CASE.replace('kind = "elastic"', asphalt).replace("depths", "speed = 20\ndepths"))
+    assert case.pavement.build().layers[0].material == Prony(5.4e9, ((0.9, 0.01),), 0.35)
+    assert case.speed == 20

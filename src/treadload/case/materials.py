@@ -1,4 +1,4 @@
-"""Materials in a case: tables told apart by their kind."""
+"""Elastic materials and Prony series in a case, and what a tire can be made of."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Discriminator, Tag
 
 from treadload.case.fields import Number, Part, Pressure, Time
+from treadload.case.kinds import known_kind
 from treadload.materials import Elastic, Prony
 
 
@@ -35,25 +36,18 @@ class PronyPart(Part):
         return Prony(self.modulus, self.terms, self.poisson)
 
 
-MATERIAL_PARTS: dict[str, type[Part]] = {"elastic": MaterialPart, "prony": PronyPart}
+TIRE_PARTS: dict[str, type[Part]] = {"elastic": MaterialPart, "prony": PronyPart}
 
 
-def _kind_of_material(value: Any) -> str:
+def kind_of_material(value: Any) -> str:
+    """The kind that a table or a part of a case names; elastic if it names none."""
     kind = value.get("kind", "elastic") if isinstance(value, dict) else getattr(value, "kind", "elastic")
     return str(kind)
-
-
-def _known_material(value: Any) -> Any:
-    """A material whose kind is one of ours. Raises ValueError that says which are."""
-    kind = _kind_of_material(value)
-    if kind not in MATERIAL_PARTS:
-        raise ValueError(f"no material of the kind {kind!r}; known are {', '.join(MATERIAL_PARTS)}")
-    return value
 
 
 # What a tire can be made of; the kind tells the tables apart.
 TireMaterial = Annotated[
     Annotated[MaterialPart, Tag("elastic")] | Annotated[PronyPart, Tag("prony")],
-    Discriminator(_kind_of_material),
-    BeforeValidator(_known_material),
+    Discriminator(kind_of_material),
+    BeforeValidator(lambda value: known_kind(value, TIRE_PARTS, "material", "elastic")),
 ]

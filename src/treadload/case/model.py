@@ -10,8 +10,9 @@ from typing import Any, Literal
 import tomli_w
 from pydantic import Field, ValidationError, model_validator
 
-from treadload.case.fields import Curvature, Force, Length, Number, Part, Speed
-from treadload.case.friction import Friction
+from treadload.case.fields import Length, Number, Part
+from treadload.case.loading import FootprintPart, RollingPart
+from treadload.case.response import ResponsePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
 from treadload.case.words import in_words
@@ -19,45 +20,8 @@ from treadload.contact import Rolling
 from treadload.contact.viscoelastic import check_rolling
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
+from treadload.pavement import Pavement
 from treadload.tire import Tire
-
-
-class RollingPart(Part):
-    """`[rolling]`: the load, the friction, and forces or creepages."""
-
-    normal_load: Force | None = None
-    approach: Length | None = None
-    friction: Friction
-    tractive_force: Force | None = None
-    creepage_x: Number | None = None
-    lateral_force: Force | None = None
-    creepage_y: Number | None = None
-    spin: Curvature = 0.0
-    speed: Speed | None = None
-
-    def build(self, folder: Path = Path(".")) -> Rolling:
-        """The rolling state; a friction map is read from the folder."""
-        friction = self.friction if isinstance(self.friction, float) else self.friction.build(folder)
-        return Rolling(**{**dict(self), "friction": friction})
-
-
-class ResponsePart(Part):
-    """`[response]`: depths of the maps, and how deep the vertical slices through the worst point go."""
-
-    depths: tuple[Length, ...] = (0.0,)
-    slice_depth: Length = 0.06
-
-    @model_validator(mode="after")
-    def _downwards(self) -> ResponsePart:
-        if not self.depths:
-            raise ValueError("depths needs at least one depth, got none; 0 is the surface")
-        if min(self.depths) < 0:
-            raise ValueError(f"depths must be >= 0, got {min(self.depths):g} m; depth counts downwards")
-        if len(set(self.depths)) != len(self.depths):
-            raise ValueError(f"depths must differ from each other, got {list(self.depths)} m")
-        if self.slice_depth <= 0:
-            raise ValueError(f"slice_depth must be > 0, got {self.slice_depth:g} m")
-        return self
 
 
 class FatiguePart(Part):
@@ -88,9 +52,10 @@ class Case(Part):
     title: str = ""
     spacing: Length | None = None
     tolerance: Number = 1e-6
-    tire: TirePart
+    tire: TirePart | None = None
     pavement: PavementPart
-    rolling: RollingPart
+    rolling: RollingPart | None = None
+    footprint: FootprintPart | None = None
     response: ResponsePart = ResponsePart()
     damage: DamagePart | None = None
     folder: Path = Field(default=Path("."), exclude=True, repr=False)
@@ -100,10 +65,15 @@ class Case(Part):
         if not 1e-12 <= self.tolerance <= 1e-2:
             raise ValueError(f"tolerance must lie in [1e-12, 1e-2], got {self.tolerance:g}; 1e-6 is the default")
         # Building what is cheap to build finds wrong values before any file is read.
-        self.pavement.build()
-        self.rolling.build(self.folder)
-        if self.tire.material is not None:
-            check_rolling(self.tire.material.build(), self.pavement.build().surface_material, self.rolling.speed)
+        road = self.pavement.build()
+        self._check_loading(road)
+        if road.is_viscoelastic and self.speed is None:
+            raise ValueError("the road is viscoelastic: give the speed in [rolling] or [response]")
+        if road.rigid_base and max(self.response.depths) > road.interfaces[-1]:
+            raise ValueError(
+                f"response.depths reach {max(self.response.depths):g} m, below the rigid base at "
+                f"{road.interfaces[-1]:g} m"
+            )
         if self.damage is not None:
             self.damage.fatigue.build()
             if self.damage.depth not in self.response.depths:
@@ -112,6 +82,28 @@ class Case(Part):
                     f"{list(self.response.depths)} m; add it there"
                 )
         return self
+
+    def _check_loading(self, road: Pavement) -> None:
+        if self.footprint is not None:
+            stray = [name for name in ("tire", "rolling", "spacing") if getattr(self, name) is not None]
+            if stray:
+                raise ValueError(f"a footprint stands in place of a tire; leave out {stray[0]}")
+            return
+        missing = [name for name in ("tire", "rolling") if getattr(self, name) is None]
+        if missing:
+            raise ValueError(f"'{missing[0]}' is missing; or give a recorded [footprint] in place of both")
+        assert self.tire is not None
+        assert self.rolling is not None
+        self.rolling.build(self.folder)
+        if self.tire.material is not None:
+            check_rolling(self.tire.material.build(), road.surface_material, self.rolling.speed)
+
+    @property
+    def speed(self) -> float | None:
+        """Speed of the wheels over the road, m/s: that of the response, else that of rolling; None if neither."""
+        if self.response.speed is not None:
+            return self.response.speed
+        return None if self.rolling is None else self.rolling.speed
 
     @classmethod
     def from_dict(cls, table: dict[str, Any], *, folder: Path | str = ".", name: str = "case") -> Case:
@@ -147,5 +139,13 @@ class Case(Part):
         return tomli_w.dumps(self.model_dump(mode="json", exclude_unset=True, exclude_none=True))
 
     def build_tire(self) -> Tire:
-        """The tire, read from its file if it has one."""
+        """The tire, read from its file if it has one. Raises InputError for a case of a recorded footprint."""
+        if self.tire is None:
+            raise InputError("this case has a recorded footprint and no tire")
         return self.tire.build(self.folder)
+
+    def build_rolling(self) -> Rolling:
+        """The rolling state. Raises InputError for a case of a recorded footprint."""
+        if self.rolling is None:
+            raise InputError("this case has a recorded footprint and no rolling state")
+        return self.rolling.build(self.folder)

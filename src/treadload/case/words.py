@@ -7,15 +7,27 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from treadload.case.asphalt import ROAD_PARTS
 from treadload.case.friction import LAW_PARTS
-from treadload.case.materials import MATERIAL_PARTS
-from treadload.case.road import BOND_TAGS
+from treadload.case.materials import TIRE_PARTS
+from treadload.case.road import BOND_TAGS, TEMPERATURE_TAGS, BondPart, ProfilePart
+from treadload.case.shift import SHIFT_PARTS
 
+# Names by which the tables of a key are told apart; they stand in a location behind the key.
 _TAGS = {
     "friction": (*LAW_PARTS, "number"),
     "base": (*LAW_PARTS, "number"),
-    "material": tuple(MATERIAL_PARTS),
+    "material": tuple(ROAD_PARTS),
+    "shift": tuple(SHIFT_PARTS),
     "bond": BOND_TAGS,
+    "temperature": TEMPERATURE_TAGS,
+}
+_TABLES: dict[str, type[BaseModel]] = {
+    **LAW_PARTS,
+    **ROAD_PARTS,
+    **SHIFT_PARTS,
+    "spring": BondPart,
+    "depths": ProfilePart,
 }
 
 
@@ -38,7 +50,7 @@ def _one_error(item: Any, case: type[BaseModel]) -> str:
 
 
 def _without_tags(location: tuple[Any, ...]) -> list[str]:
-    """Parts of a location without the names of friction laws and materials, by which tables are told apart."""
+    """Parts of a location without the names by which tables are told apart."""
     before = ("", *location)
     return [str(part) for part, last in zip(location, before, strict=False) if part not in _TAGS.get(str(last), ())]
 
@@ -46,15 +58,20 @@ def _without_tags(location: tuple[Any, ...]) -> list[str]:
 def _keys(location: tuple[Any, ...], case: type[BaseModel]) -> list[str]:
     """Keys that the table at this location knows."""
     model: Any = case
-    for part in location:
-        if isinstance(part, int) or part in ("number", *BOND_TAGS):
-            continue
-        tables = {**LAW_PARTS, **MATERIAL_PARTS}
-        if part in tables and part not in model.model_fields:
-            model = tables[part]
-            continue
-        annotation = model.model_fields[part].annotation
-        candidates = [getattr(one, "__origin__", one) for one in (annotation, *getattr(annotation, "__args__", ()))]
-        # The name of the law or material that follows says which of its tables is meant.
-        model = next((one for one in candidates if isinstance(one, type) and issubclass(one, BaseModel)), model)
+    for before, part in zip(("", *location), location, strict=False):
+        if part in _TAGS.get(str(before), ()):
+            model = (TIRE_PARTS if location[0] == "tire" else _TABLES).get(part, model)
+        elif not isinstance(part, int):
+            annotation = model.model_fields[part].annotation
+            model = next(
+                (one for one in _within(annotation) if isinstance(one, type) and issubclass(one, BaseModel)), model
+            )
     return [name for name in model.model_fields if name != "folder"]
+
+
+def _within(annotation: Any) -> list[Any]:
+    """The types that an annotation is built of, outermost first."""
+    parts = [getattr(annotation, "__origin__", annotation)]
+    for part in getattr(annotation, "__args__", ()):
+        parts += _within(part)
+    return parts

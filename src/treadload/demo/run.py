@@ -71,11 +71,14 @@ def run_demo(folder: Path, progress: Progress | None = None) -> Demo:
 def _figures(results: dict[str, Result], folder: Path) -> list[Path]:
     titles = [result.case.title for result in results.values()]
     figures = {
-        "pressure_side_by_side": compare_pressure([r.contact for r in results.values()], titles),
+        "pressure_side_by_side": compare_pressure(
+            [r.contact for r in results.values() if r.contact is not None], titles
+        ),
         "strain_side_by_side": compare_strain([r.response for r in results.values()], titles),
         "fatigue_line": fatigue_line([r.verdict for r in results.values() if r.verdict is not None], titles),
     }
     for name, result in results.items():
+        assert result.contact is not None
         figures |= {
             f"{name}_shear": result.contact.plot.shear(),
             f"{name}_strain_directions": result.response.plot.strain_directions(),
@@ -91,7 +94,7 @@ def comparison(results: list[Result]) -> list[tuple[str, ...]]:
     def add(quantity: str, values: list[str]) -> None:
         rows.append((quantity, *values))
 
-    contacts = [result.contact for result in results]
+    contacts = [result.contact for result in results if result.contact is not None]
     add("normal load", [f"{float(c.dataset.normal_load) / 1e3:.1f} kN" for c in contacts])
     add("tractive force", [f"{abs(float(c.dataset.tractive_force)) / 1e3:.1f} kN" for c in contacts])
     add("contact area", [f"{c.area * 1e6:.0f} mm²" for c in contacts])

@@ -2,6 +2,7 @@
 
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
 from treadload.pavement.catalogue import Structure, read_structures, structures
+from treadload.pavement.rows import LayerRow, layer_rows
 from treadload.pavement.structure import Layer, Pavement
 from treadload.pavement.temperature import TemperatureProfile
 
@@ -12,9 +13,11 @@ __all__ = [
     "Bond",
     "HalfBonded",
     "Layer",
+    "LayerRow",
     "Pavement",
     "Structure",
     "TemperatureProfile",
+    "layer_rows",
     "read_structures",
     "structures",
 ]

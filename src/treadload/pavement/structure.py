@@ -236,16 +236,17 @@ class Pavement:
         Raises InputError for what looks like kelvin, a list of another length, temperatures outside the data, and
         a profile for a layer that goes down for ever, which has no middle.
         """
-        found = [
-            self._resolved(layer, value, extrapolate)
-            for layer, value in zip(self.layers, self._temperatures(temperature, extrapolate), strict=True)
-        ]
+        values = self.layer_temperatures(temperature, extrapolate=extrapolate)
+        found = [self._resolved(layer, value, extrapolate) for layer, value in zip(self.layers, values, strict=True)]
         return self._with_materials(found)
 
-    def _temperatures(
-        self, temperature: float | Sequence[float | None] | TemperatureProfile, extrapolate: bool
+    def layer_temperatures(
+        self, temperature: float | Sequence[float | None] | TemperatureProfile, *, extrapolate: bool = False
     ) -> list[float | None]:
-        """Temperature of each layer, °C; None where it is not needed or not given."""
+        """Temperature that `at_temperature` gives each layer, °C; None where it is not needed or not given.
+
+        Arguments and errors as there.
+        """
         if isinstance(temperature, TemperatureProfile):
             return [
                 self._middle_temperature(number, temperature, extrapolate) if layer.depends_on_temperature else None

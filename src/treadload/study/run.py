@@ -1,9 +1,10 @@
-"""Run a case: tire, contact, response, verdict."""
+"""Run a case: tire or footprint, contact, response, verdict."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,39 +14,50 @@ from treadload.contact import Contact, solve_contact
 from treadload.damage import Verdict, assess
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
-from treadload.response import Response, solve_response
-from treadload.results import to_tree
+from treadload.response import GridLoad, Response, solve_response
+from treadload.results import road_in_rows, to_tree
 
 Progress = Callable[[str], None]
 
 _SLICE_DEPTHS = 31
+# As a depth just below an interface, m.
+_BELOW = 1e-6
+# The deflection bowl, m: behind the wheel, before it, between its points.
+_BEHIND, _AHEAD, _STEP = 2.5, 1.5, 0.01
 
 
 @dataclass(frozen=True, eq=False)
 class Result:
     """What a case gave.
 
-    response: maps at the case's depths. slice_along, slice_across: vertical slices through the worst point,
-    along travel and across it. verdict: None if the case has no fatigue line.
+    road: at its temperature. contact: None if a footprint was recorded, which is then `footprint`. response: maps at
+    the case's depths, over all wheels. slice_along, slice_across: vertical slices along travel and across it through
+    the worst point of the map that the verdict reads, else the first. bowl: deflection of the surface along travel
+    under the first wheel; None on a half-space. verdict: None if the case has no fatigue line.
     """
 
     case: Case
-    contact: Contact
+    road: Pavement
+    contact: Contact | None
+    footprint: GridLoad | None
     response: Response
     slice_along: Response
     slice_across: Response
+    bowl: Response | None
     verdict: Verdict | None
 
     def to_tree(self) -> xr.DataTree:
         """All results in one tree with provenance, ready to be saved."""
-        parts: list[Contact | Response | Verdict] = [self.contact, self.response, self.slice_along, self.slice_across]
-        if self.verdict is not None:
-            parts.append(self.verdict)
-        return to_tree(parts, case=self.case)
+        parts = [self.contact, self.footprint, self.response, self.slice_along, self.slice_across, self.bowl]
+        found = [part for part in (*parts, self.verdict) if part is not None]
+        return to_tree(found, case=self.case, road=self.road)
 
     def summary(self) -> str:
-        """One screen: contact, response, verdict."""
-        parts = [self.contact.summary(), self.response.summary()]
+        """One screen: contact, road, response, verdict."""
+        load = self.footprint if self.contact is None else self.contact
+        assert load is not None
+        parts = [_footprint_in_words(load) if isinstance(load, GridLoad) else load.summary()]
+        parts += [road_in_rows(self.road, self.case), self.response.summary()]
         if self.verdict is not None:
             parts.append(self.verdict.summary())
         return "\n\n".join(parts)
@@ -58,44 +70,90 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     Raises the errors of reading, contact, response and verdict.
     """
     tell = progress or (lambda text: None)
-    tell("reading the tire")
-    tire = case.build_tire()
     road = case.pavement.build()
-    contact = solve_contact(
-        tire,
-        road,
-        case.rolling.build(case.folder),
-        spacing=case.spacing,
-        tolerance=case.tolerance,
-        progress=tell,
-    )
-    tell("stress and strain in the road")
-    response = solve_response(contact, road, depths=case.response.depths)
-    along, across = _slices(contact, response, road, case.response.slice_depth)
+    contact, footprint = None, None
+    if case.footprint is None:
+        contact = _contact(case, road, tell)
+        wheel = GridLoad.from_dataset(contact)
+    else:
+        tell("reading the footprint")
+        wheel = footprint = case.footprint.build(case.folder)
+    loads = case.response.place(wheel)
+    asked = case.response
+
+    def solve(depths: Sequence[float] | Array, **points: Any) -> Response:
+        if road.is_viscoelastic:
+            points["speed"] = case.speed
+        return solve_response(loads, road, depths=depths, side=asked.side, **points)
+
+    count = f" under {len(loads)} wheels" if len(loads) > 1 else ""
+    tell(f"stress and strain in the road{count}")
+    response = solve(asked.depths)
+    tell("vertical slices")
+    worst_x, worst_y = _worst_point(response, asked.depths[0] if case.damage is None else case.damage.depth)
+    bottom = asked.slices_to(road.interfaces.tolist(), rigid_base=road.rigid_base)
+    depths = _slice_depths(bottom, wheel.grid.dx, road)
+    grid = response.dataset
+    along = solve(depths, x=grid.x.values, y=[worst_y])
+    across = solve(depths, x=[worst_x], y=grid.y.values)
+    bowl = None
+    if not road.is_homogeneous:
+        tell("deflection bowl")
+        ahead, right = _centre(loads[0])
+        steps = np.arange(-round(_BEHIND / _STEP), round(_AHEAD / _STEP) + 1) * _STEP
+        bowl = solve([0.0], x=ahead + steps, y=[right])
     verdict = None
     if case.damage is not None:
         tell("verdict")
         line = case.damage.fatigue.build()
         verdict = assess(response, line, depth=case.damage.depth, strain=case.damage.strain)
-    return Result(case, contact, response, along, across, verdict)
+    return Result(case, road, contact, footprint, response, along, across, bowl, verdict)
 
 
-def _slices(contact: Contact, response: Response, road: Pavement, bottom: float) -> tuple[Response, Response]:
-    """Vertical slices through the point of the largest extension at the first depth."""
-    strain = response.dataset.principal_strain_1.isel(depth=0)
-    row, column = np.unravel_index(int(np.argmax(strain.values)), strain.shape)
-    x, y = float(strain.x[column]), float(strain.y[row])
-    depths = _graded_depths(bottom, float(contact.dataset.attrs["dx"]))
-    return (
-        solve_response(contact, road, depths=depths, y=[y]),
-        solve_response(contact, road, depths=depths, x=[x]),
+def _contact(case: Case, road: Pavement, tell: Progress) -> Contact:
+    tell("reading the tire")
+    return solve_contact(
+        case.build_tire(),
+        road,
+        case.build_rolling(),
+        spacing=case.spacing,
+        tolerance=case.tolerance,
+        progress=tell,
     )
 
 
-def _graded_depths(bottom: float, cell: float) -> Array:
+def _worst_point(response: Response, depth: float) -> tuple[float, float]:
+    """X and y, m, of the largest extension at a depth."""
+    strain = response.dataset.principal_strain_1.sel(depth=depth, method="nearest")
+    row, column = np.unravel_index(int(np.nanargmax(strain.values)), strain.shape)
+    return float(strain.x[column]), float(strain.y[row])
+
+
+def _slice_depths(bottom: float, cell: float, road: Pavement) -> Array:
     """Depths from the surface to the bottom, close to each other near the surface where strain varies fast.
 
-    None lies between the surface and half a cell: there the field shows the edges of the cells.
+    None lies between the surface and half a cell: there the field shows the edges of the cells. Both sides of every
+    interface are among them.
     """
     first = min(0.5 * cell, 0.5 * bottom)
-    return np.concatenate([[0.0], np.geomspace(first, bottom, _SLICE_DEPTHS - 1)])
+    graded = np.concatenate([[0.0], np.geomspace(first, bottom, _SLICE_DEPTHS - 1)])
+    above = [depth for depth in road.interfaces if depth <= bottom]
+    below = [depth + _BELOW for depth in above if depth < bottom]
+    # Depths that round-off alone tells apart would be solved twice.
+    return np.unique(np.round(np.concatenate([graded, above, below]), 9))
+
+
+def _centre(load: GridLoad) -> tuple[float, float]:
+    """Centre of pressure, m, along x and y."""
+    pressure, grid = load.array[0], load.grid
+    total = max(float(pressure.sum()), np.finfo(float).tiny)
+    return float((pressure * grid.x[None]).sum() / total), float((pressure * grid.y[:, None]).sum() / total)
+
+
+def _footprint_in_words(load: GridLoad) -> str:
+    peak = float(load.array[0].max()) / 1e3
+    return (
+        f"recorded footprint, {load.grid}\n"
+        f"normal load {load.normal_load / 1e3:.2f} kN, peak pressure {peak:.0f} kPa, "
+        f"tractive force {load.tractive_force / 1e3:.2f} kN, lateral force {load.lateral_force / 1e3:.2f} kN"
+    )

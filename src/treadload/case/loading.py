@@ -1,0 +1,68 @@
+"""What loads the road in a case: a rolling state, or a recorded footprint in its place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import Field, model_validator
+
+from treadload.case.fields import Curvature, Force, Length, Number, Part, Pressure, Speed
+from treadload.case.friction import Friction
+from treadload.contact import Rolling
+from treadload.response import GridLoad
+
+
+class RollingPart(Part):
+    """`[rolling]`: the load, the friction, and forces or creepages."""
+
+    normal_load: Force | None = None
+    approach: Length | None = None
+    friction: Friction
+    tractive_force: Force | None = None
+    creepage_x: Number | None = None
+    lateral_force: Force | None = None
+    creepage_y: Number | None = None
+    spin: Curvature = 0.0
+    speed: Speed | None = None
+
+    def build(self, folder: Path = Path(".")) -> Rolling:
+        """The rolling state; a friction map is read from the folder."""
+        friction = self.friction if isinstance(self.friction, float) else self.friction.build(folder)
+        return Rolling(**{**dict(self), "friction": friction})
+
+
+class FootprintPart(Part):
+    """`[footprint]`, in place of [tire] and [rolling]: recorded contact stress.
+
+    file: a CSV table or matrix, or a result of this package (.nc). units: { pressure = "kPa" }, of columns whose
+    heading names none. spacing: of the cells of a matrix. missing: "error" or "zero". noise: pressures this far below
+    zero are none. shear_on: the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
+    """
+
+    file: str
+    units: dict[str, str] = Field(default_factory=dict)
+    spacing: Length | tuple[Length, Length] | None = None
+    missing: Literal["error", "zero"] = "error"
+    noise: Pressure = 0.0
+    shear_on: Literal["road", "tire"] = "road"
+    interpolation: Literal["constant", "bilinear"] = "constant"
+
+    @model_validator(mode="after")
+    def _of_a_table(self) -> FootprintPart:
+        stray = sorted(self.model_fields_set - {"file", "interpolation"}) if self.is_result else []
+        if stray:
+            raise ValueError(f"{stray[0]} belongs to a CSV file; {self.file} is NetCDF and tells it itself")
+        return self
+
+    @property
+    def is_result(self) -> bool:
+        """True for a NetCDF file."""
+        return self.file.endswith(".nc")
+
+    def build(self, folder: Path) -> GridLoad:
+        """The load; a relative path starts from the folder."""
+        if self.is_result:
+            return GridLoad.from_file(folder / self.file, interpolation=self.interpolation)
+        told: dict[str, Any] = {name: value for name, value in self if name != "file"}
+        return GridLoad.from_csv(folder / self.file, **told)

@@ -1,0 +1,66 @@
+"""The layers of a road as rows: what a table of a summary or a report shows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from treadload.materials import Elastic
+from treadload.pavement.bonds import BONDED
+from treadload.pavement.structure import Layer, Pavement
+
+# At which the modulus of a viscoelastic layer is told: the usual one of traffic, Hz.
+FREQUENCY = 10.0
+
+
+@dataclass(frozen=True)
+class LayerRow:
+    """A layer in plain values.
+
+    name: of the layer. thickness: m, None where it goes down for ever. modulus: Young's, Pa; of a viscoelastic
+    material |E*| at `frequency`, Hz, which is None otherwise. poisson: Poisson's ratio. bond: to the layer below, in
+    words; empty below the last. temperature: °C, None where it is not known. material: in words.
+    """
+
+    name: str
+    thickness: float | None
+    modulus: float
+    frequency: float | None
+    poisson: float
+    bond: str
+    temperature: float | None
+    material: str
+
+
+def layer_rows(road: Pavement, temperatures: Sequence[float | None] = ()) -> tuple[LayerRow, ...]:
+    """The layers from the surface down.
+
+    road: at its temperature. temperatures: °C, one a layer, those that chose its materials.
+    Raises InputError for a layer that still needs a temperature.
+    """
+    known = [*temperatures, *[None] * (len(road.layers) - len(temperatures))]
+    return tuple(
+        _row(layer, temperature, _held(road, number))
+        for number, (layer, temperature) in enumerate(zip(road.layers, known, strict=True))
+    )
+
+
+def _row(layer: Layer, temperature: float | None, bond: str) -> LayerRow:
+    material = layer.resolved
+    if isinstance(material, Elastic):
+        modulus, frequency = material.modulus, None
+    else:
+        modulus, frequency = float(np.abs(material.complex_modulus(2 * math.pi * FREQUENCY))), FREQUENCY
+    return LayerRow(
+        layer.name, layer.thickness, modulus, frequency, material.poisson, bond, temperature, str(material)
+    )
+
+
+def _held(road: Pavement, number: int) -> str:
+    """Bond of a layer to what lies below it, in words."""
+    if number < len(road.layers) - 1:
+        return str(road.layers[number].bond)
+    return f"{BONDED} to a rigid base" if road.rigid_base else ""
