@@ -85,9 +85,10 @@ def solve_transient(
     """Rolling from rest: pressure, shear, stick and slip of a tire step by step along its way.
 
     tire, spacing, progress: as in `solve_contact`. road: as a half-space of its top layer.
-    rolling: one state for the whole way, or one for every step; the wheel stands under the load of the first before. distances: rolled since the start at the end of
-    every step, m, ascending from zero; steps may be smaller or larger than a cell. A step of no distance shifts
-    the wheel where it stands, by forces; a creepage does nothing there.
+    rolling: one state for the whole way, or one for every step; the wheel stands under the load of the first before.
+    distances: rolled since the start at the end of every step, m, ascending from zero; steps
+    may be smaller or larger than a cell. A step of no distance shifts the wheel where it stands, by forces; a
+    creepage does nothing there.
     fields: keep pressure, tractions and state of every step. tolerance: as in `solve_contact`, for every step.
     Returns forces, creepages, share of slip and work of friction over the distance, and the contact at the end.
     Raises InputError for distances that run backwards or forces beyond friction, GeometryError if the contact
