@@ -180,7 +180,7 @@ def _readings(
         at = sorted({depths[k] for k in members})
         x = _along(contact, row, deep)
         rows = np.append(np.arange(y[0], y[-1], _COARSE), y[-1]) if deep else y
-        data = solve_response(loads, road, depths=at, x=x, y=rows, side=side).dataset
+        data = solve_response(loads, road, depths=at, x=x, y=rows, side=side, speed=row.speed).dataset
         for k in members:
             worst = criteria[k].read(data.isel(depth=at.index(depths[k]))).max(axis=1)
             found[k] = PchipInterpolator(rows, worst)(y) if deep else worst
