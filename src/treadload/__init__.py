@@ -13,8 +13,10 @@ from treadload._version import __version__
 if TYPE_CHECKING:
     from treadload.case import Case
     from treadload.contact import (
+        STRAIGHT,
         Contact,
         CreepCurve,
+        Maneuver,
         Rolling,
         RollingResistance,
         TransientResult,
@@ -150,6 +152,7 @@ _HOME = {
     "LateralGrooves": "tire",
     "Layer": "pavement",
     "Life": "damage",
+    "Maneuver": "contact",
     "MasterCurve": "materials",
     "MaterialFit": "materials",
     "MepdgBottomUp": "damage",
@@ -167,6 +170,7 @@ _HOME = {
     "Rolling": "contact",
     "RollingResistance": "contact",
     "Season": "damage",
+    "STRAIGHT": "contact",
     "ShellFatigue": "damage",
     "Structure": "pavement",
     "TabulatedShift": "materials",
@@ -235,6 +239,7 @@ __all__ = [
     "BONDED",
     "FRICTIONLESS",
     "HALF_BONDED",
+    "STRAIGHT",
     "WLF",
     "Arrhenius",
     "AsphaltInstitute",
@@ -264,6 +269,7 @@ __all__ = [
     "LateralGrooves",
     "Layer",
     "Life",
+    "Maneuver",
     "MasterCurve",
     "MaterialFit",
     "MepdgBottomUp",

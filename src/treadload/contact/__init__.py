@@ -12,6 +12,7 @@ from treadload.contact.friction import (
     Rational,
 )
 from treadload.contact.friction_map import FrictionMap
+from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.contact.resistance import RollingResistance, rolling_resistance
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
@@ -20,6 +21,7 @@ from treadload.contact.turning import TurnResult, turn_on_the_spot
 from treadload.contact.wheel import Rolling
 
 __all__ = [
+    "STRAIGHT",
     "Anisotropic",
     "Contact",
     "Coulomb",
@@ -30,6 +32,7 @@ __all__ = [
     "FrictionMap",
     "Heat",
     "LinearFalling",
+    "Maneuver",
     "PressureDependent",
     "Rational",
     "Rolling",

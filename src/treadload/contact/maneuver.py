@@ -1,9 +1,14 @@
-"""Maneuvers: what a wheel's forces and spin are on a road, relative to its load."""
+"""Maneuvers: what a wheel's forces and spin are on a road, relative to its load.
+
+A parking turn is none of these: the wheel spins and does not roll. `turn_on_the_spot` solves it, and the
+`contact` of its result loads a road as any other contact does.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 from treadload.contact.friction import FrictionLaw
 from treadload.contact.wheel import Rolling
@@ -20,6 +25,8 @@ class Maneuver:
     name: for tables and figures. tractive: force of the road on the tire along travel over the load, positive
     when driving. lateral: force to the right over the load. spin: rad/m, 1/R on a path of radius R to the right.
     locked: True if the wheel does not turn: creepage 1, all of the contact slides; tractive is then not read.
+    load_ratio: load of the wheel in the maneuver over the load that `rolling` is given, > 0: above 1 where the
+    vehicle leans on this wheel. tractive and lateral are over the load in the maneuver.
     Raises InputError.
     """
 
@@ -28,12 +35,17 @@ class Maneuver:
     lateral: float = 0.0
     spin: float = 0.0
     locked: bool = False
+    load_ratio: float = 1.0
 
     def __post_init__(self) -> None:
-        for word in ("tractive", "lateral", "spin"):
+        for word in ("tractive", "lateral", "spin", "load_ratio"):
             value = getattr(self, word)
             if not math.isfinite(value):
                 raise InputError(f"{word} of the maneuver {self.name!r} must be finite, got {value}")
+        if not self.load_ratio > 0:
+            raise InputError(
+                f"load_ratio of the maneuver {self.name!r} must be > 0, got {self.load_ratio}; 1 keeps the load"
+            )
 
     @classmethod
     def braking(cls, deceleration: float | None = None) -> Maneuver:
@@ -58,12 +70,26 @@ class Maneuver:
         return cls(f"uphill {100 * grade:g} %", tractive=grade / driven_share)
 
     @classmethod
-    def turning(cls, radius: float, speed: float, *, crossfall: float = 0.0) -> Maneuver:
+    def turning(
+        cls,
+        radius: float,
+        speed: float,
+        *,
+        crossfall: float = 0.0,
+        track: float | None = None,
+        centre_of_gravity: float | None = None,
+        wheel: Literal["outer", "inner"] = "outer",
+    ) -> Maneuver:
         """A wheel on a circle, such as a roundabout: the side force V²/(gR) and the spin 1/R.
 
         radius: of the path, m, not 0; positive when the circle lies to the right of travel, negative to the left.
-        speed: m/s, >= 0. crossfall: of the road towards the centre of the circle, rise over run; it takes off
-        side force.
+        speed: m/s, >= 0. crossfall c: of the road towards the centre of the circle, rise over run; it takes off
+        side force. Every wheel takes side force in proportion to its load: λ = (V²/gR - c) / (1 + c V²/gR) of it.
+        track t, centre_of_gravity h: of the vehicle, between the middles of its wheels and above the road, m;
+        both or neither. With them the vehicle leans, as a rigid body whose axles share the moment as they share the
+        weight: the load of a wheel on level ground at rest grows by (1 + c V²/gR) / √(1 + c²) · (1 ± 2 λ h/t),
+        + for the outer wheel, which lies away from the centre. Without them the load is the wheel's in the turn.
+        wheel: "outer" or "inner". Raises InputError, also where the vehicle tips.
         """
         if not (math.isfinite(radius) and radius != 0):
             raise InputError(f"radius must be a number of metres other than 0, got {radius}; use STRAIGHT")
@@ -71,29 +97,49 @@ class Maneuver:
             raise InputError(f"speed must be >= 0 m/s, got {speed}")
         if not abs(crossfall) < 0.5:
             raise InputError(f"crossfall must lie in (-0.5, 0.5), got {crossfall}; 2.5 % is 0.025")
+        if wheel not in ("outer", "inner"):
+            raise InputError(f'wheel must be "outer" or "inner", got {wheel!r}')
         pull = speed**2 / (GRAVITY * abs(radius))
-        lateral = math.copysign((pull - crossfall) / (1 + pull * crossfall), radius)
-        return cls(f"turning, R = {abs(radius):g} m at {speed * 3.6:g} km/h", lateral=lateral, spin=1 / radius)
+        share = (pull - crossfall) / (1 + pull * crossfall)
+        ratio = 1.0
+        if track is not None or centre_of_gravity is not None:
+            leaning = _leaning(share, track, centre_of_gravity)
+            square_to_road = (1 + pull * crossfall) / math.hypot(1, crossfall)
+            ratio = square_to_road * (1 + (leaning if wheel == "outer" else -leaning))
+        name = f"turning, R = {abs(radius):g} m at {speed * 3.6:g} km/h"
+        if ratio != 1 or wheel == "inner":
+            name += f", {wheel} wheel"
+        return cls(name, lateral=math.copysign(1, radius) * share, spin=1 / radius, load_ratio=ratio)
 
     def rolling(self, normal_load: float, friction: float | FrictionLaw, *, speed: float | None = None) -> Rolling:
-        """The rolling state under a load, N, with a coefficient or law of friction; speed in m/s."""
-        if self.locked:
-            return Rolling(
-                normal_load=normal_load,
-                friction=friction,
-                creepage_x=1.0,
-                lateral_force=self.lateral * normal_load,
-                spin=self.spin,
-                speed=speed,
-            )
-        return Rolling(
-            normal_load=normal_load,
+        """The rolling state under a load, N, with a coefficient or law of friction; speed in m/s.
+
+        normal_load: before `load_ratio`. Raises InputError for forces that no friction of the law could carry.
+        """
+        load = self.load_ratio * normal_load
+        state = Rolling(
+            normal_load=load,
             friction=friction,
-            tractive_force=self.tractive * normal_load,
-            lateral_force=self.lateral * normal_load,
+            tractive_force=None if self.locked else self.tractive * load,
+            creepage_x=1.0 if self.locked else None,
+            lateral_force=self.lateral * load,
             spin=self.spin,
             speed=speed,
         )
+        try:
+            state.check_friction_limit(load)
+        except InputError as error:
+            raise InputError(f"{self.name}: {error}. {self._way_out}") from error
+        return state
+
+    @property
+    def _way_out(self) -> str:
+        """What a driver can do when friction does not carry the maneuver."""
+        if self.lateral:
+            return "In a turn the force falls with the square of the speed: lower the speed, or take a wider circle"
+        if self.tractive < 0:
+            return "Brake less hard, or lock the wheel: Maneuver.braking()"
+        return "Climb a gentler slope, or put more of the weight on driven axles"
 
     def __str__(self) -> str:
         return self.name
@@ -101,6 +147,23 @@ class Maneuver:
 
 STRAIGHT = Maneuver()
 """A wheel that rolls freely."""
+
+
+def _leaning(share: float, track: float | None, height: float | None) -> float:
+    """2 λ h/t: the part of its load that the outer wheel gains and the inner one loses."""
+    if track is None or height is None:
+        missing = "track" if track is None else "centre_of_gravity"
+        raise InputError(f"a vehicle leans by its track and the height of its centre of gravity; give {missing} too")
+    _check_positive("track", track, "m", "a truck has 2")
+    _check_positive("centre_of_gravity", height, "m", "a loaded truck has 1.5 to 2")
+    leaning = 2 * share * height / track
+    if abs(leaning) >= 1:
+        raise InputError(
+            f"the vehicle tips: a side force of {abs(share):.3g} of its weight at {height:g} m above the road lifts "
+            f"the wheels of a track of {track:g} m from {track / (2 * height):.3g} on; lower the speed, or take a "
+            "wider circle"
+        )
+    return leaning
 
 
 def _check_positive(name: str, value: float, unit: str, usual: str) -> None:
