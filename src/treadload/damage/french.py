@@ -36,7 +36,7 @@ _TREATED_SCATTER = 0.03
 _PLATFORM = ((50e6, 1 / 1.2), (80e6, 1 / 1.1), (120e6, 1 / 1.065))
 _DAYS = 365
 # Growth a year that no sum of years feels; far below it the quotient loses its digits.
-_NO_GROWTH = 1e-15
+NO_GROWTH = 1e-15
 
 _CLASSES = ("T5", "T4", "T3", "T2", "T1", "T0", "TS", "TEX")
 RISK: Mapping[str, Mapping[str, float]] = {
@@ -373,7 +373,7 @@ def growth_factor(years: float, growth: float, kind: Literal["geometric", "arith
     if not growth > -1:
         raise InputError(f"growth must be above -1 a year, got {growth}; 2 % a year is 0.02")
     if kind == "geometric":
-        total = math.expm1(years * math.log1p(growth)) / growth if abs(growth) > _NO_GROWTH else years
+        total = math.expm1(years * math.log1p(growth)) / growth if abs(growth) > NO_GROWTH else years
     elif kind == "arithmetic":
         total = years * (1 + (years - 1) * growth / 2)
     else:

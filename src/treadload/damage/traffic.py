@@ -12,7 +12,7 @@ from scipy.special import ndtr
 
 from treadload.contact.friction import FrictionLaw
 from treadload.contact.maneuver import STRAIGHT, Maneuver
-from treadload.damage.french import growth_factor
+from treadload.damage.french import NO_GROWTH, growth_factor
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
@@ -185,7 +185,7 @@ class Traffic:
         if self.passes_per_year == 0 or math.isinf(passes):
             return math.inf
         ratio, growth = passes / self.passes_per_year, self.growth
-        if growth == 0:
+        if abs(growth) <= NO_GROWTH:
             return ratio
         if self.kind == "geometric":
             return math.log1p(ratio * growth) / math.log1p(growth) if ratio * growth > -1 else math.inf
