@@ -64,7 +64,9 @@ def test_no_depth_below_a_rigid_base():
     with pytest.raises(tl.InputError, match=r"depth 0.4 m lies below the rigid base at 0.3 m"):
         tl.solve_response(load(), on_rock, depths=[0.4], speed=10.0)
     with pytest.raises(tl.InputError, match=r"wavenumbers, more than 2e\+07"):
-        tl.solve_response(load(), road(), depths=[0.0], x=[-300.0], y=[300.0], speed=10.0)
+        tl.solve_response(load(), road(), depths=[0.0], x=[0.0], y=[3000.0], speed=10.0)
+    with pytest.raises(tl.InputError, match=r"points as far as 1999.91 m behind a load need .* cells of its wake"):
+        tl.solve_response(load(), tl.Pavement.half_space(SOLID), depths=[0.0], x=[-2000.0], y=[0.0], speed=10.0)
 
 
 @pytest.mark.parametrize(("slow", "limit"), [(1e-9, SOLID.rubbery), (1e9, SOLID.glassy)])
@@ -134,7 +136,7 @@ def test_blocks_change_nothing(monkeypatch):
         [np.inf] * 2,
     )
     levels = [kernels.Level(0.0, 0, False, split=True), kernels.Level(0.1, 1, False)]
-    panels = quadrature(300.0, 0.3, 1.0), quadrature(300.0, 0.3, 1.0)
+    panels = kernels.Path.of(300.0, (-0.09, 0.09), 1.0), quadrature(300.0, 0.3, 1.0)
     arguments = ([spectrum], body, levels, 300.0, np.array([-0.1, 0.0]), np.array([0.0, 0.05]), *panels)
     whole = kernels.moving_fields(*arguments)
     monkeypatch.setattr(kernels, "_BLOCK", 500)

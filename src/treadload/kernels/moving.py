@@ -15,13 +15,20 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import spherical_jn
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.layered import Stack, transfer
-from treadload.kernels.wavenumbers import Spectrum, across_lines, along_lines, plane_fields
+from treadload.kernels.wavenumbers import Spectrum, across_lines, gauss, interleaved, panels, plane_fields
 
 # Wavenumbers of a block: keeps what the layers and depths hold for each near the cache.
 _BLOCK = 6_000
+
+# Points of a panel of a path: polynomials through them hold a transform that turns 3.5 radians in half a panel.
+_POINTS = 16
+# Panels are no wider than what turns this often up to the limit: waves that have fallen to e^-33 there fall by less
+# than e^-7 over a panel.
+_FALLS = 66.0
 
 Modulus = Callable[[Array], ComplexArray]
 """kx (nkx,) > 0 → Young's modulus, Pa, complex."""
@@ -59,6 +66,50 @@ class Body:
 
 
 @dataclass(frozen=True)
+class Path:
+    """Panels of kx for fields however far along x from the loads.
+
+    At points far away exp(i kx x) turns often within a panel, but the fields' transforms do not: on each panel
+    they are polynomials, and these times exp(i kx x) are integrated exactly.
+
+    nodes, weights: of Gauss on each panel, (n,). centre, half: of each node's panel, 1/m. origin: the middle of the
+    loads, m.
+    Source: Bakhvalov and Vasil'eva (1968), USSR Comput. Math. Math. Phys. 8, 241-249.
+    """
+
+    nodes: Array
+    weights: Array
+    centre: Array
+    half: Array
+    origin: float
+
+    @classmethod
+    def of(cls, limit: float, extent: tuple[float, float], length: float) -> Path:
+        """limit, length: as in `wavenumbers.quadrature`. extent: first and last loaded point, m."""
+        low, high = panels(limit, max(extent[1] - extent[0], _FALLS / limit), length)
+        points, shares = gauss(_POINTS)
+        centre, half = np.repeat(0.5 * (high + low), _POINTS), np.repeat(0.5 * (high - low), _POINTS)
+        origin = 0.5 * (extent[0] + extent[1])
+        return cls(centre + half * np.tile(points, len(low)), half * np.tile(shares, len(low)), centre, half, origin)
+
+    def lines(self, x: Array, block: slice) -> ComplexArray:
+        """Matrix (nodes of the block, mx) that takes values at the nodes to ∫ f exp(i kx x) dkx."""
+        nodes, centre, half = self.nodes[block], self.centre[block], self.half[block]
+        at = x - self.origin
+        legendre = np.polynomial.legendre.legvander((nodes - centre) / half, _POINTS - 1)
+        lines = np.zeros((len(nodes), len(x)), complex)
+        for one in np.unique(half):
+            # ∫ Pₙ(u) exp(i w u) du = 2 iⁿ jₙ(w).
+            order = np.arange(_POINTS)[:, None]
+            bessel = spherical_jn(order, np.abs(one * at)) * np.where(at < 0, -1.0, 1.0) ** order
+            rows = half == one
+            lines[rows] = (legendre[rows] * (2 * order.T + 1)) @ (1j**order * bessel)
+        # Spectra count phases from x = 0.
+        lines *= self.weights[block, None] * np.exp(1j * (np.outer(centre, at) + (nodes * self.origin)[:, None]))
+        return lines
+
+
+@dataclass(frozen=True)
 class Level:
     """One depth.
 
@@ -79,23 +130,23 @@ def moving_fields(
     limit: float,
     x: Array,
     y: Array,
-    along: tuple[Array, Array],
+    path: Path,
     across: tuple[Array, Array],
 ) -> Array:
     """Stress, displacement and strain under loads that move.
 
     spectra: of loads that add up. levels: (nz) depths whose waves matter up to `limit`, 1/m. x: (mx,), y: (my,), m,
-    moving with the loads. along, across: nodes and weights in kx and in ky, see `wavenumbers.quadrature`.
+    moving with the loads. path: panels in kx. across: nodes and weights in ky, see `wavenumbers.quadrature`.
     Returns (nz, 15, my, mx): stress xx, yy, zz, xy, xz, yz in Pa, displacement x, y, z in m, strain as stress.
-    Works in blocks of wavenumbers; one pass through the layers serves all levels.
+    Works in blocks of wavenumbers; one pass through the layers serves all levels; far points cost no more.
     """
     result = np.zeros((len(levels), 15, len(y), len(x)))
-    for kx, weights, lines in _lines(spectra, body, levels, limit, y, along, across):
-        back = along_lines(kx, weights, x)
+    for block, lines in _lines(spectra, body, levels, limit, y, path.nodes, across):
+        back = interleaved(path.lines(x, block))
         for field, level, line in zip(result, levels, lines, strict=True):
-            nu, compliance = body.poisson[level.layer], 1 / body.modulus(level.layer, kx)
+            nu, compliance = body.poisson[level.layer], 1 / body.modulus(level.layer, path.nodes[block])
             everything = np.concatenate([line, _unit_strain(line[:, :6], nu) * compliance], axis=1)
-            flat = everything.reshape(len(y) * 15, len(kx)).view(float)
+            flat = everything.reshape(len(y) * 15, -1).view(float)
             field += (flat @ back).reshape(len(y), 15, len(x)).transpose(1, 0, 2)
     return result
 
@@ -111,11 +162,12 @@ def dissipated_energy(
 ) -> Array:
     """Energy that a passage dissipates per volume, (nz, my), J/m³: W = -∫ σ_ij ∂ε_ij/∂x dx.
 
-    Arguments as in `moving_fields`, none of the levels split. By Parseval one sum over kx of
-    kx Im(1/E) ((1 + ν) |σ|² - ν |tr σ|²).
+    Arguments as in `moving_fields`, none of the levels split; along, across: nodes and weights in kx and in ky.
+    By Parseval one sum over kx of kx Im(1/E) ((1 + ν) |σ|² - ν |tr σ|²).
     """
     energy = np.zeros((len(levels), len(y)))
-    for kx, weights, lines in _lines(spectra, body, levels, limit, y, along, across):
+    for block, lines in _lines(spectra, body, levels, limit, y, along[0], across):
+        kx, weights = along[0][block], along[1][block]
         for row, level, line in zip(energy, levels, lines, strict=True):
             nu, loss = body.poisson[level.layer], (1 / body.modulus(level.layer, kx)).imag
             stress = line[:, :6]
@@ -139,11 +191,11 @@ def _lines(
     levels: Sequence[Level],
     limit: float,
     y: Array,
-    along: tuple[Array, Array],
+    kx_all: Array,
     across: tuple[Array, Array],
-) -> Iterator[tuple[Array, Array, list[ComplexArray]]]:
-    """Blocks of kx: nodes, weights, and at each level stress and displacement (my, 9, nkx) on the lines of y."""
-    (kx_all, wx_all), (ky_all, wy_all) = along, across
+) -> Iterator[tuple[slice, list[ComplexArray]]]:
+    """Blocks of kx, and at each level stress and displacement (my, 9, nkx) on the lines of y."""
+    ky_all, wy_all = across
     # Twice for kx < 0 and twice for ky < 0.
     even = np.cos(np.outer(y, ky_all)) * (wy_all / math.pi**2)
     odd = np.sin(np.outer(y, ky_all)) * (wy_all / math.pi**2)
@@ -164,7 +216,7 @@ def _lines(
             )
             for level, kernel in zip(levels, kernels, strict=True)
         ]
-        yield kx, wx_all[block], lines
+        yield block, lines
 
 
 def _kernels(body: Body, levels: Sequence[Level], kx: Array, ky: Array) -> ComplexArray:

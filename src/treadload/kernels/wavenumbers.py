@@ -8,7 +8,6 @@ serves ky and -ky, told apart as even and odd parts.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -45,20 +44,27 @@ def quadrature(limit: float, reach: float, length: float) -> tuple[Array, Array]
     axis, m. length: the largest length in the field, m: the reach or the characteristic length of the layers.
     Returns nodes (n,), rising, and weights (n,), 1/m.
     """
+    low, high = panels(limit, reach, length)
+    nodes, weights = [], []
+    for start, end in zip(low, high, strict=True):
+        points, share = gauss(_FEW if end * length < _CALM else _POINTS)
+        nodes.append(0.5 * (end - start) * points + 0.5 * (end + start))
+        weights.append(0.5 * (end - start) * share)
+    return np.concatenate(nodes), np.concatenate(weights)
+
+
+def panels(limit: float, reach: float, length: float) -> tuple[Array, Array]:
+    """First and last wavenumber of each panel, from 0 to the limit. Arguments as in `quadrature`."""
     widest = 2 * _PHASE / max(reach, 1e-12)
     edges = [0.0, min(_SMALLEST / length, limit)]
     while edges[-1] < limit:
         edges.append(min(limit, _RATIO * edges[-1], edges[-1] + widest))
-    nodes, weights = [], []
-    for low, high in itertools.pairwise(edges):
-        points, share = _gauss(_FEW if high * length < _CALM else _POINTS)
-        nodes.append(0.5 * (high - low) * points + 0.5 * (high + low))
-        weights.append(0.5 * (high - low) * share)
-    return np.concatenate(nodes), np.concatenate(weights)
+    return np.array(edges[:-1]), np.array(edges[1:])
 
 
 @lru_cache(maxsize=8)
-def _gauss(count: int) -> tuple[Array, Array]:
+def gauss(count: int) -> tuple[Array, Array]:
+    """Points and weights of Gauss and Legendre on (-1, 1)."""
     points, share = np.polynomial.legendre.leggauss(count)
     return points, share
 
@@ -163,7 +169,7 @@ def synthesise(
             break
         rows = np.searchsorted(ky_all, max(plane.limit for plane in planes), side="right")
         load = sum(spectrum(kx, ky_all[:rows]) for spectrum in spectra)
-        back = along_lines(kx, wx, x)
+        back = interleaved(np.exp(1j * np.outer(kx, x)) * wx[:, None])
         for field, plane in zip(result, planes, strict=True):
             if kx[0] > plane.limit:
                 continue
@@ -219,15 +225,11 @@ def across_lines(even: Array, odd: Array, fields: ComplexArray) -> ComplexArray:
     return (_times(even, flat[0]) + 1j * _times(odd, flat[1])).reshape(len(even), *fields.shape[2:])
 
 
-def along_lines(kx: Array, weights: Array, x: Array) -> Array:
-    """Matrix (2 nkx, mx) that takes values over kx > 0, seen as real numbers, to the field at x.
-
-    Real and imaginary parts alternate, as numpy stores complex numbers: Re(a b) is one real product.
-    """
-    turn = np.exp(1j * np.outer(kx, x)) * weights[:, None]
-    back = np.empty((2 * len(kx), len(x)))
-    back[::2], back[1::2] = turn.real, -turn.imag
-    return back
+def interleaved(lines: ComplexArray) -> Array:
+    """Matrix (n, m) as a real one (2n, m), for Re(a b) as one real product with a as numpy stores complex numbers."""
+    real = np.empty((2 * len(lines), lines.shape[1]))
+    real[::2], real[1::2] = lines.real, -lines.imag
+    return real
 
 
 def _times(a: Array, b: ComplexArray) -> ComplexArray:

@@ -11,7 +11,7 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.layered import Stack
-from treadload.kernels.moving import Body, Level, dissipated_energy, moving_fields
+from treadload.kernels.moving import Body, Level, Path, dissipated_energy, moving_fields
 from treadload.kernels.tensors import strain_from_stress
 from treadload.kernels.wake import Cells, Term, delayed_fields
 from treadload.kernels.wavenumbers import Spectrum, disc_spectrum, quadrature
@@ -35,6 +35,8 @@ _SERIES = 1e-6
 _LONGEST, _SHORTEST = 1e6, 0.1
 # Creep over less than this part of a cell is immediate.
 _QUICK = 1e-3
+# Cells of a wake, a gigabyte with what their convolution needs.
+_MOST_CELLS = 4e6
 # Cells along a uniform disc or rectangle for the field of its wake; a grid's cells are halved.
 _PIECES, _FINER = 120, 2
 
@@ -89,10 +91,9 @@ def moving_response(
     fields = np.zeros((len(depths), 15, len(y), len(x)))
     if not road.is_homogeneous:
         for rows, limit in _alike(problem.limits):
-            along, across = problem.panels(limit)
-            fields[rows] = moving_fields(
-                problem.spectra, problem.body, [problem.levels[r] for r in rows], limit, x, y, along, across
-            )
+            levels = [problem.levels[row] for row in rows]
+            path, across = problem.panels(limit)
+            fields[rows] = moving_fields(problem.spectra, problem.body, levels, limit, x, y, path, across)
     fields = np.moveaxis(fields, 1, 0)
     stress, displacement, strain = fields[:6].copy(), fields[6:9].copy(), fields[9:].copy()
     method = "moving"
@@ -124,8 +125,8 @@ class _Problem:
     levels: Sequence[Level]
     limits: Array
     spectra: Sequence[Spectrum]
-    reach: tuple[float, float]
-    extent: float
+    reach: float
+    extent: tuple[float, float]
     length: float
 
     @classmethod
@@ -159,13 +160,11 @@ class _Problem:
             split = layer == 0 and z < _SPLIT * top
             levels.append(Level(z, layer, below, split))
             limits.append(_FALL / (2 * top - z if split else z))
-        reach = tuple(
-            _reach(extents, points)
-            for extents, points in (([load.extent_x for load in loads], x), ([load.extent_y for load in loads], y))
-        )
+        extent_x, extent_y = _extent(load.extent_x for load in loads), _extent(load.extent_y for load in loads)
+        reach, reach_x = _reach(extent_y, y), _reach(extent_x, x)
         stiff = [material.modulus for material in glassy]
         soft = [_limit(material, fast=False).modulus for material in materials]
-        length = max(*reach, bottom * (max(stiff) / min(soft)) ** (1 / 3), float(depths.max()))
+        length = max(reach, reach_x, bottom * (max(stiff) / min(soft)) ** (1 / 3), float(depths.max()))
         series = None
         if any(level.split for level in levels) and not isinstance(materials[0], Elastic):
             cell = min(load.grid.dx if isinstance(load, GridLoad) else load.radius for load in loads)
@@ -179,25 +178,23 @@ class _Problem:
             stack.spring,
             stack.rigid,
         )
-        low, high = min(load.extent_x[0] for load in loads), max(load.extent_x[1] for load in loads)
         spectra = [_spectrum(load) for load in loads]
-        return cls(
-            layers, stack, body, series, levels, np.array(limits), spectra, (reach[0], reach[1]), high - low, length
-        )
+        return cls(layers, stack, body, series, levels, np.array(limits), spectra, reach, extent_x, length)
 
-    def panels(self, limit: float) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-        along, across = (quadrature(limit, reach, self.length) for reach in self.reach)
-        if len(along[0]) * len(across[0]) > _MOST:
+    def panels(self, limit: float) -> tuple[Path, tuple[Array, Array]]:
+        path, across = Path.of(limit, self.extent, self.length), quadrature(limit, self.reach, self.length)
+        if len(path.nodes) * len(across[0]) > _MOST:
             raise InputError(
-                f"waves up to {limit:.0f} 1/m with points up to {max(self.reach):g} m from the load need "
-                f"{len(along[0])} x {len(across[0])} wavenumbers, more than {_MOST:g}: leave out the depths around "
+                f"waves up to {limit:.0f} 1/m with points up to {self.reach:g} m beside the load need "
+                f"{len(path.nodes)} x {len(across[0])} wavenumbers, more than {_MOST:g}: leave out the depths around "
                 "thin layers near the surface or compute fewer distant points at a time"
             )
-        return along, across
+        return path, across
 
     def panels_of_energy(self, limit: float) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
         """Waves meet their own conjugate: their phase turns over the length of the load, wherever the points are."""
-        return quadrature(limit, self.extent, self.length), quadrature(limit, self.reach[1], self.length)
+        along = quadrature(limit, self.extent[1] - self.extent[0], self.length)
+        return along, quadrature(limit, self.reach, self.length)
 
     def energy(self, y: Array) -> tuple[Array, tuple[str, ...]]:
         """Energy dissipated at each depth (nz, my), and a sentence on depths that are left out."""
@@ -249,6 +246,12 @@ def _half_space(
     later_stress, later = np.zeros_like(stress), np.zeros_like(displacement)
     for load in loads:
         cells = _cells_of_disc(load, y) if isinstance(load, UniformDisc) else _cells_of_grid(load)
+        needed = (load.extent_x[1] - min(load.extent_x[0], float(x.min()))) / cells.dx * cells.load.shape[1]
+        if needed > _MOST_CELLS:
+            raise InputError(
+                f"points as far as {load.extent_x[0] - x.min():g} m behind a load need {needed:.2g} cells of its wake, "
+                f"more than {_MOST_CELLS:g}: leave them out at depths near the surface, or take larger cells"
+            )
         quick = [strength for strength, length in terms if length < _QUICK * cells.dx]
         slow: list[Term] = [(strength, length) for strength, length in terms if length >= _QUICK * cells.dx]
         if quick:
@@ -328,9 +331,13 @@ def _spectrum(load: SurfaceLoad) -> Spectrum:
     return load.spectrum
 
 
-def _reach(extents: Sequence[tuple[float, float]], points: Array) -> float:
-    low, high = min(extent[0] for extent in extents), max(extent[1] for extent in extents)
-    return float(max(points.max() - low, high - points.min()))
+def _extent(extents: Iterable[tuple[float, float]]) -> tuple[float, float]:
+    first, last = zip(*extents, strict=True)
+    return min(first), max(last)
+
+
+def _reach(extent: tuple[float, float], points: Array) -> float:
+    return float(max(points.max() - extent[0], extent[1] - points.min()))
 
 
 def _alike(limits: Array) -> Iterable[tuple[list[int], float]]:
