@@ -226,7 +226,7 @@ def across_lines(even: Array, odd: Array, fields: ComplexArray) -> ComplexArray:
 
 
 def interleaved(lines: ComplexArray) -> Array:
-    """Matrix (n, m) as a real one (2n, m), for Re(a b) as one real product with a as numpy stores complex numbers."""
+    """Complex matrix (n, m) as a real one (2n, m): Re(a b) is one real product with a as numpy stores it."""
     real = np.empty((2 * len(lines), lines.shape[1]))
     real[::2], real[1::2] = lines.real, -lines.imag
     return real

@@ -78,8 +78,7 @@ def layered_response(
         methods.add(_add_top(fields, gridded, layout, materials[0], x, y))
     stress, displacement = np.moveaxis(fields[:, :6], 1, 0).copy(), np.moveaxis(fields[:, 6:], 1, 0).copy()
     method = "+".join(sorted(methods - {"none"}, key=lambda name: (name != "layered", name)))
-    drifting = _drifting(stack, loads)
-    for component, drifts in enumerate(drifting):
+    for component, drifts in enumerate(drifting(stack, loads)):
         if drifts:
             # A sheet that nothing holds: the displacement under a net force has no finite value.
             displacement[component, [row for row, layer in enumerate(where) if layer <= stack.spring.index(0.0)]] = (
@@ -92,7 +91,7 @@ def layered_response(
     return stress, strain, displacement, method
 
 
-def _drifting(stack: Stack, loads: Sequence[SurfaceLoad]) -> tuple[bool, bool]:
+def drifting(stack: Stack, loads: Sequence[SurfaceLoad]) -> tuple[bool, bool]:
     """Whether a net shear force along x and along y meets a frictionless interface."""
     if 0.0 not in stack.spring:
         return False, False

@@ -18,7 +18,7 @@ from treadload.kernels.wavenumbers import Spectrum, disc_spectrum, quadrature
 from treadload.materials import Elastic, Material, Prony, Viscoelastic, as_prony
 from treadload.pavement import Layer, Pavement
 from treadload.response.half_space import half_space_response
-from treadload.response.layered import _drifting as drifting
+from treadload.response.layered import drifting
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
 # Where waves are cut and the half-space is split off: as for elastic layers, see `response.layered`.
@@ -249,8 +249,8 @@ def _half_space(
         needed = (load.extent_x[1] - min(load.extent_x[0], float(x.min()))) / cells.dx * cells.load.shape[1]
         if needed > _MOST_CELLS:
             raise InputError(
-                f"points as far as {load.extent_x[0] - x.min():g} m behind a load need {needed:.2g} cells of its wake, "
-                f"more than {_MOST_CELLS:g}: leave them out at depths near the surface, or take larger cells"
+                f"points as far as {load.extent_x[0] - x.min():g} m behind a load need {needed:.2g} cells of its "
+                f"wake, more than {_MOST_CELLS:g}: leave them out at depths near the surface, or take larger cells"
             )
         quick = [strength for strength, length in terms if length < _QUICK * cells.dx]
         slow: list[Term] = [(strength, length) for strength, length in terms if length >= _QUICK * cells.dx]
