@@ -10,8 +10,9 @@ from treadload.kernels.bilinear import bilinear_on_grid
 from treadload.kernels.displacement import displacement_on_grid
 from treadload.kernels.interior import stress_on_grid
 from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.moving import Body, Level, Path, moving_fields
 from treadload.kernels.synthesis import Cells, ElasticPlane, rule, synthesise_cells
-from treadload.kernels.wavenumbers import Plane, cells_spectrum, quadrature, synthesise, tabulated
+from treadload.kernels.wavenumbers import cells_spectrum, quadrature
 
 ALONE = Stack([2e9], [0.35], [], [])
 LAYERS = Stack([3e9, 1e8, 2e7], [0.35, 0.5, 0.4], [0.08, 0.3], [1e9, math.inf])
@@ -61,20 +62,14 @@ def test_bilinear_loads_in_a_half_space_are_the_closed_form():
 
 
 def test_layers_by_the_fields_in_the_wave_frame():
-    nodes = quadrature(36 / DEPTHS.min(), 0.3, 2.0)
-
-    def other(depth):
-        def kernel(k):
-            result = transfer(k, LAYERS, [depth], [False])
-            return np.concatenate([result.plane[0].reshape(8, -1), result.transverse[0]])
-
-        mine = plane(LAYERS, depth)
-        return Plane(tabulated(kernel, 1e-9, 1.5 * mine.limit), mine.shear, mine.poisson, mine.limit)
-
-    exact = synthesise(
-        [cells_spectrum(LOAD, 0.03, 0.02, -0.06, -0.03)], [other(z) for z in DEPTHS], X, Y, nodes, nodes
-    )
-    # Another rule, other unknowns and no derivative taken on the way back.
+    limit = 36 / DEPTHS.min()
+    moduli = [2 * (1 + nu) * shear for shear, nu in zip(LAYERS.shear, LAYERS.poisson, strict=True)]
+    body = Body(moduli, LAYERS.poisson, LAYERS.thickness, LAYERS.spring)
+    levels = [Level(z, LAYERS.layer_at(z, False), False) for z in DEPTHS]
+    spectrum = cells_spectrum(LOAD, 0.03, 0.02, -0.06, -0.03)
+    path, across = Path.of(limit, (-0.075, 0.075), 2.0), quadrature(limit, 0.3, 2.0)
+    exact = moving_fields([spectrum], body, levels, limit, X, Y, path, across)[:, :9]
+    # Another rule, other unknowns, no table and no derivative taken on the way back.
     close(solved([cells()], LAYERS), exact, 2e-9)
 
 

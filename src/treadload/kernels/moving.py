@@ -220,7 +220,7 @@ def _lines(
 
 
 def _kernels(body: Body, levels: Sequence[Level], kx: Array, ky: Array) -> ComplexArray:
-    """(nz, 10, nky, nkx) in the order of `wavenumbers.Plane`."""
+    """(nz, 10, nky, nkx) as `wavenumbers.plane_fields` takes them."""
     shape = len(ky), len(kx)
     k = np.hypot(kx[None, :], ky[:, None]).ravel()
 

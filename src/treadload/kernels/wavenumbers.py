@@ -9,8 +9,7 @@ serves ky and -ky, told apart as even and odd parts.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -28,8 +27,6 @@ _RATIO = 3.0
 _PHASE, _POINTS = 7.0, 14
 # Where every feature of the field is far larger than the panel, fewer points give the same.
 _CALM, _FEW = 0.02, 8
-# Numbers of a block: keeps a block's fields, some 60 numbers per wavenumber, near the cache.
-_BLOCK = 40_000
 # Interpolation in ln k: steps of this size with polynomials of this degree leave 1e-11.
 _STEP, _DEGREE = 0.15, 7
 
@@ -127,68 +124,14 @@ def tabulated(values: Callable[[Array], Array], smallest: float, largest: float)
     return at
 
 
-@dataclass(frozen=True)
-class Plane:
-    """One depth to synthesise.
-
-    kernel: k (...) → (..., 10): k·i u_k, k·u_z, i f_k, f_z, each under i f_k = 1 and f_z = 1, then k·u_t and f_t
-    under f_t = 1, as in `kernels.layered.Transfer`. shear, poisson: of the material there, Pa and 1.
-    limit: largest wavenumber that matters at this depth, 1/m.
-    """
-
-    kernel: Callable[[Array], Array]
-    shear: float
-    poisson: float
-    limit: float
-
-
-def synthesise(
-    spectra: Sequence[Spectrum],
-    planes: Sequence[Plane],
-    x: Array,
-    y: Array,
-    along: tuple[Array, Array],
-    across: tuple[Array, Array],
-) -> Array:
-    """Stress and displacement of a layered body from its kernels and the spectra of its loads.
-
-    spectra: of loads that add up. planes: (nz) depths. x: (mx,), y: (my,), m, any coordinates.
-    along, across: nodes and weights in kx and in ky, see `quadrature`.
-    Returns (nz, 9, my, mx): xx, yy, zz, xy, xz, yz in Pa, tension positive, then u_x, u_y, u_z in m. Works in
-    blocks of kx; cost per wavenumber does not depend on the number of loads' cells times points.
-    """
-    (kx_all, wx_all), (ky_all, wy_all) = along, across
-    result = np.zeros((len(planes), 9, len(y), len(x)))
-    step = max(1, _BLOCK // len(ky_all))
-    # Twice for kx < 0 and twice for ky < 0.
-    even = np.cos(np.outer(y, ky_all)) * (wy_all / math.pi**2)
-    odd = np.sin(np.outer(y, ky_all)) * (wy_all / math.pi**2)
-    for start in range(0, len(kx_all), step):
-        kx, wx = kx_all[start : start + step], wx_all[start : start + step]
-        if all(kx[0] > plane.limit for plane in planes):
-            break
-        rows = np.searchsorted(ky_all, max(plane.limit for plane in planes), side="right")
-        load = sum(spectrum(kx, ky_all[:rows]) for spectrum in spectra)
-        back = interleaved(np.exp(1j * np.outer(kx, x)) * wx[:, None])
-        for field, plane in zip(result, planes, strict=True):
-            if kx[0] > plane.limit:
-                continue
-            n = int(np.searchsorted(ky_all, plane.limit, side="right"))
-            k = np.hypot(kx[None, :], ky_all[:n, None])
-            kernel = np.moveaxis(plane.kernel(k), -1, 0)
-            fields = plane_fields(np.asarray(load)[:, :, :n], kernel, plane.shear, plane.poisson, kx, ky_all[:n])
-            flat = across_lines(even[:, :n], odd[:, :n], fields).reshape(len(y) * 9, len(kx)).view(float)
-            field += (flat @ back).reshape(len(y), 9, len(x)).transpose(1, 0, 2)
-    return result
-
-
 def plane_fields(
     load: ComplexArray, kernel: Array, shear: Scalars, poisson: float, kx: Array, ky: Array
 ) -> ComplexArray:
-    """Stress and displacement at one depth in wavenumbers, in the order of `synthesise`.
+    """Stress and displacement at one depth in wavenumbers: xx, yy, zz, xy, xz, yz, tension positive, and x, y, z.
 
-    load: (2, 3, nky, nkx), see `Spectrum`. kernel: (10, nky, nkx), see `Plane`. shear: shear modulus there, Pa, one
-    or (nkx,), real or complex. poisson: ν there. Returns their parts even and odd in ky, (2, nky, 9, nkx).
+    load: (2, 3, nky, nkx), see `Spectrum`. kernel: (10, nky, nkx): k·i u_k, k·u_z, i f_k, f_z, each under i f_k = 1
+    and f_z = 1, then k·u_t and f_t under f_t = 1, as in `kernels.layered.Transfer`. shear: shear modulus there, Pa,
+    one or (nkx,), real or complex. poisson: ν there. Returns parts even and odd in ky, (2, nky, 9, nkx).
     """
     k = np.hypot(kx[None, :], ky[:, None])
     c, s = kx[None, :] / k, ky[:, None] / k
