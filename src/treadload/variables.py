@@ -137,6 +137,22 @@ _LIFE = {
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
 }
 
+_INTERFACES = {
+    "interface": ("1", "number of the interface from the surface, 0 below the top layer"),
+    "interface_shear_x": ("Pa", "shear stress xz at an interface"),
+    "interface_shear_y": ("Pa", "shear stress yz at an interface"),
+    "interface_shear": ("Pa", "size of the shear stress at an interface"),
+    "interface_pressure": ("Pa", "normal stress at an interface, compression positive"),
+    "jump_x": ("m", "displacement along travel below an interface minus that above it"),
+    "jump_y": ("m", "displacement to the right below an interface minus that above it"),
+    "utilisation": ("1", "how much of the bond's strength is used up; 1 parts it"),
+    "bond_passes": ("1", "passes that the fatigue of the bond allows"),
+    "largest_utilisation": ("1", "largest utilisation of an interface"),
+    "parting_x": ("m", "position along travel, in the load's frame, where an interface is used up most"),
+    "parting_y": ("m", "position to the right of travel where an interface is used up most"),
+    "parting_passes": ("1", "passes until an interface parts"),
+}
+
 VARIABLES: Mapping[str, tuple[str, str]] = {
     **_COORDINATES,
     **_CONTACT,
@@ -146,6 +162,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_DAMAGE,
     **_CRITERIA,
     **_LIFE,
+    **_INTERFACES,
     **_UNIFORM,
 }
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from treadload.contact.maneuver import Maneuver
-from treadload.damage import FatigueLine, FrenchSubgrade
+from treadload.damage import BondCriterion, FatigueLine, FrenchSubgrade, InterfaceStrength, ShearFatigue, miner
 from treadload.damage.design import DesignCriterion
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
-from treadload.pavement import Pavement
+from treadload.pavement import Layer, Pavement
 from treadload.response import solve_response
 from treadload.study.life import design_life
 from treadload.study.passages import solve_passages
@@ -116,3 +116,28 @@ def test_bad_input_is_named(change, words):
     with pytest.raises(InputError, match=words):
         solve_passages(TIRE, ROAD, Traffic((LIGHT, HEAVY), 1), asked["climate"], asked["criteria"],
                        tolerance=asked["tolerance"], **COARSE)  # fmt: skip
+
+
+def test_bonds_are_criteria_and_follow_their_temperature():
+    """On a road without temperatures the shear is one; the strength of the season alone changes its use."""
+    layers = [Layer(Elastic(7e9, 0.35), 0.06), Layer(Elastic(9e9, 0.35), 0.15), Layer(Elastic(120e6, 0.35))]
+    strength = InterfaceStrength(lambda t: 1e6 - 20e3 * t)
+    bond = BondCriterion("bond", strength, ShearFatigue(-0.2))
+    traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3, maneuver=Maneuver.braking(3.0)),), 1e5)
+    climate = Climate((Season("cold", 0.5, 0.0), Season("warm", 0.25, 25.0), Season("warm again", 0.25, 25.0)))
+    passages = solve_passages(TIRE, Pavement(layers), traffic, climate, (bond,), **COARSE)
+    assert passages.responses == 2
+    cold, warm, again = passages.readings.max("y").to_numpy()[0, 0]
+    assert warm == again == pytest.approx(2 * cold, rel=1e-9)
+    life = miner(passages.readings, (bond,), traffic, climate, layer_temperatures=passages.layer_temperatures)
+    assert life.dataset["life_passes"].item() == pytest.approx(1 / (0.5 * cold**5 + 0.5 * warm**5), rel=1e-9)
+    assert "utilisation of the bond" in life.summary()
+
+
+def test_a_bond_that_parts_at_once_lives_no_pass():
+    bond = BondCriterion("bond", InterfaceStrength(0.0), ShearFatigue(-0.2))
+    traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5, wander=Wander.normal(0.2))
+    life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), (bond, CRITERIA[1]), **COARSE)
+    assert life.governing == "bond"
+    assert life.years("bond") < 1e-9
+    assert math.isfinite(life.years("base"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, Protocol, Self
 
 import numpy as np
 import xarray as xr
@@ -22,6 +22,40 @@ Side = Literal["above", "below"]
 
 # At which a law that depends on temperature is asked what it reads.
 _ANY_TEMPERATURE = 15.0
+
+
+class Criterion(Protocol):
+    """What Miner's sum and the solvers of passages ask of a criterion: a place, a reading and its law."""
+
+    @property
+    def name(self) -> str:
+        """For tables and figures."""
+
+    @property
+    def quantity(self) -> str:
+        """What the law reads."""
+
+    @property
+    def side(self) -> Side:
+        """Side of the interface on which it reads."""
+
+    def at(self, temperature: float) -> Self:
+        """The criterion at a temperature of its layer, °C, where its reading depends on it."""
+
+    def law_at(self, temperature: float) -> FatigueLaw:
+        """The law at a temperature of its layer, °C."""
+
+    def number(self, road: Pavement) -> int:
+        """Number of its layer from the surface."""
+
+    def depth(self, road: Pavement) -> float:
+        """Depth at which it reads, m."""
+
+    def read(self, data: xr.Dataset) -> Array:
+        """What the law reads (y, x) of a response at that depth, positive where it does harm."""
+
+    def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
+        """Angle of the trace and dip (y, x), rad, of the crack; NaN for none."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +79,10 @@ class DesignCriterion:
         if self.place not in ("top", "bottom"):
             raise InputError(f'place of the criterion {self.name!r} must be "top" or "bottom", got {self.place!r}')
         check_reading(self.strain)
+
+    def at(self, temperature: float) -> Self:
+        """Itself: strain and stress are read alike at every temperature."""
+        return self
 
     def law_at(self, temperature: float) -> FatigueLaw:
         """The law at a temperature of the layer, °C."""

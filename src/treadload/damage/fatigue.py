@@ -18,6 +18,7 @@ BOTTOM_EXTENSION = "extension strain at the bottom of the asphalt"
 SURFACE_EXTENSION = "extension strain at the surface"
 SUBGRADE = "vertical strain on the subgrade"
 TENSION = "tensile stress"
+UTILISATION = "utilisation of the bond"
 
 _MILLION = 1e6
 # No road material bears a million passes at one per cent: such a number is microstrain without its unit.
@@ -36,7 +37,9 @@ class FatigueLaw(Protocol):
 
     @property
     def quantity(self) -> str:
-        """What it reads: `BOTTOM_EXTENSION`, `SURFACE_EXTENSION`, `EXTENSION`, `SUBGRADE` or `TENSION`."""
+        """What it reads: `BOTTOM_EXTENSION`, `SURFACE_EXTENSION`, `EXTENSION`, `SUBGRADE`, `TENSION` or
+        `UTILISATION`.
+        """
 
     @property
     def source(self) -> str:
@@ -181,6 +184,8 @@ def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
 
 def in_words(law: FatigueLaw, value: float) -> str:
     """A reading of a law with its unit."""
+    if law.quantity == UTILISATION:
+        return f"{value:.3g}"
     number, unit = (value / 1e6, "MPa") if law.quantity == TENSION else (value * 1e6, "microstrain")
     return f"{number:.0f} {unit}" if number >= 100 else f"{number:.3g} {unit}"
 

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.damage.design import DesignCriterion
+from treadload.damage.design import Criterion
 from treadload.damage.fatigue import in_words, warnings_of
 from treadload.damage.traffic import Climate, Traffic
 from treadload.errors import InputError
@@ -29,7 +29,7 @@ class Life:
     """
 
     dataset: xr.Dataset
-    criteria: tuple[DesignCriterion, ...]
+    criteria: tuple[Criterion, ...]
     traffic: Traffic
     climate: Climate
     stats: Mapping[str, Any] = field(default_factory=dict)
@@ -79,7 +79,7 @@ class Life:
 
 def miner(
     readings: xr.DataArray | Array,
-    criteria: Sequence[DesignCriterion],
+    criteria: Sequence[Criterion],
     traffic: Traffic,
     climate: Climate,
     *,

@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 
-from treadload.damage.design import DesignCriterion
+from treadload.damage.design import Criterion
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
 from treadload.pavement import Pavement
@@ -19,7 +19,7 @@ def design_life(
     road: Pavement,
     traffic: Traffic,
     climate: Climate,
-    criteria: Sequence[DesignCriterion],
+    criteria: Sequence[Criterion],
     *,
     spacing: float = 6e-3,
     tolerance: float = 3e-3,

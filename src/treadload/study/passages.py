@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +15,7 @@ import xarray as xr
 from scipy.interpolate import PchipInterpolator
 
 from treadload.contact import Contact, solve_contact
-from treadload.damage.design import DesignCriterion, Side
+from treadload.damage.design import Criterion, Side
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -26,8 +27,8 @@ Progress = Callable[[str], None]
 
 # Points beyond the outer edges of the wheels, m: strain there is a few per cent of the largest.
 _MARGIN = 0.3
-# Below this depth, m, fields are as smooth as this spacing, m, can follow.
-_DEEP, _COARSE = 0.05, 0.02
+# Below this depth, m, fields are as smooth as a sixth of the depth, m, can follow: 1 % of the shear at 60 mm.
+_DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +57,7 @@ def solve_passages(
     road: Pavement,
     traffic: Traffic,
     climate: Climate,
-    criteria: Sequence[DesignCriterion],
+    criteria: Sequence[Criterion],
     *,
     spacing: float = 6e-3,
     tolerance: float = 3e-3,
@@ -81,30 +82,30 @@ def solve_passages(
     if not 0 <= tolerance < 1:
         raise InputError(f"tolerance must lie in [0, 1), got {tolerance}; 3e-3 is the default")
     classes, seasons = traffic.classes, climate.seasons
-    roads = [road.at_temperature(_each(season, road)) for season in seasons]
     for criterion in criteria:
         criterion.depth(road)
+    roads = [_warmed(road, criteria, season) for season in seasons]
     threads = workers or os.cpu_count() or 1
     with ThreadPoolExecutor(threads) as pool:
         states = list(dict.fromkeys(_state(row) for row in classes))
         tell(f"{len(states)} contacts")
-        found = dict(zip(states, pool.map(lambda s: _contact(tire, roads[0], s, spacing), states), strict=True))
+        found = dict(zip(states, pool.map(lambda s: _contact(tire, roads[0].road, s, spacing), states), strict=True))
         contacts = [found[_state(row)] for row in classes]
         y = _across(contacts, classes)
         done = itertools.count(1)
 
-        def solve(pair: tuple[int, Pavement]) -> Array:
+        def solve(pair: tuple[int, _Warm]) -> Array:
             row, one = pair
-            read = _readings(contacts[row], classes[row], one, criteria, y)
+            read = _readings(contacts[row], classes[row], one.road, one.criteria, y)
             tell(f"response {next(done)}")
             return read
 
-        def solve_all(rows: Sequence[int], which: Sequence[Pavement]) -> Array:
+        def solve_all(rows: Sequence[int], which: Sequence[_Warm]) -> Array:
             pairs = [(row, one) for row in rows for one in which]
             solved = np.array(list(pool.map(solve, pairs)))
             return solved.reshape(len(rows), len(which), *solved.shape[1:])
 
-        distinct = list(dict.fromkeys(roads))
+        distinct = [one for k, one in enumerate(roads) if one not in roads[:k]]
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
         others = [row for row in range(len(classes)) if row != heaviest]
         pilot = solve_all([heaviest], distinct)[0]
@@ -131,6 +132,19 @@ def solve_passages(
     )
     temperatures = np.array([[_at_layer(c.number(road), season) for season in seasons] for c in criteria])
     return Passages(readings, temperatures, len(states), responses, error)
+
+
+@dataclass(frozen=True)
+class _Warm:
+    """The road and the criteria at the temperatures of a season."""
+
+    road: Pavement
+    criteria: tuple[Criterion, ...]
+
+
+def _warmed(road: Pavement, criteria: Sequence[Criterion], season: Season) -> _Warm:
+    warm = road.at_temperature(_each(season, road))
+    return _Warm(warm, tuple(criterion.at(_at_layer(criterion.number(road), season)) for criterion in criteria))
 
 
 def _each(season: Season, road: Pavement) -> float | tuple[float, ...]:
@@ -166,44 +180,47 @@ def _across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
     return dy * np.arange(-n, n + 1)
 
 
-def _readings(
-    contact: Contact, row: AxleClass, road: Pavement, criteria: Sequence[DesignCriterion], y: Array
-) -> Array:
+def _readings(contact: Contact, row: AxleClass, road: Pavement, criteria: Sequence[Criterion], y: Array) -> Array:
     """(criterion, y): the largest reading over the passage."""
     loads = [place(contact, x=at_x, y=at_y) for at_x, at_y in row.wheels]
     found = np.empty((len(criteria), len(y)))
-    groups: dict[tuple[bool, Side], list[int]] = {}
+    groups: dict[tuple[float, Side], list[int]] = {}
     depths = [criterion.depth(road) for criterion in criteria]
     for k, criterion in enumerate(criteria):
-        groups.setdefault((depths[k] > _DEEP, criterion.side), []).append(k)
-    for (deep, side), members in groups.items():
+        groups.setdefault((_step(depths[k]), criterion.side), []).append(k)
+    for (step, side), members in groups.items():
         at = sorted({depths[k] for k in members})
-        x = _along(contact, row, deep)
-        rows = np.append(np.arange(y[0], y[-1], _COARSE), y[-1]) if deep else y
+        x = _along(contact, row, step)
+        rows = np.linspace(y[0], y[-1], math.ceil((y[-1] - y[0]) / step) + 1) if step else y
         data = solve_response(loads, road, depths=at, x=x, y=rows, side=side, speed=row.speed).dataset
         for k in members:
             worst = criteria[k].read(data.isel(depth=at.index(depths[k]))).max(axis=1)
-            found[k] = PchipInterpolator(rows, worst)(y) if deep else worst
+            found[k] = PchipInterpolator(rows, worst)(y) if step else worst
     return found
 
 
-def _along(contact: Contact, row: AxleClass, deep: bool) -> Array:
+def _step(depth: float) -> float:
+    """Spacing of the points at a depth, m; 0 for that of the contact."""
+    return min(depth / _PER_DEPTH, _COARSE) if depth > _DEEP else 0.0
+
+
+def _along(contact: Contact, row: AxleClass, step: float) -> Array:
     """Where along x a passage is read, m: under the wheels, or coarser and further where fields are smooth."""
     own = contact.dataset["x"].to_numpy()
     centres = sorted({x for x, _ in row.wheels})
-    if not deep:
+    if not step:
         near = np.concatenate([own + x for x in centres])
         return np.unique(np.round(near, 9))
-    return np.arange(own[0] + centres[0] - _MARGIN, own[-1] + centres[-1] + _MARGIN, _COARSE)
+    return np.arange(own[0] + centres[0] - _MARGIN, own[-1] + centres[-1] + _MARGIN, step)
 
 
-def _warmth(seasons: Sequence[Season], roads: Sequence[Pavement], distinct: Sequence[Pavement]) -> Array:
+def _warmth(seasons: Sequence[Season], roads: Sequence[_Warm], distinct: Sequence[_Warm]) -> Array:
     """One temperature, °C, of each distinct road."""
     return np.array([float(seasons[roads.index(one)].temperature) for one in distinct])  # type: ignore[arg-type]
 
 
 def _nodes(
-    seasons: Sequence[Season], roads: Sequence[Pavement], distinct: Sequence[Pavement], pilot: Array, tolerance: float
+    seasons: Sequence[Season], roads: Sequence[_Warm], distinct: Sequence[_Warm], pilot: Array, tolerance: float
 ) -> tuple[list[int], float]:
     """Roads to solve for the other classes, in the order of temperature, and the error of the rest on the pilot.
 
@@ -216,6 +233,7 @@ def _nodes(
     order = np.argsort(warmth)
     kept = [int(order[0]), int(order[-1])]
     largest = np.abs(pilot).max(axis=-1, keepdims=True)
+    largest[largest == 0] = 1.0
     while True:
         kept.sort(key=lambda k: warmth[k])
         guess = PchipInterpolator(warmth[kept], pilot[kept], axis=0)(warmth)

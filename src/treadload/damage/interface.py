@@ -1,0 +1,291 @@
+"""What the interfaces of a layered road bear under a load, and where and when its layers part."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Self
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.damage.bond import InterfaceStrength, ShearFatigue
+from treadload.damage.design import Side
+from treadload.damage.direction import HasDataset
+from treadload.damage.fatigue import warnings_of
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.pavement import FRICTIONLESS, Bond, HalfBonded, Pavement
+
+# Depths of a response are met to within this, m: round-off of a file or of a unit.
+_SAME_DEPTH = 1e-9
+_DIMS = ("interface", "y", "x")
+# Utilisation of a bond that has parted for certain: finite, so that readings can be interpolated.
+_PARTED = 1e3
+
+
+def delaminate(road: Pavement, interface: int, bond: Bond | HalfBonded = FRICTIONLESS) -> Pavement:
+    """The road with another bond at one interface.
+
+    interface: counted from the surface, 0 below the top layer, negative from the lowest. bond: what is left,
+    FRICTIONLESS, HALF_BONDED or Bond(stiffness=...). Raises InputError for an interface that is not there.
+    """
+    number = interface_number(road, interface)
+    layers = [replace(layer, bond=bond) if k == number else layer for k, layer in enumerate(road.layers)]
+    return Pavement(layers, rigid_base=road.rigid_base)
+
+
+def interface_number(road: Pavement, interface: int) -> int:
+    """Number of an interface between layers from the surface. Raises InputError for one that is not there."""
+    count = len(road.layers) - 1
+    if not -count <= interface < count:
+        there = f"{-count} to {count - 1} are there" if count else "there is none"
+        raise InputError(f"the road has {count} interface(s) between layers, got interface {interface}; {there}")
+    return interface % count
+
+
+def interface_fields(above: HasDataset, below: HasDataset | None = None) -> xr.Dataset:
+    """Shear, pressure and sliding at every interface of a layered road.
+
+    above: a response that has the depth of every interface, side "above". below: the same with side "below",
+    for the jump of the displacement; left out, no jump.
+    Returns a dataset over (interface, y, x): interface_shear_x, interface_shear_y, their size interface_shear,
+    interface_pressure (compression positive), Pa; jump_x, jump_y, the horizontal displacement below the interface
+    minus that above it, m. The shear is σ_xz and σ_yz: at a Bond it is stiffness times the jump. Coordinates depth,
+    m, and between, the names of both layers.
+    Raises InputError for a response without interfaces, or without their depths.
+    """
+    data = above.dataset
+    names = _layer_names(data)
+    depths = np.atleast_1d(np.asarray(data.attrs.get("interfaces", []), dtype=float))[: len(names) - 1]
+    if not len(depths):
+        raise InputError("this road has no interfaces: its response is that of one half-space; give it layers")
+    rows = _at_depths(data, depths)
+    fields: dict[str, tuple[tuple[str, ...], Array]] = {
+        "interface_shear_x": (_DIMS, rows["stress_xz"].to_numpy()),
+        "interface_shear_y": (_DIMS, rows["stress_yz"].to_numpy()),
+        "interface_shear": (_DIMS, np.hypot(rows["stress_xz"].to_numpy(), rows["stress_yz"].to_numpy())),
+        "interface_pressure": (_DIMS, -rows["stress_zz"].to_numpy()),
+    }
+    if below is not None:
+        under = _at_depths(below.dataset, depths)
+        if any(not np.array_equal(under[name], rows[name]) for name in ("x", "y")):
+            raise InputError(
+                "the responses above and below must have the same x and y; solve both at the same points"
+            )
+        for name in "xy":
+            part = under[f"displacement_{name}"].to_numpy() - rows[f"displacement_{name}"].to_numpy()
+            fields[f"jump_{name}"] = (_DIMS, part)
+    dataset = variables.dataset(
+        fields,
+        {"interface": np.arange(len(depths)), "y": rows["y"].to_numpy(), "x": rows["x"].to_numpy()},
+        **{name: data.attrs[name] for name in ("road", "layer_names", "interfaces", "speed") if name in data.attrs},
+    )
+    between = [f"{upper} / {lower}" for upper, lower in pairwise(names)]
+    return dataset.assign_coords(
+        depth=("interface", depths, variables.attributes("depth")), between=("interface", between)
+    )
+
+
+def _layer_names(data: xr.Dataset) -> list[str]:
+    given = json.loads(data.attrs.get("layer_names", "[]"))
+    return [name or f"layer {number}" for number, name in enumerate(given)]
+
+
+def _at_depths(data: xr.Dataset, depths: Array) -> xr.Dataset:
+    own = data["depth"].to_numpy()
+    rows = [int(np.argmin(np.abs(own - depth))) for depth in depths]
+    far = np.abs(own[rows] - depths) > _SAME_DEPTH
+    if far.any():
+        raise InputError(
+            f"the response lacks the interface at {depths[far][0]:g} m; solve it with depths=road.interfaces"
+        )
+    return data.isel(depth=rows).transpose("depth", "y", "x", ...)
+
+
+@dataclass(frozen=True, eq=False)
+class BondVerdict:
+    """What the strengths of a road's interfaces say of a load.
+
+    dataset: the fields of `interface_fields`, utilisation and, with a law, bond_passes (interface, y, x), NaN where
+    no strength is given; largest_utilisation, parting_x, parting_y and parting_passes (interface).
+    strengths: one for each interface, None where not asked. law: of fatigue, or None. warnings: for the user.
+    """
+
+    dataset: xr.Dataset
+    strengths: tuple[InterfaceStrength | None, ...]
+    law: ShearFatigue | None = None
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def first(self) -> int:
+        """Number of the interface that parts first: the one whose bond is used up most."""
+        return int(np.nanargmax(self.dataset["largest_utilisation"].to_numpy()))
+
+    def summary(self) -> str:
+        """Shear, pressure and utilisation at the worst place of every interface, and where and when layers part."""
+        data = self.dataset
+        lines = ["interfaces, from the surface down"]
+        for k, strength in enumerate(self.strengths):
+            one = data.isel(interface=k)
+            if strength is None:
+                lines.append(f"  {_named(one)}: no strength given")
+                continue
+            worst = one.sel(x=one["parting_x"], y=one["parting_y"])
+            lines += [
+                f"  {_named(one)}: {strength}",
+                f"    used up to {float(one['largest_utilisation']):.3g} at x = {_mm(one['parting_x'])} mm, "
+                f"y = {_mm(one['parting_y'])} mm: shear {float(worst['interface_shear']) / 1e6:.3f} MPa under "
+                f"{float(worst['interface_pressure']) / 1e6:.3f} MPa",
+            ]
+        lines += [f"warning: {text}" for text in self.warnings]
+        one = data.isel(interface=self.first)
+        used = float(one["largest_utilisation"])
+        if used >= 1:
+            lines.append(f"Verdict: the first pass parts the interface {_named(one)}.")
+        elif self.law is None:
+            lines.append(f"Verdict: no bond parts at once; {_named(one)} is used most. Give a law for its passes.")
+        elif used == 0:
+            lines.append("Verdict: no bond is ever used.")
+        else:
+            lines.append(
+                f"Verdict: the interface {_named(one)} parts first, after {float(one['parting_passes']):.2g} passes, "
+                f"from y = {_mm(one['parting_y'])} mm."
+            )
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.summary()
+
+
+def assess_bonds(
+    fields: xr.Dataset,
+    strengths: InterfaceStrength | Sequence[InterfaceStrength | None],
+    law: ShearFatigue | None = None,
+    *,
+    temperature: float | Sequence[float] | None = None,
+) -> BondVerdict:
+    """Where, and after how many passes, the layers of a road part under a load.
+
+    fields: of `interface_fields`. strengths: one for all interfaces, or one for each from the surface down, None for
+    those that are not asked. law: fatigue of the bonds; left out, only the strength is asked. temperature: of the
+    interfaces, °C, one or one each, for strengths that depend on it.
+    x is where the worst place stands in the frame of the load: as a wheel rolls by, every point at that y sees it.
+    Returns a BondVerdict. Raises InputError for a wrong number of strengths or temperatures, or one that is missing.
+    """
+    count = fields.sizes["interface"]
+    given = [strengths] * count if isinstance(strengths, InterfaceStrength) else list(strengths)
+    if len(given) != count:
+        raise InputError(
+            f"give a strength for each of the {count} interfaces, None to leave one out, got {len(given)}"
+        )
+    if all(strength is None for strength in given):
+        raise InputError("a verdict on bonds needs the strength of at least one interface, got none")
+    warm = [temperature] * count if temperature is None or isinstance(temperature, int | float) else list(temperature)
+    if len(warm) != count:
+        raise InputError(f"give one temperature, or one for each of the {count} interfaces, got {len(warm)}")
+    shear, pressed = (fields[f"interface_{name}"].transpose(*_DIMS).to_numpy() for name in ("shear", "pressure"))
+    used = np.full(shear.shape, np.nan)
+    said: list[str] = []
+    found: list[InterfaceStrength | None] = []
+    for k, (strength, degrees) in enumerate(zip(given, warm, strict=True)):
+        at = strength if strength is None or degrees is None else strength.at(float(degrees))
+        found.append(at)
+        if at is not None:
+            used[k] = at.utilisation(shear[k], pressed[k])
+            said += [f"{_named(fields.isel(interface=k))}: {text}" for text in _doubts(at, pressed[k])]
+    peaks = [_peak(part) for part in used]
+    largest = np.array([part[peak] for part, peak in zip(used, peaks, strict=True)])
+    asked = ~np.isnan(largest)
+    x, y = fields["x"].to_numpy(), fields["y"].to_numpy()
+    added: dict[str, tuple[tuple[str, ...], Array]] = {
+        "utilisation": (_DIMS, used),
+        "largest_utilisation": (("interface",), largest),
+        "parting_x": (("interface",), np.where(asked, [x[column] for _, column in peaks], np.nan)),
+        "parting_y": (("interface",), np.where(asked, [y[row] for row, _ in peaks], np.nan)),
+    }
+    if law is not None:
+        added["bond_passes"] = (_DIMS, law.allowable_passes(used))
+        added["parting_passes"] = (("interface",), law.allowable_passes(largest))
+        said += warnings_of(law, largest)
+    dataset = fields.assign({name: (dims, data, variables.attributes(name)) for name, (dims, data) in added.items()})
+    return BondVerdict(dataset, tuple(found), law, tuple(dict.fromkeys(said)))
+
+
+def _peak(used: Array) -> tuple[int, int]:
+    if np.isnan(used).all():
+        return 0, 0
+    row, column = np.unravel_index(int(np.nanargmax(used)), used.shape)
+    return int(row), int(column)
+
+
+def _doubts(strength: InterfaceStrength, pressed: Array) -> list[str]:
+    said = [strength.doubt] if strength.doubt else []
+    tension = float(-pressed.min())
+    # Tension that matters: a hundredth of what presses. Less stands everywhere around a load.
+    if tension > 0.01 * float(np.abs(pressed).max()) and math.isinf(strength.tension_limit):
+        said.append(f"tension up to {tension / 1e3:.3g} kPa acts and is not judged; give a tensile_strength")
+    return said
+
+
+def _named(one: xr.Dataset) -> str:
+    return f"{int(one['interface'])}, {one['between'].item()!s}, {float(one['depth']) * 1e3:g} mm"
+
+
+def _mm(metres: xr.DataArray) -> str:
+    return f"{round(float(metres) * 1e3, 1) + 0.0:.1f}"
+
+
+@dataclass(frozen=True)
+class BondCriterion:
+    """The bond of an interface as a criterion of design: what `design_life` asks after how many passes it parts.
+
+    name: for tables and figures. strength, law: of the bond; strength at the temperature of the layer above.
+    interface: counted from the surface, 0 below the top layer, negative from the lowest.
+    """
+
+    name: str
+    strength: InterfaceStrength
+    law: ShearFatigue
+    interface: int = 0
+
+    def at(self, temperature: float) -> Self:
+        """The same with the strength at a temperature of the layer above, °C."""
+        return replace(self, strength=self.strength.at(temperature))
+
+    def law_at(self, temperature: float) -> ShearFatigue:
+        """The law, with the doubts of the strength; it depends on temperature only through the strength."""
+        doubts = [text for text in (self.law.doubt, self.strength.doubt) if text]
+        return replace(self.law, doubt="; ".join(doubts))
+
+    @property
+    def quantity(self) -> str:
+        """What the law reads."""
+        return self.law.quantity
+
+    @property
+    def side(self) -> Side:
+        """Side of the interface that is read; shear and pressure are the same on both."""
+        return "above"
+
+    def number(self, road: Pavement) -> int:
+        """Number of the layer above the interface. Raises InputError for an interface that is not there."""
+        return interface_number(road, self.interface)
+
+    def depth(self, road: Pavement) -> float:
+        """Depth of the interface, m. Raises InputError for one that is not there."""
+        return float(road.interfaces[self.number(road)])
+
+    def read(self, data: xr.Dataset) -> Array:
+        """Utilisation (y, x) of the bond in a response at the interface's depth; at most 1000, which parts it."""
+        xz, yz, zz = (data[f"stress_{name}"].transpose("y", "x").to_numpy() for name in ("xz", "yz", "zz"))
+        return np.minimum(self.strength.utilisation(np.hypot(xz, yz), -zz), _PARTED)
+
+    def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
+        """Angle of the trace and dip (y, x), rad: layers part in the horizontal plane, which has no trace."""
+        shape = (data.sizes["y"], data.sizes["x"])
+        return np.full(shape, np.nan), np.zeros(shape)
