@@ -9,6 +9,8 @@ from treadload.plots.layers import both_sides
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
 from treadload.plots.places import places_under
 from treadload.plots.roads import compare_roads, compare_temperatures
+from treadload.plots.rose import orientation_shares, trace_rose
+from treadload.plots.tearing import tearing
 from treadload.plots.verdict import fatigue_line
 
 __all__ = [
@@ -26,8 +28,11 @@ __all__ = [
     "deflection_bowl",
     "fatigue_line",
     "master_curve",
+    "orientation_shares",
     "places_under",
     "png",
     "save",
     "shift_factors",
+    "tearing",
+    "trace_rose",
 ]

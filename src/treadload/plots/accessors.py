@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from treadload.plots import contact as contact_figures
 from treadload.plots import profile as profiles
 from treadload.plots import response as response_figures
+from treadload.plots import rose as roses
 from treadload.plots import verdict as verdict_figures
 from treadload.plots.plan import Source
 from treadload.plots.response import Strain
@@ -105,3 +106,7 @@ class VerdictPlots:
     def cracks(self, *, ax: Axes | None = None) -> Figure:
         """Traces of the cracks to expect, coloured by orientation."""
         return verdict_figures.cracks(self._verdict, ax=ax)
+
+    def rose(self, *, threshold: float | None = None, classes: int = 18) -> Figure:
+        """Rose of the cracks' traces, by area of road beyond a threshold of strain, a fifth of the largest."""
+        return roses.rose_of(self._verdict, threshold=threshold, classes=classes)

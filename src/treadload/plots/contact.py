@@ -111,8 +111,8 @@ def stick_slip(contact: Source, *, ax: Axes | None = None) -> Figure:
     plan = Plan.of(data)
     figure, ax = figure_and_axes(ax, 6.6, _height(plan, 6.6) + 0.25)
     scale = limits(_shear(data))
-    _draw_stick_slip(ax, data, plan, scale)
-    headline(ax, "Shear on the road, stick and slip", _shear_in_numbers(data))
+    draw_stick_slip(ax, data, plan, scale)
+    headline(ax, "Shear on the road, stick and slip", shear_in_numbers(data))
     return figure
 
 
@@ -146,8 +146,8 @@ def shear(contact: Source) -> Figure:
     for axis in (solid.xaxis, solid.yaxis, solid.zaxis):
         axis.set_pane_color((1, 1, 1, 0))
         axis._axinfo["grid"].update(color="#e4e7ec", linewidth=0.6)
-    headline(solid, "Shear on the road", _shear_in_numbers(data))
-    _draw_stick_slip(flat, data, plan, scale)
+    headline(solid, "Shear on the road", shear_in_numbers(data))
+    draw_stick_slip(flat, data, plan, scale)
     headline(flat, "Stick and slip", _zones_in_numbers(data))
     return figure
 
@@ -209,7 +209,8 @@ def _section(ax: Axes, data: xr.Dataset, at: Array, cut: tuple[int | slice, int 
     ax.spines[["top", "right"]].set_visible(False)
 
 
-def _draw_stick_slip(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
+def draw_stick_slip(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
+    """Draw shear, kPa, with its arrows and the zones that stick and slip, a colour bar and a legend."""
     values, state = _shear(data), plane(data, "state")
     mesh = draw_cells(ax, plan, _where(state > 0, values), sequential("shear"), scale)
     colour_bar(mesh, ax, "shear (kPa)", scale)
@@ -268,7 +269,8 @@ def _shear(data: xr.Dataset) -> Array:
     return magnitude
 
 
-def _shear_in_numbers(data: xr.Dataset) -> str:
+def shear_in_numbers(data: xr.Dataset) -> str:
+    """Largest shear and the forces along the road in one line."""
     parts = [f"peak {measure(float(np.nanmax(_shear(data))))} kPa"]
     for name, symbol in (("tractive_force", "tractive"), ("lateral_force", "lateral")):
         if name in data and abs(float(data[name])) >= 0.5:
