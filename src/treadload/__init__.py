@@ -125,7 +125,16 @@ if TYPE_CHECKING:
         tandem,
     )
     from treadload.results import load, save, to_tree
-    from treadload.study import Result, UniformComparison, compare_uniform, design_life, run_case
+    from treadload.study import (
+        BondComparison,
+        Result,
+        UniformComparison,
+        compare_bonds,
+        compare_uniform,
+        design_life,
+        run_case,
+        solve_interfaces,
+    )
     from treadload.tire import Groove, LateralGrooves, Tire, TreadProfile, example_mesh, modulus_from_inflation
 
 _HOME = {
@@ -135,6 +144,7 @@ _HOME = {
     "AxleClass": "damage",
     "BONDED": "pavement",
     "Bond": "pavement",
+    "BondComparison": "study",
     "BondCriterion": "damage",
     "BondVerdict": "damage",
     "Case": "case",
@@ -207,6 +217,7 @@ _HOME = {
     "assess": "damage",
     "assess_bonds": "damage",
     "axle": "response",
+    "compare_bonds": "study",
     "compare_uniform": "study",
     "compute_criteria": "damage",
     "crack_rose": "damage",
@@ -241,6 +252,7 @@ _HOME = {
     "run_case": "study",
     "save": "results",
     "solve_contact": "contact",
+    "solve_interfaces": "study",
     "solve_response": "response",
     "solve_transient": "contact",
     "structures": "pavement",
@@ -263,6 +275,7 @@ __all__ = [
     "AsphaltInstituteSubgrade",
     "AxleClass",
     "Bond",
+    "BondComparison",
     "BondCriterion",
     "BondVerdict",
     "Case",
@@ -331,6 +344,7 @@ __all__ = [
     "assess",
     "assess_bonds",
     "axle",
+    "compare_bonds",
     "compare_uniform",
     "compute_criteria",
     "crack_rose",
@@ -365,6 +379,7 @@ __all__ = [
     "run_case",
     "save",
     "solve_contact",
+    "solve_interfaces",
     "solve_response",
     "solve_transient",
     "structures",

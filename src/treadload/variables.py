@@ -151,6 +151,7 @@ _INTERFACES = {
     "parting_x": ("m", "position along travel, in the load's frame, where an interface is used up most"),
     "parting_y": ("m", "position to the right of travel where an interface is used up most"),
     "parting_passes": ("1", "passes until an interface parts"),
+    "parting_years": ("1", "years until an interface parts"),
 }
 
 VARIABLES: Mapping[str, tuple[str, str]] = {

@@ -26,6 +26,8 @@ _SAME_DEPTH = 1e-9
 _DIMS = ("interface", "y", "x")
 # Utilisation of a bond that has parted for certain: finite, so that readings can be interpolated.
 _PARTED = 1e3
+# Utilisation below this is the solver's round-off, as on an interface that bears no shear.
+_ROUND_OFF = 1e-6
 
 
 def delaminate(road: Pavement, interface: int, bond: Bond | HalfBonded = FRICTIONLESS) -> Pavement:
@@ -190,7 +192,7 @@ def assess_bonds(
         raise InputError(f"give one temperature, or one for each of the {count} interfaces, got {len(warm)}")
     shear, pressed = (fields[f"interface_{name}"].transpose(*_DIMS).to_numpy() for name in ("shear", "pressure"))
     used = np.full(shear.shape, np.nan)
-    said: list[str] = []
+    said: list[str] = json.loads(fields.attrs.get("warnings", "[]"))
     found: list[InterfaceStrength | None] = []
     for k, (strength, degrees) in enumerate(zip(given, warm, strict=True)):
         at = strength if strength is None or degrees is None else strength.at(float(degrees))
@@ -281,9 +283,10 @@ class BondCriterion:
         return float(road.interfaces[self.number(road)])
 
     def read(self, data: xr.Dataset) -> Array:
-        """Utilisation (y, x) of the bond in a response at the interface's depth; at most 1000, which parts it."""
+        """Utilisation (y, x) of the bond in a response at the interface's depth; at most 1000, round-off is 0."""
         xz, yz, zz = (data[f"stress_{name}"].transpose("y", "x").to_numpy() for name in ("xz", "yz", "zz"))
-        return np.minimum(self.strength.utilisation(np.hypot(xz, yz), -zz), _PARTED)
+        used = self.strength.utilisation(np.hypot(xz, yz), -zz)
+        return np.where(used < _ROUND_OFF, 0.0, np.minimum(used, _PARTED))
 
     def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
         """Angle of the trace and dip (y, x), rad: layers part in the horizontal plane, which has no trace."""

@@ -159,5 +159,18 @@ def miner(
     return Life(dataset, tuple(criteria), traffic, climate, warnings=tuple(dict.fromkeys(warnings)))
 
 
+def passes_in_two_phases(before: Array, after: Array, change: float) -> Array:
+    """Passes until Miner's sum is 1 where the road changes on the way: n₁ d₁ + (n - n₁) d₂ = 1.
+
+    before, after: d₁ and d₂, damage of a pass, any shape, >= 0. change: n₁, passes until the change, >= 0 or inf.
+    What is used up before the change fails as if there were none; inf where no damage is done.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        alone = np.where(before > 0, 1 / before, np.inf)
+        left = np.where(before > 0, 1 - change * before, 1.0)
+        later = change + np.where(after > 0, left / after, np.inf)
+    return np.where(alone <= change, alone, later)
+
+
 def _years(years: float) -> str:
     return "never" if math.isinf(years) else f"{years:.3g} years"

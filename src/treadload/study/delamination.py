@@ -1,0 +1,187 @@
+"""A road before and after its layers part: the same structure with the bond and without, side by side."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from treadload import variables
+from treadload.damage.design import Criterion
+from treadload.damage.fatigue import in_words
+from treadload.damage.interface import BondCriterion, delaminate, interface_fields, interface_number
+from treadload.damage.miner import Life, passes_in_two_phases
+from treadload.damage.traffic import Climate, Traffic
+from treadload.errors import InputError
+from treadload.pavement import BONDED, FRICTIONLESS, Bond, HalfBonded, Pavement
+from treadload.response import solve_response
+from treadload.response.loads import Load
+from treadload.study.life import design_life
+from treadload.study.passages import Progress
+from treadload.tire import Tire
+
+BEFORE, AFTER, PARTING = "bonded", "parted", "bonded, then parted"
+
+
+def solve_interfaces(
+    loads: Load | Sequence[Load],
+    road: Pavement,
+    *,
+    x: ArrayLike | None = None,
+    y: ArrayLike | None = None,
+    speed: float | None = None,
+) -> xr.Dataset:
+    """Shear, pressure and sliding at every interface of a road under loads.
+
+    Arguments as in `solve_response`, which is asked on both sides where a bond can slide. Returns the dataset of
+    `interface_fields`, whose attribute `warnings` (JSON) holds what the response says. Raises InputError.
+    """
+    depths = road.interfaces[: len(road.layers) - 1]
+    if not len(depths):
+        raise InputError("this road has no interfaces between layers; give it two layers or more")
+    above = solve_response(loads, road, depths=depths, x=x, y=y, speed=speed)
+    if all(layer.bond == BONDED for layer in road.layers):
+        fields = interface_fields(above, above)
+    else:
+        fields = interface_fields(
+            above, solve_response(loads, road, depths=depths, x=x, y=y, speed=speed, side="below")
+        )
+    return fields.assign_attrs(warnings=json.dumps(above.warnings, ensure_ascii=False))
+
+
+@dataclass(frozen=True, eq=False)
+class BondComparison:
+    """The life of a road bonded, parted, and bonded until it parts.
+
+    dataset: largest_reading, life_passes, life_years over (state, criterion), states "bonded", "parted" and
+    "bonded, then parted"; parting_passes, parting_years. bonded, parted: the lives of both roads. interface: that
+    parts, from the surface. bond: what is left of it. criterion: name of the bond that parts first.
+    """
+
+    dataset: xr.Dataset
+    bonded: Life
+    parted: Life
+    interface: int
+    bond: Bond | HalfBonded
+    criterion: str
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences for the user, of both lives."""
+        return tuple(dict.fromkeys(self.bonded.warnings + self.parted.warnings))
+
+    @property
+    def governing(self) -> str:
+        """Name of the criterion that ends the road's life, the bond itself aside."""
+        years = self.dataset["life_years"].sel(state=PARTING).to_numpy()
+        others = [k for k, one in enumerate(self.bonded.criteria) if not isinstance(one, BondCriterion)]
+        return self.bonded.criteria[min(others or range(len(years)), key=lambda k: years[k])].name
+
+    def summary(self) -> str:
+        """A table of readings and lives in the three states, when the bond parts, and a verdict."""
+        data = self.dataset
+        when = float(data["parting_passes"])
+        lines = [
+            f"bond of interface {self.interface}: {BEFORE}, or {PARTING} ({self.bond})",
+            f"{'':30s}{'reading (life) ' + BEFORE:>34s}{'reading (life) ' + AFTER:>34s}{'life ' + PARTING:>28s}",
+        ]
+        for one in self.bonded.criteria:
+            row = data.sel(criterion=one.name)
+            cells = [
+                f"{in_words(one.law_at(15.0), float(row['largest_reading'].sel(state=state)))} "
+                f"({_years(float(row['life_years'].sel(state=state)))})"
+                for state in (BEFORE, AFTER)
+            ]
+            last = _years(float(row["life_years"].sel(state=PARTING)))
+            lines.append(f"{one.name:30s}{cells[0]:>34s}{cells[1]:>34s}{last:>28s}")
+        lines += [f"warning: {text}" for text in self.warnings]
+        name = self.governing
+        lives = data["life_years"].sel(criterion=name)
+        if math.isinf(when):
+            lines.append(f"Verdict: the bond never parts; {name} lasts {_years(float(lives.sel(state=BEFORE)))}.")
+        else:
+            lines.append(
+                f"Verdict: {self.criterion} parts after {when:.3g} passes, {_years(float(data['parting_years']))}; "
+                f"{name} governs and lasts {_years(float(lives.sel(state=PARTING)))} instead of "
+                f"{_years(float(lives.sel(state=BEFORE)))}."
+            )
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.summary()
+
+
+def compare_bonds(
+    tire: Tire,
+    road: Pavement,
+    traffic: Traffic,
+    climate: Climate,
+    criteria: Sequence[Criterion],
+    *,
+    interface: int | None = None,
+    bond: Bond | HalfBonded = FRICTIONLESS,
+    spacing: float = 6e-3,
+    tolerance: float = 3e-3,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> BondComparison:
+    """How long a road lasts with its bond, without it, and when the bond parts on the way.
+
+    Arguments as in `design_life`. criteria: one BondCriterion at least, and what limits the road's life; the bottom
+    of the layer above the interface belongs there, as it bends alone once it is parted. interface: that parts;
+    left out, that of the bond which lasts shortest. bond: what is left of it, FRICTIONLESS, HALF_BONDED or
+    Bond(stiffness=...).
+    The road is parted everywhere at once when its bond is used up at the worst place: layers know no patches, so
+    the third life is a lower bound. Miner's sum runs on with the parted road's rate, n₁ / N₁ + n₂ / N₂ = 1, at every
+    point across the road, both rates those of a whole year; of several interfaces only the first parts.
+    Raises InputError, and ConvergenceError of a contact.
+    """
+    bonds = [one for one in criteria if isinstance(one, BondCriterion)]
+    chosen = None if interface is None else interface_number(road, interface)
+    asked = [one for one in bonds if chosen is None or one.number(road) == chosen]
+    if not asked:
+        where = "" if chosen is None else f" of interface {chosen}"
+        raise InputError(f"comparing bonds needs a BondCriterion{where} among the criteria, got none")
+
+    def live(one: Pavement) -> Life:
+        return design_life(
+            tire, one, traffic, climate, criteria,
+            spacing=spacing, tolerance=tolerance, workers=workers, progress=progress,
+        )  # fmt: skip
+
+    before = live(road)
+    passes = before.dataset["life_passes"]
+    first = min(asked, key=lambda one: float(passes.sel(criterion=one.name)))
+    parts = float(passes.sel(criterion=first.name))
+    number = first.number(road)
+    after = live(delaminate(road, number, bond))
+    rates = [life.dataset["damage_per_year"].to_numpy() for life in (before, after)]
+    # No traffic, no damage: any number of passes does.
+    rates = [rate / (traffic.passes_per_year or 1.0) for rate in rates]
+    in_turn = passes_in_two_phases(rates[0], rates[1], parts).min(axis=-1)
+    lives = np.stack([passes.to_numpy(), after.dataset["life_passes"].to_numpy(), in_turn])
+    readings = [life.dataset["largest_reading"].to_numpy() for life in (before, after)]
+    together = readings[0] if math.isinf(parts) else np.maximum(*readings)
+    dims = ("state", "criterion")
+    dataset = variables.dataset(
+        {
+            "largest_reading": (dims, np.stack([*readings, together])),
+            "life_passes": (dims, lives),
+            "life_years": (dims, [[traffic.years_to(float(n)) for n in row] for row in lives]),
+            "parting_passes": ((), parts),
+            "parting_years": ((), traffic.years_to(parts)),
+        },
+        {"state": [BEFORE, AFTER, PARTING], "criterion": [one.name for one in criteria]},
+        interface=number,
+        bond=str(bond),
+    )
+    return BondComparison(dataset, before, after, number, bond, first.name)
+
+
+def _years(years: float) -> str:
+    return "never" if math.isinf(years) else f"{years:.3g} years"
