@@ -1,4 +1,4 @@
-"""The command line: `treadload run | report | scan | demo | validate`."""
+"""The command line: `treadload run | report | scan | catalogue | demo | validate`."""
 
 from __future__ import annotations
 
@@ -148,6 +148,43 @@ def scan(
     _out.print(str(tire.quality), markup=False)
     if output is not None:
         _out.print(f"written: {output}", markup=False)
+
+
+@app.command()
+@_one_sentence
+def catalogue() -> None:
+    """Structures, mixes and viscoelastic materials that a case can name, with their sources."""
+    from treadload.materials import Mix, mixes, published_materials
+    from treadload.pavement import structures
+
+    sources: dict[str, int] = {}
+
+    def cited(source: str) -> str:
+        return f"[{sources.setdefault(source, len(sources) + 1)}]" if source else ""
+
+    roads = Table("name", "layers from the surface down", "source", title="structure = …")
+    for road in structures().values():
+        layers = ", ".join(
+            course.mix if course.thickness is None else f"{course.thickness * 1e3:g} mm {course.mix}"
+            for course in road.courses
+        )
+        roads.add_row(road.name, f"{road.title}: {layers}", Text(cited(road.source)))
+    materials = Table("name", "what it is", "source", title="mix = …")
+    for material in mixes().values():
+        words = str(material).removeprefix(f"{material.name}, ")
+        if isinstance(material, Mix):
+            fatigue = "" if material.epsilon_6 is None else f", ε₆ = {material.epsilon_6 * 1e6:g} microstrain"
+            words = f"E = {material.modulus(15) / 1e6:g} MPa at 15 °C{fatigue}; data {words}"
+        materials.add_row(material.name, Text(words), Text(cited(material.source)))
+    laws = Table("name", "what it is", "source", title='material = { kind = "published", name = … }')
+    for law in published_materials().values():
+        at = "" if law.temperature is None else f"at {law.temperature:g} °C: "
+        laws.add_row(law.name, Text(f"{at}{law.material}"), Text(cited(law.source)))
+    for table in (roads, materials, laws):
+        table.title_justify = "left"
+        _out.print(table)
+    for source, number in sources.items():
+        _out.print(f"[{number}] {source}", markup=False)
 
 
 @app.command()

@@ -152,10 +152,13 @@ def to_tree(
             sentence = part.summary().splitlines()[-1]
             groups["damage"] = part.dataset.assign_attrs(sentence=sentence)
         else:
+            name = _response_group(part.dataset)
             response = part
-            stats = json.dumps(dict(part.stats), default=float)
-            warnings = json.dumps(list(part.warnings), ensure_ascii=False)
-            groups[_response_group(part.dataset)] = part.dataset.assign_attrs(stats=stats, warnings=warnings)
+            about = {"stats": json.dumps(dict(part.stats), default=float)}
+            if name == "response":
+                # Slices and bowl would say it again for their own depths.
+                about["warnings"] = json.dumps(list(part.warnings), ensure_ascii=False)
+            groups[name] = part.dataset.assign_attrs(about)
     if road is None and contact is not None:
         road = contact.road
     root = {

@@ -55,6 +55,43 @@ def test_scan_tells_the_quality_and_writes_a_height_map(tmp_path):
     assert tl.Tire.from_height_map(tmp_path / "h.nc").fixed_grid.dx == pytest.approx(0.01)
 
 
+def test_the_catalogue_tells_names_numbers_and_sources():
+    result = CliRunner(env={"COLUMNS": "200"}).invoke(app, ["catalogue"])
+    assert result.exit_code == 0, result.output
+    for road in tl.structures().values():
+        assert road.name in result.stdout
+    for name in (*tl.mixes(), *tl.published_materials()):
+        assert name in result.stdout
+    # NF P98-086: E(15 °C, 10 Hz) and ε₆ of EB-GB3.
+    assert "E = 9000 MPa at 15 °C, ε₆ = 90 microstrain" in result.stdout
+    assert "[7] NF P98-086 (2019)" in result.stdout
+
+
+def test_run_shows_the_road_at_its_temperature(case, tmp_path):
+    start, end = COARSE_CASE.index("[[pavement.layers]]"), COARSE_CASE.index("[rolling]")
+    road = '[pavement]\nstructure = "6 BBSG3 / 15 GB3 / PF3"\ntemperature = 15\n\n'
+    case.write_text(COARSE_CASE[:start] + road + COARSE_CASE[end:])
+    ran = call("run", case)
+    assert ran.exit_code == 0, ran.output
+    assert "E = 9000 MPa, ν = 0.35, 15 °C, bonded to the next" in ran.stdout
+    layers = load(tmp_path / "case.nc").attrs["layers"]
+    assert '"temperature": 15.0' in layers
+
+
+@pytest.mark.parametrize(
+    ("pavement", "words"),
+    [
+        ('structure = "6/15"\ntemperature = 15', ("no structure '6/15'",)),
+        ('structure = "6 BBSG3 / 15 GB3 / PF3"', ("needs a temperature",)),
+        ('structure = "6 BBSG3 / 15 GB3 / PF3"\ntemperature = 60', ("60 °C", "-10 to 40 °C")),
+    ],
+)
+def test_bad_roads_end_with_code_2(case, pavement, words):
+    start, end = COARSE_CASE.index("[[pavement.layers]]"), COARSE_CASE.index("[rolling]")
+    case.write_text(f"{COARSE_CASE[:start]}[pavement]\n{pavement}\n\n{COARSE_CASE[end:]}")
+    refused(call("run", case), 2, *words)
+
+
 def test_version_and_module():
     assert call("--version").stdout == f"treadload {tl.__version__}\n"
     done = subprocess.run(

@@ -236,6 +236,78 @@ def test_reports_need_results(tmp_path):
         write_report({"empty": xr.DataTree()}, tmp_path / "r.html")
 
 
+ROAD = """
+[pavement]
+temperature = [45, 30, 20]
+[[pavement.layers]]
+name = "wearing course"
+thickness = "60 mm"
+material = { kind = "published", name = "ViscoRoute" }
+bond = { stiffness = "1000 MPa/m" }
+[[pavement.layers]]
+mix = "EB-GB3"
+thickness = "150 mm"
+[[pavement.layers]]
+mix = "PF3"
+"""
+
+
+@pytest.fixture(scope="module")
+def moving() -> Result:
+    """A wheel at 72 km/h on a viscoelastic road of three layers; cells of 20 mm."""
+    start, end = CASE.index("[[pavement.layers]]"), CASE.index("[rolling]")
+    text = CASE[:start].format(title="Moving") + ROAD + CASE[end:].format(force=0)
+    response = 'depths = ["40 mm", "210 mm"]\nspeed = "72 km/h"\nwheels = [{ y = 0.15 }]'
+    text = text.replace('depths = ["0 mm", "20 mm"]', response).replace('"12 mm"', '"20 mm"')
+    return run_case(Case.from_text(text.replace("slope = -0.2 }", 'slope = -0.2 }\ndepth = "210 mm"')))
+
+
+@pytest.mark.slow
+def test_report_of_a_moving_wheel_on_layers(moving, tmp_path):
+    tree = moving.to_tree()
+    page = _Page(write_report({"moving": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
+    for wanted in (
+        "Wheels at 72 km/h",
+        "wearing course",
+        "spring of 1000 MPa/m",
+        # NF P98-086 prints 2700 MPa for EB-GB3 at 30 °C and 10 Hz.
+        "2700",
+        "goes down for ever",
+        "|E*| at 10 Hz",
+        "Deflection bowl.",
+        "Energy dissipated in one passage.",
+        "Strain against depth.",
+        "through the worst point 210 mm deep",
+        "wheel 1: y",
+        "Sayegh",
+        "Goodman",
+    ):
+        assert wanted in page.words, wanted
+    # An elastic road under one wheel has none of these.
+    del tree["bowl"]
+    part = _Page(write_report({"moving": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
+    assert "Deflection bowl." not in part.words
+
+
+@pytest.mark.slow
+def test_energy_is_drawn_where_it_is_lost(moving):
+    from treadload.plots import dissipated_energy, png
+
+    across = moving.slice_across.dataset
+    figure = dissipated_energy(across)
+    ax = figure.axes[0]
+    # Down to the bottom of the wearing course, the only layer that loses energy.
+    assert ax.get_ylim() == pytest.approx((60, 0))
+    known = across.dissipated_energy.where(across.depth <= 0.06)
+    assert ax.collections[0].get_array().max() == pytest.approx(float(known.max()))
+    assert png(figure)
+    elastic = across.assign(dissipated_energy=0 * across.dissipated_energy.fillna(0))
+    with pytest.raises(InputError, match="no layer of this road dissipates energy"):
+        dissipated_energy(elastic)
+    with pytest.raises(InputError, match="dissipated_energy"):
+        dissipated_energy(across.drop_vars("dissipated_energy"))
+
+
 def test_report_of_objects(results, tmp_path):
     result = results["driving"]
     path = report([result.contact, result.verdict], tmp_path / "r.html", title="By hand")

@@ -17,6 +17,7 @@ from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
 from treadload.case.words import in_words
 from treadload.contact import Rolling
+from treadload.contact.solve import RoadCompliance
 from treadload.contact.viscoelastic import check_rolling
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
@@ -46,12 +47,14 @@ class DamagePart(Part):
 class Case(Part):
     """Everything that a computation needs, checked.
 
-    Numbers are SI; in a TOML file a quoted number carries its unit.
+    Numbers are SI; in a TOML file a quoted number carries its unit. road_compliance: "layers" for a stiff body such
+    as a steel wheel, see `solve_contact`.
     """
 
     title: str = ""
     spacing: Length | None = None
     tolerance: Number = 1e-6
+    road_compliance: RoadCompliance = "half_space"
     tire: TirePart | None = None
     pavement: PavementPart
     rolling: RollingPart | None = None
@@ -85,7 +88,7 @@ class Case(Part):
 
     def _check_loading(self, road: Pavement) -> None:
         if self.footprint is not None:
-            stray = [name for name in ("tire", "rolling", "spacing") if getattr(self, name) is not None]
+            stray = sorted({"tire", "rolling", "spacing", "road_compliance"} & self.model_fields_set)
             if stray:
                 raise ValueError(f"a footprint stands in place of a tire; leave out {stray[0]}")
             return

@@ -4,6 +4,7 @@ from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
 from treadload.plots.bowl import deflection_bowl
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
+from treadload.plots.energy import dissipated_energy
 from treadload.plots.files import png, save
 from treadload.plots.layers import both_sides
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
@@ -26,6 +27,7 @@ __all__ = [
     "compare_temperatures",
     "creep_curves",
     "deflection_bowl",
+    "dissipated_energy",
     "fatigue_line",
     "master_curve",
     "orientation_shares",

@@ -18,6 +18,7 @@ from treadload.files import check_writable, replacing
 from treadload.reporting.figures import case_figures, comparison_figures
 from treadload.reporting.inputs import input_table
 from treadload.reporting.reading import ReportCase
+from treadload.reporting.road import COLUMNS, road_tables
 from treadload.reporting.tables import result_table, statistics_table
 
 if TYPE_CHECKING:
@@ -81,6 +82,8 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
         ],
         "labels": [case.label for case in cases],
         "comparison": comparison_figures(cases),
+        "road_columns": COLUMNS,
+        "roads": road_tables(cases),
         "inputs": input_table(cases),
         "results": result_table(cases),
         "statistics": statistics_table(cases),

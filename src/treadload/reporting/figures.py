@@ -18,6 +18,8 @@ from treadload.plots import (
     VerdictPlots,
     compare_pressure,
     compare_strain,
+    deflection_bowl,
+    dissipated_energy,
     fatigue_line,
     png,
 )
@@ -49,6 +51,7 @@ def case_figures(case: ReportCase, *, alone: bool) -> list[tuple[str, list[Pictu
     sections = [
         ("Contact", list(_contact(case))),
         ("Strain in the road", list(_strain(case))),
+        ("Deflection and energy", list(_layered(case))),
         ("Fatigue and cracks", list(_verdict(case, alone))),
     ]
     return [(heading, pictures) for heading, pictures in sections if pictures]
@@ -127,6 +130,9 @@ def _contact(case: ReportCase) -> Iterator[Picture]:
 
 def _strain(case: ReportCase) -> Iterator[Picture]:
     data, contact = case.group("response"), case.group("contact")
+    if case.wheels_placed:
+        # The contact lies at the origin; the stress at the surface tells the outlines of all wheels.
+        contact = None
     if data is not None:
         plots = ResponsePlots(data)
         for depth in np.atleast_1d(data["depth"].to_numpy()).tolist():
@@ -143,19 +149,57 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
         if section is not None:
             yield from _picture(
                 f"Vertical section {words}",
-                "Drawn: the three-dimensional strain under the worst point of the surface; black bars: the tire "
-                "touches. Strokes show the part of the direction that lies in the section.",
+                f"Drawn: the three-dimensional strain through the worst point {case.depth_in_words}; black bars: the "
+                "tire touches. Strokes show the part of the direction that lies in the section.",
                 ResponsePlots(section).depth_slice,
             )
+    yield from _against_depth(case)
+
+
+def _against_depth(case: ReportCase) -> Iterator[Picture]:
+    data, across = case.group("response"), case.group("slice_across")
+    damage = case.group("damage")
+    epsilon = float(damage.attrs["epsilon_6"]) if damage is not None and "epsilon_6" in damage.attrs else None
+    if len(case.layers) > 1 and across is not None:
+        # The section has the stress of the surface, but perhaps not that under the load's centre.
+        load = data if data is not None and 0.0 in data["depth"] else across
+        yield from _picture(
+            "Strain against depth",
+            "Extension along travel, across it and the largest in space, under places across the tire; strain jumps "
+            "where a layer ends.",
+            lambda: ResponsePlots(across).strain_profiles(contact=load, epsilon_6=epsilon),
+            wide=True,
+        )
+        return
     deep = case.group("slice_along")
     deep = data if deep is None else deep
     if deep is not None and deep.sizes.get("depth", 1) > 2:
-        damage = case.group("damage")
-        epsilon = float(damage.attrs["epsilon_6"]) if damage is not None and "epsilon_6" in damage.attrs else None
         yield from _picture(
             "Strain against depth",
             "Both strains under the worst point of the surface; dashed: the largest anywhere in the section.",
             lambda: ResponsePlots(deep).profile(epsilon_6=epsilon),
+        )
+
+
+def _layered(case: ReportCase) -> Iterator[Picture]:
+    bowl, across = case.group("bowl"), case.group("slice_across")
+    if bowl is not None:
+        yield from _picture(
+            "Deflection bowl",
+            "Deflection of the surface along travel under the wheel. A viscoelastic road is still deflected behind "
+            "the wheel: its lowest point lags."
+            if case.speed is not None
+            else "Deflection of the surface along travel under the wheel.",
+            lambda: deflection_bowl([bowl], [case.label], y=float(bowl["y"][0])),
+            wide=True,
+        )
+    if across is not None and "dissipated_energy" in across:
+        yield from _picture(
+            "Energy dissipated in one passage",
+            "What the wheel leaves in the viscoelastic layers as heat and damage, per volume, in a section across "
+            "travel; hatched: not computed.",
+            lambda: dissipated_energy(across),
+            wide=True,
         )
 
 

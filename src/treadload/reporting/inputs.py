@@ -16,12 +16,20 @@ _UNITS = {
         ("spacing", "cell", "thickness", "approach", "depths", "depth", "slice_depth", "nominal_diameter"),
         ("mm", 1e3),
     ),
-    "modulus": ("MPa", 1e-6),
+    **dict.fromkeys(("x", "y"), ("mm", 1e3)),
+    **dict.fromkeys(("modulus", "glassy_modulus", "static_modulus"), ("MPa", 1e-6)),
+    "stiffness": ("MPa/m", 1e-6),
+    **dict.fromkeys(("instantaneous_compliance", "long_term_compliance"), ("1/MPa", 1e6)),
+    **dict.fromkeys(("temperature", "temperatures", "values", "reference", "tested"), ("°C", 1.0)),
+    "activation_energy": ("kJ/mol", 1e-3),
+    "c2": ("K", 1.0),
+    "tau": ("s", 1.0),
+    "frequency": ("Hz", 1.0),
     "inflation_pressure": ("kPa", 1e-3),
     **dict.fromkeys(("normal_load", "tractive_force", "lateral_force"), ("kN", 1e-3)),
     **dict.fromkeys(("rotation", "camber"), ("°", 180 / math.pi)),
     "spin": ("rad/m", 1.0),
-    "speed": ("m/s", 1.0),
+    "speed": ("km/h", 3.6),
     "epsilon_6": ("microstrain", 1e6),
 }
 _NAMES = {
@@ -33,8 +41,24 @@ _NAMES = {
     "creepage_y": "lateral creepage",
     "spacing": "cells of the grid",
     "friction": "coefficient of friction",
+    "structure": "structure of the catalogue",
+    "frequency": "frequency at which mixes are read",
+    "bond": "bond to the next layer",
+    "extrapolate": "beyond the materials' data",
+    "road_compliance": "compliance of the road in the contact",
+    "glassy_modulus": "E∞, of fast loading",
+    "static_modulus": "E₀, of slow loading",
+    "delta": "δ",
+    "tau": "τ at the reference of the shift",
 }
-_HEADINGS = {"": "Computation", "tire": "Tire", "pavement": "Road", "rolling": "Rolling", "damage": "Fatigue"}
+_HEADINGS = {
+    "": "Computation",
+    "tire": "Tire",
+    "pavement": "Road",
+    "rolling": "Rolling",
+    "damage": "Fatigue",
+    "footprint": "Recorded footprint",
+}
 _DROPPED = {"title"}
 
 

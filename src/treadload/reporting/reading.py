@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -18,7 +19,7 @@ from treadload.plots.plan import MICRO, MM, Plan, peak_of, plane
 from treadload.plots.style import power_of_ten, signed
 from treadload.response.fields import angle_in_words, direction_in_words
 
-GROUPS = ("contact", "response", "slice_along", "slice_across", "damage")
+GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage")
 # A number such as 1.2e+05 in a sentence.
 _POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
 # Names that other writers gave to the same group.
@@ -86,6 +87,26 @@ class ReportCase:
     def citations(self) -> list[str]:
         """References of the methods used."""
         return [str(text) for text in _json(self.attrs.get("citations"), [])]
+
+    @property
+    def layers(self) -> list[dict[str, Any]]:
+        """The road's layers from the surface down, with the keys of `pavement.LayerRow`; empty if unknown."""
+        return [dict(layer) for layer in _json(self.attrs.get("layers"), [])]
+
+    @property
+    def speed(self) -> float | None:
+        """Speed of the wheels over a viscoelastic road, m/s; None if it does not matter or is not known."""
+        data = self.group("response")
+        return float(data.attrs["speed"]) if data is not None and "speed" in data.attrs else None
+
+    @property
+    def wheels_placed(self) -> bool:
+        """True if the case places its wheels: the response is that of copies of the contact."""
+        try:
+            asked = tomllib.loads(self.toml).get("response", {})
+        except tomllib.TOMLDecodeError:
+            return False
+        return isinstance(asked, Mapping) and "wheels" in asked
 
     @property
     def warnings(self) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,14 +13,19 @@ import xarray as xr
 from treadload.case import Case
 from treadload.contact import Contact, solve_contact
 from treadload.damage import Verdict, assess
+from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, Response, solve_response
+from treadload.response.loads import common_grid
 from treadload.results import road_in_rows, to_tree
 
 Progress = Callable[[str], None]
 
-_SLICE_DEPTHS = 31
+# Depths of a slice; under a moving load each costs several times as much.
+_SLICE_DEPTHS, _MOVING_DEPTHS = 31, 16
+# What a map of layers shows beside the wheels, m: stiff layers spread the load.
+_MARGIN = 0.1
 # As a depth just below an interface, m.
 _BELOW = 1e-6
 # The deflection bowl, m: behind the wheel, before it, between its points.
@@ -81,21 +87,22 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     loads = case.response.place(wheel)
     asked = case.response
 
+    # An elastic road does not know how fast it is rolled over.
+    speed = case.speed if road.is_viscoelastic else None
+
     def solve(depths: Sequence[float] | Array, **points: Any) -> Response:
-        if road.is_viscoelastic:
-            points["speed"] = case.speed
-        return solve_response(loads, road, depths=depths, side=asked.side, **points)
+        return solve_response(loads, road, depths=depths, side=asked.side, speed=speed, **points)
 
     count = f" under {len(loads)} wheels" if len(loads) > 1 else ""
     tell(f"stress and strain in the road{count}")
-    response = solve(asked.depths)
+    grid = _map_grid(loads, road)
+    response = solve(asked.depths, x=grid.x, y=grid.y)
     tell("vertical slices")
     worst_x, worst_y = _worst_point(response, asked.depths[0] if case.damage is None else case.damage.depth)
     bottom = asked.slices_to(road.interfaces.tolist(), rigid_base=road.rigid_base)
     depths = _slice_depths(bottom, wheel.grid.dx, road)
-    grid = response.dataset
-    along = solve(depths, x=grid.x.values, y=[worst_y])
-    across = solve(depths, x=[worst_x], y=grid.y.values)
+    along = solve(depths, x=grid.x, y=[worst_y])
+    across = solve(depths, x=[worst_x], y=grid.y)
     bowl = None
     if not road.is_homogeneous:
         tell("deflection bowl")
@@ -118,7 +125,24 @@ def _contact(case: Case, road: Pavement, tell: Progress) -> Contact:
         case.build_rolling(),
         spacing=case.spacing,
         tolerance=case.tolerance,
+        road_compliance=case.road_compliance,
         progress=tell,
+    )
+
+
+def _map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:
+    """The cells of all wheels, on layers with a margin around them."""
+    grid = common_grid(loads)
+    if road.is_homogeneous:
+        return grid
+    more_x, more_y = math.ceil(_MARGIN / grid.dx), math.ceil(_MARGIN / grid.dy)
+    return Grid(
+        grid.nx + 2 * more_x,
+        grid.ny + 2 * more_y,
+        grid.dx,
+        grid.dy,
+        grid.x0 - more_x * grid.dx,
+        grid.y0 - more_y * grid.dy,
     )
 
 
@@ -136,7 +160,8 @@ def _slice_depths(bottom: float, cell: float, road: Pavement) -> Array:
     interface are among them.
     """
     first = min(0.5 * cell, 0.5 * bottom)
-    graded = np.concatenate([[0.0], np.geomspace(first, bottom, _SLICE_DEPTHS - 1)])
+    count = _MOVING_DEPTHS if road.is_viscoelastic else _SLICE_DEPTHS
+    graded = np.concatenate([[0.0], np.geomspace(first, bottom, count - 1)])
     above = [depth for depth in road.interfaces if depth <= bottom]
     below = [depth + _BELOW for depth in above if depth < bottom]
     # Depths that round-off alone tells apart would be solved twice.
