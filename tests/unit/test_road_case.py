@@ -279,8 +279,11 @@ def test_a_recorded_footprint_in_place_of_a_tire(tmp_path):
     result = tl.run_case(case)
     assert result.contact is None
     assert result.footprint.normal_load == pytest.approx(5 * 700e3 * 1e-4)
-    alone = tl.solve_response(result.footprint, result.road, depths=[0.0, 0.02])
-    np.testing.assert_allclose(result.response.dataset.strain_xx, alone.dataset.strain_xx, rtol=1e-12)
+    # On layers the map has a margin of 10 cells of 10 mm; the footprint lies in its middle.
+    inside = result.response.dataset.isel(x=slice(10, -10), y=slice(10, -10)).strain_xx
+    alone = tl.solve_response(result.footprint, result.road, depths=[0.0, 0.02]).dataset.strain_xx
+    # The wavenumbers follow the extent of the points: a few digits less than the kernels' own accuracy.
+    np.testing.assert_allclose(inside, alone, atol=1e-7 * float(np.abs(alone).max()))
     assert "recorded footprint" in result.summary()
     tree = result.to_tree()
     assert float(tree["contact"].normal_load) == pytest.approx(350)
