@@ -135,6 +135,12 @@ _LIFE = {
     "life_years": ("1", "years until the damage at the worst place is 1"),
     "life_passes": ("1", "passes until the damage at the worst place is 1"),
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
+    "design_damage": ("1", "Miner's damage at the worst place at the end of the design life; 1 is failure"),
+    "read_depth": ("m", "depth at which a criterion reads"),
+    "first_crack_angle": ("rad", "angle of the first crack's trace from travel towards the right"),
+    "first_crack_dip": ("rad", "angle of the first crack's plane from the horizontal, π/2 is vertical"),
+    "orientation_damage": ("1", "share of the damage at the worst place that cracks of an orientation do"),
+    "elasticity": ("1", "relative change of the life per relative change of an input; of temperature, per °C"),
 }
 
 _INTERFACES = {

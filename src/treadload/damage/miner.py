@@ -13,7 +13,9 @@ import xarray as xr
 
 from treadload import variables
 from treadload.damage.design import Criterion
-from treadload.damage.fatigue import in_words, warnings_of
+from treadload.damage.direction import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
+from treadload.damage.fatigue import FatigueLaw, in_words, warnings_of
+from treadload.damage.french import growth_factor
 from treadload.damage.traffic import Climate, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -24,14 +26,17 @@ class Life:
     """How long a road lasts under a traffic.
 
     dataset: damage_per_year (criterion, y), of the first year, after wander; damage_share (criterion, axle_class,
-    season) of it at the worst y; life_years, life_passes, worst_y, largest_reading (criterion). criteria, traffic,
-    climate: what was asked. stats: solves and errors behind the readings. warnings: sentences for the user.
+    season) of it at the worst y; life_years, life_passes, worst_y, largest_reading (criterion); with a design life
+    design_damage; with cracks first_crack_angle, first_crack_dip (criterion), of the class and season that do most,
+    and orientation_damage (criterion, orientation). criteria, traffic, climate: what was asked. readings: behind the
+    sum, see `miner`. stats: solves and errors behind the readings. warnings: sentences for the user.
     """
 
     dataset: xr.Dataset
     criteria: tuple[Criterion, ...]
     traffic: Traffic
     climate: Climate
+    readings: xr.DataArray
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 
@@ -85,78 +90,112 @@ def miner(
     *,
     y: Array | None = None,
     layer_temperatures: Array | None = None,
+    cracks: tuple[Array, Array] | None = None,
 ) -> Life:
     """Life of a road by Miner's sum, D = Σ n / N, over classes of axles and seasons, after wander.
 
     readings: (criterion, axle_class, season, y), what each criterion's law reads as a wheel passes, in the order
-    of criteria, traffic.classes and climate.seasons; one cycle a passage. y: evenly spaced, m; left out, the
-    coordinate of readings. layer_temperatures: (criterion, season), °C, for laws that depend on it; left out, the
-    seasons' one temperature.
+    of criteria, traffic.classes and climate.seasons; one cycle a passage. Or (criterion, axle_class, season, turn,
+    y): peak, valley, peak, ... of a group of axles, zeros behind the last; a valley takes back what the rise to the
+    next peak does not do again, D = Σ 1/N(peak) - Σ 1/N(valley). y: evenly spaced, m; left out, the coordinate of
+    readings. layer_temperatures: (criterion, season), °C, for laws that depend on it; left out, the seasons' one
+    temperature. cracks: angle of the trace and dip, rad, (criterion, axle_class, season, y), NaN for none.
     The years are those after which the damage at the worst place is 1. Raises InputError for wrong shapes.
     """
     values = np.asarray(readings, dtype=float)
     expected = (len(criteria), len(traffic.classes), len(climate.seasons))
-    if values.ndim != 4 or values.shape[:3] != expected:
+    if values.ndim not in (4, 5) or values.shape[:3] != expected:
         raise InputError(
             f"readings must be (criterion, axle_class, season, y) = {expected} and y, got {values.shape}"
         )
+    if values.ndim == 4:
+        values = values[:, :, :, None]
     at = np.asarray(readings["y"] if y is None and isinstance(readings, xr.DataArray) else y, dtype=float)
-    if at.shape != (values.shape[3],) or len(at) < 2 or np.ptp(np.diff(at)) > 1e-6 * abs(at[1] - at[0]):
-        raise InputError(f"y must be {values.shape[3]} evenly spaced values in m, got shape {at.shape}")
+    if at.shape != (values.shape[-1],) or len(at) < 2 or np.ptp(np.diff(at)) > 1e-6 * abs(at[1] - at[0]):
+        raise InputError(f"y must be {values.shape[-1]} evenly spaced values in m, got shape {at.shape}")
     if layer_temperatures is None:
         if any(isinstance(season.temperature, tuple) for season in climate.seasons):
             raise InputError("seasons with a temperature for each layer need layer_temperatures (criterion, season)")
         one = [float(season.temperature) for season in climate.seasons]  # type: ignore[arg-type]
         layer_temperatures = np.tile(one, (len(criteria), 1))
+    laws = [[c.law_at(float(t)) for t in row] for c, row in zip(criteria, layer_temperatures, strict=True)]
+    damage = damage_of(values, laws, traffic, climate)
     spacing = float(at[1] - at[0])
-    cycles = (
-        traffic.passes_per_year
-        * np.array([row.share for row in traffic.classes])[:, None]
-        * np.array([season.share for season in climate.seasons])
-    )
-    damage = np.empty_like(values)
-    warnings: list[str] = []
-    for k, criterion in enumerate(criteria):
-        for s in range(len(climate.seasons)):
-            law = criterion.law_at(float(layer_temperatures[k, s]))
-            allowed = np.asarray(law.allowable_passes(values[k, :, s]))
-            damage[k, :, s] = cycles[:, s, None] / allowed
-            warnings += warnings_of(law, values[k, :, s])
     spread = traffic.wander.spread(damage, spacing)
     margin = (spread.shape[-1] - len(at)) // 2
     wide = at[0] + spacing * (np.arange(spread.shape[-1]) - margin)
     yearly = spread.sum(axis=(1, 2))
     worst = yearly.argmax(axis=-1)
     peak = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
-    shares = np.stack([part[..., column] for part, column in zip(spread, worst, strict=True)])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        shares = np.where(peak[:, None, None] > 0, shares / peak[:, None, None], 0.0)
+    shares = np.stack([_over(part[..., column], top) for part, column, top in zip(spread, worst, peak, strict=True)])
+    with np.errstate(divide="ignore"):
         passes = np.where(peak > 0, traffic.passes_per_year / peak, math.inf)
     names = [criterion.name for criterion in criteria]
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+        "damage_per_year": (("criterion", "y"), yearly),
+        "damage_share": (("criterion", "axle_class", "season"), shares),
+        "life_years": (("criterion",), [traffic.years_to(float(p)) for p in passes]),
+        "life_passes": (("criterion",), passes),
+        "worst_y": (("criterion",), wide[worst]),
+        "largest_reading": (("criterion",), values.max(axis=(1, 2, 3, 4))),
+    }
+    coordinates = {
+        "criterion": names,
+        "axle_class": [row.name for row in traffic.classes],
+        "season": [season.name for season in climate.seasons],
+        "y": wide,
+    }
+    if traffic.years is not None:
+        growth = growth_factor(traffic.years, traffic.growth, traffic.kind)
+        fields["design_damage"] = (("criterion",), peak * growth)
+    if cracks is not None:
+        fields |= _cracks(damage, cracks, traffic, spacing, worst, peak)
+        coordinates["orientation"] = list(ORIENTATIONS)
+    doubts = [row[0].doubt for row in laws]
     dataset = variables.dataset(
-        {
-            "damage_per_year": (("criterion", "y"), yearly),
-            "damage_share": (("criterion", "axle_class", "season"), shares),
-            "life_years": (("criterion",), [traffic.years_to(float(p)) for p in passes]),
-            "life_passes": (("criterion",), passes),
-            "worst_y": (("criterion",), wide[worst]),
-            "largest_reading": (("criterion",), values.max(axis=(1, 2, 3))),
-        },
-        {
-            "criterion": names,
-            "axle_class": [row.name for row in traffic.classes],
-            "season": [season.name for season in climate.seasons],
-            "y": wide,
-        },
+        fields,
+        coordinates,
         passes_per_year=traffic.passes_per_year,
         growth=traffic.growth,
         growth_kind=traffic.kind,
         wander=str(traffic.wander),
+        **({} if traffic.years is None else {"design_years": traffic.years}),
         laws=json.dumps([str(criterion.law_at(15.0)) for criterion in criteria], ensure_ascii=False),
         sources=json.dumps([criterion.law_at(15.0).source for criterion in criteria], ensure_ascii=False),
+        doubts=json.dumps(doubts, ensure_ascii=False),
         quantities=json.dumps([criterion.quantity for criterion in criteria], ensure_ascii=False),
     )
-    return Life(dataset, tuple(criteria), traffic, climate, warnings=tuple(dict.fromkeys(warnings)))
+    said = [
+        f"{criterion.name}: {text}"
+        for k, criterion in enumerate(criteria)
+        for text in _warnings(laws[k], values[k], shares[k])
+    ]
+    dims = ("criterion", "axle_class", "season", "turn", "y")
+    places = {name: coordinates[name] for name in ("criterion", "axle_class", "season")}
+    kept = xr.DataArray(values, dims=dims, coords={**places, "y": at})
+    return Life(dataset, tuple(criteria), traffic, climate, kept, warnings=tuple(dict.fromkeys(said)))
+
+
+def damage_of(
+    readings: Array, laws: Sequence[Sequence[FatigueLaw]], traffic: Traffic, climate: Climate
+) -> Array:
+    """Damage of the first year (criterion, axle_class, season, y), without wander, from readings with turns.
+
+    laws: one for each criterion and season.
+    """
+    cycles = (
+        traffic.passes_per_year
+        * np.array([row.share for row in traffic.classes])[:, None]
+        * np.array([season.share for season in climate.seasons])
+    )
+    damage = np.empty(np.delete(readings.shape, 3))
+    sign = np.where(np.arange(readings.shape[3]) % 2, -1.0, 1.0)[:, None]
+    for k, row in enumerate(laws):
+        for s, law in enumerate(row):
+            each = (sign / np.asarray(law.allowable_passes(readings[k, :, s]))).sum(axis=1)
+            # Where axles merge into one peak, round-off may leave less than nothing.
+            damage[k, :, s] = cycles[:, s, None] * np.maximum(each, 0.0)
+    return damage
 
 
 def passes_in_two_phases(before: Array, after: Array, change: float) -> Array:
@@ -170,6 +209,37 @@ def passes_in_two_phases(before: Array, after: Array, change: float) -> Array:
         left = np.where(before > 0, 1 - change * before, 1.0)
         later = change + np.where(after > 0, left / after, np.inf)
     return np.where(alone <= change, alone, later)
+
+
+def _cracks(
+    damage: Array, cracks: tuple[Array, Array], traffic: Traffic, spacing: float, worst: Array, peak: Array
+) -> dict[str, tuple[tuple[str, ...], Any]]:
+    """The first crack of every criterion, and the shares of orientations in the damage at its worst place."""
+    angle, dip = (np.asarray(part, dtype=float) for part in cracks)
+    codes = orientation(angle, dip, OBLIQUE_TOLERANCE)
+    shares = np.zeros((len(damage), len(ORIENTATIONS)))
+    first = np.empty((2, len(damage)))
+    for k, (one, column, top) in enumerate(zip(damage, worst, peak, strict=True)):
+        for code in range(len(ORIENTATIONS)):
+            part = np.where(codes[k] == code, one, 0.0).sum(axis=(0, 1))
+            shares[k, code] = _over(traffic.wander.spread(part, spacing)[column], top)
+        most = np.unravel_index(int(one.argmax()), one.shape)
+        first[:, k] = angle[k][most], dip[k][most]
+    return {
+        "first_crack_angle": (("criterion",), first[0]),
+        "first_crack_dip": (("criterion",), first[1]),
+        "orientation_damage": (("criterion", "orientation"), shares),
+    }
+
+
+def _warnings(laws: Sequence[FatigueLaw], values: Array, shares: Array) -> list[str]:
+    """Sentences on a criterion: of the season that does most, and of that which is read largest."""
+    seasons = dict.fromkeys([int(shares.sum(axis=0).argmax()), int(values.max(axis=(0, 2, 3)).argmax())])
+    return [text for season in seasons for text in warnings_of(laws[season], values[:, season])]
+
+
+def _over(part: Any, whole: float) -> Any:
+    return part / whole if whole > 0 else np.zeros_like(part)
 
 
 def _years(years: float) -> str:

@@ -150,7 +150,8 @@ class Traffic:
     """What passes: classes of wheels, how many a year, how that grows, and how it wanders.
 
     classes: rows whose shares sum to 1. passes_per_year: of all classes, in the first year, over the wheel path.
-    growth: a year, > -1; kind: "geometric" or "arithmetic". wander: across the road. Raises InputError.
+    growth: a year, > -1; kind: "geometric" or "arithmetic". wander: across the road. years: for which the road is
+    designed, > 0, or None. Raises InputError.
     """
 
     classes: tuple[AxleClass, ...]
@@ -158,6 +159,7 @@ class Traffic:
     growth: float = 0.0
     kind: Literal["geometric", "arithmetic"] = "geometric"
     wander: Wander = Wander()
+    years: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "classes", tuple(self.classes))
@@ -170,7 +172,9 @@ class Traffic:
         _check_shares("traffic", [row.share for row in self.classes])
         if not (math.isfinite(self.passes_per_year) and self.passes_per_year >= 0):
             raise InputError(f"passes_per_year must be >= 0, got {self.passes_per_year}")
-        growth_factor(1.0, self.growth, self.kind)
+        if self.years is not None and not (math.isfinite(self.years) and self.years > 0):
+            raise InputError(f"years of design must be > 0, got {self.years}; leave them out for no design life")
+        growth_factor(self.years or 1.0, self.growth, self.kind)
 
     def passes(self, years: float) -> float:
         """Passes of all classes over a number of years from the opening."""

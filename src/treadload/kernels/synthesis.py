@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -78,11 +79,17 @@ def rule(limit: float, reach: float, length: float) -> tuple[Array, Array]:
         high = _SMALLEST / length if low == 0 else (_STRIDE if calm else _RATIO) * low
         high = min(limit, high, low + widest)
         count = (_FEW if calm else _SOME) + math.ceil(0.5 * (high - low) * reach * _MORE)
-        points, share = np.polynomial.legendre.leggauss(count)
+        points, share = _gauss(count)
         nodes.append(0.5 * (high - low) * points + 0.5 * (high + low))
         weights.append(0.5 * (high - low) * share)
         low = high
     return np.concatenate(nodes), np.concatenate(weights)
+
+
+@lru_cache(maxsize=128)
+def _gauss(count: int) -> tuple[Array, Array]:
+    points, share = np.polynomial.legendre.leggauss(count)
+    return points, share
 
 
 def synthesise_cells(

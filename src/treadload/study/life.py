@@ -6,6 +6,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 
+from treadload import variables
 from treadload.damage.design import Criterion
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
@@ -30,7 +31,8 @@ def design_life(
 
     Arguments as in `solve_passages`: what each law reads as every class of axle passes in every season; then
     Miner's sum after wander, see `miner`. stats of the result: contacts and responses solved, combinations that
-    they serve, the largest relative error of readings interpolated over temperature, seconds.
+    they serve, the largest relative error of readings interpolated over the climate, how far wheels were moved onto
+    the common cells (m), seconds.
     Raises InputError, and ConvergenceError of a contact.
     """
     start = time.perf_counter()
@@ -38,12 +40,22 @@ def design_life(
         tire, road, traffic, climate, criteria,
         spacing=spacing, tolerance=tolerance, workers=workers, progress=progress,
     )  # fmt: skip
-    life = miner(passages.readings, criteria, traffic, climate, layer_temperatures=passages.layer_temperatures)
+    life = miner(
+        passages.readings,
+        criteria,
+        traffic,
+        climate,
+        layer_temperatures=passages.layer_temperatures,
+        cracks=(passages.crack_angle, passages.crack_dip),
+    )
+    depths = ("criterion", [criterion.depth(road) for criterion in criteria], variables.attributes("read_depth"))
+    life = replace(life, dataset=life.dataset.assign(read_depth=depths))
     stats = {
         "contacts": passages.contacts,
         "responses": passages.responses,
         "combinations": passages.combinations,
         "interpolation_error": passages.interpolation_error,
+        "wheels_moved": passages.moved,
         "seconds": time.perf_counter() - start,
     }
     return replace(life, stats=stats)

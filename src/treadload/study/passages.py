@@ -3,53 +3,87 @@
 from __future__ import annotations
 
 import itertools
-import math
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import xarray as xr
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from treadload.contact import Contact, solve_contact
-from treadload.damage.design import Criterion, Side
+from treadload.damage.design import Criterion
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.materials import Elastic
 from treadload.pavement import Pavement
-from treadload.response import place, solve_response
+from treadload.response import GridLoad, place, solve_response
 from treadload.tire import Tire
 
-Progress = Callable[[str], None]
+Found = TypeVar("Found")
+Progress = Callable[[int, int, str], None]
+"""(done, of how many, what) of the solves: contacts and responses."""
 
 # Points beyond the outer edges of the wheels, m: strain there is a few per cent of the largest.
 _MARGIN = 0.3
+# Near the surface points stand on every cell up to this far beside a wheel, m.
+_BESIDE = 0.06
 # Below this depth, m, fields are as smooth as a sixth of the depth, m, can follow: 1 % of the shear at 60 mm.
 _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
+# The lower side of an interface is read this far below it, m.
+_BELOW = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Passages:
     """Readings of the criteria as every class of axle passes in every season.
 
-    readings: (criterion, axle_class, season, y), the largest over the passage. layer_temperatures: (criterion,
-    season), °C. solves: contacts and responses that were really solved. interpolation_error: largest relative
-    error of a reading that was interpolated over temperature, measured on the heaviest class; 0 if none was.
+    readings: (criterion, axle_class, season, turn, y): the peak under each axle of a group and, between them, the
+    valley: peak, valley, peak, ..., zeros behind the last. crack_angle, crack_dip: (criterion, axle_class, season,
+    y), rad, of the crack at the worst instant, in the season's road or the nearest that was solved.
+    layer_temperatures: (criterion, season), °C. contacts, responses: how many were really solved.
+    interpolation_error: largest relative error of a reading that was interpolated over the climate, measured on the
+    heaviest class; 0 if none was. moved: how far a wheel was moved to stand on the common cells, m.
     """
 
     readings: xr.DataArray
+    crack_angle: Array
+    crack_dip: Array
     layer_temperatures: Array
     contacts: int
     responses: int
     interpolation_error: float
+    moved: float
 
     @property
     def combinations(self) -> int:
         """Classes times seasons."""
         return int(self.readings.sizes["axle_class"] * self.readings.sizes["season"])
+
+
+@dataclass(frozen=True)
+class Warm:
+    """The road and the criteria at the temperatures of a season."""
+
+    road: Pavement
+    criteria: tuple[Criterion, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Wheels:
+    """The wheels of a class with their contact, on the cells of the common lattice.
+
+    loads: one a wheel. x: of the cells' centres under the axles, m, one row an axle, from the rear to the front.
+    speed: m/s, or None.
+    """
+
+    loads: tuple[GridLoad, ...]
+    x: Array
+    speed: float | None
+    name: str
 
 
 def solve_passages(
@@ -66,17 +100,17 @@ def solve_passages(
 ) -> Passages:
     """What the laws read as every class of axle passes over the road in every season.
 
-    A point of the road sees the whole field along x as the wheel rolls by; the reading at y is the largest of
-    it: one cycle for all wheels of a class together.
+    A point of the road sees the whole field along x as the wheels roll by. Each axle of a group is a cycle of its
+    own, less what is left of it before the next one comes; wheels side by side are one.
     tire: its inflation pressure is replaced by that of the class. road: materials may depend on temperature.
-    spacing: cells of the contact, m. tolerance: of readings interpolated over temperature, relative; 0 solves
-    every season. workers: threads; all cores if left out. progress: called with a line of text.
+    spacing: cells of the contact, m; wheels are moved by half a cell at most, so that all share one lattice.
+    tolerance: of readings interpolated over the climate, relative; 0 solves every season. workers: threads; all
+    cores if left out. progress: called after every solve.
     One contact is solved for each load, pressure and maneuver: the road's moduli do not matter to it. With many
-    seasons of one temperature each, the heaviest class is solved in all of them, and the others only at those
-    temperatures from which piecewise cubics give the heaviest class within the tolerance.
+    seasons of one temperature each, the heaviest class is solved in all of them, and the others only in those
+    from which splines give the heaviest class within the tolerance.
     Raises InputError, and ConvergenceError of a contact.
     """
-    tell = progress or (lambda text: None)
     if not criteria:
         raise InputError("a life needs at least one criterion, got none")
     if not 0 <= tolerance < 1:
@@ -84,45 +118,47 @@ def solve_passages(
     classes, seasons = traffic.classes, climate.seasons
     for criterion in criteria:
         criterion.depth(road)
-    roads = [_warmed(road, criteria, season) for season in seasons]
-    threads = workers or os.cpu_count() or 1
-    with ThreadPoolExecutor(threads) as pool:
-        states = list(dict.fromkeys(_state(row) for row in classes))
-        tell(f"{len(states)} contacts")
-        found = dict(zip(states, pool.map(lambda s: _contact(tire, roads[0].road, s, spacing), states), strict=True))
-        contacts = [found[_state(row)] for row in classes]
-        y = _across(contacts, classes)
-        done = itertools.count(1)
+    warm = [warmed(road, criteria, season) for season in seasons]
+    for row in classes:
+        check_speed(row, warm[0].road)
+    distinct = [one for k, one in enumerate(warm) if one not in warm[:k]]
+    states = list(dict.fromkeys(state(row) for row in classes))
+    count = _Count(len(states) + len(classes) * len(distinct), progress)
+    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
 
-        def solve(pair: tuple[int, _Warm]) -> Array:
-            row, one = pair
-            read = _readings(contacts[row], classes[row], one.road, one.criteria, y)
-            tell(f"response {next(done)}")
-            return read
+        def touch(one: tuple[Any, ...]) -> Contact:
+            return count.after(contact_of(tire, warm[0].road, one, spacing), "contact")
 
-        def solve_all(rows: Sequence[int], which: Sequence[_Warm]) -> Array:
-            pairs = [(row, one) for row in rows for one in which]
-            solved = np.array(list(pool.map(solve, pairs)))
+        found = dict(zip(states, pool.map(touch, states), strict=True))
+        contacts = [found[state(row)] for row in classes]
+        y = across(contacts, classes)
+        wheels = [wheels_of(contact, row, y) for contact, row in zip(contacts, classes, strict=True)]
+        turns = 2 * max(len(one.x) for one in wheels) - 1
+
+        def solve(pair: tuple[int, Warm]) -> Array:
+            return count.after(passage(wheels[pair[0]], pair[1], y, turns), "response")
+
+        def solve_all(rows: Sequence[int], which: Sequence[Warm]) -> Array:
+            solved = np.array(list(pool.map(solve, [(row, one) for row in rows for one in which])))
             return solved.reshape(len(rows), len(which), *solved.shape[1:])
 
-        distinct = [one for k, one in enumerate(roads) if one not in roads[:k]]
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
         others = [row for row in range(len(classes)) if row != heaviest]
         pilot = solve_all([heaviest], distinct)[0]
-        kept, error = _nodes(seasons, roads, distinct, pilot, tolerance)
-        values = np.empty((len(classes), len(distinct), len(criteria), len(y)))
+        warmth = _warmth(seasons, distinct)
+        kept, error = _nodes(warmth, pilot[:, :, :turns], tolerance)
+        count.total = len(states) + len(distinct) + len(others) * len(kept)
+        values = np.empty((len(classes), *pilot.shape))
         values[heaviest] = pilot
         if others:
             rest = solve_all(others, [distinct[k] for k in kept])
-            if len(kept) < len(distinct):
-                warmth = _warmth(seasons, roads, distinct)
-                rest = PchipInterpolator(warmth[kept], rest, axis=1)(warmth)
-            values[others] = rest
-        responses = len(distinct) + len(others) * len(kept)
-    where = [distinct.index(one) for one in roads]
+            values[others] = rest if len(kept) == len(distinct) else _over(warmth, kept, rest, turns)
+    where = [distinct.index(one) for one in warm]
+    # (criterion, axle_class, season, turn, y), with the crack behind the turns.
+    everything = values[:, where].transpose(2, 0, 1, 3, 4)
     readings = xr.DataArray(
-        values[:, where].transpose(2, 0, 1, 3),
-        dims=("criterion", "axle_class", "season", "y"),
+        everything[:, :, :, :turns],
+        dims=("criterion", "axle_class", "season", "turn", "y"),
         coords={
             "criterion": [criterion.name for criterion in criteria],
             "axle_class": [row.name for row in classes],
@@ -130,116 +166,249 @@ def solve_passages(
             "y": y,
         },
     )
-    temperatures = np.array([[_at_layer(c.number(road), season) for season in seasons] for c in criteria])
-    return Passages(readings, temperatures, len(states), responses, error)
+    return Passages(
+        readings,
+        everything[:, :, :, turns],
+        everything[:, :, :, turns + 1],
+        layer_temperatures(road, criteria, seasons),
+        len(states),
+        count.total - len(states),
+        error,
+        max(_moved(one, row) for one, row in zip(wheels, classes, strict=True)),
+    )
 
 
-@dataclass(frozen=True)
-class _Warm:
-    """The road and the criteria at the temperatures of a season."""
+class _Count:
+    """How many solves are done; threads may count at once."""
 
-    road: Pavement
-    criteria: tuple[Criterion, ...]
+    def __init__(self, total: int, progress: Progress | None) -> None:
+        self.total = total
+        self._done = itertools.count(1)
+        self._tell = progress or (lambda done, total, what: None)
+
+    def after(self, found: Found, what: str) -> Found:
+        """What was found, counted."""
+        self._tell(next(self._done), self.total, what)
+        return found
 
 
-def _warmed(road: Pavement, criteria: Sequence[Criterion], season: Season) -> _Warm:
-    warm = road.at_temperature(_each(season, road))
-    return _Warm(warm, tuple(criterion.at(_at_layer(criterion.number(road), season)) for criterion in criteria))
-
-
-def _each(season: Season, road: Pavement) -> float | tuple[float, ...]:
-    if isinstance(season.temperature, tuple) and len(season.temperature) != len(road.layers):
+def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season) -> Warm:
+    """The road and the criteria in a season. Raises InputError for temperatures that do not fit the road."""
+    temperature = season.temperature
+    if isinstance(temperature, tuple) and len(temperature) != len(road.layers):
         raise InputError(
-            f"season {season.name!r} has {len(season.temperature)} temperatures, the road {len(road.layers)} layers"
+            f"season {season.name!r} has {len(temperature)} temperatures, the road {len(road.layers)} layers"
         )
-    return season.temperature
+    warm = road.at_temperature(temperature)
+    return Warm(warm, tuple(criterion.at(_at_layer(criterion.number(road), season)) for criterion in criteria))
+
+
+def layer_temperatures(road: Pavement, criteria: Sequence[Criterion], seasons: Sequence[Season]) -> Array:
+    """Temperature (criterion, season) of the layer that each criterion reads, °C."""
+    return np.array([[_at_layer(c.number(road), season) for season in seasons] for c in criteria])
 
 
 def _at_layer(layer: int, season: Season) -> float:
     return season.temperature[layer] if isinstance(season.temperature, tuple) else season.temperature
 
 
-def _state(row: AxleClass) -> tuple[Any, ...]:
+def check_speed(row: AxleClass, road: Pavement) -> None:
+    """Raise InputError for a class without speed on a viscoelastic road."""
+    if road.is_viscoelastic and row.speed is None:
+        raise InputError(f"the road is viscoelastic: give the class {row.name!r} a speed in m/s")
+
+
+def state(row: AxleClass) -> tuple[Any, ...]:
+    """What the contact of a class depends on, besides the tire and the road."""
     return row.wheel_load, row.inflation_pressure, row.maneuver, row.friction, row.speed
 
 
-def _contact(tire: Tire, road: Pavement, state: tuple[Any, ...], spacing: float) -> Contact:
-    load, pressure, maneuver, friction, speed = state
+def contact_of(tire: Tire, road: Pavement, one: tuple[Any, ...], spacing: float) -> Contact:
+    """The contact in a state, see `state`."""
+    load, pressure, maneuver, friction, speed = one
     inflated = replace(tire, inflation_pressure=pressure)
     return solve_contact(inflated, road, maneuver.rolling(load, friction, speed=speed), spacing=spacing)
 
 
-def _across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
-    """Evenly spaced y, m, over all wheels of all classes and a margin."""
-    dy = float(contacts[0].dataset.attrs["dy"])
-    half = 0.0
-    for contact, row in zip(contacts, classes, strict=True):
-        own = float(np.abs(contact.dataset["y"]).max())
-        half = max(half, own + max(abs(y) for _, y in row.wheels))
-    n = int(np.ceil((half + _MARGIN) / dy))
-    return dy * np.arange(-n, n + 1)
+def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
+    """Evenly spaced y, m, on the cells of the first contact, over all wheels of all classes and a margin."""
+    first = contacts[0].dataset
+    dy, start = float(first.attrs["dy"]), float(first["y"][0])
+    half = max(
+        float(np.abs(contact.dataset["y"]).max()) + max(abs(y) for _, y in row.wheels)
+        for contact, row in zip(contacts, classes, strict=True)
+    )
+    low, high = np.floor((-half - _MARGIN - start) / dy), np.ceil((half + _MARGIN - start) / dy)
+    return start + dy * np.arange(low, high + 1)
 
 
-def _readings(contact: Contact, row: AxleClass, road: Pavement, criteria: Sequence[Criterion], y: Array) -> Array:
-    """(criterion, y): the largest reading over the passage."""
-    loads = [place(contact, x=at_x, y=at_y) for at_x, at_y in row.wheels]
-    found = np.empty((len(criteria), len(y)))
-    groups: dict[tuple[float, Side], list[int]] = {}
-    depths = [criterion.depth(road) for criterion in criteria]
-    for k, criterion in enumerate(criteria):
-        groups.setdefault((_step(depths[k]), criterion.side), []).append(k)
-    for (step, side), members in groups.items():
+def wheels_of(contact: Contact, row: AxleClass, y: Array) -> Wheels:
+    """The wheels of a class, each moved by half a cell at most onto the lattice of y and of its own x."""
+    grid = GridLoad.from_dataset(contact.dataset).grid
+    dx, dy = grid.dx, grid.dy
+    loads = []
+    for at_x, at_y in row.wheels:
+        row_y = round((at_y + grid.y0 - y[0]) / dy)
+        loads.append(place(contact, x=dx * round(at_x / dx), y=float(y[0]) + dy * row_y - grid.y0))
+    centres = sorted({round(at_x / dx) for at_x, _ in row.wheels})
+    return Wheels(
+        tuple(one for one in loads if isinstance(one, GridLoad)),
+        np.array([grid.x + dx * centre for centre in centres]),
+        row.speed,
+        row.name,
+    )
+
+
+def _moved(wheels: Wheels, row: AxleClass) -> float:
+    """Largest distance along x or y between where wheels stand and where they should, m."""
+    own = wheels.loads[0].grid
+    shifts = [
+        (one.grid.x0 - own.x0 - (x - row.wheels[0][0]), one.grid.y0 - own.y0 - (y - row.wheels[0][1]))
+        for one, (x, y) in zip(wheels.loads, row.wheels, strict=True)
+    ]
+    return float(np.abs(shifts).max())
+
+
+def passage(wheels: Wheels, warm: Warm, y: Array, turns: int) -> Array:
+    """(criterion, turns + 2, y): peaks and valleys, see `Passages`, then the angle and the dip of the crack."""
+    found = np.empty((len(warm.criteria), turns + 2, len(y)))
+    depths = [_depth(criterion, warm.road) for criterion in warm.criteria]
+    groups: dict[int, list[int]] = {}
+    for k, depth in enumerate(depths):
+        groups.setdefault(_stride(depth, y), []).append(k)
+    speed = wheels.speed if warm.road.is_viscoelastic else None
+    for stride, members in groups.items():
         at = sorted({depths[k] for k in members})
-        x = _along(contact, row, step)
-        rows = np.linspace(y[0], y[-1], math.ceil((y[-1] - y[0]) / step) + 1) if step else y
-        data = solve_response(loads, road, depths=at, x=x, y=rows, side=side, speed=row.speed).dataset
+        x, rows = _along(wheels, stride), _rows(wheels, y, stride)
+        data = solve_response(wheels.loads, warm.road, depths=at, x=x, y=y[rows], speed=speed).dataset
+        nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
         for k in members:
-            worst = criteria[k].read(data.isel(depth=at.index(depths[k]))).max(axis=1)
-            found[k] = PchipInterpolator(rows, worst)(y) if step else worst
+            plane = data.isel(depth=at.index(depths[k]))
+            read = warm.criteria[k].read(plane)
+            peaks = _turns(x, read, wheels.x.mean(axis=1), turns, smooth=stride > 0)
+            found[k, :turns] = np.maximum(CubicSpline(y[rows], peaks, axis=1)(y), 0.0)
+            instant = read.argmax(axis=1)[:, None]
+            for part, field in enumerate(warm.criteria[k].crack(plane)):
+                found[k, turns + part] = np.take_along_axis(field, instant, axis=1)[nearest, 0]
     return found
 
 
-def _step(depth: float) -> float:
-    """Spacing of the points at a depth, m; 0 for that of the contact."""
-    return min(depth / _PER_DEPTH, _COARSE) if depth > _DEEP else 0.0
+def _depth(criterion: Criterion, road: Pavement) -> float:
+    """Where to read, m: just below an interface for its lower side, so that one solve serves both."""
+    depth = criterion.depth(road)
+    return depth + _BELOW if criterion.side == "below" and depth > 0 else depth
 
 
-def _along(contact: Contact, row: AxleClass, step: float) -> Array:
-    """Where along x a passage is read, m: under the wheels, or coarser and further where fields are smooth."""
-    own = contact.dataset["x"].to_numpy()
-    centres = sorted({x for x, _ in row.wheels})
-    if not step:
-        near = np.concatenate([own + x for x in centres])
-        return np.unique(np.round(near, 9))
-    return np.arange(own[0] + centres[0] - _MARGIN, own[-1] + centres[-1] + _MARGIN, step)
+def _stride(depth: float, y: Array) -> int:
+    """Cells from one point to the next at a depth; 0 near the surface, where each counts."""
+    wide = min(depth / _PER_DEPTH, _COARSE)
+    return max(1, int(wide / (y[1] - y[0]) + 0.5)) if depth > _DEEP else 0
 
 
-def _warmth(seasons: Sequence[Season], roads: Sequence[_Warm], distinct: Sequence[_Warm]) -> Array:
-    """One temperature, °C, of each distinct road."""
-    return np.array([float(seasons[roads.index(one)].temperature) for one in distinct])  # type: ignore[arg-type]
-
-
-def _nodes(
-    seasons: Sequence[Season], roads: Sequence[_Warm], distinct: Sequence[_Warm], pilot: Array, tolerance: float
-) -> tuple[list[int], float]:
-    """Roads to solve for the other classes, in the order of temperature, and the error of the rest on the pilot.
-
-    pilot: (road, criterion, y). The error is that of the readings, over the largest of each criterion and road.
+def _along(wheels: Wheels, stride: int) -> Array:
+    """Where along x a passage is read, m: on the cells under the axles and once between them, or every so many cells
+    and further where fields are smooth.
     """
-    everything = list(range(len(distinct)))
-    if tolerance == 0 or len(distinct) < 4 or any(isinstance(season.temperature, tuple) for season in seasons):
+    cell = float(wheels.x[0, 1] - wheels.x[0, 0])
+    if stride:
+        step = stride * cell
+        beyond = step * np.ceil(_MARGIN / step)
+        return np.arange(wheels.x[0, 0] - beyond, wheels.x[-1, -1] + beyond + step / 2, step)
+    centres = wheels.x.mean(axis=1)
+    between = wheels.x[0, 0] + cell * np.round((0.5 * (centres[1:] + centres[:-1]) - wheels.x[0, 0]) / cell)
+    return np.unique(np.round(np.concatenate([*wheels.x, between]), 9))
+
+
+def _rows(wheels: Wheels, y: Array, stride: int) -> Any:
+    """Which of y to solve: every cell under and beside a wheel, few elsewhere; few everywhere where it is deep."""
+    wanted = np.zeros(len(y), dtype=bool)
+    wanted[:: stride or max(1, int(_COARSE / (y[1] - y[0]) + 0.5))] = True
+    wanted[-1] = True
+    if not stride:
+        for load in wheels.loads:
+            low, high = load.grid.y[0] - _BESIDE, load.grid.y[-1] + _BESIDE
+            wanted |= (y > low) & (y < high)
+    return np.flatnonzero(wanted)
+
+
+def _turns(x: Array, read: Array, centres: Array, turns: int, *, smooth: bool) -> Array:
+    """Peak under each axle and valley between (turns, ny) of a passage (ny, nx), zeros behind the last.
+
+    centres: of the axles along x, m, rising. A peak belongs to the axle that it is nearest to; a valley is the
+    least between two centres, which changes steadily as peaks wander below an axle and never hides a cycle.
+    smooth: peaks lie between points too, on the parabola through three of them.
+    """
+    result = np.zeros((turns, len(read)))
+    ends = np.concatenate([[-np.inf], 0.5 * (centres[1:] + centres[:-1]), [np.inf]])
+    for axle in range(len(centres)):
+        inside = np.flatnonzero((x >= ends[axle]) & (x <= ends[axle + 1]))
+        at = inside[read[:, inside].argmax(axis=1)]
+        result[2 * axle] = _vertex(read, at) if smooth else np.take_along_axis(read, at[:, None], axis=1)[:, 0]
+    for axle in range(len(centres) - 1):
+        between = (x >= centres[axle]) & (x <= centres[axle + 1])
+        result[2 * axle + 1] = read[:, between].min(axis=1)
+    return np.maximum(result, 0.0)
+
+
+def _vertex(read: Array, at: Any) -> Array:
+    """Top of the parabola through each row's largest value, in the columns `at`, and its even neighbours."""
+    inner = np.clip(at, 1, read.shape[1] - 2)
+    before, peak, after = (np.take_along_axis(read, (inner + k)[:, None], axis=1)[:, 0] for k in (-1, 0, 1))
+    bend = 2 * peak - before - after
+    # At the ends of the row, and on a plateau, there is nothing to add.
+    good = (inner == at) & (bend > 0) & (peak >= before) & (peak >= after)
+    rise = (after - before) ** 2 / (8 * np.where(good, bend, 1.0))
+    own: Array = np.take_along_axis(read, at[:, None], axis=1)[:, 0]
+    return np.where(good, own + rise, own)
+
+
+def _warmth(seasons: Sequence[Season], distinct: Sequence[Warm]) -> Array | None:
+    """One number that orders the roads of a climate: the mean of the layers' ln E, of which strains are smoother
+    functions than of temperature. None where a single number does not tell the roads apart.
+    """
+    if any(isinstance(season.temperature, tuple) for season in seasons):
+        return None
+    materials = [[layer.resolved for layer in one.road.layers] for one in distinct]
+    moduli = [[one.modulus for one in row if isinstance(one, Elastic)] for row in materials]
+    if any(len(elastic) < len(row) for elastic, row in zip(moduli, materials, strict=True)):
+        return None
+    found: Array = np.log(moduli).mean(axis=1)
+    return found if len(np.unique(found)) == len(found) else None
+
+
+def _nodes(warmth: Array | None, pilot: Array, tolerance: float) -> tuple[list[int], float]:
+    """Roads to solve for the other classes, in the order of warmth, and the error of the rest on the pilot.
+
+    pilot: (road, criterion, turn, y). The error is that of the readings over the largest r₁ of each criterion and
+    road, and counts (r/r₁)² where r is read: no law raises harm by less than the third power, so that more than
+    this never shows in the damage.
+    """
+    everything = list(range(len(pilot)))
+    if warmth is None or tolerance == 0 or len(pilot) < 4:
         return everything, 0.0
-    warmth = _warmth(seasons, roads, distinct)
     order = np.argsort(warmth)
     kept = [int(order[0]), int(order[-1])]
-    largest = np.abs(pilot).max(axis=-1, keepdims=True)
+    largest = np.abs(pilot).max(axis=(2, 3), keepdims=True)
     largest[largest == 0] = 1.0
     while True:
         kept.sort(key=lambda k: warmth[k])
-        guess = PchipInterpolator(warmth[kept], pilot[kept], axis=0)(warmth)
-        errors = (np.abs(guess - pilot) / largest).max(axis=(1, 2))
+        apart = np.abs(_spline(warmth[kept], pilot[kept], 0)(warmth) - pilot) / largest
+        errors = (apart * (pilot / largest) ** 2).max(axis=(1, 2, 3))
         if errors.max() <= tolerance:
             return kept, float(errors.max())
-        if len(kept) + 1 == len(distinct):
+        if len(kept) + 1 == len(pilot):
             return everything, 0.0
         kept.append(int(errors.argmax()))
+
+
+def _over(warmth: Array | None, kept: list[int], rest: Array, turns: int) -> Array:
+    """All roads (class, road, ...) from the kept ones: readings by splines, cracks from the nearest."""
+    assert warmth is not None
+    nearest = np.abs(warmth[:, None] - warmth[kept]).argmin(axis=1)
+    found = rest[:, nearest]
+    found[:, :, :, :turns] = np.maximum(_spline(warmth[kept], rest[:, :, :, :turns], 1)(warmth), 0.0)
+    return found
+
+
+def _spline(warmth: Array, values: Array, axis: int) -> PchipInterpolator:
+    return PchipInterpolator(warmth, values, axis=axis)
