@@ -141,3 +141,30 @@ def test_a_bond_that_parts_at_once_lives_no_pass():
     assert life.governing == "bond"
     assert life.years("bond") < 1e-9
     assert math.isfinite(life.years("base"))
+
+
+def test_axles_far_apart_are_as_many_cycles():
+    """Three axles 6 m apart do three times the harm of one: nothing is left of one when the next comes."""
+    road = Pavement.half_space(Elastic(5e9, 0.35))
+    lives = {}
+    for name, wheels in (("one", ((0.0, 0.0),)), ("three", ((-6.0, 0.0), (0.0, 0.0), (6.0, 0.0)))):
+        traffic = Traffic((AxleClass(name, 1.0, 32.5e3, 820e3, wheels),), 1e5)
+        lives[name] = design_life(TIRE, road, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+    ratio = lives["one"].dataset["life_passes"].item() / lives["three"].dataset["life_passes"].item()
+    # Strain falls like the inverse square of the distance: (0.1 / 6)² of the largest is left of each of two axles at
+    # 6 m, which the slope of the law takes five times.
+    assert ratio == pytest.approx(3, rel=5e-3)
+    assert lives["three"].readings.sizes["turn"] == 5
+
+
+def test_a_wheel_moves_by_half_a_cell_at_most():
+    traffic = Traffic((AxleClass("heavy", 1.0, 32.5e3, 850e3, HEAVY.wheels),), 1)
+    passages = solve_passages(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA, **COARSE)
+    assert 0 < passages.moved <= 0.5 * COARSE["spacing"]
+
+
+def test_a_braked_wheel_tears_the_surface_across_travel():
+    traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3, maneuver=Maneuver.braking(5.0)),), 1e5)
+    life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+    assert life.dataset["orientation_damage"].sel(orientation="transverse").item() > 0.9
+    assert abs(life.dataset["first_crack_angle"].item()) == pytest.approx(math.pi / 2, abs=math.radians(15))

@@ -153,3 +153,40 @@ def test_a_criterion_knows_its_depth_and_side():
 def test_bad_input_is_named(make, words):
     with pytest.raises(InputError, match=words):
         make()
+
+
+def test_every_axle_of_a_group_is_a_cycle_less_the_valley_between():
+    """Σ 1/N(peak) - Σ 1/N(valley): apart two cycles, merged one, and the rise alone between."""
+    climate, traffic = Climate.constant(15.0), Traffic(classes(1.0), 1e5)
+
+    def damage(valley, peaks=(120e-6, 100e-6)):
+        turns = np.array([peaks[0], valley, peaks[1]])[:, None] * np.ones(len(Y))
+        life = miner(turns[None, None, None], CRITERIA[:1], traffic, climate, y=Y)
+        return life.dataset["damage_per_year"].to_numpy().max() / 1e5
+
+    passes = LINE.allowable_passes
+    assert damage(0.0) == pytest.approx(1 / passes(120e-6) + 1 / passes(100e-6), rel=1e-12)
+    assert damage(100e-6) == pytest.approx(1 / passes(120e-6), rel=1e-12)
+    assert damage(60e-6) == pytest.approx(1 / passes(120e-6) + 1 / passes(100e-6) - 1 / passes(60e-6), rel=1e-12)
+
+
+def test_damage_at_the_end_of_the_design_life():
+    values = np.full((1, 1, 1, len(Y)), 120e-6)
+    traffic = Traffic(classes(1.0), 1e5, growth=0.03, years=20)
+    life = miner(values, CRITERIA[:1], traffic, Climate.constant(15.0), y=Y)
+    assert life.dataset["design_damage"].item() == pytest.approx(traffic.passes(20) / LINE.allowable_passes(120e-6))
+    with pytest.raises(InputError, match="years of design"):
+        Traffic(classes(1.0), 1e5, years=0)
+
+
+def test_orientations_share_the_damage_of_the_worst_place():
+    """Two classes in the same track, one cracking along travel and one across it: shares are those of the damage."""
+    values = np.stack([np.full(len(Y), 120e-6), np.full(len(Y), 90e-6)])[None, :, None]
+    angle = np.stack([np.zeros(len(Y)), np.full(len(Y), np.pi / 2)])[None, :, None]
+    traffic = Traffic(classes(0.5, 0.5), 1e5, wander=Wander.normal(0.2))
+    cracks = (angle, np.full_like(angle, np.pi / 2))
+    data = miner(values, CRITERIA[:1], traffic, Climate.constant(15.0), y=Y, cracks=cracks).dataset
+    share = data["damage_share"].to_numpy()[0, :, 0]
+    along, across = (data["orientation_damage"].sel(orientation=o).item() for o in ("longitudinal", "transverse"))
+    assert (along, across) == pytest.approx(tuple(share), rel=1e-12)
+    assert data["first_crack_angle"].item() == 0.0

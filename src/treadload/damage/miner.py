@@ -176,9 +176,7 @@ def miner(
     return Life(dataset, tuple(criteria), traffic, climate, kept, warnings=tuple(dict.fromkeys(said)))
 
 
-def damage_of(
-    readings: Array, laws: Sequence[Sequence[FatigueLaw]], traffic: Traffic, climate: Climate
-) -> Array:
+def damage_of(readings: Array, laws: Sequence[Sequence[FatigueLaw]], traffic: Traffic, climate: Climate) -> Array:
     """Damage of the first year (criterion, axle_class, season, y), without wander, from readings with turns.
 
     laws: one for each criterion and season.
@@ -208,7 +206,8 @@ def passes_in_two_phases(before: Array, after: Array, change: float) -> Array:
         alone = np.where(before > 0, 1 / before, np.inf)
         left = np.where(before > 0, 1 - change * before, 1.0)
         later = change + np.where(after > 0, left / after, np.inf)
-    return np.where(alone <= change, alone, later)
+    # The place where the change begins has failed by then, round-off or not.
+    return np.where(alone <= change * (1 + 1e-12), alone, later)
 
 
 def _cracks(
