@@ -142,6 +142,16 @@ def test_largest_extension_of_a_strip_is_the_envelope(turn):
     np.testing.assert_allclose(strips.values, expected)
 
 
+def test_the_horizontal_plane_is_another_reading(turn):
+    contact, response = turn
+    figure = tearing(contact, response, strain="in-plane")
+    beside = next(ax for ax in figure.axes[1].child_axes if ax.get_title(loc="left") == "Largest of each strip")
+    strips = next(p for p in beside.patches if isinstance(p, mpl.patches.StepPatch)).get_data()
+    expected = np.maximum(envelope(response, strain="in-plane").extension_strain.sel(depth=0.0), 0.0) * 1e6
+    np.testing.assert_allclose(strips.values, expected)
+    assert "horizontal" in figure.axes[1].get_title(loc="left")
+
+
 def test_a_parking_turn_shows_its_shear(turn):
     contact = turn[0]
     standing = tl.Rolling(normal_load=32.5e3, friction=0.7)

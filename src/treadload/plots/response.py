@@ -45,7 +45,7 @@ from treadload.plots.style import (
 )
 
 Strain = Literal["principal", "in-plane"]
-_VARIABLE = {"principal": "principal_strain_1", "in-plane": "in_plane_strain_1"}
+VARIABLE = {"principal": "principal_strain_1", "in-plane": "in_plane_strain_1"}
 _DIRECTION = {"principal": "principal_direction_1", "in-plane": "in_plane_angle_1"}
 NAMES = {"principal": "three-dimensional", "in-plane": "in the horizontal plane"}
 # Directions of strains below this share of the colour scale are left out.
@@ -70,7 +70,7 @@ def strain_directions(
     Returns the figure. Raises InputError for a missing variable or depth or another word for strain.
     """
     data = strain_plane(response, depth, strain)
-    plan, values = Plan.of(data), plane(data, _VARIABLE[strain]) * MICRO
+    plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO
     figure, ax = figure_and_axes(ax, 6.8, min(9.0, max(2.8, 5.0 * plan.aspect + 1.25)))
     scale = limits(values)
     mesh = draw_strain(ax, data, strain, scale, contact or response)
@@ -82,14 +82,14 @@ def strain_directions(
 
 def strain_plane(response: Source, depth: float, strain: Strain) -> xr.Dataset:
     """The plane of a response that a strain map draws; InputError if it is not there."""
-    if strain not in _VARIABLE:
+    if strain not in VARIABLE:
         raise InputError(f'strain must be "principal" or "in-plane", got {strain!r}')
-    return at_depth(fields_of(response, _VARIABLE[strain], _DIRECTION[strain], "x", "y"), depth)
+    return at_depth(fields_of(response, VARIABLE[strain], _DIRECTION[strain], "x", "y"), depth)
 
 
 def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outline: Source | None) -> QuadMesh:
     """Draw a strain map on a scale in microstrain: colours, strokes, outline of the contact, mark of the peak."""
-    plan, values = Plan.of(data), plane(data, _VARIABLE[strain]) * MICRO
+    plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO
     mesh = draw_cells(ax, plan, values, sequential("strain"), scale)
     _outline(ax, outline)
     row, column = peak_of(values)
@@ -107,7 +107,7 @@ def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outli
 
 def strain_in_numbers(data: xr.Dataset, strain: Strain, scale: Limits) -> str:
     """Peak of a strain map and its place; says when the colours stop below it."""
-    plan, values = Plan.of(data), plane(data, _VARIABLE[strain]) * MICRO
+    plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO
     row, column = peak_of(values)
     place = f"x = {signed(plan.x[column])}, y = {signed(plan.y[row])} mm"
     return f"peak {values[row, column]:.1f} microstrain at {place}" + (

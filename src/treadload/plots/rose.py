@@ -27,6 +27,8 @@ _ROUND = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0)
 _NARROW = 0.055
 # Road that extends by less than this part of the largest does not count unless the caller says so.
 _SIGNIFICANT = 0.2
+# From left to right in a bar.
+_ORDER = ("longitudinal", "oblique", "transverse", "horizontal")
 _TITLE: Any = {"x": 0.01, "ha": "left", "fontsize": 11.5, "fontweight": "bold"}
 
 
@@ -90,7 +92,7 @@ def orientation_shares(
         raise InputError(f"give a note for each case: got {len(notes)} notes for {len(cases)} cases")
     figure = Figure(figsize=(7.4, 0.42 * len(cases) + 1.45), layout="constrained")
     ax = figure.add_subplot()
-    order = ("longitudinal", "oblique", "transverse", "horizontal")
+    order = [w for w in _ORDER if w in _ORDER[:3] or any(_by_word(case).get(w, 0.0) > 0 for case in cases)]
     for row, case in enumerate(cases):
         start = 0.0
         shares = _by_word(case)
@@ -117,7 +119,7 @@ def orientation_shares(
     ax.set_xlabel(_share_of(cases))
     figure.legend(
         handles=[Patch(color=ORIENTATION_COLOURS[ORIENTATIONS.index(word)], label=word) for word in order],
-        loc="outside lower center", ncols=4, columnspacing=1.4, handlelength=1.4,
+        loc="outside lower center", ncols=len(order), columnspacing=1.4, handlelength=1.4,
     )  # fmt: skip
     figure.suptitle(plain(title or "How the cracks run"), **_TITLE)
     return figure

@@ -11,7 +11,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.contact import draw_stick_slip, shear_in_numbers
 from treadload.plots.plan import KPA, MICRO, Plan, Source, colour_bar, fields_of, limits, plane
-from treadload.plots.response import draw_strain, place_in_words, strain_in_numbers, strain_plane
+from treadload.plots.response import VARIABLE, Strain, draw_strain, place_in_words, strain_in_numbers, strain_plane
 from treadload.plots.style import INK, RULE, SLIP, headline, plain, styled
 
 # Inches of a map along travel. Place and width of the curve beside it, in widths of the map.
@@ -22,17 +22,20 @@ _LETTERS = 34
 
 
 @styled
-def tearing(contact: Source, response: Source, *, depth: float = 0.0, title: str = "") -> Figure:
+def tearing(
+    contact: Source, response: Source, *, depth: float = 0.0, strain: Strain = "principal", title: str = ""
+) -> Figure:
     """Shear and slip beside the extension of the road, each with what a strip of road meets as the wheel rolls by.
 
     contact: with pressure, traction_x, traction_y, state and, where the wheel rolls, friction_work over (y, x).
-    response: of the road below over (depth, y, x), on the contact's y. depth: of the extension, m. title: of all.
+    response: of the road below over (depth, y, x), on the contact's y. depth: of the extension, m. strain:
+    "principal", the largest in space, or "in-plane", in the horizontal plane. title: of all.
     Beside the map of shear stands the work of sliding that one passage leaves on each strip along the road, J/m²,
     or the largest shear of the strip, kPa, where the wheel does not roll; beside the map of extension the largest
     of each strip. Grey bands are the ribs. Returns the figure. Raises InputError for what is missing.
     """
     data = fields_of(contact, "pressure", "traction_x", "traction_y", "state")
-    below = strain_plane(response, depth, "principal")
+    below = strain_plane(response, depth, strain)
     y = data["y"].to_numpy()
     if below.sizes["y"] != len(y) or np.abs(below["y"].to_numpy() - y).max() > _SAME_PLACE:
         raise InputError("the response stands on another y than the contact; solve it without y=, on the contact's")
@@ -42,20 +45,21 @@ def tearing(contact: Source, response: Source, *, depth: float = 0.0, title: str
     shear = np.hypot(plane(data, "traction_x"), plane(data, "traction_y")) * KPA
     draw_stick_slip(left, data, plan, limits(shear))
     headline(left, "Shear on the road", shear_in_numbers(data), _LETTERS)
-    extension = plane(below, "principal_strain_1") * MICRO
+    extension = plane(below, VARIABLE[strain]) * MICRO
     scale = limits(extension)
-    mesh = draw_strain(right, below, "principal", scale, contact)
+    mesh = draw_strain(right, below, strain, scale, contact)
     colour_bar(mesh, right, "microstrain", scale)
-    headline(
-        right, f"Largest extension {place_in_words(depth)}", strain_in_numbers(below, "principal", scale), _LETTERS
-    )
+    title_of_map = f"Largest extension {place_in_words(depth)}" + (", horizontal" if strain == "in-plane" else "")
+    headline(right, title_of_map, strain_in_numbers(below, strain, scale), _LETTERS)
     if "friction_work" in data:
         # Over the length of contact, the work per area and length travelled is the work per area of road.
         work = plane(data, "friction_work").sum(axis=1) * (plan.x_edges[1] - plan.x_edges[0]) / 1e3
         _beside(left, data, plan, work, "Work of sliding", "J/m² a passage", SLIP)
     else:
         _beside(left, data, plan, shear.max(axis=1), "Largest shear", "kPa", SLIP)
-    _beside(right, data, plan, np.nanmax(extension, axis=1), "Largest of each strip", "microstrain", INK)
+    _beside(
+        right, data, plan, np.maximum(np.nanmax(extension, axis=1), 0.0), "Largest of each strip", "microstrain", INK
+    )
     if title:
         figure.suptitle(plain(title), x=0.01, ha="left", fontsize=12.5, fontweight="bold")
     return figure

@@ -1,0 +1,47 @@
+"""The example of the roundabout runs on coarse cells and ends in checked numbers."""
+
+import math
+import runpy
+from pathlib import Path
+
+import pytest
+
+import treadload as tl
+
+FOLDER = Path(__file__).parents[2] / "examples" / "roundabout"
+STRUCTURE = "6 BBSG3 / 15 GB3 / PF3"
+
+
+@pytest.mark.slow
+def test_roundabout(tmp_path, capsys):
+    found = runpy.run_path(str(FOLDER / "run.py"))["main"](tmp_path, spacing=6e-3)
+    # 10 mm deep cells of 2 mm give these microstrain; 6 mm, more than half the depth, are allowed 8 %.
+    fine = {
+        "the paper's asphalt": {
+            "straight": 56,
+            "locked": 92,
+            "roundabout": 75,
+            "outer wheel": 95,
+            "parking turn": 101,
+        },
+        STRUCTURE: {"straight": 56, "locked": 76, "roundabout": 74, "outer wheel": 99, "parking turn": 69},
+    }
+    for road, strains in fine.items():
+        for name, strain in strains.items():
+            assert float(found[road].deep.sel(maneuver=name)) * 1e6 == pytest.approx(strain, rel=0.08), (road, name)
+    # The structure bends: under a wheel that rolls straight its surface is pressed together in the plane.
+    assert float(found[STRUCTURE].in_plane.sel(maneuver="straight")) < 0 < float(found[STRUCTURE].surface.min())
+    assert "outer wheel" in capsys.readouterr().out
+    for name in ("tearing_half_space", "tearing_structure", "tearing_parking", "strain", "rose_structure"):
+        assert (tmp_path / f"{name}.png").stat().st_size > 10_000
+
+
+def test_the_case_file_is_the_maneuver():
+    case = tl.Case.from_toml(FOLDER / "roundabout.toml")
+    turn = tl.Maneuver.turning(12.0, 20 / 3.6).rolling(32.5e3, 0.7)
+    written = case.rolling.build()
+    # Four digits are written in the file.
+    assert written.forces == pytest.approx(turn.forces, rel=1e-4)
+    assert written.spin == pytest.approx(turn.spin, rel=1e-4)
+    assert case.pavement.build() == tl.Pavement.from_catalogue(STRUCTURE, temperature=15)
+    assert math.isclose(case.damage.fatigue.epsilon_6, tl.mix("EB-BBSG3").epsilon_6)
