@@ -221,6 +221,13 @@ def test_tension_that_is_not_judged_is_told(bonded):
     assert not assess_bonds(lifted, InterfaceStrength(10e6, 0.0, 2e6)).warnings
 
 
+def test_a_worst_place_at_the_edge_of_the_points_is_told(bonded):
+    cut = bonded.isel(x=slice(0, 4))
+    assert any("edge of the points" in text for text in assess_bonds(cut, InterfaceStrength(1e6)).warnings)
+    line = bonded.isel(y=[4])
+    assert not any("edge" in text for text in assess_bonds(line, [InterfaceStrength(1e6), None]).warnings)
+
+
 def test_load_scales_the_utilisation_of_a_glued_interface(bonded):
     twice = interface_fields(
         solve_response(

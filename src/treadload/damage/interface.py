@@ -148,14 +148,14 @@ class BondVerdict:
         one = data.isel(interface=self.first)
         used = float(one["largest_utilisation"])
         if used >= 1:
-            lines.append(f"Verdict: the first pass parts the interface {_named(one)}.")
+            lines.append(f"Verdict: the first pass parts {_named(one)}.")
         elif self.law is None:
             lines.append(f"Verdict: no bond parts at once; {_named(one)} is used most. Give a law for its passes.")
         elif used == 0:
             lines.append("Verdict: no bond is ever used.")
         else:
             lines.append(
-                f"Verdict: the interface {_named(one)} parts first, after {float(one['parting_passes']):.2g} passes, "
+                f"Verdict: {_named(one)} parts first, after {float(one['parting_passes']):.2g} passes, "
                 f"from y = {_mm(one['parting_y'])} mm."
             )
         return "\n".join(lines)
@@ -204,6 +204,11 @@ def assess_bonds(
     largest = np.array([part[peak] for part, peak in zip(used, peaks, strict=True)])
     asked = ~np.isnan(largest)
     x, y = fields["x"].to_numpy(), fields["y"].to_numpy()
+    said += [
+        f"{_named(fields.isel(interface=k))}: used most at the edge of the points; solve it further out"
+        for k, peak in enumerate(peaks)
+        if largest[k] > 0 and _on_edge(peak, used[k].shape)
+    ]
     added: dict[str, tuple[tuple[str, ...], Array]] = {
         "utilisation": (_DIMS, used),
         "largest_utilisation": (("interface",), largest),
@@ -225,6 +230,10 @@ def _peak(used: Array) -> tuple[int, int]:
     return int(row), int(column)
 
 
+def _on_edge(peak: tuple[int, int], shape: tuple[int, ...]) -> bool:
+    return any(size > 2 and at in (0, size - 1) for at, size in zip(peak, shape, strict=True))
+
+
 def _doubts(strength: InterfaceStrength, pressed: Array) -> list[str]:
     said = [strength.doubt] if strength.doubt else []
     tension = float(-pressed.min())
@@ -235,7 +244,7 @@ def _doubts(strength: InterfaceStrength, pressed: Array) -> list[str]:
 
 
 def _named(one: xr.Dataset) -> str:
-    return f"{int(one['interface'])}, {one['between'].item()!s}, {float(one['depth']) * 1e3:g} mm"
+    return f"interface {int(one['interface'])} ({one['between'].item()}, {float(one['depth']) * 1e3:g} mm)"
 
 
 def _mm(metres: xr.DataArray) -> str:

@@ -6,6 +6,7 @@ from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.energy import dissipated_energy
 from treadload.plots.files import png, save
+from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.layers import both_sides
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
 from treadload.plots.places import places_under
@@ -19,6 +20,8 @@ __all__ = [
     "ResponsePlots",
     "VerdictPlots",
     "black_diagram",
+    "bond_utilisation",
+    "bonded_and_parted",
     "both_sides",
     "cole_cole",
     "compare_pressure",

@@ -59,7 +59,8 @@ class BondComparison:
     """The life of a road bonded, parted, and bonded until it parts.
 
     dataset: largest_reading, life_passes, life_years over (state, criterion), states "bonded", "parted" and
-    "bonded, then parted"; parting_passes, parting_years. bonded, parted: the lives of both roads. interface: that
+    "bonded, then parted"; parting_passes, parting_years. What is left of the bond bears by friction or a spring: the
+    parted bond's own criterion means nothing there. bonded, parted: the lives of both roads. interface: that
     parts, from the surface. bond: what is left of it. criterion: name of the bond that parts first.
     """
 
@@ -87,7 +88,7 @@ class BondComparison:
         data = self.dataset
         when = float(data["parting_passes"])
         lines = [
-            f"bond of interface {self.interface}: {BEFORE}, or {PARTING} ({self.bond})",
+            f"bond of interface {self.interface} ({data.attrs['between']}): {BEFORE}, or {PARTING} ({self.bond})",
             f"{'':30s}{'reading (life) ' + BEFORE:>34s}{'reading (life) ' + AFTER:>34s}{'life ' + PARTING:>28s}",
         ]
         for one in self.bonded.criteria:
@@ -97,6 +98,8 @@ class BondComparison:
                 f"({_years(float(row['life_years'].sel(state=state)))})"
                 for state in (BEFORE, AFTER)
             ]
+            if one.name == self.criterion:
+                cells[1] = "-"
             last = _years(float(row["life_years"].sel(state=PARTING)))
             lines.append(f"{one.name:30s}{cells[0]:>34s}{cells[1]:>34s}{last:>28s}")
         lines += [f"warning: {text}" for text in self.warnings]
@@ -178,7 +181,9 @@ def compare_bonds(
         },
         {"state": [BEFORE, AFTER, PARTING], "criterion": [one.name for one in criteria]},
         interface=number,
+        between=" / ".join(road.layers[k].name or f"layer {k + 1}" for k in (number, number + 1)),
         bond=str(bond),
+        parts=first.name,
     )
     return BondComparison(dataset, before, after, number, bond, first.name)
 

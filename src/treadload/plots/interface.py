@@ -1,0 +1,191 @@
+"""Figures of the bond between layers: how far it is used up, in plan, and the lives with it and without."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
+
+from treadload.errors import InputError
+from treadload.plots.plan import (
+    MM,
+    Limits,
+    Plan,
+    Source,
+    colour_bar,
+    contact_mask,
+    draw_cells,
+    draw_outline,
+    empty_note,
+    fields_of,
+    limits,
+    mark_peak,
+    peak_of,
+    plane,
+)
+from treadload.plots.strokes import choose
+from treadload.plots.style import (
+    CASES,
+    INK,
+    MUTED,
+    headline,
+    measure,
+    plain,
+    power_of_ten,
+    sequential,
+    signed,
+    styled,
+    thousands,
+    travel_arrow,
+)
+
+# Inches of a map along travel; letters of a line over it.
+_MAP = 4.3
+_LETTERS = 38
+# Arrows along the longer side of a map, the shear below which none is drawn over the largest, and the longest one
+# over the distance between them.
+_ALONG, _SIGNIFICANT, _LONGEST = 22, 0.1, 0.95
+# A bar's share of its row; room right of the bars for their labels, decades.
+_BAR, _ROOM = 0.26, 0.9
+
+
+@styled
+def bond_utilisation(verdict: Source, *, contact: Source | None = None) -> Figure:
+    """How far the bond of every interface is used up, in plan, with arrows of the shear.
+
+    verdict: a BondVerdict or its dataset, with utilisation, interface_shear_x and interface_shear_y over
+    (interface, y, x). contact: outlined, if given. One map for each interface with a strength, all on one scale; the
+    bond parts where it is 1. An arrow is the shear that the upper layer exerts on the lower, longest at each map's
+    own largest.
+    Returns the figure. Raises InputError for what is missing.
+    """
+    data = fields_of(verdict, "utilisation", "interface_shear_x", "interface_shear_y")
+    asked = [k for k in range(data.sizes["interface"]) if not np.isnan(data["utilisation"].isel(interface=k)).all()]
+    if not asked:
+        raise InputError("this figure needs the utilisation of one interface at least; assess the bonds first")
+    plan = Plan.of(data)
+    size = (len(asked) * (_MAP + 1.35), min(9.0, _MAP * plan.aspect + 1.5))
+    figure = Figure(figsize=size, layout="compressed")
+    scale = limits(data["utilisation"].to_numpy())
+    for ax, k in zip(np.atleast_1d(figure.subplots(1, len(asked))), asked, strict=True):
+        mesh = _map(ax, data.isel(interface=k), plan, scale, contact)
+        if k != asked[0]:
+            ax.set_ylabel("")
+        if k == asked[-1]:
+            colour_bar(mesh, ax, "utilisation of the bond", scale)
+    return figure
+
+
+def _map(ax: Axes, one: xr.Dataset, plan: Plan, scale: Limits, contact: Source | None) -> QuadMesh:
+    used = plane(one, "utilisation")
+    mesh = draw_cells(ax, plan, np.where(np.isinf(used), 2 * scale.high, used), sequential("shear"), scale)
+    if contact is not None:
+        mask = contact_mask(fields_of(contact))
+        if mask is not None:
+            draw_outline(ax, mask, Plan.of(fields_of(contact)), MUTED, 0.6)
+    row, column = peak_of(used)
+    peak = float(used[row, column])
+    _arrows(ax, one, plan)
+    if peak > 0:
+        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), "parted" if math.isinf(peak) else f"{peak:.2g}")
+    else:
+        empty_note(ax, "no shear and no tension here")
+    travel_arrow(ax)
+    title = f"Interface {int(one['interface'])}, {one['between'].item()}"
+    headline(ax, title, _in_numbers(one, plan, row, column), _LETTERS)
+    return mesh
+
+
+def _in_numbers(one: xr.Dataset, plan: Plan, row: int, column: int) -> str:
+    place = f"x = {signed(plan.x[column])}, y = {signed(plan.y[row])} mm"
+    shear, pressed = (plane(one, f"interface_{name}")[row, column] / 1e3 for name in ("shear", "pressure"))
+    text = f"{float(one['depth']) * MM:g} mm deep; most used at {place}:\n"
+    side = f"under {pressed:.0f} kPa" if pressed >= 0 else f"with {-pressed:.0f} kPa of tension"
+    text += f"shear {shear:.0f} kPa {side}"
+    if "parting_passes" in one:
+        text += f"; parts after {power_of_ten(float(one['parting_passes']))} passes"
+    return text
+
+
+def _arrows(ax: Axes, one: xr.Dataset, plan: Plan) -> None:
+    # The upper layer's shear on the lower: the traction on the plane that faces up.
+    along, across = -plane(one, "interface_shear_x"), -plane(one, "interface_shear_y")
+    size = np.hypot(along, across)
+    largest = float(size.max())
+    if largest == 0:
+        return
+    gap = plan.span / _ALONG
+    rows, columns = choose(size, plan.x, plan.y, _SIGNIFICANT * largest, gap).T
+    longest = _LONGEST * gap / largest
+    arrows = ax.quiver(
+        plan.x[columns], plan.y[rows], along[rows, columns] * longest, across[rows, columns] * longest, color=INK,
+        angles="xy", scale_units="xy", scale=1.0, pivot="mid", width=0.0032, headwidth=4.2, headlength=4.6,
+        headaxislength=4.2, minlength=0.5, zorder=3,
+    )  # fmt: skip
+    arrows.set_gid("shear")
+
+
+@styled
+def bonded_and_parted(comparison: Source) -> Figure:
+    """Bars of the life by every criterion: with the bond, without it, and with it until it parts.
+
+    comparison: a BondComparison or its dataset, with life_years over (state, criterion) and parting_years.
+    A dashed line marks when the bond parts. Years on a logarithmic scale. Returns the figure. Raises InputError for
+    what is missing, and if no life ever ends.
+    """
+    data = fields_of(comparison, "life_years", "parting_years")
+    data = data.isel(criterion=data["criterion"].to_numpy() != data.attrs.get("parts"))
+    years = data["life_years"].transpose("criterion", "state").to_numpy()
+    names = [str(name) for name in data["criterion"].to_numpy()]
+    states = [str(state) for state in data["state"].to_numpy()]
+    parting = float(data["parting_years"])
+    shown = years[np.isfinite(years) & (years > 0)]
+    ends = np.append(shown, parting) if 0 < parting < math.inf else shown
+    if not ends.size:
+        raise InputError("no criterion is ever used up: there are no lives to compare")
+    low, high = 10.0 ** math.floor(math.log10(ends.min() / 1.5)), 10.0 ** (math.log10(ends.max()) + _ROOM)
+    figure = Figure(figsize=(8.0, 1.5 + 0.95 * len(names)), layout="constrained")
+    ax = figure.add_subplot()
+    for k, state in enumerate(states):
+        at = np.arange(len(names)) + (k - (len(states) - 1) / 2) * _BAR
+        ends_at = np.clip(years[:, k], low, high)
+        ax.barh(at, ends_at - low, _BAR * 0.9, left=low, color=CASES[k], label=state, zorder=2)
+        for place, end, life in zip(at, ends_at, years[:, k], strict=True):
+            inside = math.isinf(life)
+            ax.annotate(
+                "never" if inside else _years(life), (end, place), xytext=(-4 if inside else 4, 0),
+                textcoords="offset points", va="center", ha="right" if inside else "left", fontsize=8.5,
+                color="white" if inside else INK, zorder=4,
+            )  # fmt: skip
+    if 0 < parting < math.inf:
+        ax.axvline(parting, color=INK, lw=1.0, ls=(0, (4, 2)), zorder=3)
+        ax.annotate(
+            f"the bond parts, {_years(parting)}", (parting, 1), xycoords=ax.get_xaxis_transform(), xytext=(4, -3),
+            textcoords="offset points", fontsize=8.5, ha="left", va="top", zorder=4,
+        )  # fmt: skip
+    ax.set_xscale("log")
+    ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}" if 1e-3 < value < 9e4 else power_of_ten(value))
+    ax.set_xlim(low, high)
+    ax.set_yticks(np.arange(len(names)), [plain(name) for name in names])
+    ax.set_ylim(len(names) - 0.45, -0.85)
+    ax.tick_params(axis="y", length=0)
+    ax.set_xlabel("life (years)")
+    ax.grid(axis="x")
+    ax.spines[["top", "right"]].set_visible(False)
+    about = data.attrs
+    details = (
+        f"interface {about.get('interface', '')}, {about.get('between', '')}; {about.get('bond', '')} once parted"
+    )
+    headline(ax, "Life with and without the bond", plain(details))
+    figure.legend(loc="outside lower center", ncols=len(states))
+    return figure
+
+
+def _years(years: float) -> str:
+    if years >= 1e4:
+        return f"{power_of_ten(years)} years"
+    return f"{thousands(years) if years >= 1000 else measure(years)} years"
