@@ -9,6 +9,7 @@ import treadload as tl
 from cases import COARSE_CASE
 from treadload.materials import Thermorheological
 from treadload.pavement import HALF_BONDED, layer_rows
+from treadload.reporting import write_report
 
 HEAD = COARSE_CASE[: COARSE_CASE.index("[[pavement.layers]]")]
 TAIL = COARSE_CASE[COARSE_CASE.index("[rolling]") :]
@@ -159,6 +160,25 @@ def test_speed_of_the_response_before_that_of_rolling():
     assert case_of(pavement, tail.replace("depths", 'speed = "36 km/h"\ndepths')).speed == 10
 
 
+def test_contact_on_layers_is_asked_for_at_the_top():
+    case = written_back(tl.Case.from_text('road_compliance = "layers"\n' + HEAD + STRUCTURE + TAIL))
+    assert case.road_compliance == "layers"
+    with pytest.raises(tl.InputError, match=r"road_compliance: Input should be 'half_space' or 'layers'"):
+        tl.Case.from_text('road_compliance = "layer"\n' + HEAD + STRUCTURE + TAIL)
+
+
+@pytest.mark.slow
+def test_contact_on_layers_gives_way_a_little_more():
+    coarse = (HEAD + STRUCTURE + TAIL).replace('"12 mm"', '"20 mm"')
+    shares = []
+    for word in ("layers", "half_space"):
+        result = tl.run_case(tl.Case.from_text(f'road_compliance = "{word}"\n{coarse}'))
+        assert result.contact.stats["layers_solved"] == (word == "layers")
+        shares.append(float(result.contact.dataset.approach))
+    # The layers give way more than the stiff top one alone, but next to nothing beside the tire.
+    assert 1 < shares[0] / shares[1] < 1.01
+
+
 def test_wheels_stand_on_the_cells_of_the_first():
     wheels = 'wheels = [{ y = "-170 mm" }, { x = "4 mm", y = "170 mm", mirror = true }]\ndepths'
     case = written_back(case_of(STRUCTURE, TAIL.replace("depths", wheels)))
@@ -289,6 +309,14 @@ def test_a_recorded_footprint_in_place_of_a_tire(tmp_path):
     assert float(tree["contact"].normal_load) == pytest.approx(350)
     assert "Kalker" not in tree.attrs["citations"]
     assert "Kennett" in tree.attrs["citations"]
+
+
+@pytest.mark.slow
+def test_report_of_a_recorded_footprint(tmp_path):
+    tree = tl.run_case(footprint(tmp_path)).to_tree()
+    page = write_report({"sensor": tree}, tmp_path / "r.html").read_text(encoding="utf-8")
+    for wanted in ("Recorded footprint", "stress.csv", "peak pressure", "EB-GB3", "Vertical section"):
+        assert wanted in page
 
 
 def test_a_footprint_leaves_no_place_for_a_tire(tmp_path):

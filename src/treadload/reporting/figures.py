@@ -190,7 +190,7 @@ def _layered(case: ReportCase) -> Iterator[Picture]:
             "the wheel: its lowest point lags."
             if case.speed is not None
             else "Deflection of the surface along travel under the wheel.",
-            lambda: deflection_bowl([bowl], [case.label], y=float(bowl["y"][0])),
+            lambda: deflection_bowl([bowl], [case.label], y=float(bowl["y"][0]), load=bowl.attrs.get("load_x")),
             wide=True,
         )
     if across is not None and "dissipated_energy" in across:

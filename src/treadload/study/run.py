@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -109,6 +109,8 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
         ahead, right = _centre(loads[0])
         steps = np.arange(-round(_BEHIND / _STEP), round(_AHEAD / _STEP) + 1) * _STEP
         bowl = solve([0.0], x=ahead + steps, y=[right])
+        # Told to who draws it: a line of points does not say where the load's centre is.
+        bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
     verdict = None
     if case.damage is not None:
         tell("verdict")
@@ -180,5 +182,5 @@ def _footprint_in_words(load: GridLoad) -> str:
     return (
         f"recorded footprint, {load.grid}\n"
         f"normal load {load.normal_load / 1e3:.2f} kN, peak pressure {peak:.0f} kPa, "
-        f"tractive force {load.tractive_force / 1e3:.2f} kN, lateral force {load.lateral_force / 1e3:.2f} kN"
+        f"tractive force {load.tractive_force / 1e3:z.2f} kN, lateral force {load.lateral_force / 1e3:z.2f} kN"
     )
