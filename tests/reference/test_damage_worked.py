@@ -10,7 +10,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from treadload.damage.criterion import Criterion
 
 import treadload as tl
 from treadload.damage.american import (
@@ -22,6 +21,7 @@ from treadload.damage.american import (
     top_down_cracking,
 )
 from treadload.damage.criteria import compute_criteria
+from treadload.damage.design import DesignCriterion
 from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.kernels import tensors
 from treadload.response.fields import response_dataset
@@ -116,8 +116,8 @@ def test_strains_of_structures_under_the_french_axle(name):
     above = tl.solve_response(wheels, road, **at)
     below = tl.solve_response(wheels, road, **at, side="below")
     law = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
-    extension = Criterion("base", law, layer=1).read(above.dataset.isel(depth=0)).squeeze()
-    soil = Criterion("soil", FrenchSubgrade(), layer=2, place="top")
+    extension = DesignCriterion("base", law, layer=1).read(above.dataset.isel(depth=0)).squeeze()
+    soil = DesignCriterion("soil", FrenchSubgrade(), layer=2, place="top")
     compression = soil.read(below.dataset.isel(depth=0)).squeeze()
     rows = [row for row in WORKED["worked_structures"]["rows"] if row["structure"] == name and "x" in row]
     for number, row in enumerate(rows):
