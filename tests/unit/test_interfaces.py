@@ -161,6 +161,20 @@ def test_a_frictionless_interface_bears_no_shear():
     assert np.abs(fields["jump_x"].isel(interface=0)).max() > 1e-6
 
 
+def test_a_spring_lies_between_its_limits(bonded):
+    """Shear grows with the stiffness of the bond, from nothing to that of the bonded road."""
+    found = [
+        interface_fields(solve_response(BRAKED, road(Bond(k)), depths=road().interfaces, x=X, y=X))
+        for k in (1e6, 1e9, 1e10, 1e11, 1e12, 1e15)
+    ]
+    largest = [float(fields["interface_shear"].isel(interface=0).max()) for fields in found]
+    whole = float(bonded["interface_shear"].isel(interface=0).max())
+    assert (np.diff(largest) > 0).all()
+    # Off by what the spring gives over what the layers give, some E / h = 1e11 Pa/m; a soft one over all the road.
+    assert largest[0] < 1e-3 * whole
+    assert largest[-1] == pytest.approx(whole, rel=1e-3)
+
+
 def test_half_bonded_bears_half_the_shear_of_its_limits(bonded):
     """The French rule: the mean of bonded and frictionless, where the shear is nothing."""
     half = interface_fields(solve_response(BRAKED, road(HALF_BONDED), depths=road().interfaces, x=X, y=X))

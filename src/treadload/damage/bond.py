@@ -19,7 +19,9 @@ Strength = float | Callable[[float], float]
 LEUTNER_MINIMUM: Mapping[str, float] = MappingProxyType({"wearing": 15e3, "lower": 12e3})
 """Shear forces, N, that cores of 150 mm must reach in Leutner's test, at 20 °C, as recalled of the German rules.
 
-"wearing": under the wearing course, "lower": between the courses below. No source with these numbers was read.
+"wearing": under the wearing course, "lower": between the courses below. No source with these two numbers was read.
+Read were proposals: 16 to 25 kN (Stöckert and Grätz 2001, Forschung Straßenbau 829), and 21 kN under wearing courses
+just built (Swiss project FA 12/94, as its successor VSS 2005/503 reports).
 """
 _CORE = 0.15
 _RECALLED = "the least force of Leutner's test is recalled, no source was read"
@@ -160,9 +162,10 @@ class ShearFatigue(PowerLaw):
 
     slope: b, in (-1, 0), from cyclic shear tests of this bond at this temperature. single_pass: u₁, utilisation that
     one pass bears; 1 ties the line to the strength itself. doubt: which numbers stand on no source that was read.
-    It reads the largest utilisation of a passage, one cycle a pass: take a slope counted likewise. Straight lines
-    in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied Science 8(2); they depend on
-    normal stress and temperature (Isailović, Cannone Falchetto and Wistuba 2017, AAPT). No slope is given here.
+    It reads the largest utilisation, once as each axle passes, though shear turns round under it: take a slope
+    counted likewise. Straight lines in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied
+    Science 8(2); they depend on normal stress and temperature (Isailović, Cannone Falchetto and Wistuba 2017, AAPT).
+    No slope is given here.
     Raises InputError.
     """
 

@@ -257,6 +257,7 @@ class BondCriterion:
 
     name: for tables and figures. strength, law: of the bond; strength at the temperature of the layer above.
     interface: counted from the surface, 0 below the top layer, negative from the lowest.
+    Tension counts only where the strength has a limit for it; `assess_bonds` tells how much of it there is.
     """
 
     name: str

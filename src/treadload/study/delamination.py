@@ -139,9 +139,9 @@ def compare_bonds(
     of the layer above the interface belongs there, as it bends alone once it is parted. interface: that parts;
     left out, that of the bond which lasts shortest. bond: what is left of it, FRICTIONLESS, HALF_BONDED or
     Bond(stiffness=...).
-    The road is parted everywhere at once when its bond is used up at the worst place: layers know no patches, so
-    the third life is a lower bound. Miner's sum runs on with the parted road's rate, n₁ / N₁ + n₂ / N₂ = 1, at every
-    point across the road, both rates those of a whole year; of several interfaces only the first parts.
+    The road is taken as parted everywhere as soon as the bond is used up at the worst place: layers know neither a
+    patch nor what its edge concentrates. Miner's sum runs on with the parted road's rate, n₁ / N₁ + n₂ / N₂ = 1, at
+    every point across the road, both rates those of a whole year; of several interfaces only the first parts.
     Raises InputError, and ConvergenceError of a contact.
     """
     bonds = [one for one in criteria if isinstance(one, BondCriterion)]
