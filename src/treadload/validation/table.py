@@ -7,7 +7,21 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from treadload.errors import InputError, TreadloadError
-from treadload.validation import dissimilar, histories, paper, pressing, shearing, stress, tires, viscoelastic
+from treadload.validation import (
+    dissimilar,
+    histories,
+    journeys,
+    laws,
+    layers,
+    paper,
+    pressing,
+    rheology,
+    shearing,
+    stress,
+    tensors,
+    tires,
+    viscoelastic,
+)
 from treadload.validation.check import Check
 
 GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
@@ -21,6 +35,11 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "viscoelastic": viscoelastic.cylinder_checks,
     "histories": histories.history_checks,
     "stress": stress.stress_checks,
+    "layers": layers.layer_checks,
+    "rheology": rheology.rheology_checks,
+    "fatigue": laws.law_checks,
+    "criteria": tensors.criteria_checks,
+    "traffic": journeys.traffic_checks,
     "conditions": tires.condition_checks,
     "iterations": pressing.iteration_checks,
     "mesh": tires.mesh_checks,
