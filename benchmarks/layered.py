@@ -11,6 +11,7 @@ from timing import best_of, print_table
 import treadload as tl
 from treadload.grid import Grid
 from treadload.kernels import synthesis, wavenumbers
+from treadload.kernels.displacement import fields_on_grid
 from treadload.response import GridLoad, layered
 
 ROAD = tl.Pavement(
@@ -97,10 +98,7 @@ def accuracy():
 
 
 def growth():
-    """Seconds as wheels, points and cells are doubled.
-
-    On lattices of the cells the cost is never cells times points; at the surface anywhere else it is.
-    """
+    """Seconds as wheels, points and cells are doubled: never cells times points, on the load's lattice or off it."""
     rows = []
     line, depths = 0.012 * np.arange(-10, 10), TEN[:6]
     for count in (1, 2, 4, 8):
@@ -126,6 +124,34 @@ def growth():
         load = footprint(Grid.centred(0.3, 0.24, side))
         rows.append((load.pressure.size, best_of(lambda load=load: solved(load, depths, line, line))[0]))
     print_table("Cells of a footprint", ("cells", "seconds"), rows)
+    off_the_lattice()
+
+
+def off_the_lattice():
+    """The surface at points that share no lattice, beside sums over cells, and how far apart the two are."""
+    rng, header = np.random.default_rng(0), ("cells", "points", "seconds", "summed", "apart by largest value")
+    for title, runs in (
+        ("Points off the lattice", ((3e-3, 16), (3e-3, 31), (3e-3, 61), (3e-3, 121))),
+        ("Cells off the lattice", ((6e-3, 61), (4e-3, 61), (3e-3, 61), (2e-3, 61))),
+    ):
+        rows = []
+        for side, count in runs:
+            grid = Grid.centred(0.3, 0.24, side)
+            load = footprint(grid).array
+            x, y = np.sort(rng.uniform(-0.3, 0.3, count)) - grid.x0, np.sort(rng.uniform(-0.3, 0.3, count)) - grid.y0
+
+            def surface(method, load=load, side=side, x=x, y=y):
+                fields = fields_on_grid(load, side, side, np.zeros(1), 1.0, 0.35, x, y, method)
+                return np.concatenate(fields[:2], axis=1)[0]
+
+            quick, found = best_of(lambda: surface("auto"))
+            slow, exact = best_of(lambda: surface("direct"), repeats=1)
+            # Beside the load the surface carries no traction.
+            largest = np.maximum(np.abs(exact).max(axis=(1, 2)), 1e-300)
+            rows.append(
+                (load[0].size, count**2, quick, slow, float((np.abs(found - exact).max(axis=(1, 2)) / largest).max()))
+            )
+        print_table(title, header, rows)
 
 
 def peer():

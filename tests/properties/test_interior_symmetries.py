@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from treadload.kernels.interior import stress_at_points, stress_on_lattice
+from half_space import stress_at_points, stress_on_cells
 
 SHAPE = (5, 4)
 # Sums of twenty loads of up to one: round-off.
@@ -18,7 +18,7 @@ spacings = st.floats(0.3, 3)
 
 
 def field(load, depth, ratio, dx=1.0, dy=1.0):
-    return stress_on_lattice(load, dx, dy, np.array([depth]), ratio)[0]
+    return stress_on_cells(load, dx, dy, np.array([depth]), ratio)[0]
 
 
 @settings(max_examples=50, deadline=None)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.special import roots_legendre
 
-from treadload.kernels.interior import rectangle_stress, stress_at_points
+from half_space import stress_at_points
+from treadload.kernels.interior import rectangle_stress
 from treadload.kernels.tensors import mean, principal, von_mises
 
 RADIUS = 0.1

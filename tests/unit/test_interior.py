@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from half_space import stress_at_points, stress_on_cells
 from treadload.kernels.convolution import Padding
-from treadload.kernels.interior import rectangle_stress, stress_at_points, stress_on_grid, stress_on_lattice
+from treadload.kernels.interior import rectangle_stress, stress_on_grid
 
 DX, DY = 0.003, 0.004
 DEPTHS = np.array([0.0, 1e-4, 0.003, 0.05])
@@ -20,7 +21,7 @@ def load():
 
 @pytest.mark.parametrize("poisson", [0.0, 0.35, 0.5])
 def test_surface_tractions_are_the_load(load, poisson):
-    stress = stress_on_lattice(load, DX, DY, np.array([0.0]), poisson)[0]
+    stress = stress_on_cells(load, DX, DY, np.array([0.0]), poisson)[0]
     # Round-off: the sampling of the load adds zeros only.
     np.testing.assert_allclose(stress[2], -load[0], rtol=1e-14)
     np.testing.assert_allclose(stress[4], -load[1], rtol=1e-14)
@@ -34,7 +35,7 @@ def test_nothing_stands_on_the_unloaded_surface(load):
 
 @pytest.mark.parametrize("poisson", [0.0, 0.35, 0.5])
 def test_the_limit_to_the_surface_is_the_surface(load, poisson):
-    near, at = stress_on_lattice(load, DX, DY, np.array([1e-6 * DX, 0.0]), poisson)
+    near, at = stress_on_cells(load, DX, DY, np.array([1e-6 * DX, 0.0]), poisson)
     # The field is smooth within a cell: the difference is of the order of the depth over the cell.
     np.testing.assert_allclose(near, at, atol=2e-5 * np.abs(load).max())
 
@@ -81,7 +82,7 @@ def test_offsets_that_no_pair_has_stay_nan():
 
 def test_the_three_ways_agree(load):
     ny, nx = load.shape[1:]
-    lattice = stress_on_lattice(load, DX, DY, DEPTHS, 0.35)
+    lattice = stress_on_cells(load, DX, DY, DEPTHS, 0.35)
     grid_y, grid_x = np.meshgrid(DY * np.arange(ny), DX * np.arange(nx), indexing="ij")
     points = stress_at_points(load, DX, DY, DEPTHS, 0.35, grid_x.ravel(), grid_y.ravel()).reshape(lattice.shape)
     # Round-off of some hundred terms of order one.
@@ -140,7 +141,7 @@ def test_no_load_no_stress():
 
 
 def test_surface_balance_is_exact(load):
-    stress = stress_on_lattice(load, DX, DY, np.array([0.0]), 0.35)[0]
+    stress = stress_on_cells(load, DX, DY, np.array([0.0]), 0.35)[0]
     # Sums of a hundred numbers.
     np.testing.assert_allclose(stress[[2, 4, 5]].sum(axis=(1, 2)), -load.sum(axis=(1, 2)), rtol=1e-13)
 
@@ -165,7 +166,7 @@ def test_far_below_it_is_a_point_load():
     depth = 50.0
     load = np.zeros((3, 2, 2))
     load[0] = 1e5
-    stress = stress_on_lattice(load, DX, DY, np.array([depth]), 0.35)[0]
+    stress = stress_on_cells(load, DX, DY, np.array([depth]), 0.35)[0]
     force = load[0].sum() * DX * DY
     # Boussinesq on the axis; differences of corners lose (cell / depth)² of 16 digits: 1e-16 / 4e-9.
     np.testing.assert_allclose(stress[2], -3 * force / (2 * np.pi * depth**2), rtol=1e-6)

@@ -26,8 +26,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadload.kernels.arrays import Array, ComplexArray
-from treadload.kernels.convolution import Padding
-from treadload.kernels.lattice import as_lattices, loaded_part
+from treadload.kernels.gridded import Method, on_grid
+from treadload.kernels.lattice import Corner, Kernels, Source
 from treadload.kernels.wavenumbers import Spectrum, cells_spectrum
 
 _XX, _YY, _ZZ, _XY, _XZ, _YZ, _UX, _UY, _UZ = range(9)
@@ -37,46 +37,30 @@ _P, _QX, _QY = range(3)
 _NEAR = 24
 # Values on each side of a window that its average takes; exact for polynomials of degree 9.
 _SIDE = 4
-# Points times cells evaluated at once: keeps some forty temporaries of the direct sum in cache.
-_BLOCK = 50_000
-# As in `kernels.interior`.
-_LATTICE_COST = 2.0
-
-_Use = tuple[int, int]
-_Part = tuple[Array, tuple[_Use, ...]]
 
 
 def bilinear_on_grid(
-    load: Array, dx: float, dy: float, depths: Array, shear: float, poisson: float, x: Array, y: Array
+    load: Array,
+    dx: float,
+    dy: float,
+    depths: Array,
+    shear: float,
+    poisson: float,
+    x: Array,
+    y: Array,
+    method: Method = "auto",
 ) -> tuple[Array, Array, str]:
     """Stress and displacement on the grid of any coordinates x and y.
 
     load: (3, ny, nx), Pa, values at the centres of the cells. dx, dy: cell, m. depths: (nz,), m, >= 0.
     shear: shear modulus, Pa. poisson: Poisson's ratio. x: (mx,), y: (my,): coordinates relative to the centre of
     the first cell, m, in any order.
-    Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and the method: "fft" on lattices of the
-    cells' spacing, "direct" where summing costs less, "none" without load.
+    Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and the methods, see
+    `kernels.gridded.on_grid`.
     """
-    fields: Array = np.zeros((len(depths), 9, len(y), len(x)))
-    part = loaded_part(load)
-    if part is None:
-        return fields[:, :6], fields[:, 6:], "none"
-    load, row, column = part
-    x, y = x - dx * column, y - dy * row
-    lattices_x, lattices_y = as_lattices(x, dx), as_lattices(y, dy)
-    _, ny, nx = load.shape
-    padded = sum(nx + count for _, count, _, _ in lattices_x) * sum(ny + count for _, count, _, _ in lattices_y)
-    if _LATTICE_COST * padded > len(x) * len(y) * (nx + 1) * (ny + 1):
-        method = "direct"
-        grid_y, grid_x = np.meshgrid(y, x, indexing="ij")
-        fields = _at_points(load, dx, dy, depths, poisson, grid_x.ravel(), grid_y.ravel()).reshape(fields.shape)
-    else:
-        method = "fft"
-        for y0, count_y, at_y, from_y in lattices_y:
-            for x0, count_x, at_x, from_x in lattices_x:
-                found = _on_lattice(load, dx, dy, depths, poisson, (count_y, count_x), x0, y0)
-                fields[:, :, at_y[:, None], at_x] = found[:, :, from_y[:, None], from_x]
-    return fields[:, :6], fields[:, 6:] / shear, method
+    source = Source(load, dx, dy, hat_kernels(dx, dy, poisson), 9, half=1.0)
+    fields, used = on_grid(source, depths, x, y, method)
+    return fields[:, :6], fields[:, 6:] / shear, used
 
 
 def bilinear_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -> Spectrum:
@@ -95,87 +79,42 @@ def bilinear_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -
     return spectrum
 
 
-def _on_lattice(
-    load: Array, dx: float, dy: float, depths: Array, poisson: float, shape: tuple[int, int], x0: float, y0: float
-) -> Array:
-    _, ny, nx = load.shape
-    my, mx = shape
-    padding = Padding.of((ny, nx), (my, mx))
-    transformed = {k: padding.forward(load[k]) for k in range(3) if load[k].any()}
-    place = np.ix_(np.arange(1 - ny, my) % padding.shape[0], np.arange(1 - nx, mx) % padding.shape[1])
-    first_x, first_y = np.array([x0 - dx * (nx - 1)]), np.array([y0 - dy * (ny - 1)])
-    fields = np.zeros((len(depths), 9, my, mx))
-    padded = np.zeros(padding.shape)
-    for plane, depth in zip(fields, depths, strict=True):
-        spectra: dict[int, ComplexArray] = {}
-        for kernel, uses in _kernels(first_x, first_y, (ny + my - 1, nx + mx - 1), dx, dy, float(depth), poisson):
-            wanted = [(k, component) for k, component in uses if k in transformed]
-            if not wanted:
-                continue
-            padded[place] = kernel[0]
-            spectrum = padding.spectrum(padded)
-            for k, component in wanted:
-                spectra[component] = spectra.get(component, 0) + spectrum * transformed[k]
-        for component, spectrum in spectra.items():
-            plane[component] = padding.inverse(spectrum)
-    return fields
+def hat_kernels(dx: float, dy: float, nu: float) -> Kernels:
+    """Fields of one node's hat, times the shear modulus for displacement, see `kernels.lattice.Kernels`."""
 
+    def kernels(first_x: Array, first_y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+        m, n = shape
 
-def _at_points(load: Array, dx: float, dy: float, depths: Array, poisson: float, x: Array, y: Array) -> Array:
-    _, ny, nx = load.shape
-    # Offsets rise while cells fall.
-    weights = {k: load[k, ::-1, ::-1].ravel() for k in range(3) if load[k].any()}
-    fields = np.zeros((len(depths), 9, len(x)))
-    step = max(1, _BLOCK // (nx * ny))
-    for start in range(0, len(x), step):
-        block = slice(start, start + step)
-        first_x, first_y = x[block] - dx * (nx - 1), y[block] - dy * (ny - 1)
-        for plane, depth in zip(fields, depths, strict=True):
-            for kernel, uses in _kernels(first_x, first_y, (ny, nx), dx, dy, float(depth), poisson):
-                for k, component in uses:
-                    if k in weights:
-                        plane[component, block] += kernel.reshape(len(kernel), -1) @ weights[k]
-    return fields
+        def places(before: float, more: int) -> tuple[Array, Array]:
+            along, across = dx * (np.arange(n + more) - before), dy * (np.arange(m + more) - before)
+            return (first_x[:, None] + along)[None, None], (first_y[:, None] + across)[:, :, None, None]
 
+        x, y = places(0, 0)
+        near: NDArray[np.bool_] = x * x + y * y + z * z < (_NEAR * max(dx, dy)) ** 2
+        rows, columns = _range(np.any(near, axis=(0, 2, 3))), _range(np.any(near, axis=(0, 1, 2)))
+        node_x, node_y = places(1, 2)
+        node_x = node_x[..., columns.start : columns.stop + 2]
+        node_y = node_y[:, rows.start : rows.stop + 2]
+        close = _combined(_at_nodes(node_x, node_y, z), z, nu)
+        if near.all():
+            for values, uses in close:
+                yield _differences(values, 2) / (dx * dy), uses
+            return
+        average = _window_average()
+        corner_x, corner_y = places(_SIDE + 0.5, 2 * _SIDE + 1)
+        far = _combined(_Corners(corner_x, corner_y, z, *_elementary(corner_x, corner_y, z)), z, nu)
+        inside = near[:, rows, :, columns]
+        for values, uses in far:
+            cells = _differences(values, 1)
+            cells = sum(part * cells[:, k : k + m] for k, part in enumerate(average))
+            kernel = sum(part * cells[..., k : k + n] for k, part in enumerate(average))
+            if inside.size:
+                exact, _ = next(close)
+                window = kernel[:, rows, :, columns]
+                kernel[:, rows, :, columns] = np.where(inside, _differences(exact, 2) / (dx * dy), window)
+            yield kernel, uses
 
-def _kernels(
-    first_x: Array, first_y: Array, shape: tuple[int, int], dx: float, dy: float, z: float, nu: float
-) -> Iterator[_Part]:
-    """Fields of one node's hat at offsets dx, dy apart, times the shear modulus for displacement.
-
-    first_x, first_y: (b,) smallest offsets of the points from the node, m. shape: (m, n) offsets along y and x.
-    Yields kernels (b, m, n) with the (load, component) pairs that use them.
-    """
-    m, n = shape
-
-    def places(before: float, more: int) -> tuple[Array, Array]:
-        along, across = dx * (np.arange(n + more) - before), dy * (np.arange(m + more) - before)
-        return (first_x[:, None] + along)[:, None, :], (first_y[:, None] + across)[:, :, None]
-
-    x, y = places(0, 0)
-    near = x * x + y * y + z * z < (_NEAR * max(dx, dy)) ** 2
-    rows, columns = _range(np.any(near, axis=(0, 2))), _range(np.any(near, axis=(0, 1)))
-    node_x, node_y = places(1, 2)
-    node_x = node_x[:, :, columns.start : columns.stop + 2]
-    node_y = node_y[:, rows.start : rows.stop + 2]
-    close = _combined(_at_nodes(node_x, node_y, z), z, nu)
-    if near.all():
-        for values, uses in close:
-            yield _differences(values, 2) / (dx * dy), uses
-        return
-    average = _window_average()
-    corner_x, corner_y = places(_SIDE + 0.5, 2 * _SIDE + 1)
-    far = _combined(_Corners(corner_x, corner_y, z, *_elementary(corner_x, corner_y, z)), z, nu)
-    inside = near[:, rows, columns]
-    for values, uses in far:
-        cells = _differences(values, 1)
-        cells = sum(part * cells[:, k : k + m] for k, part in enumerate(average))
-        kernel = sum(part * cells[:, :, k : k + n] for k, part in enumerate(average))
-        if inside.size:
-            exact, _ = next(close)
-            window = kernel[:, rows, columns]
-            kernel[:, rows, columns] = np.where(inside, _differences(exact, 2) / (dx * dy), window)
-        yield kernel, uses
+    return kernels
 
 
 def _range(wanted: NDArray[np.bool_]) -> slice:
@@ -185,7 +124,7 @@ def _range(wanted: NDArray[np.bool_]) -> slice:
 
 
 def _differences(values: Array, order: int) -> Array:
-    result: Array = np.diff(np.diff(values, order, axis=1), order, axis=2)
+    result: Array = np.diff(np.diff(values, order, axis=1), order, axis=3)
     return result
 
 
@@ -296,7 +235,7 @@ class _Nodes:
     tilt_y: Array
 
 
-def _combined(f: _Corners | _Nodes, z: float, nu: float) -> Iterator[_Part]:
+def _combined(f: _Corners | _Nodes, z: float, nu: float) -> Iterator[Corner]:
     """Stress, and displacement times the shear modulus, from the functions: `kernels.interior`, `.displacement`."""
     unit, soft = 1 / (2 * math.pi), 1 - 2 * nu
     yield unit * (f.over_x - 2 * nu * f.turn - soft * f.turn_x), ((_P, _XX),)

@@ -12,8 +12,9 @@ import math
 from collections.abc import Iterator
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.gridded import Method, on_grid
 from treadload.kernels.interior import Elementary, add_standing_load, elementary, stress_corners
-from treadload.kernels.lattice import Corner, on_grid
+from treadload.kernels.lattice import Corner, Source, of_corners
 
 _P, _QX, _QY = range(3)
 
@@ -25,23 +26,30 @@ def displacement_on_grid(
 
     load: (3, ny, nx), Pa: pressure, shear along x and y on the body. dx, dy: cell, m. depths: (nz,), m, >= 0.
     shear: shear modulus, Pa. poisson: Poisson's ratio. x: (mx,), y: (my,): coordinates relative to the centre
-    of the first cell, m. Returns (nz, 3, my, mx). By FFT on lattices of the cells' spacing or by direct sums,
-    whichever costs less.
+    of the first cell, m. Returns (nz, 3, my, mx), by the cheapest way, see `kernels.gridded`.
     """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
         return _displacement_corners(elementary(x, y, z, dx, dy), poisson, 0)
 
-    return on_grid(load, dx, dy, depths, corners, 3, x, y)[0] / shear
+    return on_grid(Source(load, dx, dy, of_corners(corners, dx, dy), 3), depths, x, y)[0] / shear
 
 
 def fields_on_grid(
-    load: Array, dx: float, dy: float, depths: Array, shear: float, poisson: float, x: Array, y: Array
+    load: Array,
+    dx: float,
+    dy: float,
+    depths: Array,
+    shear: float,
+    poisson: float,
+    x: Array,
+    y: Array,
+    method: Method = "auto",
 ) -> tuple[Array, Array, str]:
     """Stress and displacement at once, from the same functions of the corners.
 
     Arguments as in `displacement_on_grid`. Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and
-    the method, see `kernels.lattice.on_grid`.
+    the methods, see `kernels.gridded.on_grid`.
     """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
@@ -49,9 +57,9 @@ def fields_on_grid(
         yield from stress_corners(functions, poisson)
         yield from _displacement_corners(functions, poisson, 6)
 
-    fields, method = on_grid(load, dx, dy, depths, corners, 9, x, y)
+    fields, used = on_grid(Source(load, dx, dy, of_corners(corners, dx, dy), 9), depths, x, y, method)
     add_standing_load(fields, load, dx, dy, depths, poisson, x, y)
-    return fields[:, :6], fields[:, 6:] / shear, method
+    return fields[:, :6], fields[:, 6:] / shear, used
 
 
 def _displacement_corners(e: Elementary, nu: float, first: int) -> Iterator[Corner]:

@@ -27,7 +27,8 @@ from typing import Any
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.kernels.lattice import Corner, Corners, at_points, on_grid, on_lattice
+from treadload.kernels.gridded import Method, on_grid
+from treadload.kernels.lattice import Corner, Kernels, Source, of_corners
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _XX, _YY, _ZZ, _XY, _XZ, _YZ = range(6)
@@ -61,46 +62,6 @@ def rectangle_stress(x: Array, y: Array, z: float, dx: float, dy: float, poisson
     return stress
 
 
-def stress_on_lattice(
-    load: Array,
-    dx: float,
-    dy: float,
-    depths: Array,
-    poisson: float,
-    *,
-    shape: tuple[int, int] | None = None,
-    x0: float = 0.0,
-    y0: float = 0.0,
-) -> Array:
-    """Stress on points spaced like the load's cells, by zero-padded FFT convolution.
-
-    load: (3, ny, nx), Pa. dx, dy: cell, m. depths: (nz,), m, >= 0. poisson: Poisson's ratio.
-    shape: (my, mx) of the field; None: as the load. x0, y0: first point minus centre of the first cell, m.
-    Returns (nz, 6, my, mx), Pa. Cost per depth: some 15 kernels evaluated once a corner, and their FFTs.
-    """
-    _, ny, nx = load.shape
-    my, mx = (ny, nx) if shape is None else shape
-    stress = on_lattice(load, dx, dy, depths, _corners(dx, dy, poisson), 6, (my, mx), x0, y0)
-    add_standing_load(stress, load, dx, dy, depths, poisson, x0 + dx * np.arange(mx), y0 + dy * np.arange(my))
-    return stress
-
-
-def stress_at_points(load: Array, dx: float, dy: float, depths: Array, poisson: float, x: Array, y: Array) -> Array:
-    """Stress at scattered points, by direct summation over the corners of the cells.
-
-    load: (3, ny, nx), Pa. dx, dy: cell, m. depths: (nz,), m, >= 0. poisson: Poisson's ratio.
-    x, y: (n,) position of the points relative to the centre of the first cell, m.
-    Returns (nz, 6, n), Pa. Works in blocks of points: memory does not grow with their number.
-    """
-    _, ny, nx = load.shape
-    stress = at_points(load, dx, dy, depths, _corners(dx, dy, poisson), 6, x, y)
-    for row in np.flatnonzero(is_surface(depths, dx, dy)):
-        share_x = _share(x[:, None] - dx * np.arange(nx), dx)
-        share_y = _share(y[:, None] - dy * np.arange(ny), dy)
-        _add_surface_load(stress[row], np.einsum("nj,kji,ni->kn", share_y, load, share_x, optimize=True), poisson)
-    return stress
-
-
 def stress_on_grid(
     load: Array,
     dx: float,
@@ -110,17 +71,17 @@ def stress_on_grid(
     x: Array,
     y: Array,
     *,
-    method: str = "auto",
+    method: Method = "auto",
 ) -> tuple[Array, str]:
-    """Stress on the grid of any coordinates x and y, by the cheaper of the two ways, see `kernels.lattice.on_grid`.
+    """Stress on the grid of any coordinates x and y, by the cheapest way, see `kernels.gridded`.
 
     load: (3, ny, nx), Pa. dx, dy: cell, m. depths: (nz,), m, >= 0. poisson: Poisson's ratio.
     x: (mx,), y: (my,): coordinates relative to the centre of the first cell, m, in any order.
-    method: "auto", "fft" or "direct". Returns (nz, 6, my, mx), Pa, and the method used.
+    method: see `kernels.gridded.on_grid`. Returns (nz, 6, my, mx), Pa, and the methods used.
     """
-    stress, method = on_grid(load, dx, dy, depths, _corners(dx, dy, poisson), 6, x, y, method)
+    stress, used = on_grid(Source(load, dx, dy, _kernels(dx, dy, poisson), 6), depths, x, y, method)
     add_standing_load(stress, load, dx, dy, depths, poisson, x, y)
-    return stress, method
+    return stress, used
 
 
 def is_surface(z: Array | float, dx: float, dy: float) -> Any:
@@ -188,9 +149,7 @@ def elementary(x: Array, y: Array, z: float, dx: float, dy: float) -> Elementary
     surface = is_surface(z, dx, dy)
     if surface:
         z = 0.0
-        # Σ ln|k| over k ≠ 0 is that of its integral plus ln 2π: the cut on an edge takes the rest away.
-        edge_x = np.where(x == 0, dx / (2 * math.pi), np.abs(x))
-        edge_y = np.where(y == 0, dy / (2 * math.pi), np.abs(y))
+        edge_x, edge_y = np.where(x == 0, _SNAP * dx, np.abs(x)), np.where(y == 0, _SNAP * dy, np.abs(y))
         r = np.hypot(x, y)
         # The same for a lattice of corners: 0.27 of a square cell.
         far = np.where(r == 0, 0.27 * math.sqrt(dx * dy), r)
@@ -198,6 +157,13 @@ def elementary(x: Array, y: Array, z: float, dx: float, dy: float) -> Elementary
         edge_x, edge_y = np.sqrt(x * x + z * z), np.sqrt(y * y + z * z)
         r = np.sqrt(x * x + y * y + z * z)
         far = r + z
+    log_x, log_y = np.arcsinh(x / edge_y), np.arcsinh(y / edge_x)
+    if surface:
+        # Σ ln|k| over k ≠ 0 is that of its integral plus ln 2π: a cut at dx / 2π takes the rest away, on the edge
+        # alone; on its line beyond, both of its corners have it.
+        cut = math.log(2 * math.pi * _SNAP)
+        log_x += np.sign(x) * np.where(y == 0, cut, 0.0)
+        log_y += np.sign(y) * np.where(x == 0, cut, 0.0)
     # R - z without cancellation deep below the load.
     slope = x * y * ((x * x + y * y) / far)
     return Elementary(
@@ -205,8 +171,8 @@ def elementary(x: Array, y: Array, z: float, dx: float, dy: float) -> Elementary
         y=y,
         z=z,
         r=r,
-        log_x=np.arcsinh(x / edge_y),
-        log_y=np.arcsinh(y / edge_x),
+        log_x=log_x,
+        log_y=log_y,
         log_r=np.log(far),
         turn=0.0 if surface else np.arctan2(x * y, z * r),
         turn_x=np.arctan2(slope, x * x * r + z * y * y),
@@ -214,8 +180,8 @@ def elementary(x: Array, y: Array, z: float, dx: float, dy: float) -> Elementary
     )
 
 
-def _corners(dx: float, dy: float, poisson: float) -> Corners:
-    return lambda x, y, z: stress_corners(elementary(x, y, z, dx, dy), poisson)
+def _kernels(dx: float, dy: float, poisson: float) -> Kernels:
+    return of_corners(lambda x, y, z: stress_corners(elementary(x, y, z, dx, dy), poisson), dx, dy)
 
 
 def stress_corners(e: Elementary, nu: float) -> Iterator[Corner]:

@@ -1,13 +1,13 @@
-"""Fields of a gridded load from functions of the distance to the corners of its cells.
+"""Fields of a gridded load from the field of one of its cells.
 
-The field of a cell is the alternating sum of some functions over its four corners. On points that lie a whole
-number of cells apart the sum over all cells is a convolution, by zero-padded FFT; elsewhere it is summed.
+On points that lie a whole number of cells apart the sum over all cells is a convolution, by zero-padded FFT: a
+lattice. Elsewhere it is summed, or interpolated, see `kernels.precorrected`; `kernels.gridded` chooses.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,25 +18,81 @@ from treadload.kernels.arrays import Array, ComplexArray
 
 # Output coordinates whose place within a cell differs by less than this part of a cell share a lattice.
 _SAME_PLACE = 1e-6
-# Points times corners evaluated at once: keeps the temporaries of the direct sum in cache.
-_BLOCK = 200_000
-# Measured: a padded cell of a lattice costs about twice as much as a point-corner pair of the direct sum.
-_LATTICE_COST = 2.0
+# Points times cells evaluated at once: keeps the temporaries in cache.
+_BLOCK = 50_000
 
 Indices = NDArray[np.integer[Any]]
 Use = tuple[int, int]
 Corner = tuple[Array, tuple[Use, ...]]
 Corners = Callable[[Array, Array, float], Iterator[Corner]]
 """(x, y, z) from a corner, m → functions, broadcast from x and y, each with the (load, component) pairs it serves."""
+Kernels = Callable[[Array, Array, tuple[int, int], float], Iterator[Corner]]
+"""(x, y, (m, n), z) → fields of one cell, (b, m, a, n), each with the (load, component) pairs it serves.
+
+Offsets from its centre, m: x[a], x[a] + dx, … n of them, and y[b], y[b] + dy, … m of them.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A gridded load and the field of its cells.
+
+    load: (3, ny, nx), Pa. dx, dy: cell, m. kernels: see `Kernels`. components: of the field. half: of the width of
+    the load of one cell, in cells.
+    """
+
+    load: Array
+    dx: float
+    dy: float
+    kernels: Kernels
+    components: int
+    half: float = 0.5
+
+
+def of_corners(corners: Corners, dx: float, dy: float) -> Kernels:
+    """Fields of a uniform cell: the alternating sums of some functions over its four corners."""
+
+    def kernels(x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+        m, n = shape
+        # Neighbouring offsets share their corners: one more corner than offsets each way.
+        corner_x = (x[:, None] + dx * (np.arange(n + 1) - 0.5)).reshape(1, -1)
+        corner_y = (y[:, None] + dy * (np.arange(m + 1) - 0.5)).reshape(-1, 1)
+        for values, uses in corners(corner_x, corner_y, z):
+            ends = values.reshape(len(y), m + 1, len(x), n + 1)
+            lines = ends[..., 1:] - ends[..., :-1]
+            yield lines[:, 1:] - lines[:, :-1], uses
+
+    return kernels
+
+
+def loaded(source: Source, x: Array, y: Array) -> tuple[Source, Array, Array] | None:
+    """The source without unloaded margins, and the coordinates from its first cell; None without load."""
+    load = source.load
+    rows, columns = np.flatnonzero(load.any(axis=(0, 2))), np.flatnonzero(load.any(axis=(0, 1)))
+    if not len(rows):
+        return None
+    # Unloaded rows and columns around the footprint do nothing but cost.
+    part = load[:, rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    return replace(source, load=part), x - source.dx * columns[0], y - source.dy * rows[0]
+
+
+def by_lattices(source: Source, depths: Array, x: Array, y: Array) -> Array:
+    """Fields (nz, components, my, mx) on a grid by a convolution for each lattice that its coordinates form.
+
+    depths: (nz,), m. x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order.
+    """
+    fields = np.zeros((len(depths), source.components, len(y), len(x)))
+    for y0, count_y, at_y, from_y in as_lattices(y, source.dy):
+        for x0, count_x, at_x, from_x in as_lattices(x, source.dx):
+            fields[:, :, at_y[:, None], at_x] = on_lattice(
+                source, depths, (count_y, count_x), x0, y0, (from_y, from_x)
+            )
+    return fields
 
 
 def on_lattice(
-    load: Array,
-    dx: float,
-    dy: float,
+    source: Source,
     depths: Array,
-    corners: Corners,
-    components: int,
     shape: tuple[int, int],
     x0: float,
     y0: float,
@@ -44,31 +100,26 @@ def on_lattice(
 ) -> Array:
     """Fields on points spaced like the cells, by zero-padded FFT convolution.
 
-    load: (3, ny, nx), Pa. dx, dy: cell, m. depths: (nz,), m. corners: see `Corners`. components: how many.
     shape: (my, mx) of the lattice. x0, y0: its first point minus the centre of the first cell, m.
     wanted: its rows and columns to return; all. Returns (nz, components, rows, columns).
     """
+    load, dx, dy = source.load, source.dx, source.dy
     _, ny, nx = load.shape
     my, mx = shape
     high, wide = ny + my - 1, nx + mx - 1
     padded = int(fft.next_fast_len(high)), int(fft.next_fast_len(wide, real=True))
     transformed: dict[int, ComplexArray] = {k: fft.rfft2(load[k], s=padded) for k in range(3) if load[k].any()}
-    # Neighbouring offsets share their corners: one more corner than offsets each way.
-    corner_x = (x0 + dx * (np.arange(wide + 1) - nx + 0.5))[None, :]
-    corner_y = (y0 + dy * (np.arange(high + 1) - ny + 0.5))[:, None]
+    first_x, first_y = np.array([x0 - dx * (nx - 1)]), np.array([y0 - dy * (ny - 1)])
     # The offsets start at the most negative one; what wraps around lies in the rows and columns before.
     rows, columns = np.arange(ny - 1, high)[wanted[0]], np.arange(nx - 1, wide)[wanted[1]]
-    kernel, lines = np.zeros(padded), np.empty((high + 1, wide))
-    fields = np.zeros((len(depths), components, len(rows), len(columns)))
+    fields = np.zeros((len(depths), source.components, len(rows), len(columns)))
     for field, depth in zip(fields, depths, strict=True):
         spectra: dict[int, ComplexArray] = {}
-        for values, uses in corners(corner_x, corner_y, float(depth)):
+        for values, uses in source.kernels(first_x, first_y, (high, wide), float(depth)):
             served = [(k, component) for k, component in uses if k in transformed]
             if not served:
                 continue
-            np.subtract(values[:, 1:], values[:, :-1], out=lines)
-            np.subtract(lines[1:], lines[:-1], out=kernel[:high, :wide])
-            spectrum = fft.rfft2(kernel)
+            spectrum = fft.rfft2(values[0, :, 0], s=padded)
             for k, component in served:
                 product = spectrum * transformed[k]
                 if component in spectra:
@@ -81,98 +132,30 @@ def on_lattice(
     return fields
 
 
-def at_points(
-    load: Array, dx: float, dy: float, depths: Array, corners: Corners, components: int, x: Array, y: Array
-) -> Array:
-    """Fields at scattered points, by direct summation over the corners of the cells.
-
-    x, y: (n,) position of the points relative to the centre of the first cell, m; the rest as in `on_lattice`.
-    Returns (nz, components, n). Works in blocks of points: memory does not grow with their number.
-    """
-    _, ny, nx = load.shape
-    # Corners carry second differences of the load: a quarter of the evaluations.
-    jumps = np.diff(np.diff(np.pad(load, ((0, 0), (1, 1), (1, 1))), axis=1), axis=2).reshape(3, -1)
-    active = {k for k in range(3) if load[k].any()}
-    edge_x, edge_y = dx * (np.arange(nx + 1) - 0.5), dy * (np.arange(ny + 1) - 0.5)
-    step = max(1, _BLOCK // (edge_x.size * edge_y.size))
-    fields = np.zeros((len(depths), components, len(x)))
-    for start in range(0, len(x), step):
-        block = slice(start, start + step)
-        corner_x, corner_y = (
-            x[block, None, None] - edge_x[None, None, :],
-            y[block, None, None] - edge_y[None, :, None],
-        )
+def summed(source: Source, depths: Array, x: Array, y: Array) -> Array:
+    """Fields by summing over the cells, arguments as in `by_lattices`; in blocks, to bound memory."""
+    dx, dy = source.dx, source.dy
+    _, ny, nx = source.load.shape
+    # Offsets rise while cells fall.
+    turned = {k: source.load[k, ::-1, ::-1] for k in range(3) if source.load[k].any()}
+    fields = np.zeros((len(depths), source.components, len(y), len(x)))
+    for rows, columns in blocks(len(y), len(x), ny * nx):
+        first_x, first_y = x[columns] - dx * (nx - 1), y[rows] - dy * (ny - 1)
         for field, depth in zip(fields, depths, strict=True):
-            for values, uses in corners(corner_x, corner_y, float(depth)):
+            for values, uses in source.kernels(first_x, first_y, (ny, nx), float(depth)):
                 for k, component in uses:
-                    if k in active:
-                        field[component, block] += values.reshape(len(values), -1) @ jumps[k]
+                    if k in turned:
+                        field[component, rows, columns] += np.einsum("bman,mn->ba", values, turned[k])
     return fields
 
 
-def on_grid(
-    load: Array,
-    dx: float,
-    dy: float,
-    depths: Array,
-    corners: Corners,
-    components: int,
-    x: Array,
-    y: Array,
-    method: str = "auto",
-) -> tuple[Array, str]:
-    """Fields on the grid of any coordinates x and y, by the cheaper of the two ways.
-
-    Coordinates that are a whole number of cells apart form a lattice; a grid twice as fine as the load's is four
-    of them. Each goes through `on_lattice`, unless summing directly costs less.
-
-    x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order. method: "auto", "fft" or
-    "direct"; the rest as in `on_lattice`. Returns (nz, components, my, mx) and the method used, "none" without load.
-    """
-    part = loaded_part(load)
-    if part is None:
-        return np.zeros((len(depths), components, len(y), len(x))), "none"
-    load, row, column = part
-    x, y = x - dx * column, y - dy * row
-    if method == "auto":
-        by_fft, by_sum = _costs(load.shape[1:], dx, dy, x, y)
-        method = "fft" if by_fft <= by_sum else "direct"
-    if method == "direct":
-        grid_y, grid_x = np.meshgrid(y, x, indexing="ij")
-        points = at_points(load, dx, dy, depths, corners, components, grid_x.ravel(), grid_y.ravel())
-        return points.reshape(len(depths), components, len(y), len(x)), method
-    fields = np.zeros((len(depths), components, len(y), len(x)))
-    for y0, count_y, at_y, from_y in as_lattices(y, dy):
-        for x0, count_x, at_x, from_x in as_lattices(x, dx):
-            fields[:, :, at_y[:, None], at_x] = on_lattice(
-                load, dx, dy, depths, corners, components, (count_y, count_x), x0, y0, (from_y, from_x)
-            )
-    return fields, method
-
-
-def grid_cost(load: Array, dx: float, dy: float, x: Array, y: Array) -> float:
-    """Point-corner pairs that cost as much as `on_grid` per depth."""
-    part = loaded_part(load)
-    return 0.0 if part is None else min(_costs(part[0].shape[1:], dx, dy, x, y))
-
-
-def _costs(shape: tuple[int, ...], dx: float, dy: float, x: Array, y: Array) -> tuple[float, float]:
-    ny, nx = shape
-    padded = math.prod(
-        sum(cells + count for _, count, _, _ in as_lattices(at, width))
-        for cells, at, width in ((nx, x, dx), (ny, y, dy))
-    )
-    return _LATTICE_COST * padded, len(x) * len(y) * (nx + 1.0) * (ny + 1.0)
-
-
-def loaded_part(load: Array) -> tuple[Array, int, int] | None:
-    """The load (3, ny, nx) without unloaded margins, its first row and column; None without load."""
-    rows, columns = np.flatnonzero(load.any(axis=(0, 2))), np.flatnonzero(load.any(axis=(0, 1)))
-    if not len(rows):
-        return None
-    # Unloaded rows and columns around the footprint do nothing but cost.
-    part = load[:, rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    return part, int(rows[0]), int(columns[0])
+def blocks(rows: int, columns: int, each: int) -> Iterator[tuple[slice, slice]]:
+    """Parts of a grid of points whose number times `each` stays in cache."""
+    wide = max(1, min(columns, _BLOCK // each))
+    high = max(1, _BLOCK // (each * wide))
+    for row in range(0, rows, high):
+        for column in range(0, columns, wide):
+            yield slice(row, row + high), slice(column, column + wide)
 
 
 def as_lattices(x: Array, dx: float) -> list[tuple[float, int, Indices, Indices]]:

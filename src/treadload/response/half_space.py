@@ -24,7 +24,7 @@ def half_space_response(
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
     `kernels.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where x and y
     lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
-    "direct" elsewhere, slower, "disc" for discs.
+    "precorrected" elsewhere, "direct" for few points, "disc" for discs.
     Exact for loads uniform on each cell or bilinear between cells; near the surface the first leaves an error
     O(dx), see the kernels.
     """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -10,13 +9,14 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.gridded import grid_cost
 from treadload.kernels.hankel import AxialPlanes, Disc, synthesise_discs
-from treadload.kernels.lattice import grid_cost
 from treadload.kernels.layered import Stack, transfer
 from treadload.kernels.synthesis import Cells, ElasticPlane, rule, synthesise_cells
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
+from treadload.pavement.stack import stack_of
 from treadload.response.half_space import half_space_response
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
@@ -48,15 +48,8 @@ def layered_response(
     Displacement along a net shear force is NaN in the layers above a frictionless interface: nothing holds them.
     Raises InputError below a rigid base and where that decay is too slow for the distance of the points.
     """
-    layers = road.distinct_layers
-    materials = [layer.elastic for layer in layers]
-    stack = Stack(
-        [material.shear_modulus for material in materials],
-        [material.poisson for material in materials],
-        [math.inf if layer.thickness is None else layer.thickness for layer in layers],
-        [layer.bond.stiffness for layer in layers[:-1]],
-        road.rigid_base,
-    )
+    materials = [layer.elastic for layer in road.distinct_layers]
+    stack = stack_of(road)
     where = [stack.layer_at(float(z), below) for z in depths]
     if road.rigid_base and (depths > stack.interfaces[-1]).any():
         raise InputError(
@@ -150,14 +143,21 @@ def _add_top(
 
 def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float) -> list[bool]:
     """Where the half-space is split off: not at depths where the waves alone cost less than its closed form."""
-    closed = sum(grid_cost(one.array, one.grid.dx, one.grid.dy, x - one.grid.x0, y - one.grid.y0) for one in loads)
+    closed: Array = np.sum(
+        [
+            grid_cost(one.array, grid.dx, grid.dy, layout.depths, x - grid.x0, y - grid.y0)
+            for one in loads
+            for grid in [one.grid]
+        ],
+        axis=0,
+    )
 
     def worth(row: int) -> bool:
         z = float(layout.depths[row])
         if not layout.split[row] or z == 0:
             return layout.split[row]
         along, across = _rules(loads, _FALL / z, x, y, length)
-        return closed < _WAVE_COST * len(along[0]) * len(across[0])
+        return bool(closed[row] < _WAVE_COST * len(along[0]) * len(across[0]))
 
     return [worth(row) for row in range(len(layout.depths))]
 

@@ -1,0 +1,20 @@
+"""Stress of a half-space on the load's own cells and at scattered points, for several tests."""
+
+import numpy as np
+
+from treadload.kernels.interior import stress_on_grid
+
+
+def stress_on_cells(load, dx, dy, depths, poisson):
+    """(nz, 6, ny, nx) at the centres of the cells, by FFT."""
+    _, ny, nx = load.shape
+    return stress_on_grid(load, dx, dy, depths, poisson, dx * np.arange(nx), dy * np.arange(ny), method="fft")[0]
+
+
+def stress_at_points(load, dx, dy, depths, poisson, x, y):
+    """(nz, 6, n) at points x, y (n,), by summing over the cells."""
+    one = [
+        stress_on_grid(load, dx, dy, depths, poisson, x[k : k + 1], y[k : k + 1], method="direct")[0][..., 0]
+        for k in range(len(x))
+    ]
+    return np.concatenate(one, axis=2)
