@@ -18,7 +18,8 @@ class Response:
     """Stress and strain in a road.
 
     dataset: fields (depth, y, x) with the names of `treadload.variables`; its attributes hold the material.
-    stats: seconds spent, method ("fft", "precorrected", "direct", "disc", "layered", "none" without load), points evaluated.
+    stats: seconds spent, points evaluated, method ("fft", "precorrected", "direct", "disc", "layered" or several,
+    "none" without load).
     warnings: sentences for the user.
     """
 
