@@ -10,7 +10,8 @@ from treadload.kernels import hankel
 from treadload.kernels.disc import disc_fields
 from treadload.kernels.hankel import AxialPlanes, Disc, integrals, interpolated, panels, synthesise_discs
 from treadload.kernels.layered import Stack, transfer
-from treadload.kernels.wavenumbers import Plane, disc_spectrum, quadrature, synthesise, tabulated
+from treadload.kernels.moving import Body, Level, Path, moving_fields
+from treadload.kernels.wavenumbers import disc_spectrum, quadrature
 
 INF = math.inf
 LAYERS = Stack([3e9, 1e8, 2e7], [0.35, 0.4, 0.5], [0.08, 0.3], [1e9, INF])
@@ -46,18 +47,13 @@ def test_discs_in_a_half_space_are_the_closed_form():
 
 def test_discs_on_layers_by_the_wavenumbers_of_the_plane():
     found = synthesise_discs([Disc(0.12, 7e5, 0.1, 0.05)], planes_of(LAYERS), X, Y, 3.0)
-    nodes = quadrature(36 / DEPTHS.min(), 1.1, 3.0)
-
-    def plane(depth):
-        def kernel(k):
-            result = transfer(k, LAYERS, [depth], [False])
-            return np.concatenate([result.plane[0].reshape(8, -1), result.transverse[0]])
-
-        layer = LAYERS.layer_at(depth, False)
-        return Plane(tabulated(kernel, 1e-9, 60 / depth), LAYERS.shear[layer], LAYERS.poisson[layer], 36 / depth)
-
-    other = synthesise([disc_spectrum(0.12, 7e5, 0.1, 0.05)], [plane(z) for z in DEPTHS], X, Y, nodes, nodes)
-    # What the plane's quadrature and table leave, displacement the most: a disc in one dimension has no 1/k.
+    limit = 36 / DEPTHS.min()
+    moduli = [2 * (1 + nu) * shear for shear, nu in zip(LAYERS.shear, LAYERS.poisson, strict=True)]
+    body = Body(moduli, LAYERS.poisson, LAYERS.thickness, LAYERS.spring)
+    levels = [Level(z, LAYERS.layer_at(z, False), False) for z in DEPTHS]
+    path, across = Path.of(limit, (-0.02, 0.22), 3.0), quadrature(limit, 1.1, 3.0)
+    other = moving_fields([disc_spectrum(0.12, 7e5, 0.1, 0.05)], body, levels, limit, X, Y, path, across)[:, :9]
+    # What the plane's quadrature leaves, displacement the most: a disc in one dimension has no 1/k.
     for rows in (slice(0, 6), slice(6, 9)):
         np.testing.assert_allclose(found[:, rows], other[:, rows], atol=1e-9 * np.abs(other[:, rows]).max(), rtol=0)
 
