@@ -10,7 +10,7 @@ from treadload.validation import table as table_module
 from treadload.validation.check import absolute, relative
 
 # More than a second each on one core.
-SLOW = {"conditions", "disc", "iterations", "layers", "mesh", "strain", "traffic"}
+SLOW = {"conditions", "contact on layers", "disc", "iterations", "layers", "mesh", "moving", "strain", "traffic"}
 
 
 @pytest.mark.parametrize(
