@@ -85,7 +85,10 @@ _RESPONSE = {
 }
 
 _MOVING = {
-    "dissipated_energy": ("J/m^3", "energy per volume that one passage of the moving load dissipates"),
+    "dissipated_energy": (
+        "J/m^3",
+        "energy per volume that one passage of the moving load dissipates, NaN where not computed",
+    ),
 }
 
 _DAMAGE = {

@@ -48,7 +48,8 @@ def solve_response(
     At the surface stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear
     leaves an error O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell
     of depth. A GridLoad with interpolation="bilinear" has neither, see there.
-    Where layers are viscoelastic `dissipated_energy` (depth, y) is the energy that one passage dissipates.
+    Where layers are viscoelastic `dissipated_energy` (depth, y) is the energy that one passage dissipates,
+    NaN at the surface.
     Raises InputError for a wrong value, a speed that is missing or negative, a layer that needs a temperature or
     is a fluid, depths below a rigid base and depths that need too many wavenumbers.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`; on
