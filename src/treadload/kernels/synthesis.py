@@ -22,7 +22,7 @@ from functools import lru_cache
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.kernels.wavenumbers import tabulated
+from treadload.kernels.wavenumbers import gauss, tabulated
 
 # Errors by a field's largest value, measured: 1e-11 of stress and strain, 1e-9 of displacement.
 # Panels start at this over the length of the problem.
@@ -88,7 +88,7 @@ def rule(limit: float, reach: float, length: float) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=128)
 def _gauss(count: int) -> tuple[Array, Array]:
-    points, share = np.polynomial.legendre.leggauss(count)
+    points, share = gauss(count)
     return points, share
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -59,10 +59,13 @@ def panels(limit: float, reach: float, length: float) -> tuple[Array, Array]:
     return np.array(edges[:-1]), np.array(edges[1:])
 
 
-@lru_cache(maxsize=8)
+@cache
 def gauss(count: int) -> tuple[Array, Array]:
     """Points and weights of Gauss and Legendre on (-1, 1)."""
     points, share = np.polynomial.legendre.leggauss(count)
+    # Shared by all who ask.
+    points.setflags(write=False)
+    share.setflags(write=False)
     return points, share
 
 
