@@ -150,6 +150,21 @@ def test_depth_on_an_interface_belongs_above_and_its_second_row_below(above, bel
         both_sides(above, below.isel(x=slice(1, None)))
 
 
+def test_a_lone_row_on_an_interface_is_drawn_on_the_side_it_was_solved_for(above, below):
+    assert [data.attrs["side"] for data in (above, below)] == ["above", "below"]
+    down = below.depth.values * 1e3
+    assert [down[rows][0] for rows in Layers.of(below).pieces(down)] == [pytest.approx(v) for v in (0, 60, 210)]
+    ends = {}
+    for data in (above, below):
+        meshes = [one for one in ResponsePlots(data).depth_slice().axes[0].collections if isinstance(one, QuadMesh)]
+        base = meshes[1].get_array().reshape(-1, len(X))
+        ends[data.attrs["side"]] = base[0], base[-1]
+    strain = {side: data.principal_strain_1[:, 0].values * 1e6 for side, data in (("above", above), ("below", below))}
+    # The base from 60 to 210 mm: its ends are rows on interfaces where they are its own, else the next row's.
+    np.testing.assert_allclose(ends["above"], [strain["above"][4], strain["above"][6]])
+    np.testing.assert_allclose(ends["below"], [strain["below"][3], strain["below"][5]])
+
+
 def test_strain_jumps_at_a_sliding_interface(above, below):
     figure = ResponsePlots(both_sides(above, below)).strain_profiles({"middle": (0.0, 0.0)}, strains=("xx",))
     ax = figure.axes[0]

@@ -32,14 +32,19 @@ _LED = 5.0
 
 @dataclass(frozen=True)
 class Layers:
-    """Layers from the surface down. interfaces: depths of their bottoms, mm, (n,). names: one more, all filled."""
+    """Layers from the surface down.
+
+    interfaces: depths of their bottoms, mm, (n,). names: one more, all filled. side: of an interface that a response
+    at its depth stands for, "above" or "below".
+    """
 
     interfaces: tuple[float, ...]
     names: tuple[str, ...]
+    side: str = "above"
 
     @classmethod
     def of(cls, data: xr.Dataset) -> Layers:
-        """The layers that a response's attributes `interfaces` (m) and `layer_names` (JSON) tell; one if none do."""
+        """What a response's attributes `interfaces` (m), `layer_names` (JSON) and `side` tell; else one layer."""
         # A file gives back a list of one as a number.
         ends = np.atleast_1d(np.asarray(data.attrs.get("interfaces", []), dtype=float)) * MM
         given = data.attrs.get("layer_names", "[]")
@@ -48,7 +53,7 @@ class Layers:
             names.append("rigid base")
         names += [""] * (len(ends) + 1 - len(names))
         filled = [name or f"layer {number}" for number, name in enumerate(names, start=1)]
-        return cls(tuple(ends.tolist()), tuple(filled[: len(ends) + 1]))
+        return cls(tuple(ends.tolist()), tuple(filled[: len(ends) + 1]), str(data.attrs.get("side", "above")))
 
     def spans(self, bottom: float) -> list[tuple[str, float, float]]:
         """Name, top and end of every layer that reaches above a depth, mm; the last one ends there."""
@@ -62,12 +67,14 @@ class Layers:
     def pieces(self, depths: Array) -> list[slice]:
         """The rows of each layer in rising depths (n,), mm; empty for a layer without one.
 
-        A depth on an interface belongs to the layer above, the second of two equal ones to the layer below.
+        A depth on an interface belongs to the layer on its `side`; of two equal ones the first belongs to the layer
+        above, the second to the layer below.
         """
         rows = np.searchsorted(np.array(self.interfaces) + _SAME, depths)
         twice = np.concatenate([[False], np.diff(depths) <= 0])
         on_interface = np.isclose(depths[:, None], np.array(self.interfaces)[None], rtol=0, atol=_SAME).any(axis=1)
-        rows = rows + (twice & on_interface)
+        lone = ~(twice | np.append(twice[1:], False))
+        rows = rows + (on_interface & (twice | (lone & (self.side == "below"))))
         sides = np.searchsorted(rows, np.arange(len(self.names) + 1))
         return [slice(int(start), int(end)) for start, end in pairwise(sides)]
 

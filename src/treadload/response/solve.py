@@ -39,8 +39,9 @@ def solve_response(
     or layers; half-bonded interfaces make it the mean of two responses, see `Pavement.bond_limits`.
     depths: m, >= 0, 0 is the surface.
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
-    vertical slice. side: of an interface that a depth falls on, "above" or "below"; stress and strain of a
-    half-space have no jump there, and the horizontal displacement of layers jumps only where they slide.
+    vertical slice. side: of an interface that a depth falls on, "above" or "below", kept as an attribute of the
+    dataset, which figures read; stress and strain of a half-space have no jump there, and the horizontal
+    displacement of layers jumps only where they slide.
     speed: at which the loads travel along +x, m/s, needed where a layer is viscoelastic. The result is then the
     steady state, seen from the loads, without inertia: what a fixed point lives through is a line along x read
     from front to rear, at the time -x / speed. 0 and infinity give the elastic limits.
@@ -80,6 +81,7 @@ def solve_response(
         at_y,
         at_x,
         displacement=displacement,
+        side=side,
         road=_in_words(road),
         modulus=road.surface_material.modulus,
         poisson=road.surface_material.poisson,
