@@ -6,12 +6,23 @@ from pathlib import Path
 README = Path(__file__).parents[2] / "README.md"
 
 
-def test_the_python_of_the_readme(tmp_path, monkeypatch, capsys):
-    (code,) = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
-    monkeypatch.chdir(tmp_path)
+def run(number, folder, monkeypatch):
+    code = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)[number]
+    monkeypatch.chdir(folder)
     exec(compile(code, str(README), "exec"), {})
+
+
+def test_the_first_python_of_the_readme(tmp_path, monkeypatch, capsys):
+    run(0, tmp_path, monkeypatch)
     assert "allowable passes" in capsys.readouterr().out
     assert sorted(path.name for path in tmp_path.iterdir()) == ["report.html", "strain.png"]
+
+
+def test_the_road_in_july(tmp_path, monkeypatch, capsys):
+    run(1, tmp_path, monkeypatch)
+    said = capsys.readouterr().out
+    assert "depth 210 mm" in said
+    assert "uniform disc" in said
 
 
 def test_its_pictures_exist():
