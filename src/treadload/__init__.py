@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from treadload._version import __version__
 
 if TYPE_CHECKING:
-    from treadload.case import Case
+    from treadload.case import Case, LifeCase
     from treadload.contact import (
         STRAIGHT,
         Contact,
@@ -124,15 +124,19 @@ if TYPE_CHECKING:
         solve_response,
         tandem,
     )
-    from treadload.results import load, save, to_tree
+    from treadload.results import life_tree, load, save, to_tree
     from treadload.study import (
         BondComparison,
+        DesignResult,
         Result,
+        Sensitivity,
         UniformComparison,
         compare_bonds,
         compare_uniform,
         design_life,
+        life_sensitivity,
         run_case,
+        run_design,
         solve_interfaces,
     )
     from treadload.tire import Groove, LateralGrooves, Tire, TreadProfile, example_mesh, modulus_from_inflation
@@ -153,6 +157,7 @@ _HOME = {
     "ConvergenceError": "errors",
     "CreepCurve": "contact",
     "DesignCriterion": "damage",
+    "DesignResult": "study",
     "Elastic": "materials",
     "EnergyRatio": "damage",
     "FRICTIONLESS": "pavement",
@@ -174,6 +179,7 @@ _HOME = {
     "LateralGrooves": "tire",
     "Layer": "pavement",
     "Life": "damage",
+    "LifeCase": "case",
     "Maneuver": "contact",
     "MasterCurve": "materials",
     "MaterialFit": "materials",
@@ -193,6 +199,7 @@ _HOME = {
     "RollingResistance": "contact",
     "STRAIGHT": "contact",
     "Season": "damage",
+    "Sensitivity": "study",
     "ShearFatigue": "damage",
     "ShellFatigue": "damage",
     "Structure": "pavement",
@@ -232,6 +239,8 @@ _HOME = {
     "fit_huet_sayegh": "materials",
     "fit_prony": "materials",
     "interface_fields": "damage",
+    "life_sensitivity": "study",
+    "life_tree": "results",
     "load": "results",
     "master_curve": "materials",
     "mix": "materials",
@@ -250,6 +259,7 @@ _HOME = {
     "residual_after": "damage",
     "rolling_resistance": "contact",
     "run_case": "study",
+    "run_design": "study",
     "save": "results",
     "solve_contact": "contact",
     "solve_interfaces": "study",
@@ -284,6 +294,7 @@ __all__ = [
     "ConvergenceError",
     "CreepCurve",
     "DesignCriterion",
+    "DesignResult",
     "Elastic",
     "EnergyRatio",
     "FatigueLine",
@@ -302,6 +313,7 @@ __all__ = [
     "LateralGrooves",
     "Layer",
     "Life",
+    "LifeCase",
     "Maneuver",
     "MasterCurve",
     "MaterialFit",
@@ -320,6 +332,7 @@ __all__ = [
     "Rolling",
     "RollingResistance",
     "Season",
+    "Sensitivity",
     "ShearFatigue",
     "ShellFatigue",
     "Structure",
@@ -359,6 +372,8 @@ __all__ = [
     "fit_huet_sayegh",
     "fit_prony",
     "interface_fields",
+    "life_sensitivity",
+    "life_tree",
     "load",
     "master_curve",
     "mix",
@@ -377,6 +392,7 @@ __all__ = [
     "residual_after",
     "rolling_resistance",
     "run_case",
+    "run_design",
     "save",
     "solve_contact",
     "solve_interfaces",

@@ -1,4 +1,4 @@
-"""The command line: `treadload run | report | scan | catalogue | demo | validate`."""
+"""The command line: `treadload run | life | report | scan | catalogue | demo | validate`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Annotated, NoReturn, ParamSpec
 
 import typer
 from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 from rich.text import Text
 
@@ -36,6 +37,17 @@ def _progress() -> Iterator[Callable[[str], None]]:
     """A line on stderr that tells the stage; nothing when stderr is not a terminal."""
     with _err.status("starting") as status:
         yield lambda text: status.update(text)
+
+
+@contextmanager
+def _bar() -> Iterator[Callable[[int, int, str], None]]:
+    """A bar on stderr of how many solves are done; nothing when stderr is not a terminal."""
+    with Progress(
+        TextColumn("{task.description:10}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
+        console=_err, transient=True, disable=not _err.is_terminal,
+    ) as bar:  # fmt: skip
+        task = bar.add_task("reading", total=None)
+        yield lambda done, total, what: bar.update(task, completed=done, total=total, description=f"{what}s")
 
 
 def _one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
@@ -95,8 +107,34 @@ def run(
 
 @app.command()
 @_one_sentence
+def life(
+    design: Annotated[Path, typer.Argument(help="The case of design, a TOML file.")],
+    output: _Output = None,
+    sensitivity: Annotated[bool, typer.Option(help="Ask what the life depends on most; as much work again.")] = True,
+    workers: Annotated[int | None, typer.Option(min=1, help="Threads; all cores if left out.")] = None,
+) -> None:
+    """Compute the life of a road under a traffic and a climate, and write it (NetCDF)."""
+    from treadload.case import LifeCase
+    from treadload.files import check_writable
+    from treadload.results import save
+    from treadload.study import run_design
+
+    path = output or design.with_suffix(".nc")
+    question = LifeCase.from_toml(design)
+    check_writable(path)
+    with _bar() as tell:
+        result = run_design(question, sensitivity=sensitivity, workers=workers, progress=tell)
+    save(result.to_tree(), path)
+    _out.print(result.summary(), markup=False)
+    _out.print(f"\nwritten: {path}", markup=False)
+
+
+@app.command()
+@_one_sentence
 def report(
-    results: Annotated[list[Path], typer.Argument(help="One or more result files of `treadload run`.")],
+    results: Annotated[
+        list[Path], typer.Argument(help="One or more result files of `treadload run` or `treadload life`.")
+    ],
     output: _Output = None,
     title: Annotated[str, typer.Option(help="Heading of the report.")] = "",
 ) -> None:

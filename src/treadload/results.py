@@ -18,9 +18,9 @@ from pathlib import Path
 import xarray as xr
 
 from treadload._version import __version__
-from treadload.case import Case
+from treadload.case import Case, LifeCase
 from treadload.contact import Contact
-from treadload.damage import Verdict
+from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
 from treadload.files import replacing
 from treadload.grid import Grid
@@ -73,6 +73,7 @@ CITATIONS = {
     "functions. Int. J. Solids Struct. 36, 1653-1675.",
     "moving": "Duhamel, D., Chabot, A., Tamagny, P., Harfouche, L. (2005). ViscoRoute: visco-elastic modeling for "
     "asphalt pavements. Bull. Lab. Ponts Chaussées 258-259, 89-103.",
+    "miner": "Miner, M. A. (1945). Cumulative damage in fatigue. J. Appl. Mech. 12, A159-A164.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
 }
 
@@ -165,13 +166,64 @@ def to_tree(
         "title": title or (case.title if case is not None else ""),
         "case": case.to_toml() if case is not None else "",
         "layers": json.dumps([asdict(row) for row in _rows(road, case)], ensure_ascii=False),
+        "citations": json.dumps(citations(contact, response, road), ensure_ascii=False),
+        **_provenance(),
+    }
+    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **{f"/{k}": v for k, v in groups.items()}})
+
+
+def life_tree(
+    life: Life,
+    *,
+    case: LifeCase | None = None,
+    road: Pavement | None = None,
+    season: Season | None = None,
+    sensitivity: xr.Dataset | None = None,
+    title: str = "",
+) -> xr.DataTree:
+    """The life of a road as a tree with one group, /life.
+
+    road: in the season, at its temperatures. sensitivity: elasticities to put beside the life. The root carries what
+    that of `to_tree` does; the group the laws with their sources and doubts, the solves, the summary and warnings.
+    """
+    about = {
+        "summary": life.summary(),
+        "stats": json.dumps(dict(life.stats), default=float),
+        "warnings": json.dumps(list(life.warnings), ensure_ascii=False),
+        "governing": life.governing,
+    }
+    data = life.dataset.assign_attrs(about)
+    if sensitivity is not None:
+        more = {f"sensitivity_{name}": value for name, value in sensitivity.attrs.items()}
+        data = data.merge(sensitivity.drop_attrs(deep=False)).assign_attrs(data.attrs | more)
+    rows: tuple[LayerRow, ...] = ()
+    if road is not None:
+        warm = None if season is None else season.temperature
+        known = [warm] * len(road.layers) if not isinstance(warm, tuple) else list(warm)
+        rows = layer_rows(road, known)
+    root = {
+        "title": title or (case.title if case is not None else ""),
+        "case": case.to_toml() if case is not None else "",
+        "layers": json.dumps([asdict(row) for row in rows], ensure_ascii=False),
+        "season": "" if season is None else season.name,
+        "citations": json.dumps(_of_life(road), ensure_ascii=False),
+        **_provenance(),
+    }
+    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), "/life": data})
+
+
+def _of_life(road: Pavement | None) -> list[str]:
+    used = ["chain", "influence", "convolution", "normal", "preconditioner", "rolling", "newton", "stress"]
+    return [CITATIONS[key] for key in [*used, *_of_the_road(road), "miner"]]
+
+
+def _provenance() -> dict[str, str]:
+    return {
         "treadload_version": __version__,
         "versions": json.dumps(_versions()),
         "created": datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
-        "citations": json.dumps(citations(contact, response, road), ensure_ascii=False),
         "conventions": "x: travel, y: right, z: down; tension positive; traction: by the tire on the road; SI units",
     }
-    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **{f"/{k}": v for k, v in groups.items()}})
 
 
 def height_map(tire: Tire, spacing: float) -> xr.Dataset:

@@ -48,6 +48,47 @@ def test_run_then_report(case, tmp_path):
     assert page.rstrip().endswith("</html>")
 
 
+DESIGN = """
+title = "a short life"
+spacing = "12 mm"
+tire = { profile = "315/80R22.5" }
+pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }
+climate = { temperature = 15 }
+traffic = { passes_per_year = 1e6, years = 20, classes = [
+    { name = "front", share = 1, axle_load = "70 kN", inflation_pressure = "8 bar" } ] }
+criteria = [{ name = "base", law = "french-bituminous", layer = "EB-GB3", risk = 0.05 }]
+"""
+
+
+def test_life_then_report(tmp_path):
+    path = tmp_path / "design.toml"
+    path.write_text(DESIGN)
+    ran = call("life", path, "--workers", 1)
+    assert ran.exit_code == 0, ran.output
+    assert "Verdict: base governs" in ran.stdout
+    assert "solved: 1 contacts and 1 responses for 1 combinations" in ran.stdout
+    assert "thickness of EB-GB3" in ran.stdout
+    tree = load(tmp_path / "design.nc")
+    assert tree["life"].life_years.sel(criterion="base").item() > 0
+    assert "NF P98-086" in tree["life"].attrs["sources"]
+    assert "recalled" in tree["life"].attrs["doubts"]
+    assert tree["life"].elasticity.sizes["input"] > 8
+    assert tl.LifeCase.from_text(tree.attrs["case"]).build_traffic().years == 20
+    reported = call("report", tmp_path / "design.nc", "-o", tmp_path / "r.html")
+    assert reported.exit_code == 0, reported.output
+    page = (tmp_path / "r.html").read_text()
+    assert "base governs" in page
+    assert "no wander of traffic" not in page
+
+
+def test_a_wrong_design_is_refused_in_a_sentence(tmp_path):
+    path = tmp_path / "design.toml"
+    path.write_text(DESIGN.replace("share = 1", "share = 0.5"))
+    refused(call("life", path), 2, "sum to 1")
+    path.write_text(DESIGN.replace("french-bituminous", "french-bituminus"))
+    refused(call("life", path), 2, "did you mean 'french-bituminous'")
+
+
 def test_scan_tells_the_quality_and_writes_a_height_map(tmp_path):
     result = call("scan", tl.example_mesh(), "-o", tmp_path / "h.nc", "--spacing", "10 mm")
     assert result.exit_code == 0, result.output

@@ -1,5 +1,6 @@
 """A case and its tables."""
 
+from treadload.case.life import LifeCase
 from treadload.case.model import Case
 
-__all__ = ["Case"]
+__all__ = ["Case", "LifeCase"]

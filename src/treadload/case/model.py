@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import os
-import tomllib
-from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
-import tomli_w
-from pydantic import Field, ValidationError, model_validator
+from pydantic import model_validator
 
 from treadload.case.fields import Length, Number, Part
+from treadload.case.file import FilePart
 from treadload.case.loading import FootprintPart, RollingPart
 from treadload.case.response import ResponsePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
-from treadload.case.words import in_words
 from treadload.contact import Rolling
 from treadload.contact.solve import RoadCompliance
 from treadload.contact.viscoelastic import check_rolling
@@ -44,14 +40,13 @@ class DamagePart(Part):
     depth: Length = 0.0
 
 
-class Case(Part):
+class Case(FilePart):
     """Everything that a computation needs, checked.
 
     Numbers are SI; in a TOML file a quoted number carries its unit. road_compliance: "layers" for a stiff body such
     as a steel wheel, see `solve_contact`.
     """
 
-    title: str = ""
     spacing: Length | None = None
     tolerance: Number = 1e-6
     road_compliance: RoadCompliance = "half_space"
@@ -61,7 +56,6 @@ class Case(Part):
     footprint: FootprintPart | None = None
     response: ResponsePart = ResponsePart()
     damage: DamagePart | None = None
-    folder: Path = Field(default=Path("."), exclude=True, repr=False)
 
     @model_validator(mode="after")
     def _buildable(self) -> Case:
@@ -107,39 +101,6 @@ class Case(Part):
         if self.response.speed is not None:
             return self.response.speed
         return None if self.rolling is None else self.rolling.speed
-
-    @classmethod
-    def from_dict(cls, table: dict[str, Any], *, folder: Path | str = ".", name: str = "case") -> Case:
-        """Case from nested tables as a TOML file holds them. Raises InputError that names the key."""
-        try:
-            return cls.model_validate({**table, "folder": Path(folder)})
-        except ValidationError as error:
-            raise InputError(f"{name}: {in_words(error, cls)}") from error
-
-    @classmethod
-    def from_toml(cls, path: str | os.PathLike[str]) -> Case:
-        """Case from a TOML file; paths in it start from its folder. Raises InputError."""
-        path = Path(path)
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"cannot read the case {path}: {error.strerror or error}") from error
-        except UnicodeDecodeError as error:
-            raise InputError(f"{path} is not a text file in UTF-8, so it is no case; give a TOML file") from error
-        return cls.from_text(text, folder=path.parent, name=str(path))
-
-    @classmethod
-    def from_text(cls, text: str, *, folder: Path | str = ".", name: str = "case") -> Case:
-        """Case from TOML text. Raises InputError."""
-        try:
-            table = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
-            raise InputError(f"{name} is not valid TOML: {error}") from error
-        return cls.from_dict(table, folder=folder, name=name)
-
-    def to_toml(self) -> str:
-        """The case as TOML text in SI units; what was left out stays out."""
-        return tomli_w.dumps(self.model_dump(mode="json", exclude_unset=True, exclude_none=True))
 
     def build_tire(self) -> Tire:
         """The tire, read from its file if it has one. Raises InputError for a case of a recorded footprint."""

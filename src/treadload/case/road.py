@@ -119,6 +119,10 @@ class PavementPart(Part):
             raise ValueError(f"give either layers or the name of a structure, got {got} of them")
         if self.structure is not None and self.rigid_base:
             raise ValueError("a structure of the catalogue has its own base; rigid_base belongs to layers")
+        return self
+
+    @model_validator(mode="after")
+    def _one_temperature(self) -> PavementPart:
         warm = [layer.material for layer in self.untempered().layers if layer.depends_on_temperature]
         if self.temperature is not None and not warm:
             raise ValueError("temperature changes nothing here: no layer is a mix or has a shift; leave it out")

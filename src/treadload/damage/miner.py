@@ -28,8 +28,9 @@ class Life:
     dataset: damage_per_year (criterion, y), of the first year, after wander; damage_share (criterion, axle_class,
     season) of it at the worst y; life_years, life_passes, worst_y, largest_reading (criterion); with a design life
     design_damage; with cracks first_crack_angle, first_crack_dip (criterion), of the class and season that do most,
-    and orientation_damage (criterion, orientation). criteria, traffic, climate: what was asked. readings: behind the
-    sum, see `miner`. stats: solves and errors behind the readings. warnings: sentences for the user.
+    and orientation_damage (criterion, orientation). criteria, traffic, climate: what was asked. readings, laws:
+    behind the sum, see `miner`, a law for each criterion and season. stats: solves and errors behind the readings.
+    warnings: sentences for the user.
     """
 
     dataset: xr.Dataset
@@ -37,6 +38,7 @@ class Life:
     traffic: Traffic
     climate: Climate
     readings: xr.DataArray
+    laws: tuple[tuple[FatigueLaw, ...], ...]
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 
@@ -128,7 +130,7 @@ def miner(
     worst = yearly.argmax(axis=-1)
     peak = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
     shares = np.stack([_over(part[..., column], top) for part, column, top in zip(spread, worst, peak, strict=True)])
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         passes = np.where(peak > 0, traffic.passes_per_year / peak, math.inf)
     names = [criterion.name for criterion in criteria]
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
@@ -173,7 +175,9 @@ def miner(
     dims = ("criterion", "axle_class", "season", "turn", "y")
     places = {name: coordinates[name] for name in ("criterion", "axle_class", "season")}
     kept = xr.DataArray(values, dims=dims, coords={**places, "y": at})
-    return Life(dataset, tuple(criteria), traffic, climate, kept, warnings=tuple(dict.fromkeys(said)))
+    return Life(
+        dataset, tuple(criteria), traffic, climate, kept, tuple(map(tuple, laws)), warnings=tuple(dict.fromkeys(said))
+    )
 
 
 def damage_of(readings: Array, laws: Sequence[Sequence[FatigueLaw]], traffic: Traffic, climate: Climate) -> Array:

@@ -123,7 +123,7 @@ def solve_passages(
         check_speed(row, warm[0].road)
     distinct = [one for k, one in enumerate(warm) if one not in warm[:k]]
     states = list(dict.fromkeys(state(row) for row in classes))
-    count = _Count(len(states) + len(classes) * len(distinct), progress)
+    count = Counter(len(states) + len(classes) * len(distinct), progress)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
 
         def touch(one: tuple[Any, ...]) -> Contact:
@@ -178,8 +178,8 @@ def solve_passages(
     )
 
 
-class _Count:
-    """How many solves are done; threads may count at once."""
+class Counter:
+    """How many solves of a total are done; threads may count at once."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
         self.total = total

@@ -1,0 +1,88 @@
+"""A case of design: a tire, a road, its traffic, its climate, and the criteria it must meet."""
+
+from __future__ import annotations
+
+from pydantic import model_validator
+
+from treadload.case.criteria import CriterionPart
+from treadload.case.fields import Length, Number
+from treadload.case.file import FilePart
+from treadload.case.road import PavementPart
+from treadload.case.tire import TirePart
+from treadload.case.traffic import ClimatePart, TrafficPart
+from treadload.damage import Climate, DesignCriterion, Traffic
+from treadload.pavement import Pavement
+from treadload.tire import Tire
+
+
+class DesignRoadPart(PavementPart):
+    """`[pavement]` of a design: as in a case, but its temperatures are those of [climate]."""
+
+    @model_validator(mode="after")
+    def _one_temperature(self) -> DesignRoadPart:
+        for name in ("temperature", "extrapolate"):
+            if name in self.model_fields_set:
+                raise ValueError(f"{name} has no place here: the road takes the temperatures of [climate]")
+        return self
+
+
+class LifeCase(FilePart):
+    """Everything that the life of a road depends on, checked.
+
+    Numbers are SI; in a TOML file a quoted number carries its unit. spacing: of the contact's cells. tolerance: of
+    readings interpolated over the climate.
+    """
+
+    spacing: Length = 6e-3
+    tolerance: Number = 3e-3
+    tire: TirePart
+    pavement: DesignRoadPart
+    traffic: TrafficPart
+    climate: ClimatePart
+    criteria: tuple[CriterionPart, ...]
+
+    @model_validator(mode="after")
+    def _buildable(self) -> LifeCase:
+        road, climate = self.build_road(), self.build_climate()
+        if not self.criteria:
+            raise ValueError("a life needs at least one of [[criteria]], got none")
+        names = [one.name for one in self.criteria]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise ValueError(f"two criteria have the name {twice!r}; give them different names")
+        self.build_traffic()
+        temperatures = {season.temperature for season in climate.seasons}
+        if len(temperatures) > 1 and not any(layer.depends_on_temperature for layer in road.layers):
+            raise ValueError(
+                f"the climate has {len(temperatures)} temperatures, but no layer has moduli for them; give mixes of "
+                "the catalogue or materials with a shift, or one temperature"
+            )
+        for season in climate.seasons:
+            warm = season.temperature
+            road.at_temperature(warm)
+            for criterion in self.build_criteria():
+                number = criterion.number(road)
+                criterion.depth(road)
+                criterion.law_at(warm[number] if isinstance(warm, tuple) else warm)
+        return self
+
+    def build_tire(self) -> Tire:
+        """The tire, read from its file if it has one."""
+        return self.tire.build(self.folder)
+
+    def build_road(self) -> Pavement:
+        """The road, whose materials wait for their temperature."""
+        return self.pavement.untempered()
+
+    def build_traffic(self) -> Traffic:
+        """The traffic; friction maps start from the folder."""
+        return self.traffic.build(self.folder)
+
+    def build_climate(self) -> Climate:
+        """The climate."""
+        return self.climate.build()
+
+    def build_criteria(self) -> tuple[DesignCriterion, ...]:
+        """The criteria on this road."""
+        road = self.build_road()
+        return tuple(one.build(road) for one in self.criteria)

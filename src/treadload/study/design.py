@@ -1,0 +1,76 @@
+"""Run a case of design: the life of its road, and what that life depends on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from treadload.case import LifeCase
+from treadload.damage.miner import Life
+from treadload.pavement import Pavement
+from treadload.results import life_tree
+from treadload.study.life import design_life
+from treadload.study.passages import Progress
+from treadload.study.sensitivity import Sensitivity, life_sensitivity
+
+
+@dataclass(frozen=True, eq=False)
+class DesignResult:
+    """What a case of design gave.
+
+    road: whose materials wait for their temperature. sensitivity: None if it was not asked for, or no criterion is
+    ever used up.
+    """
+
+    case: LifeCase
+    road: Pavement
+    life: Life
+    sensitivity: Sensitivity | None
+
+    def to_tree(self) -> xr.DataTree:
+        """The life in one tree with provenance, ready to be saved."""
+        more = None if self.sensitivity is None else self.sensitivity.dataset
+        shares = self.life.dataset["damage_share"].sel(criterion=self.life.governing).sum("axle_class")
+        season = self.life.climate.seasons[int(np.argmax(shares.to_numpy()))]
+        return life_tree(
+            self.life,
+            case=self.case,
+            road=self.road.at_temperature(season.temperature),
+            season=season,
+            sensitivity=more,
+        )
+
+    def summary(self) -> str:
+        """One screen: life by criterion, the governing one, what it depends on, how much was solved."""
+        return "\n\n".join(str(part) for part in (self.life, self.sensitivity) if part is not None)
+
+
+def run_design(
+    case: LifeCase, *, sensitivity: bool = True, workers: int | None = None, progress: Progress | None = None
+) -> DesignResult:
+    """The life of the road of a case, and its sensitivities.
+
+    sensitivity: False to leave them out. workers: threads; all cores if left out. progress: called after every solve.
+    Raises the errors of reading, contact and response.
+    """
+    tire, road = case.build_tire(), case.build_road()
+    life = design_life(
+        tire,
+        road,
+        case.build_traffic(),
+        case.build_climate(),
+        case.build_criteria(),
+        spacing=case.spacing,
+        tolerance=case.tolerance,
+        workers=workers,
+        progress=progress,
+    )
+    asked = sensitivity and np.isfinite(life.years(life.governing))
+    more = (
+        life_sensitivity(tire, road, life, spacing=case.spacing, workers=workers, progress=progress)
+        if asked
+        else None
+    )
+    return DesignResult(case, road, life, more)

@@ -1,0 +1,316 @@
+"""What a life depends on most: elasticities of the governing criterion by central differences."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.contact import Coulomb
+from treadload.damage.design import Criterion
+from treadload.damage.miner import Life, damage_of
+from treadload.damage.traffic import Climate, Season, Traffic, Wander
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.materials import Elastic, Mix
+from treadload.pavement import Pavement
+from treadload.study.passages import (
+    Counter,
+    Progress,
+    across,
+    contact_of,
+    layer_temperatures,
+    passage,
+    state,
+    warmed,
+    wheels_of,
+)
+from treadload.tire import Tire
+
+TEMPERATURE = "temperature (per °C)"
+_STEP, _DEGREES = 0.05, 1.0
+
+Question = tuple[Pavement, Traffic, Climate]
+Change = Callable[[float], Question]
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """How the life by the governing criterion follows its inputs.
+
+    dataset: elasticity (input), d ln(life in years) / d ln(input), of temperature d ln(life) per °C; first what
+    weighs most as inputs change by 5 %, temperature by 1 °C. criterion: the governing one. coverage: share of its
+    damage in the classes and seasons that were solved again. contacts, responses: how many were
+    solved. skipped: inputs that could not be changed, and why.
+    """
+
+    dataset: xr.Dataset
+    criterion: str
+    coverage: float
+    contacts: int
+    responses: int
+    skipped: tuple[str, ...] = ()
+
+    def summary(self) -> str:
+        """The inputs by their weight, and what was solved for them."""
+        rows = zip(self.dataset["input"].to_numpy(), self.dataset["elasticity"].to_numpy(), strict=True)
+        lines = [f"life by {self.criterion}: how much longer as an input grows by 1 %, temperature by 1 °C"]
+        lines += [f"  {name}: {100 * value if name == TEMPERATURE else value:+.2g} %" for name, value in rows]
+        lines.append(
+            f"from {self.contacts} contacts and {self.responses} responses of the classes and seasons that do "
+            f"{100 * self.coverage:.0f} % of the damage"
+        )
+        return "\n".join([*lines, *(f"not asked: {text}" for text in self.skipped)])
+
+    def __str__(self) -> str:
+        return self.summary()
+
+
+def life_sensitivity(
+    tire: Tire,
+    road: Pavement,
+    life: Life,
+    *,
+    coverage: float = 0.8,
+    spacing: float = 6e-3,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> Sensitivity:
+    """Elasticities of a life: d ln(life) / d ln(input) of its governing criterion, by central differences of ±5 %.
+
+    tire, road: those of the life; materials may depend on temperature. coverage: share of the governing damage, in
+    (0, 1]; the classes and seasons that do most, up to this share, are solved again with each input changed, the
+    rest is taken to change as they do. spacing, workers, progress: as in `solve_passages`.
+    Inputs: wheel load, inflation pressure and friction of all classes; thickness and modulus of every layer, the
+    numbers of its law unchanged; temperature by ±1 °C; passes, wander, and the strain or stress that the law
+    allows, which need no solve. Raises InputError for a life that never ends, and ConvergenceError of a contact.
+    """
+    if not 0 < coverage <= 1:
+        raise InputError(f"coverage must lie in (0, 1], got {coverage}; 0.8 is the default")
+    data = life.dataset.sel(criterion=life.governing)
+    number = [one.name for one in life.criteria].index(life.governing)
+    criterion = life.criteria[number]
+    passes = float(data["life_passes"])
+    if not math.isfinite(passes):
+        raise InputError("no criterion is ever used up, so that no input shortens the life; give more passes")
+    pairs, covered = _most(data["damage_share"].to_numpy(), coverage)
+    growth = _growth(life.traffic, passes)
+    question = (road, life.traffic, life.climate)
+    found = _without_solves(life, number, growth)
+    changes, skipped = _changes(question)
+    asked: list[tuple[str, float, Question]] = []
+    for name, change in changes.items():
+        try:
+            both = [(name, sign, change(sign)) for sign in (-1.0, 1.0)]
+            for _, _, (one, _, climate) in both:
+                _warm(one, climate, criterion, pairs)
+        except InputError as error:
+            skipped.append(f"{name}: {error}")
+            continue
+        asked += both
+    solver = _Solver(tire, criterion, pairs, spacing, progress)
+    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+        damage = solver.damages([question for _, _, question in asked], pool)
+    for (name, _, _), less, more in zip(asked[::2], damage[::2], damage[1::2], strict=True):
+        apart = 2 * _DEGREES if name == TEMPERATURE else math.log((1 + _STEP) / (1 - _STEP))
+        found[name] = -growth * math.log(more / less) / apart
+    order = sorted(found, key=lambda name: -abs(found[name]) * (_DEGREES if name == TEMPERATURE else _STEP))
+    dataset = variables.dataset(
+        {"elasticity": (("input",), [found[name] for name in order])},
+        {"input": order},
+        criterion=criterion.name,
+        coverage=covered,
+        contacts=solver.contacts,
+        responses=solver.responses,
+    )
+    return Sensitivity(dataset, criterion.name, covered, solver.contacts, solver.responses, tuple(skipped))
+
+
+def _most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
+    """Pairs (class, season) that do most, down to those that make the coverage full, and what they cover."""
+    order = np.argsort(shares, axis=None)[::-1]
+    cover = np.cumsum(shares.ravel()[order])
+    count = min(int(np.searchsorted(cover, coverage * (1 - 1e-9))) + 1, len(order))
+    rows, columns = np.unravel_index(order[:count], shares.shape)
+    return list(zip(rows.tolist(), columns.tolist(), strict=True)), float(cover[count - 1])
+
+
+def _growth(traffic: Traffic, passes: float) -> float:
+    """Elasticity of the years to the passes at the end of life."""
+    less, more = (traffic.years_to(passes * (1 + sign * _STEP)) for sign in (-1, 1))
+    if not math.isfinite(more):
+        return 1.0
+    return math.log(more / less) / math.log((1 + _STEP) / (1 - _STEP))
+
+
+def _without_solves(life: Life, number: int, growth: float) -> dict[str, float]:
+    """Elasticities for passes, wander and the law's strain, from the readings of the life."""
+    traffic, climate, criterion = life.traffic, life.climate, life.criteria[number]
+    readings = life.readings.to_numpy()[number : number + 1]
+    y = life.readings["y"].to_numpy()
+    found = {"passes": -growth}
+    laws = life.laws[number]
+
+    def peak(values: Array, wander: Wander) -> float:
+        damage = damage_of(values, [laws], traffic, climate)
+        return float(wander.spread(damage, float(y[1] - y[0])).sum(axis=(0, 1, 2)).max())
+
+    apart = math.log((1 + _STEP) / (1 - _STEP))
+    stronger, weaker = (peak(readings / (1 + sign * _STEP), traffic.wander) for sign in (1, -1))
+    found[f"strength of {criterion.name}"] = -growth * math.log(stronger / weaker) / apart
+    if traffic.wander.deviation:
+        wide, narrow = (
+            peak(readings, Wander.normal(traffic.wander.deviation * (1 + sign * _STEP))) for sign in (1, -1)
+        )
+        found["wander"] = -growth * math.log(wide / narrow) / apart
+    return found
+
+
+def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
+    """What each input makes of the question for a sign, and what cannot be changed."""
+    road, traffic, climate = question
+    skipped: list[str] = []
+
+    def of_classes(name: str) -> Change:
+        def change(sign: float) -> Question:
+            rows = [replace(row, **{name: getattr(row, name) * (1 + sign * _STEP)}) for row in traffic.classes]
+            return road, replace(traffic, classes=tuple(rows)), climate
+
+        return change
+
+    found: dict[str, Change] = {
+        "wheel load": of_classes("wheel_load"),
+        "inflation pressure": of_classes("inflation_pressure"),
+    }
+    numbers = [_coefficient(row.friction) for row in traffic.classes]
+    known = [mu for mu in numbers if mu is not None]
+    if len(known) < len(numbers):
+        skipped.append("friction: a law of it is no single number")
+    else:
+
+        def rougher(sign: float) -> Question:
+            pairs = zip(traffic.classes, known, strict=True)
+            rows = tuple(replace(row, friction=mu * (1 + sign * _STEP)) for row, mu in pairs)
+            return road, replace(traffic, classes=rows), climate
+
+        found["friction"] = rougher
+    names = [layer.name or f"layer {k}" for k, layer in enumerate(road.layers, start=1)]
+    for k, layer in enumerate(road.layers):
+        label = names[k] if names.count(names[k]) == 1 else f"{names[k]} ({k + 1})"
+        if layer.thickness is not None:
+            found[f"thickness of {label}"] = _thicker(question, k)
+        if isinstance(layer.material, Elastic | Mix):
+            found[f"modulus of {label}"] = _stiffer(question, k)
+        else:
+            skipped.append(f"modulus of {label}: it is viscoelastic")
+    if any(layer.depends_on_temperature for layer in road.layers):
+        found[TEMPERATURE] = lambda sign: (road, traffic, _warmer(climate, sign * _DEGREES))
+    return found, skipped
+
+
+def _coefficient(friction: Any) -> float | None:
+    if isinstance(friction, Coulomb):
+        return friction.number
+    return float(friction) if isinstance(friction, int | float) else None
+
+
+def _thicker(question: Question, number: int) -> Change:
+    road, traffic, climate = question
+
+    def change(sign: float) -> Question:
+        layers = list(road.layers)
+        thickness = layers[number].thickness
+        assert thickness is not None
+        layers[number] = replace(layers[number], thickness=thickness * (1 + sign * _STEP))
+        return Pavement(layers, rigid_base=road.rigid_base), traffic, climate
+
+    return change
+
+
+def _stiffer(question: Question, number: int) -> Change:
+    road, traffic, climate = question
+
+    def change(sign: float) -> Question:
+        layers, factor = list(road.layers), 1 + sign * _STEP
+        material = layers[number].material
+        if isinstance(material, Mix):
+            rows = tuple(tuple(value * factor for value in row) for row in material.moduli)
+            layers[number] = replace(layers[number], material=replace(material, moduli=rows))
+        else:
+            assert isinstance(material, Elastic)
+            layers[number] = replace(layers[number], material=replace(material, modulus=material.modulus * factor))
+        return Pavement(layers, rigid_base=road.rigid_base), traffic, climate
+
+    return change
+
+
+def _warmer(climate: Climate, degrees: float) -> Climate:
+    def shifted(season: Season) -> Season:
+        now = season.temperature
+        warm = tuple(t + degrees for t in now) if isinstance(now, tuple) else now + degrees
+        return replace(season, temperature=warm)
+
+    return Climate(tuple(shifted(season) for season in climate.seasons))
+
+
+def _warm(road: Pavement, climate: Climate, criterion: Criterion, pairs: Sequence[tuple[int, int]]) -> dict[int, Any]:
+    """The road and the criterion in the seasons of the pairs."""
+    return {s: warmed(road, (criterion,), climate.seasons[s]) for s in dict.fromkeys(s for _, s in pairs)}
+
+
+class _Solver:
+    """Damage of the pairs under changed questions, with contacts shared between them."""
+
+    def __init__(
+        self,
+        tire: Tire,
+        criterion: Criterion,
+        pairs: list[tuple[int, int]],
+        spacing: float,
+        progress: Progress | None,
+    ) -> None:
+        self.tire, self.criterion, self.pairs, self.spacing = tire, criterion, pairs, spacing
+        self.progress = progress
+        self.contacts = self.responses = 0
+
+    def damages(self, questions: Sequence[Question], pool: ThreadPoolExecutor) -> list[float]:
+        """The largest damage of a year across the wheel path in each question."""
+        rows = list(dict.fromkeys(row for row, _ in self.pairs))
+        states = list(dict.fromkeys(state(traffic.classes[row]) for _, traffic, _ in questions for row in rows))
+        self.contacts, self.responses = len(states), len(questions) * len(self.pairs)
+        count = Counter(self.contacts + self.responses, self.progress)
+        road, _, climate = questions[0]
+        warm = next(iter(_warm(road, climate, self.criterion, self.pairs).values()))
+        solved = pool.map(
+            lambda one: count.after(contact_of(self.tire, warm.road, one, self.spacing), "contact"), states
+        )
+        contacts = dict(zip(states, solved, strict=True))
+        tasks, places = [], []
+        for road, traffic, climate in questions:
+            warm_roads = _warm(road, climate, self.criterion, self.pairs)
+            classes = [traffic.classes[row] for row in rows]
+            found = [contacts[state(one)] for one in classes]
+            y = across(found, classes)
+            wheels = {row: wheels_of(c, one, y) for row, c, one in zip(rows, found, classes, strict=True)}
+            turns = 2 * max(len(one.x) for one in wheels.values()) - 1
+            places.append((y, turns))
+            tasks += [(wheels[row], warm_roads[season], y, turns) for row, season in self.pairs]
+        read = pool.map(lambda task: count.after(passage(*task), "response"), tasks)
+        result = []
+        for (road, traffic, climate), (y, turns) in zip(questions, places, strict=True):
+            values = np.zeros((1, len(traffic.classes), len(climate.seasons), turns, len(y)))
+            for row, season in self.pairs:
+                values[0, row, season] = next(read)[0, :turns]
+            warmth = layer_temperatures(road, (self.criterion,), climate.seasons)[0]
+            laws = [self.criterion.law_at(float(t)) for t in warmth]
+            damage = damage_of(values, [laws], traffic, climate)
+            spread = traffic.wander.spread(damage, float(y[1] - y[0]))
+            result.append(float(spread.sum(axis=(0, 1, 2)).max()))
+        return result

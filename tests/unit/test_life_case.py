@@ -1,0 +1,170 @@
+"""A case of design: what its tables build, and what is said of wrong ones."""
+
+import pytest
+
+import treadload as tl
+from treadload.case import LifeCase
+from treadload.contact.maneuver import Maneuver
+from treadload.errors import InputError
+
+DESIGN = """
+spacing = "12 mm"
+tire = { profile = "315/80R22.5" }
+pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }
+climate = { months = [4, 5, 9, 12, 17, 22, 25, 24, 19, 14, 8, 5] }
+
+[traffic]
+passes_per_year = 1e5
+growth = 0.02
+years = 20
+wander = { deviation = "250 mm" }
+
+[[traffic.classes]]
+name = "front"
+share = 0.6
+axle_load = "70 kN"
+inflation_pressure = "8 bar"
+
+[[traffic.classes]]
+name = "driven"
+share = 0.4
+axle_load = "113 kN"
+inflation_pressure = "8 bar"
+gear = "tandem-dual"
+friction = 0.6
+maneuvers = [
+    { kind = "straight", share = 0.9 },
+    { name = "bend", kind = "turning", radius = "-60 m", speed = "36 km/h", share = 0.1 },
+]
+
+[[criteria]]
+name = "base"
+law = "french-bituminous"
+layer = "EB-GB3"
+risk = 0.05
+
+[[criteria]]
+name = "surface"
+law = "fatigue-line"
+layer = 1
+place = "top"
+strain = "principal"
+
+[[criteria]]
+name = "soil"
+law = "french-subgrade"
+
+[[criteria]]
+name = "mepdg"
+law = "mepdg-bottom-up"
+layer = 2
+air_voids = 0.07
+binder_volume = 0.11
+"""
+
+
+def test_classes_and_maneuvers_become_rows():
+    case = LifeCase.from_text(DESIGN)
+    traffic = case.build_traffic()
+    assert [row.name for row in traffic.classes] == ["front", "driven, straight", "driven, bend"]
+    assert [row.share for row in traffic.classes] == pytest.approx([0.6, 0.36, 0.04])
+    front, _, bend = traffic.classes
+    assert (front.wheel_load, len(front.wheels)) == (35e3, 1)
+    # 113 kN over four wheels; two axles 1.31 m apart, duals 0.34 m apart by default.
+    assert bend.wheel_load == pytest.approx(28.25e3)
+    assert set(bend.wheels) == {(x, y) for x in (-0.655, 0.655) for y in (-0.17, 0.17)}
+    assert bend.maneuver == Maneuver.turning(-60.0, 10.0)
+    assert (bend.friction, traffic.years, traffic.wander) == (0.6, 20, tl.Wander.normal(0.25))
+
+
+def test_a_mix_gives_its_law():
+    """The numbers of the catalogue, at the temperature of the layer, and k_s of what lies below."""
+    base, surface, soil, mepdg = LifeCase.from_text(DESIGN).build_criteria()
+    mix = tl.mix("EB-GB3")
+    for temperature in (5.0, 15.0, 30.0):
+        asked = tl.FrenchBituminous.of(
+            mix, thickness=0.15, risk=0.05, temperature=temperature, platform_modulus=120e6
+        )
+        assert base.law_at(temperature) == asked
+        assert mepdg.law_at(temperature) == tl.MepdgBottomUp(mix.modulus(temperature), 0.15, 0.07, 0.11)
+    assert surface.law_at(15.0) == tl.FatigueLine(tl.mix("EB-BBSG3").epsilon_6, tl.mix("EB-BBSG3").slope)
+    assert (surface.layer, surface.place, surface.strain) == (0, "top", "principal")
+    assert soil.law_at(15.0) == tl.FrenchSubgrade.of(tl.mix("PF3"))
+    assert (soil.layer, soil.place, base.layer, base.place) == (2, "top", 1, "bottom")
+
+
+def test_a_number_given_stands_before_the_mixs():
+    text = DESIGN.replace("risk = 0.05", 'risk = 0.05\nepsilon_6 = "80 microstrain"\nthickness_scatter = "20 mm"')
+    law = LifeCase.from_text(text).build_criteria()[0].law_at(10.0)
+    assert (law.epsilon_6, law.spread, law.slope) == (80e-6, 0.02, tl.mix("EB-GB3").slope)
+    assert law.verified
+
+
+def test_the_text_of_a_case_reads_back():
+    case = LifeCase.from_text(DESIGN)
+    again = LifeCase.from_text(case.to_toml())
+    assert again.build_traffic() == case.build_traffic()
+    assert again.build_climate() == case.build_climate()
+    assert again.build_road() == case.build_road()
+
+
+def test_elastic_layers_take_the_numbers_of_the_table():
+    layers = """
+[[pavement.layers]]
+name = "asphalt"
+thickness = "200 mm"
+material = { modulus = "7 GPa", poisson = 0.35 }
+[[pavement.layers]]
+name = "soil"
+material = { modulus = "60 MPa", poisson = 0.35 }
+"""
+    text = DESIGN[: DESIGN.index("[[criteria]]")].replace('pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }\n', "")
+    text = text.replace("months = [4, 5, 9, 12, 17, 22, 25, 24, 19, 14, 8, 5]", "temperature = 15") + layers
+    criteria = '[[criteria]]\nname = "shell"\nlaw = "shell"\nlayer = "Asphalt"\n'
+    criterion = LifeCase.from_text(text + criteria).build_criteria()[0]
+    assert criterion.law_at(15.0) == tl.ShellFatigue(7e9)
+    with pytest.raises(InputError, match=r"epsilon_6 is missing"):
+        LifeCase.from_text(text + criteria.replace('"shell"\nlayer', '"fatigue-line"\nlayer'))
+    with pytest.raises(InputError, match=r"no layer has moduli"):
+        LifeCase.from_text((text + criteria).replace("temperature = 15", f"months = {list(range(12))}"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("share = 0.6", "share = 0.5", "sum to 1, got 0.9"),
+        ("share = 0.9 }", "share = 0.8 }", "sum to 1, got 0.9"),
+        ('gear = "tandem-dual"', 'gear = "tandem-duel"', "did you mean 'tandem-dual'"),
+        ('law = "french-bituminous"', 'law = "french-bituminus"', "did you mean 'french-bituminous'"),
+        ('layer = "EB-GB3"', 'layer = "EB-GB4"', "did you mean 'EB-GB3'"),
+        ("layer = 1", "layer = 4", "no layer 4; the road has 1 'EB-BBSG3'"),
+        ("layer = 2", "", "layer is missing"),
+        ("risk = 0.05", "", "risk is missing"),
+        ("risk = 0.05", "risk = 0.05\nmodulus = 5e9", "modulus is no parameter of the law 'french-bituminous'"),
+        ("risk = 0.05", "risc = 0.05", "unknown key 'criteria.0.risc'; did you mean 'risk'"),
+        ("passes_per_year = 1e5", "passes_per_year = -1", "passes_per_year must be >= 0"),
+        ("months = [4, 5,", "months = [60, 5,", "EB-BBSG3"),
+        ("months = [4, 5,", "months = [4,", "12 temperatures"),
+        ("months", "month", "did you mean 'months'"),
+        ('kind = "turning"', 'kind = "turnin"', "no maneuver 'turnin'; did you mean 'turning'"),
+        ('radius = "-60 m", ', "", "needs radius"),
+        ('kind = "straight", share', 'kind = "straight", radius = 3, share', "radius is no key of the maneuver"),
+        ('axle_load = "70 kN"', "", "either axle_load or wheel_load"),
+        ('axle_load = "70 kN"', 'axle_load = "70 bar"', "cannot read '70 bar'"),
+        ('name = "surface"', 'name = "base"', "two criteria have the name 'base'"),
+        ('name = "driven"', 'name = "front"', ""),
+        ('PF3" }', 'PF3", temperature = 15 }', "temperatures of [climate]"),
+        ('{ deviation = "250 mm" }', "{ offsets = [0, 0.1], shares = [0.5, 0.4] }", "sum to 1, got 0.9"),
+        ("growth = 0.02", 'growth = 0.02\nkind = "geometrical"', "geometric"),
+        ("years = 20", "years = 0", "years of design must be > 0"),
+    ],
+)
+def test_wrong_tables_are_named(old, new, words):
+    assert old in DESIGN
+    if not words:
+        assert LifeCase.from_text(DESIGN.replace(old, new, 1)).build_traffic().classes[1].name == "front, straight"
+        return
+    with pytest.raises(InputError) as refused:
+        LifeCase.from_text(DESIGN.replace(old, new, 1))
+    assert words in str(refused.value)
+    assert "\n" not in str(refused.value)
