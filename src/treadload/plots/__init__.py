@@ -8,6 +8,7 @@ from treadload.plots.energy import dissipated_energy
 from treadload.plots.files import png, save
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.layers import both_sides
+from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
 from treadload.plots.places import places_under
 from treadload.plots.roads import compare_roads, compare_temperatures
@@ -32,6 +33,10 @@ __all__ = [
     "deflection_bowl",
     "dissipated_energy",
     "fatigue_line",
+    "life_damage",
+    "life_inputs",
+    "life_shares",
+    "life_years",
     "master_curve",
     "orientation_shares",
     "places_under",

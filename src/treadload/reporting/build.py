@@ -17,6 +17,8 @@ from treadload.errors import InputError
 from treadload.files import check_writable, replacing
 from treadload.reporting.figures import case_figures, comparison_figures
 from treadload.reporting.inputs import input_table
+from treadload.reporting.life import COLUMNS as LIFE_COLUMNS
+from treadload.reporting.life import life_report
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.road import COLUMNS, road_tables
 from treadload.reporting.tables import result_table, statistics_table
@@ -33,7 +35,7 @@ def write_report(cases: Mapping[str, xr.DataTree], path: str | PathLike[str], ti
     """Write one self-contained HTML file about one or several cases.
 
     cases: name of each case → its tree of results, with any of the groups /contact, /response, /slice_along,
-    /slice_across and /damage; what is absent is left out. path: of the file. title: heading; the title of the
+    /slice_across, /damage and /life; what is absent is left out. path: of the file. title: heading; the title of the
     case if left out. The file needs no other file and no network. Returns the path.
     Raises InputError without a case, for a tree that holds no results, or a path that cannot be written; the
     file appears whole or not at all.
@@ -81,6 +83,9 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
             for number, case in enumerate(cases, start=1)
         ],
         "labels": [case.label for case in cases],
+        "lives": [life_report(case.label, data) for case in cases if (data := case.group("life")) is not None],
+        "life_columns": LIFE_COLUMNS,
+        "passes_of_one_place": any(case.group("damage") is not None for case in cases),
         "comparison": comparison_figures(cases),
         "road_columns": COLUMNS,
         "roads": road_tables(cases),

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import base64
-import struct
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
-from treadload.errors import InputError
 from treadload.plots import (
     ContactPlots,
     ResponsePlots,
@@ -21,29 +16,15 @@ from treadload.plots import (
     deflection_bowl,
     dissipated_energy,
     fatigue_line,
-    png,
 )
 from treadload.plots.response import NAMES, Strain
+from treadload.reporting.pictures import Picture, picture
 from treadload.reporting.reading import ReportCase
 
-_DPI = 140.0
-# Pixels of the page for an inch of a figure.
-_PAGE_DPI = 98.0
 _STROKES = (
     "Strokes lie along the largest extension; a crack opens across them. A stroke shortens to a point where the "
     "extension turns out of the page. Paper white: nothing extends."
 )
-
-
-@dataclass(frozen=True)
-class Picture:
-    """A figure in the page. source: data URI. width: of the page, pixels. wide: takes the full width."""
-
-    title: str
-    caption: str
-    source: str
-    width: int
-    wide: bool
 
 
 def case_figures(case: ReportCase, *, alone: bool) -> list[tuple[str, list[Picture]]]:
@@ -64,7 +45,7 @@ def comparison_figures(cases: list[ReportCase]) -> list[Picture]:
     pictures: list[Picture] = []
     contacts, labels = _with(cases, "contact", "pressure")
     if len(contacts) > 1:
-        pictures += _picture(
+        pictures += picture(
             "Contact pressure, side by side",
             "One colour scale for all cases, seen from above; rings mark the largest pressure.",
             lambda: compare_pressure(contacts, labels),
@@ -79,7 +60,7 @@ def comparison_figures(cases: list[ReportCase]) -> list[Picture]:
             )
     verdicts, labels = _with(cases, "damage", "worst_strain")
     if len(verdicts) > 1:
-        pictures += _picture(
+        pictures += picture(
             "Fatigue line, all cases",
             "Each case stands where its worst strain meets its line; below it, the passes that the line allows.",
             lambda: fatigue_line(verdicts, labels),
@@ -89,7 +70,7 @@ def comparison_figures(cases: list[ReportCase]) -> list[Picture]:
 
 
 def _strain_comparison(responses: list[xr.Dataset], labels: list[str], depth: float, strain: Strain) -> list[Picture]:
-    return _picture(
+    return picture(
         f"Largest extension strain, {NAMES[strain]}, side by side",
         f"Drawn: {_DRAWN[strain]}, {_deep(depth)}, on one colour scale; rings mark the peaks. {_WHAT[strain]}",
         lambda: compare_strain(responses, labels, depth=depth, strain=strain),
@@ -102,25 +83,25 @@ def _contact(case: ReportCase) -> Iterator[Picture]:
     if data is None:
         return
     plots = ContactPlots(data)
-    yield from _picture(
+    yield from picture(
         "Contact pressure",
         "Seen from above, at true scale. The ring marks the largest pressure; pressure rises at the edges of ribs "
         "and blocks, and the more so the finer the grid.",
         plots.pressure,
     )
-    yield from _picture(
+    yield from picture(
         "Tread before loading",
         "Distance of the tread from the road at first contact; the line is the border of the contact under load.",
         plots.height_map,
     )
-    yield from _picture(
+    yield from picture(
         "Shear, stick and slip",
         "Left: size of the shear in space. Right: the same from above; hatched cells slip, there the shear has "
         "reached friction times pressure. Arrows: shear exerted by the tire on the road.",
         plots.shear,
         wide=True,
     )
-    yield from _picture(
+    yield from picture(
         "Sections through the largest pressure",
         "Where the shear lies on the dashed line, friction times pressure, the tire slips.",
         plots.profile,
@@ -139,7 +120,7 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
             # Without the tire's shear on it the plane's strain adds little: below the surface one map is enough.
             for strain in _KINDS if depth == 0 else _KINDS[:1]:
                 holds = _HOLDS if depth == 0 and strain == "principal" else ""
-                yield from _picture(
+                yield from picture(
                     f"Largest extension strain {_deep(depth)}, {NAMES[strain]}",
                     f"Drawn: {_DRAWN[strain]}{holds}. {_WHAT[strain]}",
                     lambda depth=depth, strain=strain: plots.strain_directions(depth, strain, contact=contact),  # type: ignore[misc]
@@ -147,7 +128,7 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
     for name, words in (("slice_along", "along travel"), ("slice_across", "across travel")):
         section = case.group(name)
         if section is not None:
-            yield from _picture(
+            yield from picture(
                 f"Vertical section {words}",
                 f"Drawn: the three-dimensional strain through the worst point {case.depth_in_words}; black bars: the "
                 "tire touches. Strokes show the part of the direction that lies in the section.",
@@ -163,7 +144,7 @@ def _against_depth(case: ReportCase) -> Iterator[Picture]:
     if len(case.layers) > 1 and across is not None:
         # The section has the stress of the surface, but perhaps not that under the load's centre.
         load = data if data is not None and 0.0 in data["depth"] else across
-        yield from _picture(
+        yield from picture(
             "Strain against depth",
             "Extension along travel, across it and the largest in space, under places across the tire; strain jumps "
             "where a layer ends.",
@@ -174,7 +155,7 @@ def _against_depth(case: ReportCase) -> Iterator[Picture]:
     deep = case.group("slice_along")
     deep = data if deep is None else deep
     if deep is not None and deep.sizes.get("depth", 1) > 2:
-        yield from _picture(
+        yield from picture(
             "Strain against depth",
             "Both strains under the worst point of the surface; dashed: the largest anywhere in the section.",
             lambda: ResponsePlots(deep).profile(epsilon_6=epsilon),
@@ -184,7 +165,7 @@ def _against_depth(case: ReportCase) -> Iterator[Picture]:
 def _layered(case: ReportCase) -> Iterator[Picture]:
     bowl, across = case.group("bowl"), case.group("slice_across")
     if bowl is not None:
-        yield from _picture(
+        yield from picture(
             "Deflection bowl",
             "Deflection of the surface along travel under the wheel. A viscoelastic road is still deflected behind "
             "the wheel: its lowest point lags."
@@ -194,7 +175,7 @@ def _layered(case: ReportCase) -> Iterator[Picture]:
             wide=True,
         )
     if across is not None and "dissipated_energy" in across:
-        yield from _picture(
+        yield from picture(
             "Energy dissipated in one passage",
             "What the wheel leaves in the viscoelastic layers as heat and damage, per volume, in a section across "
             "travel; hatched: not computed.",
@@ -210,19 +191,19 @@ def _verdict(case: ReportCase, alone: bool) -> Iterator[Picture]:
     plots = VerdictPlots(data)
     kind = "in-plane" if data.attrs.get("strain") == "in-plane" else "principal"
     if alone:
-        yield from _picture(
+        yield from picture(
             "Fatigue line",
             f"The case stands where {_DRAWN[kind]} at its worst meets the line; below it, the passes allowed.",
             plots.fatigue_line,
             wide=True,
         )
-    yield from _picture(
+    yield from picture(
         "Allowable passes",
         f"From {_DRAWN[kind]}. The darkest places bear fewest passes; white ones a million times more, "
         "or nothing extends there.",
         plots.passes,
     )
-    yield from _picture(
+    yield from picture(
         "Cracks to expect",
         f"Traces on the surface of cracks across the largest extension, read from {_DRAWN[kind]}: longitudinal along "
         "travel, transverse across it, oblique between, horizontal as points (layers part). Drawn where the strain "
@@ -239,19 +220,6 @@ _WHAT = {
     "in-plane": "It opens vertical cracks. Strokes lie along the extension; a crack opens across them. Paper white: "
     "nothing extends in the plane.",
 }
-
-
-def _picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = False) -> list[Picture]:
-    """The picture, or nothing when the results lack what it draws."""
-    try:
-        figure = draw()
-    except InputError:
-        return []
-    image = png(figure, dpi=_DPI)
-    # The width stands at a fixed place of every PNG; all figures get letters of the same size.
-    (pixels,) = struct.unpack(">I", image[16:20])
-    encoded = base64.b64encode(image).decode("ascii")
-    return [Picture(title, caption, f"data:image/png;base64,{encoded}", round(pixels * _PAGE_DPI / _DPI), wide)]
 
 
 def _with(cases: list[ReportCase], group: str, variable: str) -> tuple[list[xr.Dataset], list[str]]:

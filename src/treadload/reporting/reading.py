@@ -17,9 +17,10 @@ from treadload.damage.direction import ORIENTATIONS
 from treadload.errors import InputError
 from treadload.plots.plan import MICRO, MM, Plan, peak_of, plane
 from treadload.plots.style import power_of_ten, signed
+from treadload.reporting.life import exhausted, sentence
 from treadload.response.fields import angle_in_words, direction_in_words
 
-GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage")
+GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
 # A number such as 1.2e+05 in a sentence.
 _POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
 # Names that other writers gave to the same group.
@@ -186,13 +187,19 @@ class ReportCase:
 
     @property
     def exhausted(self) -> bool:
-        """True when the worst strain exceeds ε₆: fewer than a million passes."""
+        """True when the worst strain exceeds ε₆: fewer than a million passes; of a life, before its design ends."""
+        life = self.group("life")
+        if life is not None:
+            return exhausted(life)
         data = self.group("damage")
         return data is not None and float(data["worst_passes"]) < 1e6
 
     @property
     def verdict(self) -> str:
         """The verdict in a sentence; empty without one."""
+        life = self.group("life")
+        if life is not None:
+            return sentence(life)
         data = self.group("damage")
         if data is None:
             return ""

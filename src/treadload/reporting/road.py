@@ -29,7 +29,9 @@ def road_tables(cases: list[ReportCase]) -> list[RoadTable]:
 
 def _table(case: ReportCase, layers: list[dict[str, Any]], *, named: bool) -> RoadTable:
     speed = "" if case.speed is None else f"wheels at {measure(case.speed * 3.6)} km/h"
-    words = ": ".join(part for part in (case.label if named else "", speed) if part)
+    season = str(case.attrs.get("season", ""))
+    warm = f"in the season that does most of the governing damage, {season}" if season else ""
+    words = ": ".join(part for part in (case.label if named else "", speed, warm) if part)
     words = words[:1].upper() + words[1:]
     rows = tuple(_row(number, layer) for number, layer in enumerate(layers, start=1))
     return RoadTable(words, rows, any(layer.get("frequency") for layer in layers))

@@ -1,0 +1,204 @@
+"""The life of a road in a report: its verdict in words, its criteria as a table, its figures."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years
+from treadload.plots.style import measure, power_of_ten, signed
+from treadload.reporting.pictures import Picture, picture
+
+COLUMNS = (
+    "criterion", "life", "passes", "damage at the design life", "largest reading", "where", "first crack", "law",
+)  # fmt: skip
+_NO_CRACK = "ruts, no crack"
+
+
+@dataclass(frozen=True)
+class LifeReport:
+    """What a report says of one life. label: of the case. facts: (term, value). rows: of `COLUMNS`. laws: name of a
+    criterion, law, source, doubt. solved: what was solved for it.
+    """
+
+    label: str
+    facts: tuple[tuple[str, str], ...]
+    rows: tuple[tuple[str, ...], ...]
+    pictures: tuple[Picture, ...]
+    laws: tuple[tuple[str, str, str, str], ...]
+    solved: str
+
+
+def life_report(label: str, data: xr.Dataset) -> LifeReport:
+    """The report of a life. data: the group /life."""
+    laws, sources, doubts, quantities = (
+        json.loads(data.attrs.get(name, "[]")) for name in ("laws", "sources", "doubts", "quantities")
+    )
+    names = [str(name) for name in data["criterion"].to_numpy()]
+    rows = tuple(_row(data.isel(criterion=k), names[k], laws[k], quantities[k]) for k in range(len(names)))
+    return LifeReport(
+        label,
+        _facts(data),
+        rows,
+        tuple(_pictures(data)),
+        tuple(zip(names, laws, sources, doubts, strict=True)),
+        _solved(data),
+    )
+
+
+def sentence(data: xr.Dataset) -> str:
+    """The verdict in a sentence."""
+    row = _governing(data)
+    name, years = str(row["criterion"].item()), float(row["life_years"])
+    if math.isinf(years):
+        return "no criterion is ever used up by this traffic."
+    design = data.attrs.get("design_years")
+    said = f"{name} governs and ends the road's life after {measure(years)} years"
+    if design is None:
+        return f"{said}."
+    used = float(row["design_damage"])
+    if years >= float(design):
+        return f"{said}: the {float(design):g} years of design use up {100 * used:.0f} % of it."
+    return f"{said}, {measure(float(design) - years)} years before the {float(design):g} years of design are over."
+
+
+def exhausted(data: xr.Dataset) -> bool:
+    """True where the road fails before its design life is over."""
+    design = data.attrs.get("design_years")
+    return design is not None and float(data["life_years"].min()) < float(design)
+
+
+def _governing(data: xr.Dataset) -> xr.Dataset:
+    return data.isel(criterion=int(data["life_years"].to_numpy().argmin()))
+
+
+def _facts(data: xr.Dataset) -> tuple[tuple[str, str], ...]:
+    row = _governing(data)
+    facts = [("governing criterion", str(row["criterion"].item())), ("its life", _years(float(row["life_years"])))]
+    if "design_damage" in data:
+        facts.append((f"its damage after {float(data.attrs['design_years']):g} years", _number(row["design_damage"])))
+    facts += [("worst place", f"{_deep(row)}, {_aside(row)}"), ("first crack", _crack(row))]
+    if "elasticity" in data:
+        first = zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True)
+        told = [f"{name}: {changed_life(str(name), float(value))}" for name, value in first]
+        facts.append(("depends most on (life as it grows by 5 %, temperature by 1 °C)", "; ".join(told)))
+    return tuple(facts)
+
+
+def changed_life(name: str, elasticity: float) -> str:
+    """Change of the life as the input grows by the step of the figure, in words."""
+    change = life_change(name, elasticity)
+    return f"{'+' if change > 0 else ''}{signed(change, 0)} %"
+
+
+def _row(row: xr.Dataset, name: str, law: str, quantity: str) -> tuple[str, ...]:
+    reading = float(row["largest_reading"])
+    if "stress" in quantity:
+        read = f"{reading / 1e6:.3g} MPa"
+    elif "utilisation" in quantity:
+        read = f"{reading:.3g}"
+    else:
+        read = f"{measure(reading * 1e6)} microstrain"
+    return (
+        name,
+        _years(float(row["life_years"])),
+        power_of_ten(float(row["life_passes"])),
+        _number(row["design_damage"]) if "design_damage" in row else "–",
+        read,
+        f"{_deep(row)}, {_aside(row)}",
+        _crack(row),
+        law,
+    )
+
+
+def _years(years: float) -> str:
+    return "never" if math.isinf(years) else f"{measure(years)} years"
+
+
+def _number(value: Any) -> str:
+    number = float(value)
+    return f"{number:.2g}" if number >= 1e-3 else power_of_ten(number) if number > 0 else "0"
+
+
+def _deep(row: xr.Dataset) -> str:
+    depth = float(row["read_depth"]) if "read_depth" in row else math.nan
+    if math.isnan(depth):
+        return "depth unknown"
+    return "at the surface" if depth == 0 else f"{depth * 1e3:g} mm deep"
+
+
+def _aside(row: xr.Dataset) -> str:
+    y = float(row["worst_y"]) * 1e3
+    if abs(y) < 10:
+        return "in the middle of the wheel path"
+    return f"{abs(y):.0f} mm to the {'right' if y > 0 else 'left'}"
+
+
+def _crack(row: xr.Dataset) -> str:
+    """Where the damage runs: the orientation that does most of it, with the angle of the first trace."""
+    if "orientation_damage" not in row:
+        return "–"
+    shares = row["orientation_damage"]
+    most = int(np.argmax(shares.to_numpy()))
+    word = str(shares["orientation"].to_numpy()[most])
+    if word == "none":
+        return _NO_CRACK
+    if word == "horizontal":
+        return f"parallel to the surface ({100 * float(shares[most]):.0f} % of the damage)"
+    angle = float(row["first_crack_angle"])
+    trace = "" if math.isnan(angle) else f", first trace {signed(math.degrees(angle), 0)}° from travel"
+    return f"{word} ({100 * float(shares[most]):.0f} % of the damage){trace}"
+
+
+def _solved(data: xr.Dataset) -> str:
+    stats = json.loads(data.attrs.get("stats", "{}"))
+    if not stats:
+        return ""
+    told = (
+        f"{stats['contacts']} contacts and {stats['responses']} responses were solved for {stats['combinations']} "
+        f"combinations of class and season in {measure(stats['seconds'])} s; readings interpolated over the climate "
+        f"err by {stats['interpolation_error']:.1g} of the largest at most"
+    )
+    if stats.get("wheels_moved"):
+        told += f"; wheels were moved by up to {stats['wheels_moved'] * 1e3:.1f} mm onto the common cells"
+    if "sensitivity_responses" in data.attrs:
+        told += (
+            f". The sensitivities took {int(data.attrs['sensitivity_contacts'])} contacts and "
+            f"{int(data.attrs['sensitivity_responses'])} responses more, of the classes and seasons that do "
+            f"{100 * float(data.attrs['sensitivity_coverage']):.0f} % of the governing damage"
+        )
+    return told + "."
+
+
+def _pictures(data: xr.Dataset) -> list[Picture]:
+    return [
+        *picture(
+            "Life by criterion",
+            "Years from the opening until Miner's sum is 1 at the worst place. Orange: the criterion that governs.",
+            lambda: life_years(data),
+        ),
+        *picture(
+            "What the life depends on",
+            "How the governing life changes as each input grows by 5 %, temperature by 1 °C; the three that weigh "
+            "most are bold. Strength: the strain or stress that the law allows.",
+            lambda: life_inputs(data),
+        ),
+        *picture(
+            "Damage across the wheel path",
+            "Miner's sum of every criterion after wander; dots mark the worst places. A full line above the dashed "
+            "ones means that cracks start at the surface.",
+            lambda: life_damage(data),
+            wide=True,
+        ),
+        *picture(
+            "Who does the damage, and when",
+            "Shares of the governing damage at its worst place by class of axles and season; blank: below 0.5 %.",
+            lambda: life_shares(data),
+            wide=True,
+        ),
+    ]

@@ -1,0 +1,93 @@
+"""Figures and the report of a life: what they show is what the data say."""
+
+import numpy as np
+import pytest
+
+from treadload.damage import AxleClass, Climate, DesignCriterion, FatigueLine, FrenchSubgrade, Traffic, Wander, miner
+from treadload.errors import InputError
+from treadload.plots import life_damage, life_inputs, life_shares, life_years
+from treadload.reporting import write_report
+from treadload.reporting.life import exhausted, life_report, sentence
+from treadload.results import life_tree, load, save
+from treadload.variables import dataset
+
+LINE = FatigueLine(100e-6, -0.2)
+CRITERIA = (DesignCriterion("top-down", LINE, place="top"), DesignCriterion("soil", FrenchSubgrade(), -1, "top"))
+Y = np.arange(-40, 41) * 0.02
+
+
+def a_life(years=20.0, passes=1e5):
+    peaks = np.array([[[150e-6, 80e-6], [100e-6, 60e-6]], [[300e-6, 250e-6], [200e-6, 150e-6]]])
+    values = peaks[..., None] * np.exp(-0.5 * (Y / 0.1) ** 2)
+    classes = (AxleClass("light", 0.7, 20e3, 7e5), AxleClass("heavy", 0.3, 35e3, 8e5))
+    traffic = Traffic(classes, passes, 0.02, wander=Wander.normal(0.2), years=years)
+    angle = np.full(values.shape, np.pi / 2)
+    dip = np.where(np.arange(2)[:, None, None, None] == 1, np.nan, np.pi / 2) * np.ones(values.shape)
+    life = miner(values, CRITERIA, traffic, Climate.equal_parts([5.0, 25.0], ["cold", "warm"]), y=Y,
+                 cracks=(angle, dip))  # fmt: skip
+    return life
+
+
+def a_tree(**asked):
+    names = ["thickness of base", "temperature (per °C)", "passes"]
+    more = dataset({"elasticity": (("input",), [3.0, -0.05, -0.8])}, {"input": names}, criterion="top-down",
+                   coverage=0.9, contacts=3, responses=4)  # fmt: skip
+    return life_tree(a_life(**asked), sensitivity=more, title="a road")
+
+
+def test_bars_are_as_long_as_the_lives():
+    life = a_life()
+    ax = life_years(life).axes[0]
+    bars = sorted(patch.get_width() for patch in ax.patches)
+    assert bars == pytest.approx(sorted(life.dataset["life_years"].to_numpy()), rel=1e-9)
+    assert any("design, 20 years" in text.get_text() for text in ax.texts)
+
+
+def test_the_damage_is_that_of_the_design_life():
+    life = a_life()
+    lines = life_damage(life).axes[0].get_lines()
+    peaks = [np.nanmax(line.get_ydata()) for line in lines if len(line.get_xdata()) > 2]
+    assert peaks == pytest.approx(life.dataset["design_damage"].to_numpy(), rel=1e-9)
+
+
+def test_the_map_holds_the_shares():
+    life = a_life()
+    mesh = life_shares(life).axes[0].collections[0]
+    share = life.dataset["damage_share"].sel(criterion=life.governing).to_numpy()
+    assert np.asarray(mesh.get_array()) == pytest.approx(100 * share)
+    assert float(np.sum(mesh.get_array())) == pytest.approx(100, rel=1e-9)
+    with pytest.raises(InputError, match="no criterion 'nothing'"):
+        life_shares(life, "nothing")
+
+
+def test_inputs_are_changed_by_five_per_cent_and_a_degree():
+    bars = [patch.get_width() for patch in life_inputs(a_tree()["life"].to_dataset()).axes[0].patches]
+    assert bars == pytest.approx([100 * (1.05**3 - 1), 100 * (np.exp(-0.05) - 1), 100 * (1.05**-0.8 - 1)])
+    with pytest.raises(InputError, match="elasticity"):
+        life_inputs(a_life())
+
+
+def test_the_sentence_tells_the_margin():
+    life = a_life(years=20.0, passes=1e3)
+    used = float(life.dataset["design_damage"].sel(criterion=life.governing))
+    assert f"use up {100 * used:.0f} %" in sentence(life.dataset)
+    assert not exhausted(life.dataset)
+    early = a_life(passes=1e7)
+    assert "before the 20 years of design are over" in sentence(early.dataset)
+    assert exhausted(early.dataset)
+    assert "never used up" in sentence(a_life(passes=0.0).dataset) or "ever used up" in sentence(
+        a_life(passes=0.0).dataset
+    )
+
+
+def test_the_report_holds_verdict_criteria_laws_and_solves(tmp_path):
+    save(a_tree(), tmp_path / "life.nc")
+    tree = load(tmp_path / "life.nc")
+    written = life_report("a road", tree["life"].to_dataset())
+    assert [row[0] for row in written.rows] == ["top-down", "soil"]
+    assert written.rows[0][6].startswith("transverse (100 %")
+    assert written.rows[1][6] == "ruts, no crack"
+    assert len(written.pictures) == 4
+    page = write_report({"a road": tree}, tmp_path / "r.html").read_text()
+    for words in ("depends most on", "thickness of base: +16 %", "NF P98-086", "Who does the damage", "every axle"):
+        assert words in page
