@@ -324,31 +324,6 @@ def gather(loads: Load | Sequence[Load]) -> tuple[PlacedLoad, ...]:
     return tuple(_load(item) for item in several)
 
 
-def common_grid(several: Sequence[PlacedLoad]) -> Grid:
-    """Smallest grid that holds every load's cells; InputError if the loads do not share one lattice."""
-    loads = [load for load in several if isinstance(load, GridLoad)]
-    if len(loads) < len(several):
-        raise InputError("a disc or a rectangle has no grid of its own; give x and y of the result")
-    first = loads[0].grid
-    low_x = low_y = 0
-    high_x, high_y = first.nx, first.ny
-    for number, grid in enumerate((load.grid for load in loads[1:]), start=2):
-        shift_x, shift_y = (grid.x0 - first.x0) / first.dx, (grid.y0 - first.y0) / first.dy
-        apart = (shift_x - round(shift_x), shift_y - round(shift_y), grid.dx / first.dx - 1, grid.dy / first.dy - 1)
-        if max(abs(part) for part in apart) > _EVEN:
-            raise InputError(f"load {number} ({grid}) and load 1 ({first}) share no grid; give x and y of the result")
-        low_x, high_x = min(low_x, round(shift_x)), max(high_x, round(shift_x) + grid.nx)
-        low_y, high_y = min(low_y, round(shift_y)), max(high_y, round(shift_y) + grid.ny)
-    return Grid(
-        high_x - low_x,
-        high_y - low_y,
-        first.dx,
-        first.dy,
-        first.x0 + low_x * first.dx,
-        first.y0 + low_y * first.dy,
-    )
-
-
 def _check_uniform(kind: str, sizes: dict[str, float], pressure: float, others: dict[str, float]) -> None:
     for name, value in sizes.items():
         if not (math.isfinite(value) and value > 0):

@@ -17,9 +17,10 @@ from treadload.pavement import Pavement
 from treadload.response.fields import response_dataset
 from treadload.response.half_space import half_space_response
 from treadload.response.layered import layered_response
-from treadload.response.loads import GridLoad, Load, SurfaceLoad, UniformRectangle, common_grid, gather
+from treadload.response.loads import GridLoad, Load, SurfaceLoad, UniformRectangle, gather
 from treadload.response.moving import MovingFields, at_speed, moving_response
 from treadload.response.solution import Response
+from treadload.response.superposition import common_grid, merged
 
 
 def solve_response(
@@ -68,7 +69,7 @@ def solve_response(
     at_x = _coordinates("x", x if x is not None or grid is None else grid.x)
     at_y = _coordinates("y", y if y is not None or grid is None else grid.y)
 
-    cells = [load.cell if isinstance(load, UniformRectangle) else load for load in superposed]
+    cells = merged([load.cell if isinstance(load, UniformRectangle) else load for load in superposed])
     road = at_speed(road, speed)
     solved = _mean(
         [_solve(cells, limit, speed, at_depths, at_x, at_y, below=side == "below") for limit in road.bond_limits]

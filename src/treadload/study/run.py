@@ -17,7 +17,7 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, Response, solve_response
-from treadload.response.loads import common_grid
+from treadload.response.superposition import common_grid
 from treadload.results import road_in_rows, to_tree
 
 Progress = Callable[[str], None]

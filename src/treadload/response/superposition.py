@@ -1,0 +1,98 @@
+"""Gridded loads on one lattice: the grid that holds them, and their sum as one load."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from treadload.errors import InputError
+from treadload.grid import Grid
+from treadload.response.loads import GridLoad, PlacedLoad, SurfaceLoad
+
+# Round-off of coordinates that went through a file, as a part of a cell.
+_EVEN = 1e-4
+# Loads whose cells are this near to each other, as a part of a cell, add up cell by cell.
+_SAME = 1e-8
+# Most cells of a sum, by those of its parts: the ground between wheels costs too.
+_GROWTH = 1.5
+
+
+def common_grid(several: Sequence[PlacedLoad]) -> Grid:
+    """Smallest grid that holds every load's cells; InputError if the loads do not share one lattice."""
+    loads = [load for load in several if isinstance(load, GridLoad)]
+    if len(loads) < len(several):
+        raise InputError("a disc or a rectangle has no grid of its own; give x and y of the result")
+    whole = first = loads[0].grid
+    for number, grid in enumerate((load.grid for load in loads[1:]), start=2):
+        if _apart(first, grid) > _EVEN:
+            raise InputError(f"load {number} ({grid}) and load 1 ({first}) share no grid; give x and y of the result")
+        whole = _union(whole, grid)
+    return whole
+
+
+def merged(loads: Sequence[SurfaceLoad]) -> list[SurfaceLoad]:
+    """Loads with the same sum, fewer where gridded ones share a lattice and little ground lies between them.
+
+    Dual wheels a whole number of cells apart become one load, so that they cost what one does.
+    """
+    rest: list[SurfaceLoad] = []
+    sums: list[GridLoad] = []
+    for load in loads:
+        if not isinstance(load, GridLoad):
+            rest.append(load)
+            continue
+        for place, other in enumerate(sums):
+            if _belong(other, load):
+                sums[place] = _sum(other, load)
+                break
+        else:
+            sums.append(load)
+    return [*rest, *sums]
+
+
+def _belong(one: GridLoad, other: GridLoad) -> bool:
+    if one.interpolation != other.interpolation or _apart(one.grid, other.grid) > _SAME:
+        return False
+    whole = _union(one.grid, other.grid)
+    return whole.nx * whole.ny <= _GROWTH * (one.pressure.size + other.pressure.size)
+
+
+def _sum(one: GridLoad, other: GridLoad) -> GridLoad:
+    whole = _union(one.grid, other.grid)
+    total = np.zeros((3, *whole.shape))
+    for load in (one, other):
+        column, row = _shift(whole, load.grid)
+        total[:, row : row + load.grid.ny, column : column + load.grid.nx] += load.array
+    pressure, along, across = total
+    return GridLoad(whole, pressure, along, across, one.interpolation)
+
+
+def _shift(first: Grid, grid: Grid) -> tuple[int, int]:
+    """Whole cells from the first cell of one grid to that of another, along x and y."""
+    return round((grid.x0 - first.x0) / first.dx), round((grid.y0 - first.y0) / first.dy)
+
+
+def _apart(first: Grid, grid: Grid) -> float:
+    """How far two grids are from sharing a lattice, in cells."""
+    column, row = _shift(first, grid)
+    return max(
+        abs((grid.x0 - first.x0) / first.dx - column),
+        abs((grid.y0 - first.y0) / first.dy - row),
+        abs(grid.dx / first.dx - 1),
+        abs(grid.dy / first.dy - 1),
+    )
+
+
+def _union(first: Grid, grid: Grid) -> Grid:
+    """Smallest grid that holds both."""
+    column, row = _shift(first, grid)
+    low_x, low_y = min(0, column), min(0, row)
+    return Grid(
+        max(first.nx, column + grid.nx) - low_x,
+        max(first.ny, row + grid.ny) - low_y,
+        first.dx,
+        first.dy,
+        first.x0 + low_x * first.dx,
+        first.y0 + low_y * first.dy,
+    )
