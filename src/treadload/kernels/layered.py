@@ -25,6 +25,10 @@ from numpy.typing import ArrayLike
 
 from treadload.kernels.arrays import Array
 
+# On a rigid base waves this long, times the depth of the base, stand for all longer ones: digits lost grow like the
+# inverse cube of it and more where ν = 0.5, what is left out shrinks with its fourth power.
+_LONGEST = 1e-3
+
 Scalars = Any
 """Real or complex numbers, one or one per wavenumber."""
 
@@ -81,7 +85,8 @@ def transfer(wavenumbers: ArrayLike, stack: Stack, depths: Sequence[float], belo
     """
     k = np.asarray(wavenumbers, dtype=float)
     pieces = _pieces(stack, depths)
-    passes = _upwards(k, pieces, stack.rigid)
+    used = _shortened(k, stack)
+    passes = _upwards(used, pieces, stack.rigid)
     plane, transverse = _inverse(passes[0].impedance), 1 / passes[0].transverse
     force, shear = np.zeros_like(plane), np.ones_like(transverse)
     force[0, 0] = force[1, 1] = 1
@@ -118,7 +123,24 @@ def transfer(wavenumbers: ArrayLike, stack: Stack, depths: Sequence[float], belo
         put([i for i in rows if not below[i]])
         plane, transverse = after
         put([i for i in rows if below[i]])
+    # What a load does across itself is odd in k.
+    fields[:, [0, 1, 2, 3], [1, 0, 1, 0]] *= k / used
     return Transfer(fields, sliding)
+
+
+def _shortened(k: Array, stack: Stack) -> Array:
+    """The wavenumbers at which waves are computed: on a rigid base none below the limit of long waves.
+
+    A soft spring lets layers drift by long waves of its own; it and the frictionless interface keep theirs.
+    """
+    if not stack.rigid:
+        return k
+    depth = float(stack.interfaces[-1])
+    least = _LONGEST / depth
+    stiffest = max(float(np.abs(g).max()) for g in stack.shear)
+    if any(spring < 1e3 * least**2 * stiffest * depth for spring in stack.spring):
+        return k
+    return np.maximum(k, least)
 
 
 @dataclass(frozen=True)

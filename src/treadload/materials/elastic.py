@@ -20,11 +20,11 @@ class Elastic:
     poisson: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.modulus) and self.modulus > 0):
-            raise InputError(f"modulus must be a positive number of Pa, got {self.modulus}; asphalt is near 5.4e9")
-        if not -1 < self.poisson <= 0.5:
+        if isinstance(self.modulus, str) or not (math.isfinite(self.modulus) and self.modulus > 0):
+            raise InputError(f"modulus must be a positive number of Pa, got {self.modulus!r}; asphalt is near 5.4e9")
+        if isinstance(self.poisson, str) or not -1 < self.poisson <= 0.5:
             raise InputError(
-                f"poisson must lie in (-1, 0.5], got {self.poisson}; rubber is near 0.5, asphalt near 0.35"
+                f"poisson must lie in (-1, 0.5], got {self.poisson!r}; rubber is near 0.5, asphalt near 0.35"
             )
 
     @property

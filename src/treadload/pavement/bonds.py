@@ -20,7 +20,7 @@ class Bond:
     stiffness: float
 
     def __post_init__(self) -> None:
-        if isinstance(self.stiffness, str) or not self.stiffness >= 0:
+        if isinstance(self.stiffness, str | type(None)) or not self.stiffness >= 0:
             raise InputError(
                 f"the stiffness of a bond must be >= 0 Pa/m, got {self.stiffness}; 0 is frictionless, "
                 "infinity is bonded"

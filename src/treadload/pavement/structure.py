@@ -45,7 +45,10 @@ class Layer:
                 f"{self.material!r}"
             )
         if self.thickness is not None and not (
-            isinstance(self.thickness, Real) and math.isfinite(self.thickness) and self.thickness > 0
+            isinstance(self.thickness, Real)
+            and not isinstance(self.thickness, bool)
+            and math.isfinite(self.thickness)
+            and self.thickness > 0
         ):
             raise InputError(
                 f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness!r}; "
@@ -96,6 +99,8 @@ class Pavement:
     rigid_base: bool = False
 
     def __init__(self, layers: Sequence[Layer], *, rigid_base: bool = False) -> None:
+        if not isinstance(layers, Iterable):
+            raise InputError(f"layers must be a list of Layer, got {type(layers).__name__}; write Pavement([...])")
         object.__setattr__(self, "layers", tuple(layers))
         object.__setattr__(self, "rigid_base", bool(rigid_base))
         if not self.layers:

@@ -46,8 +46,10 @@ def at_speed(road: Pavement, speed: float | None) -> Pavement:
 
     Raises InputError for a speed that is negative or missing, for a layer that needs a temperature and for a fluid.
     """
-    if speed is not None and not speed >= 0:
-        raise InputError(f"speed must be >= 0 m/s, got {speed}; loads travel along +x, the other way turn them round")
+    if isinstance(speed, str) or (speed is not None and not speed >= 0):
+        raise InputError(
+            f"speed must be >= 0 m/s, got {speed!r}; loads travel along +x, the other way turn them round"
+        )
     if not road.is_viscoelastic:
         return road
     if speed is None:
