@@ -54,7 +54,9 @@ def test_a_rigid_base():
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"frictionless"', '"glued"', r"pavement\.layers\.1\.bond: .*'bonded', 'half-bonded' or 'frictionless'"),
+        ('"frictionless"', '"glued"', r"pavement\.layers\.1\.bond: .*'bonded', 'half-bonded', 'frictionless' or"),
+        ('"frictionless"', "-1e9", r"a bond is .* got -1000000000\.0"),
+        ('thickness = "60 mm"', 'thickness = "infinite"', "leave its thickness out"),
         ('"1000 MPa/m"', '"-1 MPa/m"', "must be >= 0 Pa/m"),
         ('"1000 MPa/m"', '"1000 MPa"', "Pa/m"),
         (

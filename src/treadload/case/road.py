@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Tag, model_validator
+from pydantic import BeforeValidator, Discriminator, Tag, model_validator
 
 from treadload.case.asphalt import RoadMaterial
 from treadload.case.fields import Celsius, Frequency, Length, Part, Stiffness
@@ -35,6 +35,19 @@ class BondPart(Part):
     stiffness: Stiffness
 
 
+def _known_bond(value: Any) -> Any:
+    """A bond in one of our forms. Raises ValueError that says which they are."""
+    if isinstance(value, dict | BondPart) or (isinstance(value, str) and value in _BONDS):
+        return value
+    raise ValueError(f'a bond is {", ".join(map(repr, _BONDS))} or {{ stiffness = "1000 MPa/m" }}, got {value!r}')
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, str) and value.strip().lower().startswith("inf"):
+        raise ValueError(f"a layer that goes down for ever is the last one: leave its thickness out, got {value!r}")
+    return value
+
+
 class LayerPart(Part):
     """`[[pavement.layers]]`, from the surface down; the last one has no thickness unless the base is rigid.
 
@@ -44,11 +57,12 @@ class LayerPart(Part):
 
     material: RoadMaterial | None = None
     mix: str | None = None
-    thickness: Length | None = None
+    thickness: Annotated[Length | None, BeforeValidator(_finite)] = None
     name: str = ""
     bond: Annotated[
         Annotated[Literal["bonded", "half-bonded", "frictionless"], Tag("word")] | Annotated[BondPart, Tag("spring")],
         Discriminator(lambda v: "word" if isinstance(v, str) else "spring"),
+        BeforeValidator(_known_bond),
     ] = "bonded"
 
     @model_validator(mode="after")
