@@ -16,6 +16,7 @@ def main() -> None:
     # The chain first, so that its cold figure is cold.
     import whole_chain  # noqa: I001
     import layered
+    import life
     import normal_contact
     import rolling_contact
     import peers
@@ -26,6 +27,7 @@ def main() -> None:
     rolling_contact.main()
     peers.main()
     layered.main()
+    life.main()
 
 
 if __name__ == "__main__":

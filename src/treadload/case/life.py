@@ -34,7 +34,7 @@ class LifeCase(FilePart):
     """
 
     spacing: Length = 6e-3
-    tolerance: Number = 3e-3
+    tolerance: Number = 5e-3
     tire: TirePart
     pavement: DesignRoadPart
     traffic: TrafficPart

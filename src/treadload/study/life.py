@@ -23,7 +23,7 @@ def design_life(
     criteria: Sequence[Criterion],
     *,
     spacing: float = 6e-3,
-    tolerance: float = 3e-3,
+    tolerance: float = 5e-3,
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> Life:

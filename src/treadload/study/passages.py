@@ -94,7 +94,7 @@ def solve_passages(
     criteria: Sequence[Criterion],
     *,
     spacing: float = 6e-3,
-    tolerance: float = 3e-3,
+    tolerance: float = 5e-3,
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> Passages:
@@ -114,7 +114,7 @@ def solve_passages(
     if not criteria:
         raise InputError("a life needs at least one criterion, got none")
     if not 0 <= tolerance < 1:
-        raise InputError(f"tolerance must lie in [0, 1), got {tolerance}; 3e-3 is the default")
+        raise InputError(f"tolerance must lie in [0, 1), got {tolerance}; 5e-3 is the default")
     classes, seasons = traffic.classes, climate.seasons
     for criterion in criteria:
         criterion.depth(road)

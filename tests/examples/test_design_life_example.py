@@ -1,0 +1,32 @@
+"""The example of a design ends in a page whose numbers hold together; on coarser cells and fewer months."""
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+import treadload as tl
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "design_life"
+
+
+@pytest.mark.slow
+def test_design_life(tmp_path, capsys):
+    result = runpy.run_path(str(EXAMPLE / "run.py"))["main"](tmp_path, spacing=12e-3)
+    years = {c.name: result.life.years(c.name) for c in result.life.criteria}
+    # Cells of 6 mm give 40 and 103 years: deep criteria feel the cells by their forces alone, 3 %.
+    assert years["base, bottom-up"] == pytest.approx(40.2, rel=0.05)
+    assert years["platform, rutting"] == pytest.approx(103, rel=0.05)
+    said = capsys.readouterr().out
+    assert "base, bottom-up governs" in said
+    assert "9 contacts" in said
+    page = (tmp_path / "life.html").read_text()
+    assert "What the life depends on" in page
+    assert tl.load(tmp_path / "life.nc")["life"].attrs["governing"] == "base, bottom-up"
+
+
+def test_the_design_is_a_valid_case():
+    case = tl.LifeCase.from_toml(EXAMPLE / "design.toml")
+    assert len(case.build_traffic().classes) == 9
+    assert len(case.build_climate().seasons) == 12
+    assert [row.name for row in case.build_road().layers] == ["EB-BBSG3", "EB-GB3", "PF3"]
