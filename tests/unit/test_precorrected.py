@@ -43,7 +43,7 @@ def test_interpolation_is_the_sum(way, depth, nodes, monkeypatch):
     assert used == "precorrected"
     monkeypatch.undo()
     exact, _ = both(way, load, DX, DX, depth, x, y, "direct")
-    # 1e-8 of the largest value is the bound; steps between all cells make 5e-9 of it.
+    # 1e-8 of the largest value is the bound; steps between all cells are the hardest to keep it for.
     assert apart(found, exact) < 1e-8
 
 

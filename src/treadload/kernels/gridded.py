@@ -12,7 +12,7 @@ from treadload.kernels.lattice import Source, as_lattices, by_lattices, loaded, 
 from treadload.kernels.precorrected import FINEST, STENCIL, interpolated, nodes_of, window
 
 # Measured, in pairs of a point and a cell: a padded cell of a lattice, and a cell near a point, corrected.
-_LATTICE_COST, _NEAR_COST = 2.0, 1.5
+_LATTICE_COST, _NEAR_COST = 3.0, 0.5
 
 Method = Literal["auto", "fft", "precorrected", "direct"]
 _Way = tuple[float, str, int]

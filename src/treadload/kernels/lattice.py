@@ -19,7 +19,7 @@ from treadload.kernels.arrays import Array, ComplexArray
 # Output coordinates whose place within a cell differs by less than this part of a cell share a lattice.
 _SAME_PLACE = 1e-6
 # Points times cells evaluated at once: keeps the temporaries in cache.
-_BLOCK = 50_000
+_BLOCK = 17_000
 
 Indices = NDArray[np.integer[Any]]
 Use = tuple[int, int]

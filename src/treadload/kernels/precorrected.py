@@ -22,7 +22,7 @@ from treadload.kernels.lattice import Indices, Source, blocks, on_lattice
 
 # Nodes each way that a point interpolates between, and how many of their spacings lie between a point and the
 # nearest cell that is not corrected.
-STENCIL, _REACH = 12, 11.0
+STENCIL, _REACH = 12, 13.0
 # Most nodes in the shorter side of a cell.
 FINEST = 5
 
