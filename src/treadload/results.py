@@ -128,7 +128,7 @@ def to_tree(
     """One tree of results: /contact, /response, /slice_along, /slice_across, /bowl, /damage.
 
     A response on a single row of y becomes /slice_along, on a single column of x /slice_across, on a single line of
-    the surface /bowl. A GridLoad, recorded in place of a contact, becomes /contact.
+    the surface /bowl, one at a list of points /points. A GridLoad, recorded in place of a contact, becomes /contact.
     road: at its temperature; left out, that of the contact.
     The root carries the title, the case as TOML text, the layers of the road as JSON, versions, the date and the
     citations as JSON.
@@ -316,6 +316,8 @@ def _footprint(load: GridLoad, road: Pavement | None) -> xr.Dataset:
 
 
 def _response_group(data: xr.Dataset) -> str:
+    if "point" in data.sizes:
+        return "points"
     if data.sizes["depth"] == 1 and data.sizes["y"] == 1 and data.sizes["x"] > 1:
         return "bowl"
     if data.sizes["y"] == 1 and data.sizes["x"] > 1:

@@ -188,11 +188,11 @@ def dataset(
 ) -> xr.Dataset:
     """Dataset whose variables and coordinates carry their units and long names.
 
-    fields: name → (dimensions, array). coordinates: name → 1-D array (or list of labels).
+    fields: name → (dimensions, array). coordinates: name → 1-D array (or list of labels), or (dimension, array).
     """
-    coords = {
-        name: (name, np.asarray(values), attributes(name) if name in VARIABLES else {})
-        for name, values in coordinates.items()
-    }
+    coords = {}
+    for name, given in coordinates.items():
+        dimension, values = given if isinstance(given, tuple) else (name, given)
+        coords[name] = (dimension, np.asarray(values), attributes(name) if name in VARIABLES else {})
     variables = {name: (dims, np.asarray(data), attributes(name)) for name, (dims, data) in fields.items()}
     return xr.Dataset(variables, coords, dict(attrs))

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.damage.direction import HasDataset
+from treadload.damage.direction import HasDataset, gridded
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
@@ -79,7 +79,7 @@ def compute_criteria(
     """
     if not 0 < mazars_onset < 0.01:
         raise InputError(f"mazars_onset must be a plain strain in (0, 0.01), got {mazars_onset}; 100e-6 is usual")
-    data = response.dataset
+    data = gridded(response)
     chosen = [name for name in NAMES if not _missing(data, name)] if names is None else list(names)
     for name in chosen:
         if name not in NAMES:
@@ -133,7 +133,7 @@ def tension_behind(response: HasDataset) -> xr.Dataset:
     Raises InputError without the surface, a load on it, or points behind it.
     Source: the mechanism is Tamagny's, as cited by the paper of this method; the definition is this package's.
     """
-    data = response.dataset
+    data = gridded(response)
     if not (data["depth"] == 0).any():
         raise InputError("the tension behind the load is one of the surface; solve the response with depth 0")
     surface = data.sel(depth=[0.0])

@@ -31,6 +31,16 @@ class HasDataset(Protocol):
         """The fields."""
 
 
+def gridded(response: HasDataset) -> xr.Dataset:
+    """A response's dataset; InputError for one at a list of points."""
+    data = response.dataset
+    if "point" in data.dims:
+        raise InputError(
+            f"this needs a grid, the response is one at {data.sizes['point']} points; solve_response with x and y"
+        )
+    return data
+
+
 def crack_plane(direction: Array) -> tuple[Array, Array]:
     """Angle of the trace and dip of the plane perpendicular to a unit vector (..., 3).
 
@@ -88,7 +98,7 @@ def envelope(
     Raises InputError for a response of a single x.
     """
     check_tolerance(oblique_tolerance)
-    data = response.dataset
+    data = gridded(response)
     if data.sizes["x"] < 3:
         raise InputError(
             f"the passage of a wheel needs the response along x, got {data.sizes['x']} position(s); "

@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from treadload import variables
 from treadload.damage.criteria import STRESS, field
-from treadload.damage.direction import HasDataset
+from treadload.damage.direction import HasDataset, gridded
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
@@ -43,7 +43,7 @@ def residual_after(response: HasDataset, *, spacing: float, passes: int) -> xr.D
         raise InputError(f"spacing must be a positive number of metres, got {spacing}")
     if passes < 1:
         raise InputError(f"passes must be at least 1, got {passes}")
-    data = response.dataset.sortby("x")
+    data = gridded(response).sortby("x")
     x = data["x"].to_numpy()
     reach = passes * spacing
     kept = x - reach >= x[0] - 1e-9 * reach
@@ -122,7 +122,7 @@ def add_thermal_stress(response: HasDataset, stress: ArrayLike) -> xr.Dataset:
     "plane". Invariants of the stress follow; the strains stay those of the traffic, for a restrained road that cools
     does not strain. Linear viscoelasticity lets the two add up. Raises InputError.
     """
-    data = response.dataset
+    data = gridded(response)
     given = np.asarray(stress, dtype=float)
     if given.shape not in ((), (data.sizes["depth"],)) or not np.isfinite(given).all():
         raise InputError(

@@ -15,7 +15,7 @@ import xarray as xr
 from treadload import variables
 from treadload.damage.bond import InterfaceStrength, ShearFatigue
 from treadload.damage.design import Side
-from treadload.damage.direction import HasDataset
+from treadload.damage.direction import HasDataset, gridded
 from treadload.damage.fatigue import warnings_of
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -61,7 +61,7 @@ def interface_fields(above: HasDataset, below: HasDataset | None = None) -> xr.D
     m, and between, the names of both layers.
     Raises InputError for a response without interfaces, or without their depths.
     """
-    data = above.dataset
+    data = gridded(above)
     names = _layer_names(data)
     depths = np.atleast_1d(np.asarray(data.attrs.get("interfaces", []), dtype=float))[: len(names) - 1]
     if not len(depths):
@@ -74,7 +74,7 @@ def interface_fields(above: HasDataset, below: HasDataset | None = None) -> xr.D
         "interface_pressure": (_DIMS, -rows["stress_zz"].to_numpy()),
     }
     if below is not None:
-        under = _at_depths(below.dataset, depths)
+        under = _at_depths(gridded(below), depths)
         if any(not np.array_equal(under[name], rows[name]) for name in ("x", "y")):
             raise InputError(
                 "the responses above and below must have the same x and y; solve both at the same points"

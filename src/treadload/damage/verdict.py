@@ -23,6 +23,7 @@ from treadload.damage.direction import (
     check_tolerance,
     crack_plane,
     extension,
+    gridded,
     orientation,
 )
 from treadload.damage.fatigue import SUBGRADE, TENSION, FatigueLine, PowerLaw, warnings_of
@@ -128,7 +129,7 @@ def assess(
         raise InputError(
             f"a verdict reads an extension, but {line} reads the {line.quantity}; take a law of extension"
         )
-    plane = _plane(response.dataset, depth)
+    plane = _plane(gridded(response), depth)
     largest, direction = extension(plane, strain)
     crack_angle, dip = crack_plane(direction)
     opens = largest > 0

@@ -20,6 +20,7 @@ from numpy.polynomial.chebyshev import chebpts1, chebvander
 from scipy.special import j0, j1
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.points import Points
 from treadload.kernels.wavenumbers import quadrature
 
 # Points of an interpolating panel. The field is singular nearest at a ± i D, D the `clearance`: a panel as wide as
@@ -57,16 +58,20 @@ class AxialPlanes:
     clearance: float
 
 
-def synthesise_discs(discs: Sequence[Disc], planes: AxialPlanes, x: Array, y: Array, length: float) -> Array:
+def synthesise_discs(
+    discs: Sequence[Disc], planes: AxialPlanes, x: Array, y: Array, length: float, at: Points | None = None
+) -> Array:
     """Stress and displacement of a layered body under discs of uniform pressure.
 
     discs: that add up. x: (mx,), y: (my,), m, any coordinates. length: characteristic length of the layers, m.
+    at: of the grid of x and y only these points.
     Returns (nz, 9, my, mx): xx, yy, zz, xy, xz, yz in Pa, tension positive, then u_x, u_y, u_z in m, z down.
     Cost: wavenumbers times distances or times some 20 distances for each doubling of r, whichever is less.
     """
-    result = np.zeros((len(planes.limit), 9, len(y), len(x)))
-    across = [(x[None, :] - disc.x, y[:, None] - disc.y) for disc in discs]
+    lines = (x[None, :], y[:, None]) if at is None else (x[None, at.columns], y[None, at.rows])
+    across = [(lines[0] - disc.x, lines[1] - disc.y) for disc in discs]
     distance = [np.hypot(*apart) for apart in across]
+    result = np.zeros((len(planes.limit), 9, *distance[0].shape))
     farthest = max(float(r.max()) for r in distance)
     sizes = sorted({disc.radius for disc in discs})
     knots = {}
@@ -77,11 +82,11 @@ def synthesise_discs(discs: Sequence[Disc], planes: AxialPlanes, x: Array, y: Ar
         edges = panels(radius, float(distinct[-1]), planes.clearance)
         few = len(distinct) <= _POINTS * (len(edges) - 1)
         knots[radius] = (distinct, None) if few else (_points(edges), edges)
-    tables = integrals({radius: at for radius, (at, _) in knots.items()}, planes, length)
+    tables = integrals({radius: nodes for radius, (nodes, _) in knots.items()}, planes, length)
     for disc, (dx, dy), r in zip(discs, across, distance, strict=True):
-        at, edges_or_none = knots[disc.radius]
+        nodes, edges_or_none = knots[disc.radius]
         if edges_or_none is None:
-            values = tables[disc.radius][..., np.searchsorted(at, r, side="right") - 1]
+            values = tables[disc.radius][..., np.searchsorted(nodes, r, side="right") - 1]
         else:
             values = interpolated(tables[disc.radius], edges_or_none, r)
         _add(result, disc.pressure, values, dx, dy, r, planes)

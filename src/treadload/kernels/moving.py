@@ -19,6 +19,7 @@ from scipy.special import spherical_jn
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.points import Points
 from treadload.kernels.wavenumbers import Spectrum, across_lines, gauss, interleaved, panels, plane_fields
 
 # Wavenumbers of a block: keeps what the layers and depths hold for each near the cache.
@@ -132,20 +133,25 @@ def moving_fields(
     y: Array,
     path: Path,
     across: tuple[Array, Array],
+    at: Points | None = None,
 ) -> Array:
     """Stress, displacement and strain under loads that move.
 
     spectra: of loads that add up. levels: (nz) depths whose waves matter up to `limit`, 1/m. x: (mx,), y: (my,), m,
     moving with the loads. path: panels in kx. across: nodes and weights in ky, see `wavenumbers.quadrature`.
+    at: of the grid of x and y only these points.
     Returns (nz, 15, my, mx): stress xx, yy, zz, xy, xz, yz in Pa, displacement x, y, z in m, strain as stress.
     Works in blocks of wavenumbers; one pass through the layers serves all levels; far points cost no more.
     """
-    result = np.zeros((len(levels), 15, len(y), len(x)))
+    result = np.zeros((len(levels), 15, *((len(y), len(x)) if at is None else at.shape)))
     for block, lines in _lines(spectra, body, levels, limit, y, path.nodes, across):
         back = interleaved(path.lines(x, block))
         for field, level, line in zip(result, levels, lines, strict=True):
             nu, compliance = body.poisson[level.layer], 1 / body.modulus(level.layer, path.nodes[block])
             everything = np.concatenate([line, _unit_strain(line[:, :6], nu) * compliance], axis=1)
+            if at is not None:
+                field += at.product(everything.view(float).swapaxes(0, 1), back)
+                continue
             flat = everything.reshape(len(y) * 15, -1).view(float)
             field += (flat @ back).reshape(len(y), 15, len(x)).transpose(1, 0, 2)
     return result

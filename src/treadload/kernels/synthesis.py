@@ -22,6 +22,7 @@ from functools import lru_cache
 import numpy as np
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.points import Points
 from treadload.kernels.wavenumbers import gauss, tabulated
 
 # Errors by a field's largest value, measured: 1e-11 of stress and strain, 1e-9 of displacement.
@@ -99,11 +100,12 @@ def synthesise_cells(
     y: Array,
     along: tuple[Array, Array],
     across: tuple[Array, Array],
+    at: Points | None = None,
 ) -> Array:
     """Stress and displacement of elastic layers under gridded loads.
 
     loads: that add up. planes: (nz) depths. x: (mx,), y: (my,), m, any coordinates. along, across: nodes and
-    weights in kx and in ky, see `rule`.
+    weights in kx and in ky, see `rule`. at: of the grid of x and y only these points.
     Returns (nz, 9, my, mx): xx, yy, zz, xy, xz, yz in Pa, tension positive, then u_x, u_y, u_z in m, z down. Works
     in blocks of kx; the cost is that of the wavenumbers, whatever the number of cells times points.
     """
@@ -113,7 +115,7 @@ def synthesise_cells(
     tables = [tabulated(_radial(plane), smallest, 1.5 * plane.limit) for plane in planes]
     rows = [int(np.searchsorted(ky_all, plane.limit, side="right")) for plane in planes]
     backs = [_back(ky_all[:n], wy_all[:n] / math.pi**2, y).transpose(0, 3, 1, 2) for n in rows]
-    sums = np.zeros((len(planes), 9, len(y), len(x)))
+    sums = np.zeros((len(planes), 9, *((len(y), len(x)) if at is None else at.shape)))
     spectra = [_towards(ky_all[: max(rows)], cells.dy, cells.y0, cells.load.shape[1], cells.order) for cells in loads]
     step = max(1, _BLOCK // max(rows))
     for start in range(0, len(kx_all), step):
@@ -134,7 +136,7 @@ def synthesise_cells(
             k = np.hypot(kx[None, :columns], ky_all[:n, None])
             radial = np.ascontiguousarray(np.moveaxis(table(k), -1, 0))
             waves = _waves(load[..., :n, :columns], None if part is None else part[..., :n, :columns], radial)
-            _add(total, waves, back.reshape(3, len(y), -1), out[:, :, :columns].reshape(3, -1, len(x)))
+            _add(total, waves, back.reshape(3, len(y), -1), out[:, :, :columns].reshape(3, -1, len(x)), at)
     return np.stack([_fields(total, plane) for total, plane in zip(sums, planes, strict=True)])
 
 
@@ -199,9 +201,10 @@ def _waves(load: Array, divergence: Array | None, radial: Array) -> Array:
     return waves.reshape(len(waves), 2, 2 * rows, count)
 
 
-def _add(total: Array, waves: Array, back: Array, out: Array) -> None:
+def _add(total: Array, waves: Array, back: Array, out: Array, at: Points | None) -> None:
     """Add a block to u_x, u_y, u_z, e_xx, e_yy, 2 e_xy, f_x, f_y, f_z (9, my, mx)."""
     sheared = len(waves) == 8
+    product = np.matmul if at is None else at.product
 
     def lines(derivative: int, count: int) -> list[Array]:
         """The first waves and their derivative on lines of y, (my, 2 nkx) each."""
@@ -216,7 +219,7 @@ def _add(total: Array, waves: Array, back: Array, out: Array) -> None:
         at_value |= {6: value[6], 7: value[7] - slope[1]}
         at_slope |= {3: value[2], 5: value[3] - 2 * slope[0]}
     for terms, matrix in ((at_value, out[0]), (at_slope, out[1]), ({3: -value[0]}, out[2])):
-        total[list(terms)] += np.stack(list(terms.values())) @ matrix
+        total[list(terms)] += product(np.stack(list(terms.values())), matrix)
 
 
 def _fields(total: Array, plane: ElasticPlane) -> Array:

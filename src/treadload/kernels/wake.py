@@ -22,6 +22,7 @@ from scipy.signal import lfilter
 from treadload.kernels.arrays import Array
 from treadload.kernels.displacement import displacement_on_grid
 from treadload.kernels.interior import stress_on_grid
+from treadload.kernels.points import Points
 
 # Cells along and across a panel of the far wake, no closer than it is long: 5.8^-8 of its field is left.
 _CELLS = 8
@@ -51,28 +52,56 @@ class Cells:
 
 
 def delayed_fields(
-    cells: Cells, terms: Sequence[Term], depths: Array, shear: float, poisson: float, x: Array, y: Array
+    cells: Cells,
+    terms: Sequence[Term],
+    depths: Array,
+    shear: float,
+    poisson: float,
+    x: Array,
+    y: Array,
+    at: Points | None = None,
 ) -> tuple[Array, Array]:
     """Stress and displacement that q gives an elastic half-space.
 
     cells: the load p. terms: of the creep compliance. depths: (nz,), m. shear: G of E₀, Pa. poisson: ν.
-    x: (mx,), y: (my,), m. Returns (nz, 6, my, mx), Pa, and (nz, 3, my, mx), m. Along x the field is taken
-    between the cells, where steps of shear leave no error O(dx), and interpolated with cubics.
+    x: (mx,), y: (my,), m. at: of the grid of x and y only these points. Returns (nz, 6, my, mx), Pa, and
+    (nz, 3, my, mx), m. Along x the field is taken between the cells, where steps of shear leave no error O(dx), and
+    interpolated with cubics.
     """
     clear = max(float(np.ptp(x)) / 2, float(np.ptp(y)) / 2, cells.load.shape[1] * cells.dy, 2 * cells.dx)
     rear = cells.x0 - 0.5 * cells.dx
     behind = math.ceil((rear - min(rear, float(x.min())) + clear) / cells.dx)
     wake, remains = _near(cells, terms, behind)
     start = cells.x0 - behind * cells.dx
-    edges, weights = _cubics((x - start) / cells.dx + 0.5)
-    at = start + cells.dx * (edges - 0.5)
-    fields = _fields(Cells(wake, cells.dx, cells.dy, start, cells.y0), depths, shear, poisson, at, y) @ weights.T
-    few_x, from_x = _carriers(x)
-    few_y, from_y = _carriers(y)
-    far = np.zeros((*fields.shape[:2], len(few_y), len(few_x)))
-    for panel in _far(cells, remains, [length for _, length in terms], start - 0.5 * cells.dx, clear):
-        far += _fields(panel, depths, shear, poisson, few_x, few_y)
-    fields += from_y @ far @ from_x.T
+    trail = Cells(wake, cells.dx, cells.dy, start, cells.y0)
+
+    def near(x: Array, y: Array) -> Array:
+        edges, weights = _cubics((x - start) / cells.dx + 0.5)
+        between = start + cells.dx * (edges - 0.5)
+        result: Array = _fields(trail, depths, shear, poisson, between, y) @ weights.T
+        return result
+
+    panels = _far(cells, remains, [length for _, length in terms], start - 0.5 * cells.dx, clear)
+
+    def carried(x: Array, y: Array) -> tuple[Array, Array, Array]:
+        (few_x, from_x), (few_y, from_y) = _carriers(x), _carriers(y)
+        far = np.zeros((len(depths), 9, len(few_y), len(few_x)))
+        for panel in panels:
+            far += _fields(panel, depths, shear, poisson, few_x, few_y)
+        return from_y, far, from_x
+
+    def both(x: Array, y: Array) -> Array:
+        from_y, far, from_x = carried(x, y)
+        result: Array = near(x, y) + from_y @ far @ from_x.T
+        return result
+
+    def alone(x: Array, y: Array) -> Array:
+        from_y, far, from_x = carried(x, y)
+        pairs = [near(x[k : k + 1], y[k : k + 1])[..., 0, 0] for k in range(len(x))]
+        result: Array = np.stack(pairs, axis=-1) + np.einsum("pj,zcji,pi->zcp", from_y, far, from_x)
+        return result
+
+    fields = both(x, y) if at is None else at.gathered(both, x, y, alone)
     return fields[:, :6], fields[:, 6:]
 
 

@@ -44,8 +44,11 @@ Source = xr.Dataset | HasDataset
 
 
 def fields_of(source: Source, *names: str) -> xr.Dataset:
-    """The dataset of a source; InputError if it lacks one of the variables."""
+    """The dataset of a source; InputError if it lacks one of the variables or a grid."""
     data = source if isinstance(source, xr.Dataset) else source.dataset
+    if "point" in data.dims:
+        count = data.sizes["point"]
+        raise InputError(f"a figure needs a grid, the response is one at {count} points; solve_response with x and y")
     missing = [name for name in names if name not in data.variables]
     if missing:
         known = ", ".join(sorted(map(str, data.data_vars))) or "nothing"

@@ -23,32 +23,42 @@ def response_dataset(
     x: Array,
     *,
     displacement: Array | None = None,
+    points: bool = False,
     **attrs: Any,
 ) -> xr.Dataset:
     """Dataset (depth, y, x) of the tensors, the displacement, the principal strains and the invariants.
 
     stress: (6, nz, ny, nx), Pa, and strain: (6, nz, ny, nx), both in the order of `COMPONENTS`, tension
     positive, tensor shear. depths: (nz,), y: (ny,), x: (nx,), m. displacement: (3, nz, ny, nx), m, z down, or
-    None. attrs: attributes of the dataset.
+    None. points: True for a list of n points, whose tensors are (6, nz, 1, n), y and x both (n,); the dataset then
+    is (depth, point). attrs: attributes of the dataset.
     principal_direction_1 has a last dimension `component` with labels x, y, z.
     """
+    dims: tuple[str, ...] = _DIMS
+    if points:
+        dims = ("depth", "point")
+        stress, strain = stress[:, :, 0], strain[:, :, 0]
+        displacement = None if displacement is None else displacement[:, :, 0]
     values, direction = tensors.principal(strain)
     in_plane, angle = tensors.in_plane_principal(strain)
     fields: dict[str, tuple[tuple[str, ...], Array]] = {
-        **{f"stress_{name}": (_DIMS, part) for name, part in zip(COMPONENTS, stress, strict=True)},
-        **{f"strain_{name}": (_DIMS, part) for name, part in zip(COMPONENTS, strain, strict=True)},
-        **{f"principal_strain_{k + 1}": (_DIMS, values[k]) for k in range(3)},
-        "principal_direction_1": ((*_DIMS, "component"), direction),
-        "in_plane_strain_1": (_DIMS, in_plane),
-        "in_plane_angle_1": (_DIMS, angle),
-        "von_mises_stress": (_DIMS, tensors.von_mises(stress)),
-        "octahedral_shear_stress": (_DIMS, tensors.octahedral_shear(stress)),
-        "mean_stress": (_DIMS, tensors.mean(stress)),
-        "mazars_strain": (_DIMS, tensors.mazars(values)),
+        **{f"stress_{name}": (dims, part) for name, part in zip(COMPONENTS, stress, strict=True)},
+        **{f"strain_{name}": (dims, part) for name, part in zip(COMPONENTS, strain, strict=True)},
+        **{f"principal_strain_{k + 1}": (dims, values[k]) for k in range(3)},
+        "principal_direction_1": ((*dims, "component"), direction),
+        "in_plane_strain_1": (dims, in_plane),
+        "in_plane_angle_1": (dims, angle),
+        "von_mises_stress": (dims, tensors.von_mises(stress)),
+        "octahedral_shear_stress": (dims, tensors.octahedral_shear(stress)),
+        "mean_stress": (dims, tensors.mean(stress)),
+        "mazars_strain": (dims, tensors.mazars(values)),
     }
-    coordinates = {"depth": depths, "y": y, "x": x, "component": ["x", "y", "z"]}
+    places: dict[str, Any] = (
+        {name: ("point", values) for name, values in (("y", y), ("x", x))} if points else {"y": y, "x": x}
+    )
+    coordinates = {"depth": depths, **places, "component": ["x", "y", "z"]}
     if displacement is not None:
-        fields |= {f"displacement_{name}": (_DIMS, part) for name, part in zip("xyz", displacement, strict=True)}
+        fields |= {f"displacement_{name}": (dims, part) for name, part in zip("xyz", displacement, strict=True)}
     return variables.dataset(fields, coordinates, **attrs)
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -10,17 +11,26 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.bilinear import bilinear_on_grid
 from treadload.kernels.disc import disc_fields
 from treadload.kernels.displacement import fields_on_grid
+from treadload.kernels.points import Points
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.response.loads import SurfaceLoad, UniformDisc
 
+_OnGrid = Callable[..., tuple[Array, Array, str]]
+
 
 def half_space_response(
-    loads: Sequence[SurfaceLoad], material: Elastic, depths: Array, x: Array, y: Array
+    loads: Sequence[SurfaceLoad],
+    material: Elastic,
+    depths: Array,
+    x: Array,
+    y: Array,
+    at: Points | None = None,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a half-space under superposed loads.
 
     material: of the half-space. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates.
+    at: of the grid of x and y only these points, line by line or summed directly.
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
     `kernels.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where x and y
     lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
@@ -28,13 +38,14 @@ def half_space_response(
     Exact for loads uniform on each cell or bilinear between cells; near the surface the first leaves an error
     O(dx), see the kernels.
     """
-    stress = np.zeros((6, len(depths), len(y), len(x)))
-    displacement = np.zeros((3, len(depths), len(y), len(x)))
-    methods = set()
+    shape = (len(y), len(x)) if at is None else at.shape
+    stress, displacement = np.zeros((6, len(depths), *shape)), np.zeros((3, len(depths), *shape))
+    methods: set[str] = set()
     shear, poisson = material.shear_modulus, material.poisson
     for load in loads:
         if isinstance(load, UniformDisc):
-            across_x, across_y = np.meshgrid(x - load.x, y - load.y)
+            lines = np.meshgrid(x, y) if at is None else (x[None, at.columns], y[None, at.rows])
+            across_x, across_y = lines[0] - load.x, lines[1] - load.y
             for row, depth in enumerate(depths):
                 unit = disc_fields(load.radius, across_x, across_y, float(depth), shear, poisson)
                 stress[:, row] += load.pressure * unit[0]
@@ -42,11 +53,17 @@ def half_space_response(
             methods.add("disc")
             continue
         grid = load.grid
-        at_x, at_y = x - grid.x0, y - grid.y0
         on_grid = bilinear_on_grid if load.interpolation == "bilinear" else fields_on_grid
-        part, moved, method = on_grid(load.array, grid.dx, grid.dy, depths, shear, poisson, at_x, at_y)
-        stress += np.moveaxis(part, 1, 0)
-        displacement += np.moveaxis(moved, 1, 0)
-        methods.add(method)
+        place = load.array, grid.dx, grid.dy, depths, shear, poisson
+
+        def fields(x: Array, y: Array, on_grid: _OnGrid = on_grid, place: tuple[Any, ...] = place) -> Array:
+            *parts, method = on_grid(*place, x, y)
+            methods.add(method)
+            return np.concatenate(parts, axis=1)
+
+        at_x, at_y = x - grid.x0, y - grid.y0
+        found = np.moveaxis(fields(at_x, at_y) if at is None else at.gathered(fields, at_x, at_y), 1, 0)
+        stress += found[:6]
+        displacement += found[6:]
     used = "+".join(sorted(methods - {"none"})) or "none"
     return stress, strain_from_stress(stress, material.modulus, poisson), displacement, used

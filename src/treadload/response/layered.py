@@ -12,6 +12,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.gridded import grid_cost
 from treadload.kernels.hankel import AxialPlanes, Disc, synthesise_discs
 from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.points import Points
 from treadload.kernels.synthesis import Cells, ElasticPlane, rule, synthesise_cells
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
@@ -36,12 +37,19 @@ _MOST_ALONG = 1e6
 
 
 def layered_response(
-    loads: Sequence[SurfaceLoad], road: Pavement, depths: Array, x: Array, y: Array, *, below: bool
+    loads: Sequence[SurfaceLoad],
+    road: Pavement,
+    depths: Array,
+    x: Array,
+    y: Array,
+    *,
+    below: bool,
+    at: Points | None = None,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a layered road under superposed loads.
 
     depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates. below: whether a depth on an interface takes
-    the layer below it.
+    the layer below it. at: of the grid of x and y only these points.
     Returns stress (6, nz, my, mx) in Pa, strain likewise, displacement (3, nz, my, mx) in m, z down; and the
     method. Near the surface the closed form of a half-space of the top layer carries the steps of the load; what
     the layers add falls off like exp(-k (2 h - z)). Deeper the waves fall off like exp(-k z) themselves.
@@ -58,17 +66,17 @@ def layered_response(
     length = max(float(stack.interfaces[-1]) * (max(stack.shear) / min(stack.shear)) ** (1 / 3), float(depths.max()))
     near = [layer == 0 and z < _SPLIT * stack.interfaces[0] for z, layer in zip(depths, where, strict=True)]
     layout = _Layout(stack, depths, where, below, near)
-    fields = np.zeros((len(depths), 9, len(y), len(x)))
+    fields = np.zeros((len(depths), 9, *((len(y), len(x)) if at is None else at.shape)))
     methods = {"layered"}
     discs = [load for load in loads if isinstance(load, UniformDisc)]
     gridded = [load for load in loads if isinstance(load, GridLoad)]
     if discs:
-        fields += _under_discs(discs, layout, x, y, length)
-        methods.add(_add_top(fields, discs, layout, materials[0], x, y))
+        fields += _under_discs(discs, layout, x, y, length, at)
+        methods.add(_add_top(fields, discs, layout, materials[0], x, y, at))
     if gridded:
-        layout = replace(layout, split=_worth_splitting(gridded, layout, x, y, length))
-        fields += _under_cells(gridded, layout, x, y, length)
-        methods.add(_add_top(fields, gridded, layout, materials[0], x, y))
+        layout = replace(layout, split=_worth_splitting(gridded, layout, x, y, length, at))
+        fields += _under_cells(gridded, layout, x, y, length, at)
+        methods.add(_add_top(fields, gridded, layout, materials[0], x, y, at))
     stress, displacement = np.moveaxis(fields[:, :6], 1, 0).copy(), np.moveaxis(fields[:, 6:], 1, 0).copy()
     method = "+".join(sorted(methods - {"none"}, key=lambda name: (name != "layered", name)))
     for component, drifts in enumerate(drifting(stack, loads)):
@@ -130,27 +138,40 @@ class _Layout:
 
 
 def _add_top(
-    fields: Array, loads: Sequence[SurfaceLoad], layout: _Layout, material: Elastic, x: Array, y: Array
+    fields: Array,
+    loads: Sequence[SurfaceLoad],
+    layout: _Layout,
+    material: Elastic,
+    x: Array,
+    y: Array,
+    at: Points | None,
 ) -> str:
     """Add the top layer's half-space where it was split off; the method that gave it."""
     if not layout.rows:
         return "none"
-    stress, _, displacement, method = half_space_response(loads, material, layout.depths[layout.rows], x, y)
+    stress, _, displacement, method = half_space_response(loads, material, layout.depths[layout.rows], x, y, at)
     fields[layout.rows, :6] += np.moveaxis(stress, 1, 0)
     fields[layout.rows, 6:] += np.moveaxis(displacement, 1, 0)
     return method
 
 
-def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float) -> list[bool]:
+def _worth_splitting(
+    loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float, at: Points | None
+) -> list[bool]:
     """Where the half-space is split off: not at depths where the waves alone cost less than its closed form."""
-    closed: Array = np.sum(
-        [
-            grid_cost(one.array, grid.dx, grid.dy, layout.depths, x - grid.x0, y - grid.y0)
-            for one in loads
-            for grid in [one.grid]
-        ],
-        axis=0,
-    )
+
+    def cost(x: Array, y: Array) -> Array:
+        costs: Array = np.sum(
+            [
+                grid_cost(one.array, grid.dx, grid.dy, layout.depths, x - grid.x0, y - grid.y0)
+                for one in loads
+                for grid in [one.grid]
+            ],
+            axis=0,
+        )
+        return costs
+
+    closed = cost(x, y) if at is None else at.total(cost, x, y)
 
     def worth(row: int) -> bool:
         z = float(layout.depths[row])
@@ -171,7 +192,9 @@ def _rules(
     return rule(limit, reach_x, longest), rule(limit, reach_y, longest)
 
 
-def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Array, length: float) -> Array:
+def _under_discs(
+    discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Array, length: float, at: Points | None
+) -> Array:
     """Fields (nz, 9, my, mx) of discs by Hankel's integrals."""
     widest = max(max(np.abs(x - disc.x).max(), np.abs(y - disc.y).max()) + disc.radius for disc in discs)
     if layout.limit.max() * widest > _MOST_ALONG:
@@ -183,10 +206,12 @@ def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Arr
         layout.limit,
         _FALL / float(layout.limit.max()),
     )
-    return synthesise_discs([Disc(one.radius, one.pressure, one.x, one.y) for one in discs], planes, x, y, length)
+    return synthesise_discs([Disc(one.radius, one.pressure, one.x, one.y) for one in discs], planes, x, y, length, at)
 
 
-def _under_cells(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float) -> Array:
+def _under_cells(
+    loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float, at: Points | None
+) -> Array:
     """Fields (nz, 9, my, mx) of gridded loads by wavenumbers in both directions."""
     along, across = _rules(loads, float(layout.limit.max()), x, y, length)
     if len(along[0]) * len(across[0]) > _MOST:
@@ -197,7 +222,8 @@ def _under_cells(loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array,
         for one in loads
         for grid in [one.grid]
     ]
-    return synthesise_cells(cells, [_plane(layout, row) for row in range(len(layout.depths))], x, y, along, across)
+    planes = [_plane(layout, row) for row in range(len(layout.depths))]
+    return synthesise_cells(cells, planes, x, y, along, across, at)
 
 
 def _plane(layout: _Layout, row: int) -> ElasticPlane:

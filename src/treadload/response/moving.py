@@ -12,6 +12,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.layered import Stack
 from treadload.kernels.moving import Body, Level, Path, dissipated_energy, moving_fields
+from treadload.kernels.points import Points
 from treadload.kernels.tensors import strain_from_stress
 from treadload.kernels.wake import Cells, Term, delayed_fields
 from treadload.kernels.wavenumbers import Spectrum, disc_spectrum, quadrature
@@ -78,30 +79,39 @@ class MovingFields:
 
 
 def moving_response(
-    loads: Sequence[SurfaceLoad], road: Pavement, speed: float, depths: Array, x: Array, y: Array, *, below: bool
+    loads: Sequence[SurfaceLoad],
+    road: Pavement,
+    speed: float,
+    depths: Array,
+    x: Array,
+    y: Array,
+    *,
+    below: bool,
+    at: Points | None = None,
 ) -> MovingFields:
     """Steady state of a road under loads that move along +x.
 
     speed: V, m/s, > 0 and finite. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates, moving with the
-    loads. below: whether a depth on an interface takes the layer below it. Inertia is left out.
+    loads. below: whether a depth on an interface takes the layer below it. at: of the grid of x and y only
+    these points; the energy has its distinct y. Inertia is left out.
     Energy: dissipated per volume by one passage, the integral of σ:dε over time; NaN where it needs too many
     wavenumbers. Near the surface a half-space of the top layer carries the steps of the load in closed form, its
     strain and displacement that of the load and its wake, see `kernels.wake`; the rest are waves, `kernels.moving`.
     Raises InputError below a rigid base and where waves decay too slowly for the distance of the points.
     """
     problem = _Problem.of(loads, road, speed, depths, x, y, below)
-    fields = np.zeros((len(depths), 15, len(y), len(x)))
+    fields = np.zeros((len(depths), 15, *((len(y), len(x)) if at is None else at.shape)))
     if not road.is_homogeneous:
         for rows, limit in _alike(problem.limits):
             levels = [problem.levels[row] for row in rows]
             path, across = problem.panels(limit)
-            fields[rows] = moving_fields(problem.spectra, problem.body, levels, limit, x, y, path, across)
+            fields[rows] = moving_fields(problem.spectra, problem.body, levels, limit, x, y, path, across, at)
     fields = np.moveaxis(fields, 1, 0)
     stress, displacement, strain = fields[:6].copy(), fields[6:9].copy(), fields[9:].copy()
     method = "moving"
     shallow = [row for row, level in enumerate(problem.levels) if level.split]
     if shallow:
-        parts = _half_space(loads, problem.layers[0].resolved, problem.series, speed, depths[shallow], x, y)
+        parts = _half_space(loads, problem.layers[0].resolved, problem.series, speed, depths[shallow], x, y, at)
         stress[:, shallow] += parts[0]
         strain[:, shallow] += parts[1]
         displacement[:, shallow] += parts[2]
@@ -238,13 +248,14 @@ def _half_space(
     depths: Array,
     x: Array,
     y: Array,
+    at: Points | None,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a half-space of the top layer, and the method."""
     if series is None:
         assert isinstance(material, Elastic)
-        return half_space_response(loads, material, depths, x, y)
+        return half_space_response(loads, material, depths, x, y, at)
     elastic = series.glassy
-    stress, strain, displacement, method = half_space_response(loads, elastic, depths, x, y)
+    stress, strain, displacement, method = half_space_response(loads, elastic, depths, x, y, at)
     terms = [(strength, time * speed) for strength, time in series.creep_terms]
     later_stress, later = np.zeros_like(stress), np.zeros_like(displacement)
     for load in loads:
@@ -258,11 +269,11 @@ def _half_space(
         quick = [strength for strength, length in terms if length < _QUICK * cells.dx]
         slow: list[Term] = [(strength, length) for strength, length in terms if length >= _QUICK * cells.dx]
         if quick:
-            at_once = half_space_response([load], elastic, depths, x, y)
+            at_once = half_space_response([load], elastic, depths, x, y, at)
             later_stress += sum(quick) * at_once[0]
             later += sum(quick) * at_once[2]
         if slow:
-            wake = delayed_fields(cells, slow, depths, elastic.shear_modulus, elastic.poisson, x, y)
+            wake = delayed_fields(cells, slow, depths, elastic.shear_modulus, elastic.poisson, x, y, at)
             later_stress += np.moveaxis(wake[0], 1, 0)
             later += np.moveaxis(wake[1], 1, 0)
     return (

@@ -17,7 +17,8 @@ from treadload.response.fields import angle_in_words, direction_in_words
 class Response:
     """Stress and strain in a road.
 
-    dataset: fields (depth, y, x) with the names of `treadload.variables`; its attributes hold the material.
+    dataset: fields (depth, y, x), or (depth, point) of a list of points, with the names of `treadload.variables`;
+    its attributes hold the material.
     stats: seconds spent, points evaluated, method ("fft", "precorrected", "direct", "disc", "layered" or several,
     "none" without load).
     warnings: sentences for the user.
@@ -37,7 +38,7 @@ class Response:
         data = self.dataset
         lines = [
             f"response of a road, {data.attrs.get('road', 'unnamed')}; "
-            f"{data.sizes['depth']} depth(s) of {data.sizes['x']} x {data.sizes['y']} points"
+            f"{data.sizes['depth']} depth(s) of {_count(data)} points"
         ]
         for depth in data["depth"].values:
             plane = data.sel(depth=depth)
@@ -55,8 +56,12 @@ class Response:
 
 
 def _largest(values: xr.DataArray) -> dict[str, int]:
-    row, column = np.unravel_index(int(np.nanargmax(values.to_numpy())), values.shape)
-    return dict(zip(map(str, values.dims), (int(row), int(column)), strict=True))
+    place = np.unravel_index(int(np.nanargmax(values.to_numpy())), values.shape)
+    return dict(zip(map(str, values.dims), map(int, place), strict=True))
+
+
+def _count(data: xr.Dataset) -> str:
+    return str(data.sizes["point"]) if "point" in data.sizes else f"{data.sizes['x']} x {data.sizes['y']}"
 
 
 def _at(value: xr.DataArray, direction: str) -> str:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from treadload import variables
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.points import Points
 from treadload.pavement import Pavement
 from treadload.response.fields import response_dataset
 from treadload.response.half_space import half_space_response
@@ -30,6 +31,7 @@ def solve_response(
     depths: ArrayLike,
     x: ArrayLike | None = None,
     y: ArrayLike | None = None,
+    points: ArrayLike | None = None,
     speed: float | None = None,
     side: Literal["above", "below"] = "above",
 ) -> Response:
@@ -40,18 +42,20 @@ def solve_response(
     or layers; half-bonded interfaces make it the mean of two responses, see `Pavement.bond_limits`.
     depths: m, >= 0, 0 is the surface.
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
-    vertical slice. side: of an interface that a depth falls on, "above" or "below", kept as an attribute of the
-    dataset, which figures read; stress and strain of a half-space have no jump there, and the horizontal
-    displacement of layers jumps only where they slide.
+    vertical slice. points: instead of x and y, (n, 2), a list of places (x, y), m: lines that cross, or anywhere.
+    side: of an interface that a depth falls on, "above" or "below", kept as an attribute of the dataset, which
+    figures read; stress and strain of a half-space have no jump there, and the horizontal displacement of layers
+    jumps only where they slide.
     speed: at which the loads travel along +x, m/s, needed where a layer is viscoelastic. The result is then the
     steady state, seen from the loads, without inertia: what a fixed point lives through is a line along x read
     from front to rear, at the time -x / speed. 0 and infinity give the elastic limits.
-    Returns a Response with fields (depth, y, x), tension positive, tensor shear strain, displacement_z down.
+    Returns a Response with fields (depth, y, x), or (depth, point), tension positive, tensor shear strain,
+    displacement_z down.
     At the surface stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear
     leaves an error O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell
     of depth. A GridLoad with interpolation="bilinear" has neither, see there.
-    Where layers are viscoelastic `dissipated_energy` (depth, y) is the energy that one passage dissipates,
-    NaN at the surface.
+    Where layers are viscoelastic `dissipated_energy` (depth, y), or (depth, point), is the energy that one
+    passage dissipates, NaN at the surface.
     Raises InputError for a wrong value, a speed that is missing or negative, a layer that needs a temperature or
     is a fluid, depths below a rigid base and depths that need too many wavenumbers.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`; on
@@ -65,23 +69,34 @@ def solve_response(
     if (at_depths < 0).any():
         raise InputError(f"depths must not be negative, got {at_depths.min():g} m; depth counts downwards")
     superposed = gather(loads)
-    grid = common_grid(superposed) if x is None or y is None else None
-    at_x = _coordinates("x", x if x is not None or grid is None else grid.x)
-    at_y = _coordinates("y", y if y is not None or grid is None else grid.y)
+    at = None
+    if points is None:
+        grid = common_grid(superposed) if x is None or y is None else None
+        at_x = place_x = _coordinates("x", x if x is not None or grid is None else grid.x)
+        at_y = place_y = _coordinates("y", y if y is not None or grid is None else grid.y)
+    elif x is None and y is None:
+        place_x, place_y = _places(points)
+        at, at_x, at_y = Points.of(place_x, place_y)
+    else:
+        raise InputError("the response is wanted on a grid or at points: give x and y or points, not both")
 
     cells = merged([load.cell if isinstance(load, UniformRectangle) else load for load in superposed])
     road = at_speed(road, speed)
     solved = _mean(
-        [_solve(cells, limit, speed, at_depths, at_x, at_y, below=side == "below") for limit in road.bond_limits]
+        [
+            _solve(cells, limit, speed, at_depths, at_x, at_y, below=side == "below", at=at)
+            for limit in road.bond_limits
+        ]
     )
     stress, strain, displacement = solved.stress, solved.strain, solved.displacement
     dataset = response_dataset(
         stress,
         strain,
         at_depths,
-        at_y,
-        at_x,
+        place_y,
+        place_x,
         displacement=displacement,
+        points=at is not None,
         side=side,
         road=_in_words(road),
         modulus=road.surface_material.modulus,
@@ -91,7 +106,8 @@ def solve_response(
         **({} if speed is None else {"speed": float(speed)}),
     )
     if speed is not None:
-        dataset["dissipated_energy"] = (("depth", "y"), solved.energy, variables.attributes("dissipated_energy"))
+        energy, line = (solved.energy, "y") if at is None else (solved.energy[:, at.rows], "point")
+        dataset["dissipated_energy"] = (("depth", line), energy, variables.attributes("dissipated_energy"))
     stats = {"seconds": time.perf_counter() - start, "method": solved.method, "points": stress[0].size}
     gridded = [load for load in superposed if isinstance(load, GridLoad) and load.interpolation == "constant"]
     warnings = _warnings(gridded, at_depths) + solved.warnings
@@ -112,14 +128,15 @@ def _solve(
     y: Array,
     *,
     below: bool,
+    at: Points | None,
 ) -> MovingFields:
     if road.is_viscoelastic:
         assert speed is not None
-        return moving_response(loads, road, speed, depths, x, y, below=below)
+        return moving_response(loads, road, speed, depths, x, y, below=below, at=at)
     if road.is_homogeneous:
-        stress, strain, displacement, method = half_space_response(loads, road.surface_material, depths, x, y)
+        stress, strain, displacement, method = half_space_response(loads, road.surface_material, depths, x, y, at)
     else:
-        stress, strain, displacement, method = layered_response(loads, road, depths, x, y, below=below)
+        stress, strain, displacement, method = layered_response(loads, road, depths, x, y, below=below, at=at)
     return MovingFields(stress, strain, displacement, np.zeros((len(depths), len(y))), method)
 
 
@@ -156,6 +173,19 @@ def _warnings(loads: Sequence[GridLoad], depths: Array) -> tuple[str, ...]:
         "strain there shows the steps of the load between cells; take the surface, a finer contact or a GridLoad "
         'with interpolation="bilinear"',
     )
+
+
+def _places(points: ArrayLike) -> tuple[Array, Array]:
+    """X and y (n,) of a list of places in m."""
+    try:
+        array = np.asarray(points, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"points must be a list of places (x, y) in metres, got {points!r}") from error
+    if array.ndim != 2 or array.shape[1] != 2 or not len(array):
+        raise InputError(f"points must be a list of places (x, y) in metres, shape (n, 2), got shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError(f"points must be finite, got {array[~np.isfinite(array)][0]}")
+    return array[:, 0], array[:, 1]
 
 
 def _coordinates(name: str, values: ArrayLike | None) -> Array:

@@ -101,8 +101,9 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     worst_x, worst_y = _worst_point(response, asked.depths[0] if case.damage is None else case.damage.depth)
     bottom = asked.slices_to(road.interfaces.tolist(), rigid_base=road.rigid_base)
     depths = _slice_depths(bottom, wheel.grid.dx, road)
-    along = solve(depths, x=grid.x, y=[worst_y])
-    across = solve(depths, x=[worst_x], y=grid.y)
+    crossing = [(x, worst_y) for x in grid.x] + [(worst_x, y) for y in grid.y]
+    slices = solve(depths, points=crossing)
+    along, across = _line(slices, slice(grid.nx), "x", "y"), _line(slices, slice(grid.nx, None), "y", "x")
     bowl = None
     if not road.is_homogeneous:
         tell("deflection bowl")
@@ -153,6 +154,25 @@ def _worst_point(response: Response, depth: float) -> tuple[float, float]:
     strain = response.dataset.principal_strain_1.sel(depth=depth, method="nearest")
     row, column = np.unravel_index(int(np.nanargmax(strain.values)), strain.shape)
     return float(strain.x[column]), float(strain.y[row])
+
+
+def _line(response: Response, members: slice, along: str, other: str) -> Response:
+    """The points of a response that lie on one line, as a grid of a single row or column."""
+    points = response.dataset.isel(point=members)
+    place = points[other][:1].drop_vars(("x", "y")).rename(point=other)
+    data = points.drop_vars(other).swap_dims(point=along).expand_dims({other: place})
+    if "dissipated_energy" in data:
+        # The same all along x.
+        energy = data["dissipated_energy"]
+        data["dissipated_energy"] = energy.isel(x=0, drop=True).assign_attrs(energy.attrs)
+    data = data.transpose("depth", "y", "x", "component")
+    share = points.sizes["point"] / response.dataset.sizes["point"]
+    stats = {
+        **response.stats,
+        "seconds": response.stats["seconds"] * share,
+        "points": points.sizes["point"] * points.sizes["depth"],
+    }
+    return replace(response, dataset=data, stats=stats)
 
 
 def _slice_depths(bottom: float, cell: float, road: Pavement) -> Array:
