@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -103,7 +103,7 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     depths = _slice_depths(bottom, wheel.grid.dx, road)
     crossing = [(x, worst_y) for x in grid.x] + [(worst_x, y) for y in grid.y]
     slices = solve(depths, points=crossing)
-    along, across = _line(slices, slice(grid.nx), "x", "y"), _line(slices, slice(grid.nx, None), "y", "x")
+    along, across = _line(slices, slice(grid.nx), "x"), _line(slices, slice(grid.nx, None), "y")
     bowl = None
     if not road.is_homogeneous:
         tell("deflection bowl")
@@ -156,22 +156,27 @@ def _worst_point(response: Response, depth: float) -> tuple[float, float]:
     return float(strain.x[column]), float(strain.y[row])
 
 
-def _line(response: Response, members: slice, along: str, other: str) -> Response:
-    """The points of a response that lie on one line, as a grid of a single row or column."""
+def _line(response: Response, members: slice, along: str) -> Response:
+    """The points of a response that lie on one line along x or y, as a grid of a single row or column."""
     points = response.dataset.isel(point=members)
-    place = points[other][:1].drop_vars(("x", "y")).rename(point=other)
-    data = points.drop_vars(other).swap_dims(point=along).expand_dims({other: place})
-    if "dissipated_energy" in data:
-        # The same all along x.
-        energy = data["dissipated_energy"]
-        data["dissipated_energy"] = energy.isel(x=0, drop=True).assign_attrs(energy.attrs)
-    data = data.transpose("depth", "y", "x", "component")
-    share = points.sizes["point"] / response.dataset.sizes["point"]
-    stats = {
-        **response.stats,
-        "seconds": response.stats["seconds"] * share,
-        "points": points.sizes["point"] * points.sizes["depth"],
+    count = points.sizes["point"]
+    places = {name: points[name].to_numpy()[: count if name == along else 1] for name in ("y", "x")}
+    coordinates = {
+        name: (name, places.get(name, points[name].to_numpy()), points[name].attrs)
+        for name in ("depth", "y", "x", "component")
     }
+    fields: dict[Hashable, tuple[Any, ...]] = {}
+    for name, part in points.data_vars.items():
+        values, more = part.to_numpy(), part.dims[2:]
+        if name == "dissipated_energy":
+            # The same all along x.
+            fields[name] = ("depth", "y"), values[:, : len(places["y"])], part.attrs
+        else:
+            values = np.expand_dims(values, 1 if along == "x" else 2)
+            fields[name] = ("depth", "y", "x", *more), values, part.attrs
+    data = xr.Dataset(fields, coordinates, points.attrs)
+    seconds = response.stats["seconds"] * count / response.dataset.sizes["point"]
+    stats = {**response.stats, "seconds": seconds, "points": count * data.sizes["depth"]}
     return replace(response, dataset=data, stats=stats)
 
 
