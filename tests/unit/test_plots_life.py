@@ -89,5 +89,11 @@ def test_the_report_holds_verdict_criteria_laws_and_solves(tmp_path):
     assert written.rows[1][6] == "ruts, no crack"
     assert len(written.pictures) == 4
     page = write_report({"a road": tree}, tmp_path / "r.html").read_text()
-    for words in ("depends most on", "thickness of base: +16 %", "NF P98-086", "Who does the damage", "every axle"):
+    for words in (
+        "depends most on thickness of base (+5 %)",
+        "life +16 %",
+        "NF P98-086",
+        "Who does the damage",
+        "every axle",
+    ):
         assert words in page

@@ -76,7 +76,7 @@ class Life:
         if self.stats:
             lines.append(
                 "solved: {contacts} contacts and {responses} responses for {combinations} combinations; readings "
-                "interpolated over temperature err by {interpolation_error:.1g} at most".format(**self.stats)
+                "interpolated over the climate err by {interpolation_error:.1g} at most".format(**self.stats)
             )
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 

@@ -147,7 +147,7 @@ def life_shares(life: Source, criterion: str | None = None) -> Figure:
         for row, column in np.ndindex(rows, columns):
             value = share[row, column]
             if value >= 0.5:
-                dark = value > 0.55 * share.max()
+                dark = value > 0.4 * share.max()
                 ax.text(column + 0.5, row + 0.5, f"{value:.0f}", ha="center", va="center", fontsize=7.5,
                         color=PAPER if dark else INK)  # fmt: skip
     ax.set_yticks(np.arange(rows) + 0.5, classes)

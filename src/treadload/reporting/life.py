@@ -85,8 +85,9 @@ def _facts(data: xr.Dataset) -> tuple[tuple[str, str], ...]:
     facts += [("worst place", f"{_deep(row)}, {_aside(row)}"), ("first crack", _crack(row))]
     if "elasticity" in data:
         first = zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True)
-        told = [f"{name}: {changed_life(str(name), float(value))}" for name, value in first]
-        facts.append(("depends most on (life as it grows by 5 %, temperature by 1 °C)", "; ".join(told)))
+        for name, value in first:
+            step = "" if str(name).startswith("temperature") else " (+5 %)"
+            facts.append((f"depends most on {name}{step}", f"life {changed_life(str(name), float(value))}"))
     return tuple(facts)
 
 

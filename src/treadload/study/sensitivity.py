@@ -62,7 +62,7 @@ class Sensitivity:
         """The inputs by their weight, and what was solved for them."""
         rows = zip(self.dataset["input"].to_numpy(), self.dataset["elasticity"].to_numpy(), strict=True)
         lines = [f"life by {self.criterion}: how much longer as an input grows by 1 %, temperature by 1 °C"]
-        lines += [f"  {name}: {100 * value if name == TEMPERATURE else value:+.2g} %" for name, value in rows]
+        lines += [f"  {name}: {100 * value if name == TEMPERATURE else value:+z.2g} %" for name, value in rows]
         lines.append(
             f"from {self.contacts} contacts and {self.responses} responses of the classes and seasons that do "
             f"{100 * self.coverage:.0f} % of the damage"
