@@ -11,6 +11,7 @@ from treadload.materials import Prony
 from treadload.response import GridLoad, UniformDisc, solve_response
 from treadload.results import load as load_results
 from treadload.results import save, to_tree
+from treadload.study.run import _line
 
 GRID = Grid(9, 7, 0.02, 0.02, -0.08, -0.06)
 SOLID = Prony(8e9, ((0.5, 0.02), (0.4, 0.3)), 0.35)
@@ -149,3 +150,22 @@ def test_a_file_keeps_the_points(response, tmp_path):
 def test_what_needs_a_grid_says_so(response, use):
     with pytest.raises(tl.InputError, match=r"needs a grid.* 14 points.*solve_response with x and y"):
         use(response)
+
+
+@pytest.mark.parametrize(("along", "members"), [("x", slice(len(X))), ("y", slice(len(X), len(X) + len(Y)))])
+def test_a_case_splits_crossing_lines_into_its_slices(along, members):
+    road, speed = layers(SOLID), 15.0
+    crossing = solve_response(load(), road, depths=[0.05, 0.15], points=CROSS[:11], speed=speed)
+    line = {"x": X, "y": [Y[2]]} if along == "x" else {"x": [X[1]], "y": Y}
+    alone = solve_response(load(), road, depths=[0.05, 0.15], **line, speed=speed)
+    found = _line(crossing, members, along)
+    assert list(found.dataset.data_vars) == list(alone.dataset.data_vars)
+    assert list(found.dataset.coords) == list(alone.dataset.coords)
+    assert found.stats["points"] == alone.stats["points"]
+    for name, wanted in alone.dataset.variables.items():
+        assert (found.dataset[name].dims, found.dataset[name].attrs) == (wanted.dims, wanted.attrs)
+        if name in ("component", "principal_direction_1"):
+            continue
+        # Other points, other wavenumbers: 1e-4 of the energy, 1e-7 of the rest.
+        accuracy = 1e-4 if name == "dissipated_energy" else 1e-6 if name == "in_plane_angle_1" else 1e-7
+        np.testing.assert_allclose(found.dataset[name], wanted, atol=accuracy * np.abs(wanted).max(), rtol=0)
