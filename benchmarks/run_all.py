@@ -17,6 +17,7 @@ def main() -> None:
     import whole_chain  # noqa: I001
     import layered
     import life
+    import moving
     import normal_contact
     import rolling_contact
     import peers
@@ -27,6 +28,7 @@ def main() -> None:
     rolling_contact.main()
     peers.main()
     layered.main()
+    moving.main()
     life.main()
 
 
