@@ -11,7 +11,7 @@ from typing import Annotated, NoReturn, ParamSpec
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from treadload._version import __version__
@@ -48,6 +48,11 @@ def _bar() -> Iterator[Callable[[int, int, str], None]]:
     ) as bar:  # fmt: skip
         task = bar.add_task("reading", total=None)
         yield lambda done, total, what: bar.update(task, completed=done, total=total, description=f"{what}s")
+
+
+def _name() -> Column:
+    """A column of names that a case can copy: never broken into lines."""
+    return Column("name", no_wrap=True)
 
 
 def _one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
@@ -200,21 +205,21 @@ def catalogue() -> None:
     def cited(source: str) -> str:
         return f"[{sources.setdefault(source, len(sources) + 1)}]" if source else ""
 
-    roads = Table("name", "layers from the surface down", "source", title="structure = …")
+    roads = Table(_name(), "layers from the surface down", "source", title="structure = …")
     for road in structures().values():
         layers = ", ".join(
             course.mix if course.thickness is None else f"{course.thickness * 1e3:g} mm {course.mix}"
             for course in road.courses
         )
         roads.add_row(road.name, f"{road.title}: {layers}", Text(cited(road.source)))
-    materials = Table("name", "what it is", "source", title="mix = …")
+    materials = Table(_name(), "what it is", "source", title="mix = …")
     for material in mixes().values():
         words = str(material).removeprefix(f"{material.name}, ")
         if isinstance(material, Mix):
             fatigue = "" if material.epsilon_6 is None else f", ε₆ = {material.epsilon_6 * 1e6:g} microstrain"
             words = f"E = {material.modulus(15) / 1e6:g} MPa at 15 °C{fatigue}; data {words}"
         materials.add_row(material.name, Text(words), Text(cited(material.source)))
-    laws = Table("name", "what it is", "source", title='material = { kind = "published", name = … }')
+    laws = Table(_name(), "what it is", "source", title='material = { kind = "published", name = … }')
     for law in published_materials().values():
         at = "" if law.temperature is None else f"at {law.temperature:g} °C: "
         laws.add_row(law.name, Text(f"{at}{law.material}"), Text(cited(law.source)))

@@ -5,6 +5,7 @@ import sys
 import time
 
 import pytest
+from rich.console import Console
 from typer.testing import CliRunner
 
 import treadload as tl
@@ -96,8 +97,9 @@ def test_scan_tells_the_quality_and_writes_a_height_map(tmp_path):
     assert tl.Tire.from_height_map(tmp_path / "h.nc").fixed_grid.dx == pytest.approx(0.01)
 
 
-def test_the_catalogue_tells_names_numbers_and_sources():
-    result = CliRunner(env={"COLUMNS": "200"}).invoke(app, ["catalogue"])
+def test_the_catalogue_tells_names_numbers_and_sources(monkeypatch):
+    monkeypatch.setattr("treadload.cli._out", Console(width=200, highlight=False, soft_wrap=True))
+    result = call("catalogue")
     assert result.exit_code == 0, result.output
     for road in tl.structures().values():
         assert road.name in result.stdout
@@ -106,6 +108,13 @@ def test_the_catalogue_tells_names_numbers_and_sources():
     # NF P98-086: E(15 °C, 10 Hz) and ε₆ of EB-GB3.
     assert "E = 9000 MPa at 15 °C, ε₆ = 90 microstrain" in result.stdout
     assert "[7] NF P98-086 (2019)" in result.stdout
+
+
+def test_names_of_the_catalogue_stay_whole_in_a_narrow_window(monkeypatch):
+    monkeypatch.setattr("treadload.cli._out", Console(width=80, highlight=False, soft_wrap=True))
+    result = call("catalogue")
+    for name in (*(road.name for road in tl.structures().values()), *tl.mixes()):
+        assert name in result.stdout
 
 
 def test_run_shows_the_road_at_its_temperature(case, tmp_path):
