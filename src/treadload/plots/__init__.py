@@ -14,6 +14,7 @@ from treadload.plots.places import places_under
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.tearing import tearing
+from treadload.plots.uniform import uniform_comparison
 from treadload.plots.verdict import fatigue_line
 
 __all__ = [
@@ -45,4 +46,5 @@ __all__ = [
     "shift_factors",
     "tearing",
     "trace_rose",
+    "uniform_comparison",
 ]
