@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Discriminator, Tag
@@ -24,7 +25,7 @@ from treadload.materials import (
 Viscoelastic = Prony | HuetSayegh | Model2S2P1D | PowerLawCreep
 
 
-class ViscoelasticPart(Part):
+class ViscoelasticPart(Part, ABC):
     """What all viscoelastic materials of a road share.
 
     shift: how their times depend on temperature; without it the material is the same at all.
@@ -32,9 +33,9 @@ class ViscoelasticPart(Part):
 
     shift: Shift | None = None
 
+    @abstractmethod
     def at_reference(self) -> Viscoelastic:
         """The material at the reference temperature of the shift."""
-        raise NotImplementedError
 
     def build(self) -> Material | TemperatureDependent:
         """The material; one that waits for its temperature if it has a shift."""
