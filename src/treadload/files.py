@@ -1,4 +1,4 @@
-"""Files appear whole or not at all."""
+"""Files appear whole or not at all, and are read whole."""
 
 from __future__ import annotations
 
@@ -7,8 +7,12 @@ import os
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from treadload.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def check_writable(path: str | os.PathLike[str]) -> None:
@@ -35,6 +39,19 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         raise InputError(f"cannot write {path}: {error.strerror or error}") from error
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def read_tree(path: Path, kind: str) -> xr.DataTree:
+    """A NetCDF-4 file in memory. kind: what it should be, for the error. Raises InputError if it cannot be read."""
+    # The command line writes files and starts without numbers.
+    import xarray as xr
+
+    try:
+        with xr.open_datatree(path, engine="h5netcdf") as tree:
+            loaded: xr.DataTree = tree.load()
+    except Exception as error:
+        raise InputError(f"cannot read {path} as {kind}: {error}") from error
+    return loaded
 
 
 def _temporary(path: Path) -> Path:

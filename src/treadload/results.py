@@ -22,7 +22,7 @@ from treadload.case import Case, LifeCase
 from treadload.contact import Contact
 from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
-from treadload.files import replacing
+from treadload.files import read_tree, replacing
 from treadload.grid import Grid
 from treadload.materials import HuetSayegh, Model2S2P1D, Prony
 from treadload.pavement import BONDED, HALF_BONDED, LayerRow, Pavement, layer_rows
@@ -252,11 +252,7 @@ def load(path: str | os.PathLike[str]) -> xr.DataTree:
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no result file {path}; `treadload run case.toml -o {path}` makes one")
-    try:
-        with xr.open_datatree(path, engine="h5netcdf") as tree:
-            loaded: xr.DataTree = tree.load()
-    except Exception as error:
-        raise InputError(f"cannot read {path} as a result in NetCDF-4: {error}") from error
+    loaded = read_tree(path, "a result in NetCDF-4")
     if "treadload_version" not in loaded.attrs:
         raise InputError(f"{path} is a NetCDF file, but no result of treadload: it lacks treadload_version")
     return loaded

@@ -17,6 +17,7 @@ import xarray as xr
 
 from treadload import variables
 from treadload.errors import InputError
+from treadload.files import read_tree
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.units import quantity
@@ -77,11 +78,7 @@ def read_netcdf(path: str | os.PathLike[str]) -> xr.Dataset:
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file {path}")
-    try:
-        with xr.open_datatree(path, engine="h5netcdf") as tree:
-            loaded: xr.DataTree = tree.load()
-    except Exception as error:
-        raise InputError(f"cannot read {path} as NetCDF-4: {error}") from error
+    loaded = read_tree(path, "NetCDF-4")
     if "contact" in loaded.children:
         return loaded["contact"].to_dataset()
     if "pressure" in loaded.to_dataset():
