@@ -1,4 +1,8 @@
-"""Numbers with units at the edges: "3 mm" becomes 0.003; inside, everything is SI."""
+"""Numbers with units at the edges: "3 mm" becomes 0.003; inside, everything is SI.
+
+A text is a number and a unit, and nothing else. The number is read here, strictly: pint would read "32,5 kN" as
+325 kN and work out "2*3 mm". Only the unit goes to pint.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +13,19 @@ from typing import Any
 
 from treadload.errors import InputError
 
-# A number and its scale, which starts at a zero of its own: such units cannot be multiplied.
-_TEMPERATURE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(\D+)")
+# What may stand between thousands: blank, no-break, thin and narrow no-break space, apostrophes, underscore.
+_GAP = "[ \u00a0\u2009\u202f'\u2019_]"
+_NUMBER = re.compile(
+    rf"(?P<sign>[+\-\u2212]?)"
+    rf"(?P<whole>[1-9][0-9]{{0,2}}(?P<gap>{_GAP})[0-9]{{3}}(?:(?P=gap)[0-9]{{3}})*(?![0-9])|[0-9]*)"
+    r"(?P<mark>[.,]?)(?P<part>(?<=[.,])[0-9]*|)"
+    r"(?:[eE](?P<power>[+\-\u2212]?[0-9]+))?"
+)
+# Digits that belong to a unit: powers, and the one of "1/m".
+_POWERS = re.compile(r"(?:\^|\*\*)\s*\(?-?[0-9]+\)?|^1\s*(?=/)")
+_LETTERS = re.compile(r"(?:[^\W\d]|[%‰°⁻/*() ])*")
+_BARE_POWER = re.compile(r"(?<=[A-Za-zµμ])([23])(?![0-9A-Za-z])")
+_TIMES = str.maketrans({"·": "*", "⋅": "*", "\u00a0": " ", "\u2009": " ", "\u202f": " "})
 
 _EXAMPLES = {
     "m": '"3 mm"',
@@ -32,33 +47,140 @@ _EXAMPLES = {
     "J/(m^3 K)": '"2.1 MJ/(m^3 K)"',
     "": '"120 microstrain" or 0.7',
 }
+# Spellings that a person types with capitals astray.
+_USUAL = (
+    "m", "cm", "mm", "µm", "km", "N", "kN", "MN", "Pa", "kPa", "MPa", "GPa", "bar", "psi", "N/mm²", "kN/m²", "MPa/m",
+    "m/s", "km/h", "s", "ms", "Hz", "K", "deg", "rad", "1/m", "kJ/mol", "J/mol", "1/MPa", "microstrain",
+)  # fmt: skip
+# Angles are pure numbers to pint; here 2 deg is no pure number, and 600 rpm are not 62.8 Hz.
+_ALSO = {"rad/m": "1/m"}
 
 
 def quantity(value: object, unit: str) -> float:
     """Value in SI units: a bare number is SI already, a text carries its unit.
 
     unit: the SI unit it must have; "" for a pure number; "degC" for a temperature, °C. microstrain is 1e-6.
-    Raises InputError for text that is no number with a unit of this kind, for NaN and for infinity.
+    The number of a text has a point or a comma as its decimal mark, perhaps thousands in groups of three with a
+    space, an apostrophe or an underscore between, perhaps an exponent: "32.5 kN", "32,5 kN", "1 000 kN", "1.2e6 N".
+    Raises InputError for text that is no number with a unit of this kind, for a number that can be read in two ways
+    ("1,000 kN"), for NaN and for infinity.
     """
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         raise InputError(f"expected a number or a text such as {_EXAMPLES[unit]}, got {value!r}")
-    number = _parse(value, unit) if isinstance(value, str) else float(value)
+    try:
+        number = _parse(value, unit) if isinstance(value, str) else float(value)
+    except OverflowError:
+        number = math.inf
     if not math.isfinite(number):
-        raise InputError(f"expected a finite number{f' of {unit}' if unit else ''}, got {value}")
+        said = value if isinstance(value, str | float) else "an integer of more than 308 digits"
+        raise InputError(f"expected a finite number{f' of {unit}' if unit else ''}, got {said}")
     return number
 
 
-def _parse(text: str, unit: str) -> float:
-    registry = _registry()
-    try:
-        temperature = _TEMPERATURE.fullmatch(text.strip()) if unit == "degC" else None
-        value = registry.Quantity(float(temperature[1]), temperature[2]) if temperature else registry.Quantity(text)
-        # Fifteen digits take off the dust that factors such as bar → Pa leave.
-        return float(f"{value.to(unit).magnitude:.15g}")
-    except Exception as error:
+def leading_number(text: str) -> tuple[float, str]:
+    """The number that a text starts with, and what stands behind it.
+
+    Raises InputError where there is none, or where it can be read in two ways.
+    """
+    bare = text.strip()
+    found = _NUMBER.match(bare)
+    assert found is not None
+    whole, part, rest = re.sub(_GAP, "", found["whole"]), found["part"], bare[found.end() :]
+    if not (whole or part):
+        raise InputError(f"{text!r} does not start with a number")
+    if re.match(r"[.,]", rest):
+        raise InputError(_several_marks(bare))
+    if found["mark"] == "," and len(part) == 3 and not found["gap"] and re.fullmatch("[1-9][0-9]{0,2}", whole):
         raise InputError(
-            f"cannot read {text!r} as a quantity in {unit or 'pure numbers'}; write it like {_EXAMPLES[unit]}"
-        ) from error
+            f"{text!r} may mean {whole + part} or {float(f'{whole}.{part}'):g}; write {_quoted(whole + part, rest)} "
+            f"or {_quoted(f'{whole} {part}', rest)} for the first, {_quoted(f'{whole}.{part}', rest)} for the second"
+        )
+    # A group that is not one of three: "1 00 kN", "0 662 MPa"; the 1 of "5 1/m" belongs to the unit.
+    if re.match(rf"{_GAP}*[0-9]", rest) and not re.match(r"\s*1\s*/", rest):
+        raise InputError(
+            f"{text!r} holds digits behind its number; groups of thousands have three digits and one blank between, "
+            'as in "1 000 kN"'
+        )
+    digits = f"{found['sign']}{whole or 0}.{part or 0}e{found['power'] or 0}"
+    return float(digits.replace("\u2212", "-")), rest.strip()
+
+
+def _several_marks(text: str) -> str:
+    """What to say of a number with more than one decimal mark."""
+    number = re.match(r"[+\-\u2212]?[0-9.,]*", text)
+    assert number is not None
+    shown, unit = number[0].rstrip(".,"), text[number.end() :]
+    *before, after = re.split("[.,]", shown)
+    if len(before) < 2:
+        return f"{text!r} holds several points or commas; write one decimal mark"
+    last = "".join(before) + "." + after
+    # Two kinds of marks: the last is the decimal one, or the first. One kind: all between thousands, or the last not.
+    mixed = len({mark for mark in shown if mark in ".,"}) > 1
+    ways = [last, f"{before[0]}.{''.join(before[1:])}{after}"] if mixed else ["".join(before) + after, last]
+    return f"{text!r} may mean {ways[0]} or {ways[1]}; write {_quoted(ways[0], unit)} or {_quoted(ways[1], unit)}"
+
+
+def _quoted(number: str, unit: str) -> str:
+    return f'"{number}{unit}"'
+
+
+def _parse(text: str, unit: str) -> float:
+    how = f"write it like {_EXAMPLES[unit]}"
+    try:
+        number, written = leading_number(text)
+    except InputError as error:
+        said = str(error)
+        raise InputError(said if "write" in said or "groups" in said else f"{said}; {how}") from error
+    if not written and unit and unit != "degC" and number == 0:
+        return 0.0
+    try:
+        value = _degrees(number, written) if unit == "degC" else number * _factor(written, unit)
+    except InputError:
+        raise
+    except Exception as error:
+        kind = unit or "pure numbers"
+        near = next((f'"{one}"' for one in _USUAL if one.casefold() == written.casefold() != one), "")
+        why = "it has no unit" if not written else f"{written!r} is no unit of this kind"
+        hint = f"did you mean {near}?" if near else how
+        raise InputError(f"cannot read {text!r} as a quantity in {kind}: {why}; {hint}") from error
+    # Fifteen digits take off the dust that factors such as bar → Pa leave.
+    return float(f"{value:.15g}")
+
+
+@cache
+def _factor(written: str, unit: str) -> float:
+    """What a number in a unit, as written, is multiplied by. Raises whatever pint does for another kind of unit."""
+    registry = _registry()
+    found = _units(written)
+    wanted = [registry.parse_units(one) for one in (unit, *([_ALSO[unit]] if unit in _ALSO else []))]
+    if not any(_roots(found) == _roots(one) for one in wanted):
+        raise ValueError("another kind of unit")
+    if registry.Quantity(0.0, found).to(unit).magnitude != 0:
+        raise ValueError("a scale with a zero of its own is no multiple of a unit")
+    return float(registry.Quantity(1.0, found).to(unit).magnitude)
+
+
+def _degrees(number: float, written: str) -> float:
+    """Temperature in °C. Raises whatever pint does for another kind of unit."""
+    found = _units(written)
+    if "delta" in str(found):
+        raise ValueError("a difference is no temperature")
+    # Round-off of the zeros of the scales.
+    return round(float(_registry().Quantity(number, found).to("degC").magnitude), 9)
+
+
+def _units(written: str) -> Any:
+    """A unit of pint from its text, which may hold no number but powers."""
+    text = _BARE_POWER.sub(r"^\1", written.translate(_TIMES))
+    text = f"1{text}" if text.startswith("/") else text
+    if not _LETTERS.fullmatch(_POWERS.sub("", text)):
+        raise ValueError("digits and signs in a unit")
+    return _registry().parse_units(text)
+
+
+def _roots(units: Any) -> dict[str, Any]:
+    """Base units and their powers, angles among them."""
+    return dict(_registry().get_root_units(units)[1]._units)
 
 
 @cache
@@ -67,5 +189,5 @@ def _registry() -> Any:
     import pint
 
     registry: Any = pint.UnitRegistry()
-    registry.define("microstrain = 1e-6 = ustrain = με")
+    registry.define("microstrain = 1e-6 = ustrain = με = µε")
     return registry

@@ -34,3 +34,55 @@ def test_wrong_quantities_say_how_to_write_them(text):
 def test_what_is_no_finite_number_is_refused(value):
     with pytest.raises(InputError):
         quantity(value, "N")
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        # A decimal comma and a thousands space, as the French write them: 325000, 0, 0 and 0.65 before.
+        ("32,5 kN", "N", 32.5e3),
+        ("0,662 MPa", "Pa", 0.662e6),
+        ("1 000 kN", "N", 1e6),
+        ("6,5 cm", "m", 0.065),
+        ("-10,5 °C", "degC", -10.5),
+        ("−10 °C", "degC", -10.0),
+        ("308 K", "degC", 34.85),
+        ("95 °F", "degC", 35.0),
+        # Zero is zero in any unit.
+        ("0", "rad", 0.0),
+        ("7,5 %", "", 0.075),
+    ],
+)
+def test_numbers_are_read_as_they_are_written(text, unit, value):
+    assert quantity(text, unit) == pytest.approx(value, rel=1e-14, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "words"),
+    [
+        ("1,000 kN", "N", ["may mean 1000 or 1", '"1 000 kN"', '"1.000 kN"']),
+        ("1.000,5 kN", "N", ['"1000.5 kN"', '"1.0005 kN"']),
+        ("2*3 mm", "m", ["'*3 mm'"]),
+        ("3 mm 4", "m", ["'mm 4'"]),
+        ("1 00 kN", "N", ["three digits"]),
+        ("32.5 KN", "N", ['did you mean "kN"']),
+        ("3", "m", ["no unit"]),
+        ("30", "rad", ["no unit", '"2 deg"']),
+        # Angles are no pure numbers, turns a minute no cycles a second, and 50 °C no difference.
+        ("2 deg", "", ["'deg'"]),
+        ("600 rpm", "Hz", ["'rpm'"]),
+        ("50 degC", "K", ['"50 K"']),
+        ("5 delta_degC", "degC", ["35 degC"]),
+    ],
+)
+def test_what_can_be_read_otherwise_is_refused_in_one_sentence(text, unit, words):
+    with pytest.raises(InputError) as refused:
+        quantity(text, unit)
+    assert "\n" not in str(refused.value)
+    for word in words:
+        assert word in str(refused.value)
+
+
+def test_an_integer_beyond_floats_is_refused():
+    with pytest.raises(InputError, match="finite"):
+        quantity(10**400, "m")
