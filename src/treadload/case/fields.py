@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Iterable
+from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
@@ -32,3 +33,7 @@ class Part(BaseModel):
     """A table of a case: frozen, and no key that it does not know."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __repr_args__(self) -> Iterable[tuple[str | None, Any]]:
+        """What was given; the rest stands at its default."""
+        return [(name, value) for name, value in super().__repr_args__() if name in self.model_fields_set]

@@ -13,6 +13,7 @@ from treadload.contact.coupling import Progress
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
 from treadload.contact.wheel import Rolling
+from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.pavement import Pavement
 from treadload.tire import Tire
@@ -57,6 +58,8 @@ class CreepCurve:
 
     def __str__(self) -> str:
         return self.summary()
+
+    __repr__ = first_line
 
 
 def creep_curve(

@@ -12,6 +12,7 @@ from typing import Literal
 
 from treadload.contact.friction import FrictionLaw
 from treadload.contact.wheel import Rolling
+from treadload.describing import as_call
 from treadload.errors import InputError
 
 GRAVITY = 9.81
@@ -143,6 +144,8 @@ class Maneuver:
 
     def __str__(self) -> str:
         return self.name
+
+    __repr__ = as_call
 
 
 STRAIGHT = Maneuver()

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from treadload.contact.friction import Coulomb, FrictionLaw, largest_force, law_of
+from treadload.describing import as_call
 from treadload.errors import InputError
 
 
@@ -113,3 +114,5 @@ class Rolling:
         if self.spin:
             parts.append(f"spin = {self.spin:g} rad/m")
         return ", ".join(parts)
+
+    __repr__ = as_call

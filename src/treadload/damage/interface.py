@@ -17,6 +17,7 @@ from treadload.damage.bond import InterfaceStrength, ShearFatigue
 from treadload.damage.design import Side
 from treadload.damage.direction import HasDataset, gridded
 from treadload.damage.fatigue import warnings_of
+from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import FRICTIONLESS, Bond, HalfBonded, Pavement
@@ -162,6 +163,8 @@ class BondVerdict:
 
     def __str__(self) -> str:
         return self.summary()
+
+    __repr__ = first_line
 
 
 def assess_bonds(

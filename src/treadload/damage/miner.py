@@ -17,6 +17,7 @@ from treadload.damage.direction import OBLIQUE_TOLERANCE, ORIENTATIONS, orientat
 from treadload.damage.fatigue import FatigueLaw, in_words, warnings_of
 from treadload.damage.french import growth_factor
 from treadload.damage.traffic import Climate, Traffic
+from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
@@ -82,6 +83,8 @@ class Life:
 
     def __str__(self) -> str:
         return self.summary()
+
+    __repr__ = first_line
 
 
 def miner(

@@ -13,6 +13,7 @@ from scipy.special import ndtr
 from treadload.contact.friction import FrictionLaw
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.damage.french import NO_GROWTH, growth_factor
+from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
@@ -55,6 +56,8 @@ class AxleClass:
         if not wheels or not np.isfinite(wheels).all():
             raise InputError(f"{self.name!r} needs at least one wheel at finite (x, y) in m, got {self.wheels!r}")
         object.__setattr__(self, "wheels", wheels)
+
+    __repr__ = as_call
 
 
 @dataclass(frozen=True)
@@ -197,6 +200,8 @@ class Traffic:
         linear = 1 - growth / 2
         square = linear**2 + 2 * growth * ratio
         return 2 * ratio / (linear + math.sqrt(square)) if square >= 0 else math.inf
+
+    __repr__ = as_call
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ from treadload.damage.direction import (
     orientation,
 )
 from treadload.damage.fatigue import SUBGRADE, TENSION, FatigueLine, PowerLaw, warnings_of
+from treadload.describing import first_line
 from treadload.errors import InputError
 
 # Depths of a response are met to within this, m: round-off of a file or of a unit.
@@ -98,6 +99,8 @@ class Verdict:
 
     def __str__(self) -> str:
         return self.summary()
+
+    __repr__ = first_line
 
 
 def assess(

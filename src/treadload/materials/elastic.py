@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from treadload.describing import as_call
 from treadload.errors import InputError
 
 
@@ -34,3 +35,5 @@ class Elastic:
 
     def __str__(self) -> str:
         return f"elastic, E = {self.modulus / 1e6:g} MPa, ν = {self.poisson:g}"
+
+    __repr__ = as_call

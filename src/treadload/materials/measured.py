@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
 
@@ -50,6 +51,8 @@ class FrequencySweep:
         at = "" if self.temperature is None else f" at {self.temperature:g} °C"
         return f"{self.omega.size} moduli from {self.omega[0]:.3g} to {self.omega[-1]:.3g} rad/s{at}"
 
+    __repr__ = as_call
+
 
 @dataclass(frozen=True, eq=False)
 class RelaxationTest:
@@ -76,6 +79,8 @@ class RelaxationTest:
     def __str__(self) -> str:
         at = "" if self.temperature is None else f" at {self.temperature:g} °C"
         return f"{self.time.size} moduli from {self.time[0]:.3g} to {self.time[-1]:.3g} s{at}"
+
+    __repr__ = as_call
 
 
 Measured = FrequencySweep | RelaxationTest

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.materials.celsius import check_celsius
 from treadload.materials.elastic import Elastic
@@ -124,6 +125,8 @@ class Mix:
             f"ν = {self.poisson:g}"
         )
 
+    __repr__ = as_call
+
 
 @dataclass(frozen=True, kw_only=True)
 class HydraulicMix(Elastic):
@@ -154,6 +157,8 @@ class HydraulicMix(Elastic):
 
     def __str__(self) -> str:
         return f"{self.name}, {super().__str__()}"
+
+    __repr__ = as_call
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -192,6 +197,8 @@ class Unbound(Elastic):
 
     def __str__(self) -> str:
         return f"{self.name}, {super().__str__()}"
+
+    __repr__ = as_call
 
 
 RoadMaterial = Mix | HydraulicMix | Unbound

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials.measured import FrequencySweep, Measured, RelaxationTest
@@ -44,6 +45,8 @@ class MasterCurve:
             f"master curve at {self.reference:g} °C of {len(self.isotherms)} isotherms, {self.temperatures[0]:g} to "
             f"{self.temperatures[-1]:g} °C; {self.data}; neighbours agree to {self.mismatch:.1%}"
         )
+
+    __repr__ = as_call
 
 
 def master_curve(isotherms: Sequence[Measured], reference: float) -> MasterCurve:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.materials.elastic import Elastic
@@ -151,6 +152,8 @@ class Prony:
             f"Prony series, E = {self.modulus / 1e6:g} to {self.long_term_modulus / 1e6:g} MPa in "
             f"{len(self.terms)} term{'s'[: len(self.terms) != 1]}, ν = {self.poisson:g}"
         )
+
+    __repr__ = as_call
 
 
 def _checked(terms: Sequence[tuple[float, float]], strength: str) -> Terms:

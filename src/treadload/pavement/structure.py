@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 
+from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Material, TemperatureDependent
@@ -85,6 +86,8 @@ class Layer:
     def depends_on_temperature(self) -> bool:
         """True if the material is known only once its temperature is."""
         return isinstance(self.material, TemperatureDependent)
+
+    __repr__ = as_call
 
 
 @dataclass(frozen=True)
@@ -288,6 +291,8 @@ class Pavement:
     def _with_materials(self, materials: Sequence[Material | TemperatureDependent]) -> Pavement:
         pairs = zip(self.layers, materials, strict=True)
         return Pavement([replace(layer, material=one) for layer, one in pairs], rigid_base=self.rigid_base)
+
+    __repr__ = as_call
 
 
 def _limit(material: Material, which: Literal["glassy", "rubbery"]) -> Elastic:

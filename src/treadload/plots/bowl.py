@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.plots.figure import new_figure
 from treadload.plots.places import load_centre
 from treadload.plots.plan import MM, X_LABEL, Source, fields_of
 from treadload.plots.profile import nearest
@@ -86,7 +87,7 @@ def deflection_bowl(
     bowls = [Bowl.of(response, y, centre) for response, centre in zip(responses, centres, strict=True)]
     deepest = max(bowl.deepest[1] for bowl in bowls)
     factor, unit = (1e3, "µm") if deepest < _FINE else (1.0, "mm")
-    figure = Figure(figsize=(8.4, 4.9), layout="constrained")
+    figure = new_figure(8.4, 4.9)
     ax = figure.add_subplot()
     for number, (bowl, label) in enumerate(zip(bowls, labels, strict=True)):
         colour = CASES[number % len(CASES)]

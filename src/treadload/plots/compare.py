@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.plots.contact import pressure_in_numbers
+from treadload.plots.figure import new_figure
 from treadload.plots.plan import (
     KPA,
     MICRO,
@@ -100,9 +101,7 @@ def _side_by_side(plans: Sequence[Plan], draw: Callable[[Axes, int], QuadMesh], 
     left, right = min(p.x_edges[0] for p in plans), max(p.x_edges[-1] for p in plans)
     top, bottom = min(p.y_edges[0] for p in plans), max(p.y_edges[-1] for p in plans)
     aspect = float((bottom - top) / (right - left))
-    figure = Figure(
-        figsize=(columns * _PANEL + 1.6, rows * min(8.0, (_PANEL - 0.35) * aspect + 1.0)), layout="compressed"
-    )
+    figure = new_figure(columns * _PANEL + 1.6, rows * min(8.0, (_PANEL - 0.35) * aspect + 1.0), "compressed")
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     panels: list[Axes] = list(grid.ravel())
     meshes = [draw(panels[number], number) for number in range(count)]

@@ -12,6 +12,7 @@ from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.plots.figure import figure_and_axes, new_figure
 from treadload.plots.plan import (
     KPA,
     MM,
@@ -36,7 +37,6 @@ from treadload.plots.style import (
     MUTED,
     SLIP,
     STICK,
-    figure_and_axes,
     halo,
     headline,
     legend_below,
@@ -125,7 +125,7 @@ def shear(contact: Source) -> Figure:
     data = fields_of(contact, "traction_x", "traction_y", "state")
     plan, values = Plan.of(data), _shear(data)
     scale = limits(values)
-    figure = Figure(figsize=(11.4, 5.3), layout="constrained")
+    figure = new_figure(11.4, 5.3)
     solid = figure.add_subplot(1, 2, 1, projection="3d")
     flat = figure.add_subplot(1, 2, 2)
     x, y = np.meshgrid(plan.x, plan.y)
@@ -162,7 +162,7 @@ def profile(contact: Source) -> Figure:
     data = fields_of(contact, "pressure")
     plan, values = Plan.of(data), plane(data, "pressure") * KPA
     row, column = peak_of(values)
-    figure = Figure(figsize=(7.2, 5.8), layout="constrained")
+    figure = new_figure(7.2, 5.8)
     upper, lower = figure.subplots(2, 1, sharey=True)
     _section(upper, data, plan.x, (row, slice(None)))
     upper.set_xlabel(X_LABEL)

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from treadload.errors import InputError
+from treadload.plots.figure import new_figure
 from treadload.plots.plan import Source, fields_of
 from treadload.plots.style import CASES, MUTED, headline, styled
 
@@ -27,7 +28,7 @@ def creep_curves(curves: Sequence[Source], labels: Sequence[str], *, along: str 
     cases = [fields_of(curve, force, "friction", "normal_load", "slip_fraction") for curve in curves]
     if len(cases) != len(labels) or not cases:
         raise InputError(f"give a label for each curve: got {len(labels)} labels for {len(cases)} curves")
-    figure = Figure(figsize=(8.6, 3.9), layout="constrained")
+    figure = new_figure(8.6, 3.9)
     left, right = figure.subplots(1, 2)
     for number, (case, label) in enumerate(zip(cases, labels, strict=True)):
         data, colour = case.sortby("creepage"), CASES[number % len(CASES)]

@@ -11,6 +11,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from treadload.errors import InputError
+from treadload.plots.figure import new_figure
 from treadload.plots.plan import (
     MM,
     Limits,
@@ -69,7 +70,7 @@ def bond_utilisation(verdict: Source, *, contact: Source | None = None) -> Figur
         raise InputError("this figure needs the utilisation of one interface at least; assess the bonds first")
     plan = Plan.of(data)
     size = (len(asked) * (_MAP + 1.35), min(9.0, _MAP * plan.aspect + 1.5))
-    figure = Figure(figsize=size, layout="compressed")
+    figure = new_figure(*size, "compressed")
     scale = limits(data["utilisation"].to_numpy())
     for ax, k in zip(np.atleast_1d(figure.subplots(1, len(asked))), asked, strict=True):
         mesh = _map(ax, data.isel(interface=k), plan, scale, contact)
@@ -148,7 +149,7 @@ def bonded_and_parted(comparison: Source) -> Figure:
     if not ends.size:
         raise InputError("no criterion is ever used up: there are no lives to compare")
     low, high = 10.0 ** math.floor(math.log10(ends.min() / 1.5)), 10.0 ** (math.log10(ends.max()) + _ROOM)
-    figure = Figure(figsize=(8.0, 1.5 + 0.95 * len(names)), layout="constrained")
+    figure = new_figure(8.0, 1.5 + 0.95 * len(names))
     ax = figure.add_subplot()
     for k, state in enumerate(states):
         at = np.arange(len(names)) + (k - (len(states) - 1) / 2) * _BAR

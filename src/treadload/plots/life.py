@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from treadload.errors import InputError
+from treadload.plots.figure import figure_and_axes, new_figure
 from treadload.plots.plan import Source, fields_of
 from treadload.plots.style import (
     CASES,
     INK,
     PAPER,
     RULE,
-    figure_and_axes,
     headline,
     legend_below,
     measure,
@@ -136,7 +136,7 @@ def life_shares(life: Source, criterion: str | None = None) -> Figure:
     share = 100 * data["damage_share"].sel(criterion=chosen).to_numpy()
     classes, seasons = _labels(data["axle_class"]), [str(name) for name in data["season"].to_numpy()]
     rows, columns = share.shape
-    figure = Figure(figsize=(9.6, 1.7 + 0.36 * rows), layout="constrained")
+    figure = new_figure(9.6, 1.7 + 0.36 * rows)
     grid = figure.add_gridspec(1, 2, width_ratios=[5.5, 1], wspace=0.02)
     ax, side = figure.add_subplot(grid[0]), figure.add_subplot(grid[1])
     mesh = ax.pcolormesh(

@@ -21,7 +21,8 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.materials import FrequencySweep, MasterCurve, RelaxationTest, Viscoelastic
 from treadload.materials.temperature import ShiftLaw
-from treadload.plots.style import CASES, INK, MUTED, RULE, figure_and_axes, figure_of, headline, plain, styled
+from treadload.plots.figure import figure_and_axes, new_figure
+from treadload.plots.style import CASES, INK, MUTED, RULE, figure_of, headline, plain, styled
 
 Shown = Viscoelastic | FrequencySweep | RelaxationTest | MasterCurve
 """What can be drawn: a model, a test at one temperature, or isotherms shifted to one."""
@@ -97,7 +98,7 @@ def master_curve(
     given = _listed(curves)
     if any(isinstance(_data(curve), RelaxationTest) for curve in given):
         return _relaxation(given, labels)
-    figure = Figure(figsize=(7.6, 6.0), layout="constrained")
+    figure = new_figure(7.6, 6.0)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
     for curve in _in_frequency(given, labels, frequencies):
         for ax, value in ((upper, _norm), (lower, _phase)):

@@ -13,10 +13,11 @@ from matplotlib.lines import Line2D
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.plots.figure import figure_and_axes, new_figure
 from treadload.plots.layers import Layers, draw_interfaces, name_layers
 from treadload.plots.places import places_under
 from treadload.plots.plan import DEPTH_LABEL, MICRO, MM, Source, fields_of, peak_of, plane
-from treadload.plots.style import CASES, INK, MUTED, figure_and_axes, halo, headline, legend_below, signed, styled
+from treadload.plots.style import CASES, INK, MUTED, halo, headline, legend_below, signed, styled
 
 Component = Literal["xx", "yy", "zz", "in-plane", "principal"]
 COMPONENTS: dict[str, tuple[str, str, str]] = {
@@ -103,7 +104,7 @@ def strain_profiles(
         raise InputError("give one place at least, a name with its x and y in m")
     down, layers = data["depth"].to_numpy() * MM, Layers.of(data)
     width = 2.75 * len(strains) + 1.6 + 1.0 * (len(layers.interfaces) > 0)
-    figure = Figure(figsize=(width, 5.0), layout="constrained")
+    figure = new_figure(width, 5.0)
     panels: list[Axes] = list(figure.subplots(1, len(strains), sharex=True, sharey=True, squeeze=False)[0])
     handles = []
     for number, (name, (x, y)) in enumerate(named.items()):

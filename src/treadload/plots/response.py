@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.plots.figure import figure_and_axes
 from treadload.plots.layers import name_layers
 from treadload.plots.plan import (
     MICRO,
@@ -35,7 +36,6 @@ from treadload.plots.section import Section, draw_section
 from treadload.plots.strokes import draw_strokes, strokes
 from treadload.plots.style import (
     MUTED,
-    figure_and_axes,
     headline,
     measure,
     sequential,

@@ -16,6 +16,7 @@ from matplotlib.lines import Line2D
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.plots.figure import new_figure
 from treadload.plots.layers import Layers, draw_interfaces, name_layers
 from treadload.plots.places import load_centre
 from treadload.plots.plan import MICRO, MM, Limits, Source, colour_bar, fields_of, limits
@@ -66,7 +67,7 @@ def compare_roads(
     rows = math.ceil(len(sections) / columns)
     panel = _PANEL[columns]
     height = rows * (panel * min(aspect, 2.0) + 1.0)
-    figure = Figure(figsize=(columns * (panel + 0.4) + _PROFILE + 2.3, max(height, 3.4)), layout="compressed")
+    figure = new_figure(columns * (panel + 0.4) + _PROFILE + 2.3, max(height, 3.4), "compressed")
     grid = figure.add_gridspec(rows, columns + 1, width_ratios=[*[panel] * columns, _PROFILE])
     panels: list[Axes] = []
     for number, (section, label) in enumerate(zip(sections, labels, strict=True)):
@@ -128,7 +129,7 @@ def compare_temperatures(
     colours, labels = _warmth(degrees), [f"{signed(t, 0 if t == round(t) else 1)} °C" for t in degrees]
     peaks = [_largest_in_layers(case, name) for case in data]
     height = max(4.6, 0.22 * len(degrees) * len(peaks[0]) + 1.4)
-    figure = Figure(figsize=(9.6, min(height, 12.0)), layout="constrained")
+    figure = new_figure(9.6, min(height, 12.0))
     left, right = figure.subplots(1, 2, width_ratios=[1.15, 1.0])
     here = [case.isel(y=[nearest(case, "y", y)]) for case in data]
     _profiles(left, here, labels, colours, strain, ("x", x))

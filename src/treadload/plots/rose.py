@@ -15,6 +15,7 @@ from matplotlib.projections.polar import PolarAxes
 from treadload.damage.direction import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, crack_rose, orientation
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.plots.figure import new_figure
 from treadload.plots.plan import MICRO, Source, fields_of
 from treadload.plots.style import INK, MUTED, ORIENTATION_COLOURS, PAPER, RULE, headline, plain, styled
 
@@ -48,7 +49,7 @@ def trace_rose(roses: Source | Sequence[Source], labels: Sequence[str] | None = 
     names = _names(cases, labels)
     columns = min(len(cases), _MOST_COLUMNS)
     rows = math.ceil(len(cases) / columns)
-    figure = Figure(figsize=(max(4.2, columns * _WIDTH + 0.2), rows * _HEIGHT + 0.6), layout="constrained")
+    figure = new_figure(max(4.2, columns * _WIDTH + 0.2), rows * _HEIGHT + 0.6)
     panels = list(figure.subplots(rows, columns, squeeze=False, subplot_kw={"projection": "polar"}).ravel())
     circles = _circles(max(float(case["trace_share"].max()) for case in cases))
     for ax, case, name in zip(panels, cases, names, strict=False):
@@ -90,7 +91,7 @@ def orientation_shares(
     names = _names(cases, labels)
     if notes is not None and len(notes) != len(cases):
         raise InputError(f"give a note for each case: got {len(notes)} notes for {len(cases)} cases")
-    figure = Figure(figsize=(7.4, 0.42 * len(cases) + 1.45), layout="constrained")
+    figure = new_figure(7.4, 0.42 * len(cases) + 1.45)
     ax = figure.add_subplot()
     order = [w for w in _ORDER if w in _ORDER[:3] or any(_by_word(case).get(w, 0.0) > 0 for case in cases)]
     for row, case in enumerate(cases):

@@ -121,14 +121,6 @@ def sequential(name: str) -> Colormap:
     return LinearSegmentedColormap.from_list(f"treadload_{name}", colours, N=count)
 
 
-def figure_and_axes(ax: Axes | None, width: float, height: float) -> tuple[Figure, Axes]:
-    """The figure (inches) of a new pair of axes, or of the axes given."""
-    if ax is not None:
-        return figure_of(ax), ax
-    figure = Figure(figsize=(width, height), layout="constrained")
-    return figure, figure.add_subplot()
-
-
 def headline(ax: Axes, title: str, details: str = "", letters: int = _TITLE) -> None:
     """A bold title, at most so many letters in a line, with a quiet line of numbers under it, flush left."""
     lines = details.count("\n") + 1 if details else 0

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.contact import draw_stick_slip, shear_in_numbers
+from treadload.plots.figure import new_figure
 from treadload.plots.plan import KPA, MICRO, Plan, Source, colour_bar, fields_of, limits, plane
 from treadload.plots.response import VARIABLE, Strain, draw_strain, place_in_words, strain_in_numbers, strain_plane
 from treadload.plots.style import INK, RULE, SLIP, headline, plain, styled
@@ -40,7 +41,7 @@ def tearing(
     if below.sizes["y"] != len(y) or np.abs(below["y"].to_numpy() - y).max() > _SAME_PLACE:
         raise InputError("the response stands on another y than the contact; solve it without y=, on the contact's")
     plan = Plan.of(data)
-    figure = Figure(figsize=(2 * _MAP * 1.95 + 0.9, _MAP * plan.aspect + 1.9), layout="constrained")
+    figure = new_figure(2 * _MAP * 1.95 + 0.9, _MAP * plan.aspect + 1.9)
     left, right = figure.subplots(1, 2)
     shear = np.hypot(plane(data, "traction_x"), plane(data, "traction_y")) * KPA
     draw_stick_slip(left, data, plan, limits(shear))

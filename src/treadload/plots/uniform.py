@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from treadload.plots.figure import new_figure
 from treadload.plots.plan import Source, fields_of
 from treadload.plots.style import CASES, headline, styled
 
@@ -23,7 +24,7 @@ def uniform_comparison(comparison: Source) -> Figure:
     """
     data = fields_of(comparison, *_PANELS)
     depths = 1e3 * np.asarray(data["depth"].to_numpy())
-    figure = Figure(figsize=(9.6, 4.4), layout="constrained")
+    figure = new_figure(9.6, 4.4)
     axes = figure.subplots(1, len(_PANELS), sharey=True)
     for ax, (name, title) in zip(axes, _PANELS.items(), strict=True):
         for number, load in enumerate(data["load"].to_numpy()):

@@ -15,6 +15,7 @@ from matplotlib.lines import Line2D
 from treadload.damage.direction import ORIENTATIONS
 from treadload.damage.fatigue import FatigueLine
 from treadload.errors import InputError
+from treadload.plots.figure import figure_and_axes
 from treadload.plots.plan import (
     MICRO,
     Limits,
@@ -35,7 +36,6 @@ from treadload.plots.style import (
     INK,
     MUTED,
     ORIENTATION_COLOURS,
-    figure_and_axes,
     halo,
     headline,
     legend_below,

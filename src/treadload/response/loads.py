@@ -15,6 +15,7 @@ from typing import Any, Literal, Protocol, runtime_checkable
 import numpy as np
 import xarray as xr
 
+from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
@@ -213,6 +214,8 @@ class GridLoad:
         """First and last loaded point along y, m."""
         edge = (1.0 if self.interpolation == "bilinear" else 0.5) * self.grid.dy
         return self.grid.y0 - edge, self.grid.y0 + (self.grid.ny - 1) * self.grid.dy + edge
+
+    __repr__ = as_call
 
 
 @dataclass(frozen=True)

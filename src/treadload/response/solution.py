@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.describing import first_line
 from treadload.response.fields import angle_in_words, direction_in_words
 
 
@@ -53,6 +54,8 @@ class Response:
 
     def __str__(self) -> str:
         return self.summary()
+
+    __repr__ = first_line
 
 
 def _largest(values: xr.DataArray) -> dict[str, int]:

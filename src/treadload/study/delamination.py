@@ -17,6 +17,7 @@ from treadload.damage.fatigue import in_words
 from treadload.damage.interface import BondCriterion, delaminate, interface_fields, interface_number
 from treadload.damage.miner import Life, passes_in_two_phases
 from treadload.damage.traffic import Climate, Traffic
+from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.pavement import BONDED, FRICTIONLESS, Bond, HalfBonded, Pavement
 from treadload.response import solve_response
@@ -117,6 +118,8 @@ class BondComparison:
 
     def __str__(self) -> str:
         return self.summary()
+
+    __repr__ = first_line
 
 
 def compare_bonds(

@@ -9,6 +9,7 @@ import xarray as xr
 
 from treadload.case import LifeCase
 from treadload.damage.miner import Life
+from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.results import life_tree
 from treadload.study.life import design_life
@@ -45,6 +46,8 @@ class DesignResult:
     def summary(self) -> str:
         """One screen: life by criterion, the governing one, what it depends on, how much was solved."""
         return "\n\n".join(str(part) for part in (self.life, self.sensitivity) if part is not None)
+
+    __repr__ = first_line
 
 
 def run_design(

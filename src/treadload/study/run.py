@@ -13,6 +13,7 @@ import xarray as xr
 from treadload.case import Case
 from treadload.contact import Contact, solve_contact
 from treadload.damage import Verdict, assess
+from treadload.describing import first_line
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
@@ -67,6 +68,8 @@ class Result:
         if self.verdict is not None:
             parts.append(self.verdict.summary())
         return "\n\n".join(parts)
+
+    __repr__ = first_line
 
 
 def run_case(case: Case, progress: Progress | None = None) -> Result:

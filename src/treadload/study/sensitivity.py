@@ -17,6 +17,7 @@ from treadload.contact import Coulomb
 from treadload.damage.design import Criterion
 from treadload.damage.miner import Life, damage_of
 from treadload.damage.traffic import Climate, Season, Traffic, Wander
+from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Mix
@@ -71,6 +72,8 @@ class Sensitivity:
 
     def __str__(self) -> str:
         return self.summary()
+
+    __repr__ = first_line
 
 
 def life_sensitivity(

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from treadload import variables
 from treadload.contact import Contact
+from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
@@ -70,6 +71,8 @@ class UniformComparison:
 
     def __str__(self) -> str:
         return self.summary()
+
+    __repr__ = first_line
 
 
 def compare_uniform(

@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
@@ -190,6 +191,8 @@ class Tire:
         if self.inflation_pressure is not None:
             parts.append(f"inflated to {self.inflation_pressure / 1e3:g} kPa")
         return "; ".join(str(part) for part in parts)
+
+    __repr__ = as_call
 
 
 def _cell(spacing: float | Sequence[float] | None) -> tuple[float, float] | None:

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from treadload.describing import as_call
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
@@ -214,6 +215,8 @@ class TreadProfile:
             y = y[::10]
         with np.errstate(all="ignore"):
             return float(np.nanmin(self._raw_gap(x, y)))
+
+    __repr__ = as_call
 
 
 @dataclass(frozen=True)

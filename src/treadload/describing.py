@@ -1,0 +1,116 @@
+"""What a description or a result says of itself where nobody asked for more: one screen at most."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+# Letters of a line and of a text, members of a list and numbers of a table that are written out.
+_LINE, _TEXT, _MEMBERS, _NUMBERS = 100, 60, 8, 6
+
+
+class HasSummary(Protocol):
+    """A result that can be summed up."""
+
+    def summary(self) -> str:
+        """A screenful."""
+
+
+def as_call(thing: Any) -> str:
+    """A frozen dataclass as the call that makes it, without what stands at its default; serves as `__repr__`.
+
+    Numbers to twelve digits, long texts cut, arrays and tables of numbers by their size, the first of many members.
+    """
+    told = []
+    for field in dataclasses.fields(thing):
+        value = getattr(thing, field.name)
+        if field.repr and not _is_default(field, value):
+            told.append(f"{field.name}={_written(value)}")
+    return _joined(told, f"{type(thing).__name__}(", ")")
+
+
+def first_line(result: HasSummary) -> str:
+    """A result in a line: its kind and its verdict, or the first line of its summary. Serves as `__repr__`."""
+    kind = type(result).__name__
+    lines = [line.strip() for line in result.summary().splitlines() if line.strip()] or [""]
+    said = next((line.removeprefix("Verdict: ") for line in lines if line.startswith("Verdict: ")), lines[0])
+    return f"<{kind}: {_cut(said, 2 * _LINE)}>"
+
+
+def _is_default(field: dataclasses.Field[Any], value: Any) -> bool:
+    if field.default is dataclasses.MISSING:
+        return False
+    # An array would compare by element.
+    plain = isinstance(value, str | int | float | tuple) or dataclasses.is_dataclass(value)
+    return value is field.default or (plain and bool(value == field.default))
+
+
+def _written(value: Any) -> str:
+    if isinstance(value, float):
+        return _number(value)
+    if isinstance(value, str):
+        return repr(_cut(value, _TEXT))
+    if hasattr(value, "shape"):
+        return f"<{type(value).__name__} of {' x '.join(map(str, value.shape)) or 'one'}>"
+    if isinstance(value, Mapping):
+        return _members([f"{key!r}: {_written(one)}" for key, one in value.items()], "{", "}")
+    if isinstance(value, tuple | list):
+        if len(value) * max((len(one) for one in value if isinstance(one, tuple | list)), default=1) > _NUMBERS:
+            size = _size_of_numbers(value)
+            if size:
+                return f"<{size} numbers>"
+        brackets = ("(", ",)" if len(value) == 1 else ")") if isinstance(value, tuple) else ("[", "]")
+        return _members([_written(one) for one in value], *brackets)
+    return repr(value)
+
+
+def _size_of_numbers(value: Any) -> str:
+    """Size of a list or a table of numbers alone, as "3 x 6"; empty for anything else."""
+    if all(isinstance(one, int | float) for one in value):
+        return str(len(value))
+    sizes = {_size_of_numbers(one) if isinstance(one, tuple | list) else "" for one in value}
+    inner = sizes.pop() if len(sizes) == 1 else ""
+    return f"{len(value)} x {inner}" if inner else ""
+
+
+def _members(members: list[str], opening: str, closing: str) -> str:
+    if len(members) > _MEMBERS:
+        members = [*members[: _MEMBERS - 1], f"… {len(members)} in all"]
+    return _joined(members, opening, closing)
+
+
+def _joined(members: list[str], opening: str, closing: str) -> str:
+    """On one line if it is short enough; else as many members a line as fit."""
+    line = ", ".join(members)
+    if "\n" not in line and len(opening) + len(line) + len(closing) <= _LINE:
+        return opening + line + closing
+    lines: list[str] = []
+    for one in members:
+        whole = "\n" not in one
+        if whole and lines and "\n" not in lines[-1] and len(lines[-1]) + len(one) + 2 <= _LINE - 4:
+            lines[-1] += f", {one}"
+        else:
+            lines.append(one)
+    return "\n".join([opening, *(f"{_indented(one)}," for one in lines), closing.lstrip(",")])
+
+
+def _indented(text: str) -> str:
+    return "\n".join(f"    {line}" for line in text.splitlines())
+
+
+def _number(value: float) -> str:
+    """5400000000.0 as 5.4e9, 6999999999.999999 as 7e9, 0.06 as it is."""
+    if not math.isfinite(value):
+        return repr(value)
+    text = f"{value:.12g}"
+    size = abs(value)
+    if size and (size >= 1e5 or size < 1e-3):
+        mantissa, exponent = f"{value:.11e}".split("e")
+        text = f"{mantissa.rstrip('0').rstrip('.')}e{int(exponent)}"
+    return text if any(mark in text for mark in ".e") else f"{text}.0"
+
+
+def _cut(text: str, letters: int) -> str:
+    return text if len(text) <= letters else f"{text[: letters - 1].rstrip()}…"
