@@ -18,6 +18,7 @@ _COORDINATES = {
     "creepage": ("1", "prescribed creepage, along x or y"),
     "trace_angle": ("rad", "middle of a class of trace angles, from travel towards the right"),
     "depth": ("m", "depth below the road surface, positive down"),
+    "layer": ("1", "number of the layer that was read at a depth, from the surface, 0 the top one"),
 }
 
 _CONTACT = {

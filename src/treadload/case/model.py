@@ -17,6 +17,7 @@ from treadload.contact.solve import RoadCompliance
 from treadload.contact.viscoelastic import check_rolling
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
+from treadload.kernels.depths import same_depth
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 
@@ -66,14 +67,14 @@ class Case(FilePart):
         self._check_loading(road)
         if road.is_viscoelastic and self.speed is None:
             raise ValueError("the road is viscoelastic: give the speed in [rolling] or [response]")
-        if road.rigid_base and max(self.response.depths) > road.interfaces[-1]:
+        if not road.reaches(max(self.response.depths)):
             raise ValueError(
                 f"response.depths reach {max(self.response.depths):g} m, below the rigid base at "
                 f"{road.interfaces[-1]:g} m"
             )
         if self.damage is not None:
             self.damage.fatigue.build()
-            if self.damage.depth not in self.response.depths:
+            if not same_depth(self.response.depths, self.damage.depth).any():
                 raise ValueError(
                     f"damage.depth {self.damage.depth:g} m is none of response.depths "
                     f"{list(self.response.depths)} m; add it there"

@@ -20,10 +20,9 @@ from treadload.damage.fatigue import warnings_of
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.depths import same_depth
 from treadload.pavement import FRICTIONLESS, Bond, HalfBonded, Pavement
 
-# Depths of a response are met to within this, m: round-off of a file or of a unit.
-_SAME_DEPTH = 1e-9
 _DIMS = ("interface", "y", "x")
 # Utilisation of a bond that has parted for certain: finite, so that readings can be interpolated.
 _PARTED = 1e3
@@ -102,7 +101,7 @@ def _layer_names(data: xr.Dataset) -> list[str]:
 def _at_depths(data: xr.Dataset, depths: Array) -> xr.Dataset:
     own = data["depth"].to_numpy()
     rows = [int(np.argmin(np.abs(own - depth))) for depth in depths]
-    far = np.abs(own[rows] - depths) > _SAME_DEPTH
+    far = ~same_depth(own[rows], depths)
     if far.any():
         raise InputError(
             f"the response lacks the interface at {depths[far][0]:g} m; solve it with depths=road.interfaces"

@@ -29,9 +29,7 @@ from treadload.damage.direction import (
 from treadload.damage.fatigue import SUBGRADE, TENSION, FatigueLine, PowerLaw, warnings_of
 from treadload.describing import first_line
 from treadload.errors import InputError
-
-# Depths of a response are met to within this, m: round-off of a file or of a unit.
-_SAME_DEPTH = 1e-9
+from treadload.kernels.depths import same_depth
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,7 +170,7 @@ def assess(
 def _plane(data: xr.Dataset, depth: float) -> xr.Dataset:
     depths = data["depth"].to_numpy()
     nearest = int(np.argmin(np.abs(depths - depth)))
-    if not abs(depths[nearest] - depth) <= _SAME_DEPTH:
+    if not same_depth(depths[nearest], depth):
         known = ", ".join(f"{d:g}" for d in depths)
         raise InputError(f"the response has no depth {depth:g} m, it has {known} m; solve it with that depth")
     return data.isel(depth=nearest).transpose("y", "x", ...)

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.depths import layers_at, snapped
 
 # On a rigid base waves this long, times the depth of the base, stand for all longer ones: digits lost grow like the
 # inverse cube of it and more where ν = 0.5, what is left out shrinks with its fourth power.
@@ -58,9 +59,12 @@ class Stack:
         return np.cumsum(np.asarray(self.thickness[:count], dtype=float))
 
     def layer_at(self, depth: float, below: bool) -> int:
-        """Number of the layer that holds a depth; on an interface the one above or below it."""
-        inner = self.interfaces[: len(self.shear) - 1]
-        return int(np.searchsorted(inner, depth, side="right" if below else "left")) if depth > 0 else 0
+        """Number of the layer that holds a depth; on an interface, within round-off, the one above or below it."""
+        return int(layers_at([depth], self.interfaces[: len(self.shear) - 1], below)[0])
+
+    def snapped(self, depths: Sequence[float] | Array) -> Array:
+        """Depths, m, those on an interface or the rigid base within round-off as exactly its own."""
+        return snapped(depths, self.interfaces)
 
 
 @dataclass(frozen=True)
@@ -80,10 +84,11 @@ def transfer(wavenumbers: ArrayLike, stack: Stack, depths: Sequence[float], belo
     """Displacement and force at depths under unit loads on the surface.
 
     wavenumbers: (nk,), 1/m, > 0. depths: (nz,), m, >= 0 and not below a rigid base, in any order.
-    below: for each depth, whether a value on an interface is that of the layer below it.
+    below: for each depth, whether a value on an interface, within round-off, is that of the layer below it.
     Returns a Transfer, complex where the moduli are. Memory: about 20 numbers per wavenumber, layer and depth.
     """
     k = np.asarray(wavenumbers, dtype=float)
+    depths = stack.snapped(depths).tolist()
     pieces = _pieces(stack, depths)
     used = _shortened(k, stack)
     passes = _upwards(used, pieces, stack.rigid)

@@ -14,6 +14,7 @@ import numpy as np
 from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.depths import SAME_DEPTH, layers_at
 from treadload.materials import Elastic, Material, TemperatureDependent
 from treadload.materials.celsius import check_celsius
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
@@ -187,6 +188,24 @@ class Pavement:
     def interfaces(self) -> Array:
         """Depth of the bottom of every layer that has one, m, downwards; empty for a half-space."""
         return np.cumsum([layer.thickness for layer in self.layers if layer.thickness is not None])
+
+    def layer_at(self, depth: float, side: Literal["above", "below"] = "above") -> int:
+        """Number of the layer, from the surface, 0 the top one, that holds a depth, m.
+
+        side: on an interface, within round-off (1e-9 m), the layer above or below it. A rigid base has no number:
+        its top belongs to the last layer. Raises InputError for a negative depth and one below a rigid base.
+        """
+        if not depth >= 0:
+            raise InputError(f"depth must be >= 0 m, got {depth:g}; depth counts downwards")
+        if not self.reaches(depth):
+            raise InputError(
+                f"depth {depth:g} m lies below the rigid base at {self.interfaces[-1]:g} m; leave it out"
+            )
+        return int(layers_at([depth], self.interfaces[: len(self.layers) - 1], side == "below")[0])
+
+    def reaches(self, depth: float) -> bool:
+        """False below a rigid base by more than round-off; else True."""
+        return not self.rigid_base or depth <= float(self.interfaces[-1]) + SAME_DEPTH
 
     @property
     def is_homogeneous(self) -> bool:

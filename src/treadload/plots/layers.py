@@ -13,11 +13,12 @@ from matplotlib.axes import Axes
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.depths import SAME_DEPTH, layers_at, on_interface
 from treadload.plots.plan import MM, Source, fields_of
 from treadload.plots.style import INK, MUTED, PAPER, RULE, figure_of, halo, plain
 
-# Depths, mm, this near to an interface lie on it.
-_SAME = 1e-6
+# Depths, mm, this near to each other are one.
+_SAME = SAME_DEPTH * MM
 # Letters in a line of a layer's name, and of one that has a single line; type, points.
 _LETTERS = 16
 _SINGLE = 22
@@ -70,11 +71,10 @@ class Layers:
         A depth on an interface belongs to the layer on its `side`; of two equal ones the first belongs to the layer
         above, the second to the layer below.
         """
-        rows = np.searchsorted(np.array(self.interfaces) + _SAME, depths)
-        twice = np.concatenate([[False], np.diff(depths) <= 0])
-        on_interface = np.isclose(depths[:, None], np.array(self.interfaces)[None], rtol=0, atol=_SAME).any(axis=1)
+        twice = np.concatenate([[False], np.diff(depths) <= _SAME])
         lone = ~(twice | np.append(twice[1:], False))
-        rows = rows + (on_interface & (twice | (lone & (self.side == "below"))))
+        below = twice | (lone & (self.side == "below"))
+        rows = layers_at(depths / MM, np.array(self.interfaces) / MM, below)
         sides = np.searchsorted(rows, np.arange(len(self.names) + 1))
         return [slice(int(start), int(end)) for start, end in pairwise(sides)]
 
@@ -90,11 +90,11 @@ def both_sides(above: Source, below: Source) -> xr.Dataset:
     if not all(upper[name].equals(lower[name]) for name in ("x", "y")):
         raise InputError("the two sides of an interface must be solved at the same x and y")
     ends = np.array(Layers.of(upper).interfaces)
-    on_interface = np.abs(lower["depth"].to_numpy()[:, None] * MM - ends[None]).min(axis=1, initial=np.inf) <= _SAME
-    if not on_interface.any():
+    shared = on_interface(lower["depth"].to_numpy(), ends / MM)
+    if not shared.any():
         return upper
     joined = xr.concat(
-        [upper, lower.isel(depth=on_interface)],
+        [upper, lower.isel(depth=shared)],
         "depth", data_vars="minimal", coords="minimal", compat="override", join="override", combine_attrs="override",
     )  # fmt: skip
     # Stable: the row above stays before the row below.

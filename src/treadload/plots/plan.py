@@ -16,6 +16,7 @@ from matplotlib.transforms import offset_copy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.depths import same_depth
 from treadload.plots.style import INK, MUTED, PAPER, RULE, figure_of, halo
 
 MM = 1e3
@@ -26,7 +27,6 @@ X_LABEL = "x, direction of travel (mm)"
 Y_LABEL = "y, right of travel (mm)"
 DEPTH_LABEL = "depth (mm)"
 
-_SAME_DEPTH = 1e-9
 # A colour scale is cut when the peak stands this far above all but the highest 0.5 % of the loaded cells.
 _OUTSTANDING = 1.3
 _HIGHEST = 0.995
@@ -62,7 +62,7 @@ def at_depth(data: xr.Dataset, depth: float) -> xr.Dataset:
         return data
     depths = data["depth"].to_numpy()
     nearest = int(np.argmin(np.abs(depths - depth)))
-    if not abs(depths[nearest] - depth) <= _SAME_DEPTH:
+    if not same_depth(depths[nearest], depth):
         known = ", ".join(f"{d:g}" for d in depths)
         raise InputError(f"the response has no depth {depth:g} m, it has {known} m")
     return data.isel(depth=nearest)
@@ -217,7 +217,7 @@ def contact_mask(data: xr.Dataset) -> BoolArray | None:
     if "stress_zz" not in data or "depth" not in data.coords:
         return None
     depths = np.atleast_1d(data["depth"].to_numpy())
-    if abs(depths.min()) > _SAME_DEPTH:
+    if not same_depth(depths.min(), 0.0):
         return None
     surface = data["stress_zz"]
     if "depth" in surface.dims:

@@ -17,9 +17,11 @@ from treadload.plots import (
     dissipated_energy,
     fatigue_line,
 )
+from treadload.plots.plan import at_depth
 from treadload.plots.response import NAMES, Strain
 from treadload.reporting.pictures import Picture, picture
 from treadload.reporting.reading import ReportCase
+from treadload.response.fields import layer_in_words
 
 _STROKES = (
     "Strokes lie along the largest extension; a crack opens across them. A stroke shortens to a point where the "
@@ -118,10 +120,12 @@ def _strain(case: ReportCase) -> Iterator[Picture]:
         plots = ResponsePlots(data)
         for depth in np.atleast_1d(data["depth"].to_numpy()).tolist():
             # Without the tire's shear on it the plane's strain adds little: below the surface one map is enough.
+            side = layer_in_words(at_depth(data, depth))
+            deep = f"{_deep(depth)}, {side}" if side else _deep(depth)
             for strain in _KINDS if depth == 0 else _KINDS[:1]:
                 holds = _HOLDS if depth == 0 and strain == "principal" else ""
                 yield from picture(
-                    f"Largest extension strain {_deep(depth)}, {NAMES[strain]}",
+                    f"Largest extension strain {deep}, {NAMES[strain]}",
                     f"Drawn: {_DRAWN[strain]}{holds}. {_WHAT[strain]}",
                     lambda depth=depth, strain=strain: plots.strain_directions(depth, strain, contact=contact),  # type: ignore[misc]
                 )

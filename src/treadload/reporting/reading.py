@@ -18,7 +18,7 @@ from treadload.errors import InputError
 from treadload.plots.plan import MICRO, MM, Plan, peak_of, plane
 from treadload.plots.style import power_of_ten, signed
 from treadload.reporting.life import exhausted, sentence
-from treadload.response.fields import angle_in_words, direction_in_words
+from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
 
 GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
 # A number such as 1.2e+05 in a sentence.
@@ -171,8 +171,10 @@ class ReportCase:
     def depth_in_words(self) -> str:
         """Where the strains of the tables are read."""
         data = self.surface
-        depth = float(data["depth"]) if data is not None and "depth" in data.coords else 0.0
-        return "at the surface" if depth == 0 else f"{depth * MM:g} mm deep"
+        if data is None or "depth" not in data.coords or float(data["depth"]) == 0:
+            return "at the surface"
+        side = layer_in_words(data)
+        return f"{float(data['depth']) * MM:g} mm deep{f', {side}' if side else ''}"
 
     @property
     def orientation(self) -> str:

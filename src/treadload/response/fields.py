@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +12,7 @@ import xarray as xr
 from treadload import variables
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
+from treadload.kernels.depths import on_interface, same_depth
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _DIMS = ("depth", "y", "x")
@@ -24,6 +27,7 @@ def response_dataset(
     *,
     displacement: Array | None = None,
     points: bool = False,
+    layers: Sequence[int] | None = None,
     **attrs: Any,
 ) -> xr.Dataset:
     """Dataset (depth, y, x) of the tensors, the displacement, the principal strains and the invariants.
@@ -31,7 +35,8 @@ def response_dataset(
     stress: (6, nz, ny, nx), Pa, and strain: (6, nz, ny, nx), both in the order of `COMPONENTS`, tension
     positive, tensor shear. depths: (nz,), y: (ny,), x: (nx,), m. displacement: (3, nz, ny, nx), m, z down, or
     None. points: True for a list of n points, whose tensors are (6, nz, 1, n), y and x both (n,); the dataset then
-    is (depth, point). attrs: attributes of the dataset.
+    is (depth, point). layers: (nz,), number of the layer that was read at each depth. attrs: attributes of the
+    dataset.
     principal_direction_1 has a last dimension `component` with labels x, y, z.
     """
     dims: tuple[str, ...] = _DIMS
@@ -57,9 +62,26 @@ def response_dataset(
         {name: ("point", values) for name, values in (("y", y), ("x", x))} if points else {"y": y, "x": x}
     )
     coordinates = {"depth": depths, **places, "component": ["x", "y", "z"]}
+    if layers is not None:
+        coordinates["layer"] = ("depth", np.asarray(layers))
     if displacement is not None:
         fields |= {f"displacement_{name}": (dims, part) for name, part in zip("xyz", displacement, strict=True)}
     return variables.dataset(fields, coordinates, **attrs)
+
+
+def layer_in_words(plane: xr.Dataset) -> str:
+    """Which side of an interface a plane at one depth was read on, "bottom of GB3"; empty where it is on none.
+
+    plane: with the coordinates depth and layer, of a dataset of `response_dataset`; without layer nothing is known.
+    """
+    ends = np.atleast_1d(np.asarray(plane.attrs.get("interfaces", []), dtype=float))
+    if "layer" not in plane.coords or not len(ends) or not on_interface(float(plane["depth"]), ends)[0]:
+        return ""
+    number = int(plane["layer"])
+    given = json.loads(plane.attrs.get("layer_names", "[]"))
+    name = given[number] if number < len(given) and given[number] else f"layer {number + 1}"
+    top = number > 0 and bool(same_depth(float(plane["depth"]), ends[number - 1]))
+    return f"{'top' if top else 'bottom'} of {name}"
 
 
 def direction_in_words(direction: Array) -> str:

@@ -54,15 +54,12 @@ def layered_response(
     method. Near the surface the closed form of a half-space of the top layer carries the steps of the load; what
     the layers add falls off like exp(-k (2 h - z)). Deeper the waves fall off like exp(-k z) themselves.
     Displacement along a net shear force is NaN in the layers above a frictionless interface: nothing holds them.
-    Raises InputError below a rigid base and where that decay is too slow for the distance of the points.
+    Raises InputError where that decay is too slow for the distance of the points.
     """
     materials = [layer.elastic for layer in road.distinct_layers]
     stack = stack_of(road)
+    depths = stack.snapped(depths)
     where = [stack.layer_at(float(z), below) for z in depths]
-    if road.rigid_base and (depths > stack.interfaces[-1]).any():
-        raise InputError(
-            f"depth {depths.max():g} m lies below the rigid base at {stack.interfaces[-1]:g} m; leave it out"
-        )
     length = max(float(stack.interfaces[-1]) * (max(stack.shear) / min(stack.shear)) ** (1 / 3), float(depths.max()))
     near = [layer == 0 and z < _SPLIT * stack.interfaces[0] for z, layer in zip(depths, where, strict=True)]
     layout = _Layout(stack, depths, where, below, near)

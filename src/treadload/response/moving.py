@@ -97,7 +97,7 @@ def moving_response(
     Energy: dissipated per volume by one passage, the integral of σ:dε over time; NaN where it needs too many
     wavenumbers. Near the surface a half-space of the top layer carries the steps of the load in closed form, its
     strain and displacement that of the load and its wake, see `kernels.wake`; the rest are waves, `kernels.moving`.
-    Raises InputError below a rigid base and where waves decay too slowly for the distance of the points.
+    Raises InputError where waves decay too slowly for the distance of the points.
     """
     problem = _Problem.of(loads, road, speed, depths, x, y, below)
     fields = np.zeros((len(depths), 15, *((len(y), len(x)) if at is None else at.shape)))
@@ -163,11 +163,10 @@ class _Problem:
             road.rigid_base,
         )
         bottom = float(stack.interfaces[-1]) if len(stack.interfaces) else 0.0
-        if road.rigid_base and (depths > bottom).any():
-            raise InputError(f"depth {depths.max():g} m lies below the rigid base at {bottom:g} m; leave it out")
+        depths = stack.snapped(depths)
         top = float(stack.interfaces[0]) if len(stack.interfaces) else math.inf
         levels, limits = [], []
-        for z in map(float, depths):
+        for z in depths.tolist():
             layer = stack.layer_at(z, below)
             split = layer == 0 and z < _SPLIT * top
             levels.append(Level(z, layer, below, split))

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from treadload.describing import first_line
-from treadload.response.fields import angle_in_words, direction_in_words
+from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,8 @@ class Response:
         ]
         for depth in data["depth"].values:
             plane = data.sel(depth=depth)
-            lines.append(f"depth {depth * 1e3:g} mm, largest extension strain")
+            side = layer_in_words(plane)
+            lines.append(f"depth {depth * 1e3:g} mm{f' ({side})' if side else ''}, largest extension strain")
             where = _largest(plane["principal_strain_1"])
             words = direction_in_words(plane["principal_direction_1"].isel(where).to_numpy())
             lines.append(f"  three-dimensional: {_at(plane['principal_strain_1'].isel(where), words)}")

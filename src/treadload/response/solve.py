@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from treadload import variables
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.depths import same_depth
 from treadload.kernels.points import Points
 from treadload.pavement import Pavement
 from treadload.response.fields import response_dataset
@@ -43,9 +44,9 @@ def solve_response(
     depths: m, >= 0, 0 is the surface.
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
     vertical slice. points: instead of x and y, (n, 2), a list of places (x, y), m: lines that cross, or anywhere.
-    side: of an interface that a depth falls on, "above" or "below", kept as an attribute of the dataset, which
-    figures read; stress and strain of a half-space have no jump there, and the horizontal displacement of layers
-    jumps only where they slide.
+    side: of an interface that a depth falls on, within round-off (1e-9 m), "above" or "below", kept as an attribute
+    of the dataset, which figures read; the coordinate `layer` says for each depth which layer was read. Stress and
+    strain of a half-space have no jump there, and the horizontal displacement of layers jumps only where they slide.
     speed: at which the loads travel along +x, m/s, needed where a layer is viscoelastic. The result is then the
     steady state, seen from the loads, without inertia: what a fixed point lives through is a line along x read
     from front to rear, at the time -x / speed. 0 and infinity give the elastic limits.
@@ -68,6 +69,10 @@ def solve_response(
     at_depths = _coordinates("depths", depths)
     if (at_depths < 0).any():
         raise InputError(f"depths must not be negative, got {at_depths.min():g} m; depth counts downwards")
+    ordered = np.sort(at_depths)
+    if (twice := same_depth(ordered[1:], ordered[:-1])).any():
+        raise InputError(f"depths must be distinct by more than round-off, got {ordered[1:][twice][0]:g} m twice")
+    layers = [road.layer_at(float(depth), side) for depth in at_depths]
     superposed = gather(loads)
     at = None
     if points is None:
@@ -97,6 +102,7 @@ def solve_response(
         place_x,
         displacement=displacement,
         points=at is not None,
+        layers=layers,
         side=side,
         road=_in_words(road),
         modulus=road.surface_material.modulus,

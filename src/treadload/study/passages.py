@@ -14,7 +14,7 @@ import xarray as xr
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from treadload.contact import Contact, solve_contact
-from treadload.damage.design import Criterion
+from treadload.damage.design import Criterion, Side
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -33,8 +33,6 @@ _MARGIN = 0.3
 _BESIDE = 0.06
 # Below this depth, m, fields are as smooth as a sixth of the depth, m, can follow: 1 % of the shear at 60 mm.
 _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
-# The lower side of an interface is read this far below it, m.
-_BELOW = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -272,15 +270,15 @@ def _moved(wheels: Wheels, row: AxleClass) -> float:
 def passage(wheels: Wheels, warm: Warm, y: Array, turns: int) -> Array:
     """(criterion, turns + 2, y): peaks and valleys, see `Passages`, then the angle and the dip of the crack."""
     found = np.empty((len(warm.criteria), turns + 2, len(y)))
-    depths = [_depth(criterion, warm.road) for criterion in warm.criteria]
-    groups: dict[int, list[int]] = {}
-    for k, depth in enumerate(depths):
-        groups.setdefault(_stride(depth, y), []).append(k)
+    depths = [criterion.depth(warm.road) for criterion in warm.criteria]
+    groups: dict[tuple[int, Side], list[int]] = {}
+    for k, (depth, criterion) in enumerate(zip(depths, warm.criteria, strict=True)):
+        groups.setdefault((_stride(depth, y), criterion.side if depth > 0 else "above"), []).append(k)
     speed = wheels.speed if warm.road.is_viscoelastic else None
-    for stride, members in groups.items():
+    for (stride, side), members in groups.items():
         at = sorted({depths[k] for k in members})
         x, rows = _along(wheels, stride), _rows(wheels, y, stride)
-        data = solve_response(wheels.loads, warm.road, depths=at, x=x, y=y[rows], speed=speed).dataset
+        data = solve_response(wheels.loads, warm.road, depths=at, x=x, y=y[rows], speed=speed, side=side).dataset
         nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
         for k in members:
             plane = data.isel(depth=at.index(depths[k]))
@@ -291,12 +289,6 @@ def passage(wheels: Wheels, warm: Warm, y: Array, turns: int) -> Array:
             for part, field in enumerate(warm.criteria[k].crack(plane)):
                 found[k, turns + part] = np.take_along_axis(field, instant, axis=1)[nearest, 0]
     return found
-
-
-def _depth(criterion: Criterion, road: Pavement) -> float:
-    """Where to read, m: just below an interface for its lower side, so that one solve serves both."""
-    depth = criterion.depth(road)
-    return depth + _BELOW if criterion.side == "below" and depth > 0 else depth
 
 
 def _stride(depth: float, y: Array) -> int:

@@ -168,6 +168,7 @@ def _line(response: Response, members: slice, along: str) -> Response:
         name: (name, places.get(name, points[name].to_numpy()), points[name].attrs)
         for name in ("depth", "y", "x", "component")
     }
+    coordinates["layer"] = ("depth", points["layer"].to_numpy(), points["layer"].attrs)
     fields: dict[Hashable, tuple[Any, ...]] = {}
     for name, part in points.data_vars.items():
         values, more = part.to_numpy(), part.dims[2:]
