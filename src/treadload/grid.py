@@ -10,6 +10,9 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
+# Of a coordinate in steps, after sums and files.
+_ROUND_OFF = 1e-9
+
 
 @dataclass(frozen=True)
 class Grid:
@@ -49,6 +52,17 @@ class Grid:
         ny = max(1, math.ceil(width / dy - 1e-9))
         return cls(nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy)
 
+    @classmethod
+    def on_lattice(cls, length: float, width: float, dx: float, dy: float | None = None) -> Grid:
+        """Smallest grid that covers length (x) by width (y), m, with a cell's centre at the origin in its middle.
+
+        Its cells stand at whole multiples of dx and dy, as those of every other such grid: fields of two of them
+        concatenate, and lines at x = 0 and y = 0 run through centres.
+        """
+        fewest = cls.centred(length, width, dx, dy)
+        nx, ny = fewest.nx + 1 - fewest.nx % 2, fewest.ny + 1 - fewest.ny % 2
+        return cls(nx, ny, fewest.dx, fewest.dy, -(nx // 2) * fewest.dx, -(ny // 2) * fewest.dy)
+
     @property
     def shape(self) -> tuple[int, int]:
         """(ny, nx): x runs fastest."""
@@ -62,12 +76,21 @@ class Grid:
     @property
     def x(self) -> Array:
         """(nx,) cell centres along travel, m."""
-        return self.x0 + self.dx * np.arange(self.nx)
+        return _centres(self.x0, self.dx, self.nx)
 
     @property
     def y(self) -> Array:
         """(ny,) cell centres to the right, m."""
-        return self.y0 + self.dy * np.arange(self.ny)
+        return _centres(self.y0, self.dy, self.ny)
 
     def __str__(self) -> str:
         return f"{self.nx} x {self.ny} cells of {self.dx * 1e3:g} x {self.dy * 1e3:g} mm"
+
+
+def _centres(first: float, step: float, count: int) -> Array:
+    """Evenly spaced coordinates, m; on whole or half steps as their multiples, so that equal places are equal."""
+    halves = 2 * first / step
+    nearest = round(halves)
+    if abs(halves - nearest) <= _ROUND_OFF * max(1.0, abs(halves)):
+        return step * (0.5 * nearest + np.arange(count))
+    return first + step * np.arange(count)

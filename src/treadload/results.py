@@ -231,7 +231,7 @@ def height_map(tire: Tire, spacing: float) -> xr.Dataset:
 
     spacing: of the cells, m; a tire that is a height map keeps its own.
     """
-    grid = tire.fixed_grid or Grid.centred(*tire.extent, spacing)
+    grid = tire.fixed_grid or Grid.on_lattice(*tire.extent, spacing)
     gap = {"initial_gap": (("y", "x"), tire.height_map(grid))}
     about = {"tire": str(tire), "treadload_version": __version__}
     return dataset(gap, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy, **about)

@@ -4,12 +4,15 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from treadload.contact import Contact, Rolling, coupling, solve_contact
+from treadload.contact import Contact, Rolling, coupling, solve_contact, solve_transient, turn_on_the_spot
+from treadload.contact import solve as solving
 from treadload.errors import ConvergenceError, GeometryError, InputError
+from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
-from treadload.tire import Groove, Tire, TreadProfile
+from treadload.tire import Groove, Tire, TreadProfile, example_mesh
 from treadload.validation.tires import contact_conditions
 
 ROAD = Pavement.half_space(Elastic(5.4e9, 0.35))
@@ -274,6 +277,77 @@ def test_a_contact_cut_off_by_the_border_names_the_side(side, shift):
     assert side in str(caught.value)
 
 
+HARD = Elastic(3e6, 0.2)
+
+
+def test_a_contact_that_shear_carries_to_the_border_is_refused():
+    """The frictionless patch fits; the shear of dissimilar bodies widens it. 54 loads in a row came back cut off."""
+    gap = bowl()
+    free = solve(Tire.from_height_map(gap, 3e-3, material=HARD), spacing=None, normal_load=1900.0, friction=0.0)
+    assert not free.dataset.pressure[[0, -1]].any()
+    with pytest.raises(GeometryError, match="reaches the border"):
+        solve(
+            Tire.from_height_map(gap, 3e-3, material=HARD),
+            spacing=None,
+            normal_load=1900.0,
+            friction=0.9,
+            creepage_x=0.5,
+        )
+
+
+def test_a_history_that_shear_carries_to_the_border_is_refused():
+    tire = Tire.from_height_map(bowl(), 3e-3, material=HARD)
+    state = Rolling(normal_load=1900.0, friction=0.9, creepage_x=0.5)
+    with pytest.raises(GeometryError, match="reaches the border"):
+        solve_transient(tire, ROAD, state, distances=[0.05, 0.1])
+
+
+@pytest.mark.parametrize(("length", "width"), [(0.06, 0.06), (0.06, 0.16)])
+def test_a_grid_that_proves_too_small_grows(monkeypatch, length, width):
+    state = {"friction": 0.9, "creepage_x": 0.5}
+    tire = Tire.from_profile(SMALL, material=HARD)
+    whole = solve(tire, **state)
+    small = Grid.on_lattice(length, width, SPACING)
+    monkeypatch.setattr(solving, "place", lambda *_: (small, tire.height_map(small)))
+    told = []
+    grown = solve_contact(tire, ROAD, Rolling(normal_load=3e3, **state), spacing=SPACING, progress=told.append)
+    assert sum("normal contact on" in text for text in told) > 1
+    # The tolerance of both solves, 1e-6 of the largest pressure or so.
+    both = whole.dataset.pressure.reindex_like(grown.dataset.pressure, fill_value=0.0)
+    np.testing.assert_allclose(grown.dataset.pressure, both, atol=1e-5 * float(whole.dataset.pressure.max()))
+    holds(grown)
+
+
+def test_a_start_on_a_grid_too_small_for_the_load_is_left(driving):
+    light = solve(normal_load=100.0)
+    heavy = Rolling(normal_load=3e3, friction=0.6, tractive_force=500.0, lateral_force=-200.0, spin=0.1)
+    grown = solve_contact(TIRE, ROAD, heavy, start=light)
+    assert grown.dataset.sizes["x"] > light.dataset.sizes["x"]
+    np.testing.assert_allclose(grown.area, driving.area, rtol=1e-9)
+
+
+def test_contacts_of_a_loop_concatenate():
+    """One lattice, whatever the load: 101 and 112 columns made 213."""
+    first, second = solve(normal_load=1e3).dataset, solve(normal_load=3e3).dataset
+    assert first.sizes != second.sizes
+    both = xr.concat([first, second], "case", join="outer")
+    assert both.sizes["x"] == max(first.sizes["x"], second.sizes["x"])
+    assert both.sizes["y"] == max(first.sizes["y"], second.sizes["y"])
+    assert 0.0 in first.x.values
+    assert 0.0 in first.y.values
+
+
+def test_a_symmetric_tread_has_a_symmetric_grid_and_pressure():
+    data = solve().dataset
+    for name in ("x", "y"):
+        np.testing.assert_array_equal(data[name], -data[name][::-1])
+    np.testing.assert_array_equal(data.initial_gap, data.initial_gap[::-1])
+    pressure = data.pressure.to_numpy()
+    # To the tolerance of the solve; cells in contact are the same.
+    np.testing.assert_allclose(pressure, pressure[::-1], atol=1e-5 * pressure.max())
+    assert ((pressure > 0) == (pressure[::-1] > 0)).all()
+
+
 def test_a_load_too_large_for_the_surface_reaches_every_border():
     with pytest.raises(GeometryError, match=r"leading.*trailing.*right.*left"):
         solve(Tire.from_height_map(bowl(), 3e-3, material=RUBBER), spacing=None, normal_load=1e6)
@@ -302,3 +376,39 @@ def test_creepages_beyond_a_locked_wheel(given):
 def test_tolerances_below_round_off_or_beyond_use(tolerance):
     with pytest.raises(InputError, match="tolerance must lie in"):
         solve_contact(TIRE, ROAD, Rolling(normal_load=3e3, friction=0.6), spacing=SPACING, tolerance=tolerance)
+
+
+def test_power_beyond_the_largest_number_is_said():
+    contact = solve(creepage_x=0.1, speed=1e308)
+    assert np.isinf(float(contact.dataset.friction_power_total))
+    assert any("friction_power, friction_power_total are infinite" in text for text in contact.warnings)
+    assert "warning: friction_power" in contact.summary()
+
+
+def test_results_that_are_numbers_need_no_warning(driving):
+    assert driving.warnings == ()
+    standing = turn_on_the_spot(TIRE, ROAD, Rolling(normal_load=3e3, friction=0.6), angles=[0.01], spacing=8e-3)
+    # Nothing rolls: its creepages are NaN by design.
+    assert np.isnan(float(standing.contact.dataset.creepage_x))
+    assert standing.contact.warnings == ()
+
+
+def test_camber_without_spin_says_the_spin_that_belongs_to_it():
+    camber = math.radians(4.0)
+    tire = Tire.from_scan(example_mesh(), camber=camber, material=RUBBER)
+    assert (tire.camber, Tire.from_profile(SMALL).camber_spin) == (camber, 0.0)
+    spin = tire.camber_spin
+    # The mesh's crown is 0.5 m from its axle or so; the sign is minus for a top that leans to the right.
+    assert spin == pytest.approx(-math.sin(camber) / tire.quality.crown_radius, rel=1e-12)
+    state = {"spacing": 12e-3, "normal_load": 20e3, "creepage_y": 0.0}
+    upright_on_top = solve(tire, **state)
+    said = [text for text in upright_on_top.warnings if "camber" in text]
+    assert len(said) == 1
+    assert f"{spin:.3g} rad/m" in said[0]
+    assert "4°" in said[0]
+    rolling = solve(tire, **state, spin=spin)
+    assert not any("camber" in text for text in rolling.warnings)
+    # Camber thrust pushes the tire to the side it leans to.
+    assert float(rolling.dataset.lateral_force) > float(upright_on_top.dataset.lateral_force) + 100.0
+    history = solve_transient(tire, ROAD, Rolling(normal_load=20e3, friction=0.6), distances=[0.01], spacing=12e-3)
+    assert any("camber" in text for text in history.contact.warnings)

@@ -23,6 +23,28 @@ def test_centred_covers_with_the_fewest_cells(length, width, dx, dy):
     assert grid.cell_area == pytest.approx(dx * dy)
 
 
+def test_grids_on_the_lattice_share_their_places():
+    small, large = Grid.on_lattice(0.101, 0.05, 3e-3), Grid.on_lattice(0.32, 0.061, 3e-3, 1e-3)
+    for grid, length, width in ((small, 0.101, 0.05), (large, 0.32, 0.061)):
+        # Two cells more than the smallest grid would be one too many on each side.
+        assert grid.nx * grid.dx >= length > (grid.nx - 2) * grid.dx
+        assert grid.ny * grid.dy >= width > (grid.ny - 2) * grid.dy
+        for places, step in ((grid.x, grid.dx), (grid.y, grid.dy)):
+            # To the last digit: mirror images and equal places are the same numbers.
+            assert places[places.size // 2] == 0.0
+            assert (places == -places[::-1]).all()
+            assert (places == step * np.arange(-(places.size // 2), places.size // 2 + 1)).all()
+    assert set(small.x) <= set(large.x)
+
+
+def test_a_lattice_survives_sums_and_only_a_lattice_is_snapped():
+    at = Grid.on_lattice(0.3, 0.3, 3e-3)
+    moved = Grid(at.nx, at.ny, at.dx, at.dy, at.x0 + 0.1 + 0.2 - 0.3, 0.1 + 0.2 - 0.3)
+    assert (moved.x == at.x).all()
+    off = Grid(4, 4, 3e-3, 3e-3, 1e-3, 1e-3)
+    assert (off.x == 1e-3 + 3e-3 * np.arange(4)).all()
+
+
 def test_coordinates_are_cell_centres():
     grid = Grid(3, 2, 0.5, 0.25, -1.0, 2.0)
     np.testing.assert_allclose(grid.x, [-1.0, -0.5, 0.0])

@@ -70,8 +70,9 @@ def solve_coupled(
 ) -> Coupled:
     """Pressure, shear, slip and creepages of two bodies on a grid.
 
-    gap: initial (ny, nx), m. check: called with the first pressure, to refuse it early. start: a solution near
-    this one. tolerance: of the normal and the tangential conditions, and of the relative change of pressure.
+    gap: initial (ny, nx), m. check: called with the first pressure, to refuse it early, and with the one returned,
+    which shear may have widened. start: a solution near this one. tolerance: of the normal and the tangential
+    conditions, and of the relative change of pressure.
     Bodies whose Dundurs' β is below the tolerance count as alike. Raises InputError where nothing touches or
     friction cannot carry the forces, ConvergenceError with the residual reached.
     """
@@ -102,6 +103,7 @@ def solve_coupled(
         last = slipping.tangential
         newton, krylov = newton + slipping.newton, krylov + slipping.krylov
         if not coupled or not last.shear.any() or (rounds > 1 and change <= tolerance):
+            check(normal.pressure)
             return Coupled(normal, slipping, rounds, change, iterations, newton, krylov)
         before = normal.pressure
         offset = mixing.next(offset, influence.gap_by_shear(last.shear))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from treadload.contact import cautions
 from treadload.contact.influence import Influence
 from treadload.contact.marching import State
 from treadload.contact.solution import Contact
@@ -56,12 +57,13 @@ def contact_of(
     rolling: Rolling,
     creepages: tuple[float, float],
     stats: Mapping[str, Any],
-    warnings: tuple[str, ...] = (),
+    warnings: Sequence[str] = (),
 ) -> Contact:
     """The contact at the end of a step.
 
     creepages: given or found, NaN where nothing rolled; then there is no slip velocity over rolling speed
-    either, and `slip_distance_x`, `slip_distance_y` tell the slip over the step, m.
+    either, and `slip_distance_x`, `slip_distance_y` tell the slip over the step, m. warnings: besides those of the
+    tire and of results that are no numbers.
     """
     grid, tangential = scene.grid, state.tangential
     stiff = scene.road.surface_material
@@ -97,4 +99,5 @@ def contact_of(
         **{name: ((), value) for name, value in scalars_of(scene, state).items()},
     }
     data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)
-    return Contact(data, scene.tire, scene.road, rolling, stats, warnings)
+    said = (*cautions.of_tire(scene.tire), *warnings, *cautions.of_fields(data))
+    return Contact(data, scene.tire, scene.road, rolling, stats, said)

@@ -6,10 +6,12 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any, Literal, get_args
 
 import numpy as np
 
+from treadload.contact import cautions
 from treadload.contact.coupling import Coupled, Progress, Start, solve_coupled
 from treadload.contact.friction import Coulomb
 from treadload.contact.influence import Influence
@@ -37,8 +39,17 @@ _FINEST, _COARSEST = 1e-12, 1e-2
 # A change of compliance by the layers that a user should hear of.
 _LAYERS_MATTER = 0.01
 
+
 RoadCompliance = Literal["half_space", "layers"]
 Operators = Callable[[Grid], Influence]
+
+
+class BorderError(GeometryError):
+    """The contact reaches the border of its grid: along x, across it, or both."""
+
+    def __init__(self, message: str, *, along: bool, across: bool) -> None:
+        super().__init__(message)
+        self.along, self.across = along, across
 
 
 def solve_contact(
@@ -62,8 +73,8 @@ def solve_contact(
     layers left out matter. An elastic tire and elastic layers only.
     spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
     tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp,
-    and of the coupling between them. start: a contact near this one: its grid serves again, and the search
-    begins at its fields. progress: called with a line of text at every stage.
+    and of the coupling between them. start: a contact near this one: its grid serves again where it
+    is large enough, and the search then begins at its fields. progress: called with a line of text at every stage.
     Returns the fields on a grid that holds the whole contact patch.
     Raises InputError for forces beyond friction and for friction above a frictionless interface, GeometryError if
     the contact is larger than the surface, ConvergenceError with the residual reached.
@@ -84,26 +95,32 @@ def solve_contact(
     bodies = combined(tire.half_space, road.surface_material, "rubbery")
     tell("locating the contact")
     on = _operators(bodies, road, road_compliance)
-    grid, gap = place(tire, rolling, on, spacing) if start is None else _same_place(tire, start, spacing)
-    influence = on(grid)
-    if isinstance(influence, LayeredInfluence) and rolling.law.largest > 0:
-        influence.check_held()
-    if isinstance(tire.half_space, Prony):
-        cells = grid.shape, grid.dx, grid.dy
-        influence = ViscoelasticInfluence.of(*cells, tire.half_space, road.surface_material, rolling.speed)
-    tell(f"normal contact on {grid}")
-    pair = solve_coupled(
-        influence,
-        grid,
-        gap,
-        rolling,
-        check=lambda pressure: check_border(pressure, grid),
-        start=None if start is None else _near(start, grid),
-        tolerance=tolerance,
-        tell=tell,
-    )
-    seconds = time.perf_counter() - began
-    return _contact(tire, road, rolling, grid, gap, influence, pair, seconds)
+    if start is None:
+        grid, gap = place(tire, rolling, on, spacing)
+    else:
+        grid, gap = _same_place(tire, rolling, on, start, spacing)
+    near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start)
+    while True:
+        influence = on(grid)
+        if isinstance(influence, LayeredInfluence) and rolling.law.largest > 0:
+            influence.check_held()
+        if isinstance(tire.half_space, Prony):
+            cells = grid.shape, grid.dx, grid.dy
+            influence = ViscoelasticInfluence.of(*cells, tire.half_space, road.surface_material, rolling.speed)
+        tell(f"normal contact on {grid}")
+        check = partial(check_border, grid=grid)
+        try:
+            pair = solve_coupled(
+                influence, grid, gap, rolling, check=check, start=near, tolerance=tolerance, tell=tell
+            )
+        except BorderError as error:
+            wider = _widened(tire, grid, error)
+            if wider is None:
+                raise
+            # Shear of dissimilar bodies has carried the contact beyond its grid.
+            grid, gap, near = wider, tire.height_map(wider), None
+        else:
+            return _contact(tire, road, rolling, grid, gap, influence, pair, time.perf_counter() - began)
 
 
 def _check_compliance(wanted: str, tire: Tire, road: Pavement) -> None:
@@ -168,12 +185,31 @@ def place(tire: Tire, rolling: Rolling, on: Operators, spacing: float | None) ->
     touching: BoolArray = first.pressure > 0
     reach_x = _reach(coarse.x, np.any(touching, axis=0)) + coarse.dx
     reach_y = _reach(coarse.y, np.any(touching, axis=1)) + coarse.dy
-    grid = Grid.centred(min(length, 2 * (reach_x + _MARGIN)), min(width + 2 * _MARGIN, 2 * (reach_y + _MARGIN)), step)
+    grid = Grid.on_lattice(
+        min(length, 2 * (reach_x + _MARGIN)), min(width + 2 * _MARGIN, 2 * (reach_y + _MARGIN)), step
+    )
     return grid, tire.height_map(grid)
 
 
-def _same_place(tire: Tire, start: Contact, spacing: float | None) -> tuple[Grid, Array]:
-    """The grid of an earlier contact, and the initial gap on it."""
+def _widened(tire: Tire, grid: Grid, cut: BorderError) -> Grid | None:
+    """A grid that holds the whole tread where the border cut; None where the tire is known no further.
+
+    Whole, since a border that comes to lie in a groove would not show what it cuts.
+    """
+    if tire.fixed_grid is not None:
+        return None
+    length, width = tire.extent
+    wider = Grid.on_lattice(
+        length if cut.along else grid.nx * grid.dx, width + 2 * _MARGIN if cut.across else grid.ny * grid.dy, grid.dx
+    )
+    grown = (wider.nx > grid.nx or not cut.along) and (wider.ny > grid.ny or not cut.across)
+    return wider if grown else None
+
+
+def _same_place(
+    tire: Tire, rolling: Rolling, on: Operators, start: Contact, spacing: float | None
+) -> tuple[Grid, Array]:
+    """The grid of an earlier contact, or a larger one if this contact needs it, and the initial gap on it."""
     data = start.dataset
     dx, dy = float(data.attrs["dx"]), float(data.attrs["dy"])
     if spacing is not None and not math.isclose(spacing, dx, rel_tol=1e-9):
@@ -181,10 +217,16 @@ def _same_place(tire: Tire, start: Contact, spacing: float | None) -> tuple[Grid
             f"the start has cells of {dx * 1e3:g} mm, got spacing = {spacing * 1e3:g} mm; leave spacing out"
         )
     grid = Grid(data.sizes["x"], data.sizes["y"], dx, dy, float(data.x[0]), float(data.y[0]))
+    before = start.rolling
+    if (tire, rolling.normal_load, rolling.approach) != (start.tire, before.normal_load, before.approach):
+        # Where its border lies in a groove, it would not show what it cuts.
+        wanted, gap = place(tire, rolling, on, dx if tire.fixed_grid is None else None)
+        if wanted.nx > grid.nx or wanted.ny > grid.ny:
+            return wanted, gap
     return grid, tire.height_map(grid)
 
 
-def _near(start: Contact, grid: Grid) -> Start:
+def _near(start: Contact) -> Start:
     """The fields of an earlier contact, with the solver's signs: shear acts on the tire there."""
     data = start.dataset
     shear = -np.stack([data.traction_x.values, data.traction_y.values])
@@ -207,10 +249,12 @@ def check_border(pressure: Array, grid: Grid) -> None:
     }
     cut = [f"{name}, {int((p > 0).sum())} cells" for name, p in sides.items() if (p > 0).any()]
     if cut:
-        raise GeometryError(
+        raise BorderError(
             f"the contact reaches the border of the surface ({'; '.join(cut)}): the surface known is only "
             f"{grid.nx * grid.dx * 1e3:.0f} x {grid.ny * grid.dy * 1e3:.0f} mm. Give a larger height map or scan "
-            "(NaN where there is no material), lower the load, or raise the tire's modulus"
+            "(NaN where there is no material), lower the load, or raise the tire's modulus",
+            along=bool((pressure[:, [0, -1]] > 0).any()),
+            across=bool((pressure[[0, -1]] > 0).any()),
         )
 
 
@@ -273,8 +317,9 @@ def _contact(
         "friction_work_total": ((), lost),
     }
     if rolling.speed is not None:
-        fields["friction_power"] = (plane, work * rolling.speed)
-        fields["friction_power_total"] = ((), lost * rolling.speed)
+        with np.errstate(over="ignore"):
+            fields["friction_power"] = (plane, work * rolling.speed)
+            fields["friction_power_total"] = ((), lost * rolling.speed)
     if slipping.temperature is not None:
         fields["flash_temperature"] = (plane, slipping.temperature)
     stats: dict[str, Any] = {
@@ -292,7 +337,7 @@ def _contact(
         "cells": grid.nx * grid.ny,
         "seconds": seconds,
     }
-    warnings = list(tire.quality.warnings) if tire.quality is not None else []
+    warnings = cautions.of_tire(tire) + cautions.of_rolling(tire, rolling)
     if tangential.splitting:
         warnings.append(f"Newton's method stalled; {tangential.splitting} steps of the slower splitting helped it on")
     share = _share(tire, road, float((normal.pressure > 0).sum()) * grid.cell_area)
@@ -306,7 +351,7 @@ def _contact(
     if isinstance(influence, LayeredInfluence):
         stats["images_residual"] = influence.images.residual
     data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)
-    return Contact(data, tire, road, rolling, stats, tuple(warnings))
+    return Contact(data, tire, road, rolling, stats, tuple(warnings + cautions.of_fields(data)))
 
 
 def _share(tire: Tire, road: Pavement, area: float) -> RoadShare | None:

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.contact import cautions
 from treadload.contact.coupling import Progress
 from treadload.contact.friction import Interface
 from treadload.contact.influence import Influence
@@ -121,7 +122,8 @@ def solve_transient(
         "seconds": time.perf_counter() - began,
     }
     creepages = rows[-1]["creepage_x"], rows[-1]["creepage_y"]
-    contact = contact_of(scene, state, wanted[-1], creepages, stats)
+    warnings = cautions.of_rolling(tire, wanted[-1])
+    contact = contact_of(scene, state, wanted[-1], creepages, stats, warnings)
     return TransientResult(_dataset(scene.grid, rows), contact, wanted, stats)
 
 

@@ -20,7 +20,7 @@ class Rolling:
     tractive_force: force of the road on the tire along travel, N: positive when driving, negative when
     braking; or creepage_x = (V - ωR)/V: negative when driving. Neither given: a tractive force of zero.
     lateral_force: force of the road on the tire to the right, N; or creepage_y. Neither: no lateral force.
-    spin: rad/m, turn slip 1/R_path plus camber, about z (down). speed: m/s: friction that falls with slip
+    spin: rad/m, turn slip 1/R_path plus `Tire.camber_spin`, about z (down). speed: m/s: friction that falls with slip
     or heat needs it, and so does power in W.
     """
 

@@ -176,6 +176,22 @@ class Tire:
         """How good the scan is; None when the tread was not scanned."""
         return self.surface.quality
 
+    @property
+    def camber(self) -> float:
+        """Lean of the wheel, rad, positive when the top leans to the right; 0 for a tread given as it lies."""
+        return float(getattr(self.surface, "camber", 0.0))
+
+    @property
+    def camber_spin(self) -> float:
+        """Spin of the leaning wheel on a straight path, rad/m: -sin(camber)/R.
+
+        As a vector, the turn of V/R about the axle points to the left; the wheel that leans to the right lifts it by
+        sin(camber), and z is down. On a circle to the right its 1/R_path can cancel this: the wheel rolls as a cone.
+        Zero for an upright tire, and where no radius is known.
+        """
+        quality = self.quality
+        return 0.0 if quality is None else 0.0 - math.sin(self.camber) / quality.crown_radius
+
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap in m at the cell centres, ≥ 0, to the plane at first contact; NaN where there is no material.
 

@@ -1,0 +1,47 @@
+"""What a contact says about itself that its user should hear: sentences for `Contact.warnings`."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from treadload.contact.wheel import Rolling
+from treadload.tire import Tire
+
+# NaN by design: no material, or nothing that rolls.
+_MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip_y", "approach"}
+
+
+def of_tire(tire: Tire) -> list[str]:
+    """What is known of the tire's surface."""
+    return [] if tire.quality is None else list(tire.quality.warnings)
+
+
+def of_rolling(tire: Tire, rolling: Rolling) -> list[str]:
+    """What does not fit between a tire and how it rolls: camber without the spin that it makes."""
+    belongs = tire.camber_spin
+    if belongs == 0 or rolling.spin != 0:
+        return []
+    return [
+        f"the tire leans by {math.degrees(tire.camber):.3g}° and rolls without spin; on a straight path its camber "
+        f"makes a spin of {belongs:.3g} rad/m, -sin(camber)/R: give Rolling(spin={belongs:.3g})"
+    ]
+
+
+def of_fields(data: xr.Dataset) -> list[str]:
+    """Results that are no numbers, by name; those that are NaN by design do not count."""
+    said = []
+    infinite = [str(name) for name, part in data.data_vars.items() if np.isinf(part.values).any()]
+    if infinite:
+        said.append(
+            f"{', '.join(infinite)} {'is' if len(infinite) == 1 else 'are'} infinite: beyond the largest number of "
+            "this machine, 1.8e308; look at the speed"
+        )
+    unknown = [
+        str(name) for name, part in data.data_vars.items() if name not in _MAY_BE_NAN and np.isnan(part.values).any()
+    ]
+    if unknown:
+        said.append(f"{', '.join(unknown)} could not be computed and {'is' if len(unknown) == 1 else 'are'} NaN")
+    return said
