@@ -109,6 +109,7 @@ if TYPE_CHECKING:
         Pavement,
         Structure,
         TemperatureProfile,
+        bituminous_thickness,
         read_structures,
         structures,
     )
@@ -224,6 +225,7 @@ _HOME = {
     "assess": "damage",
     "assess_bonds": "damage",
     "axle": "response",
+    "bituminous_thickness": "pavement",
     "compare_bonds": "study",
     "compare_uniform": "study",
     "compute_criteria": "damage",
@@ -357,6 +359,7 @@ __all__ = [
     "assess",
     "assess_bonds",
     "axle",
+    "bituminous_thickness",
     "compare_bonds",
     "compare_uniform",
     "compute_criteria",

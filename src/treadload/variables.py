@@ -134,9 +134,11 @@ _UNIFORM = {
 }
 
 _LIFE = {
-    "damage_per_year": ("1", "Miner's damage of the first year, after wander; 1 is failure"),
+    "damage_per_year": ("1", "Miner's damage of the first year, after wander where it counts; 1 is the end"),
     "damage_share": ("1", "share of the damage at the worst place"),
     "life_years": ("1", "years until the damage at the worst place is 1"),
+    "life_years_without_wander": ("1", "years until the damage is 1 with all wheels in one track"),
+    "life_years_with_wander": ("1", "years until the damage is 1 with wheels that wander, whatever the law holds"),
     "life_passes": ("1", "passes until the damage at the worst place is 1"),
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
     "design_damage": ("1", "Miner's damage at the worst place at the end of the design life; 1 is failure"),

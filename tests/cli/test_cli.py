@@ -72,7 +72,7 @@ def test_life_then_report(tmp_path):
     tree = load(tmp_path / "design.nc")
     assert tree["life"].life_years.sel(criterion="base").item() > 0
     assert "NF P98-086" in tree["life"].attrs["sources"]
-    assert "recalled" in tree["life"].attrs["doubts"]
+    assert tree["life"].attrs["doubts"] == '[""]'
     assert tree["life"].elasticity.sizes["input"] > 8
     assert tl.LifeCase.from_text(tree.attrs["case"]).build_traffic().years == 20
     reported = call("report", tmp_path / "design.nc", "-o", tmp_path / "r.html")

@@ -76,6 +76,7 @@ def test_unverified_numbers_are_said_where_the_law_speaks(law):
 def test_what_is_verified():
     assert {type(law).__name__ for law in LAWS if law.verified} == {
         "FatigueLine",
+        "FrenchBituminous",
         "FrenchHydraulic",
         "FrenchSubgrade",
         "MepdgBottomUp",
@@ -83,10 +84,26 @@ def test_what_is_verified():
     }
 
 
-def test_a_given_scatter_of_the_thickness_verifies_the_french_law():
+def test_a_given_scatter_of_the_thickness_stands_before_the_rule():
+    """The rule is read in the cited source by now, so that neither way leaves a doubt."""
     given_one = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3, thickness_scatter=0.025)
     assert given_one.verified
+    assert GB3.verified
     assert given_one.risk_factor == GB3.risk_factor
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+def test_every_law_says_what_its_end_is_and_whether_it_holds_wander(law):
+    assert law.end_of_life
+    assert law.includes_wander == type(law).__name__.startswith("French")
+
+
+def test_the_end_of_the_mepdg_is_that_of_its_sums_of_cracking():
+    """Damage of 1: half of the area from below, a metre of crack a metre of lane from above."""
+    assert "half of the lane's area" in MepdgBottomUp.end_of_life
+    assert american.bottom_up_cracking(1.0, 0.2) == pytest.approx(0.5, rel=1e-14)
+    assert "a metre of crack along each metre" in MepdgTopDown.end_of_life
+    assert american.top_down_cracking(1.0) == pytest.approx(1.0, rel=1e-14)
 
 
 def test_extrapolation_is_said_with_its_numbers():
@@ -191,6 +208,7 @@ def test_laws_of_catalogued_materials():
         (lambda: FrenchSubgrade(12000), "plain strain, got 12000; 12000 microstrain is 0.012"),
         (lambda: MepdgBottomUp(5000, 0.2, 0.07, 0.11), "modulus must be in Pa, got 5000"),
         (lambda: MepdgBottomUp(5e9, 0.2, 7, 11), r"share of the volume in \(0, 1\), got 7; 7 % is 0.07"),
+        (lambda: MepdgTopDown(5e9, 0.2, 0.07, 11), "binder_volume, of the effective binder, must be a share"),
         (lambda: AsphaltInstitute(5e9, 0.05), "both air_voids and binder_volume or none, got 0.05 and None"),
         (lambda: ShellFatigue(math.nan), "modulus must be a positive number of Pa, got nan"),
         (lambda: equivalent_axles(-1, 20, 0.8), "vehicles_per_day must be a positive number, got -1"),

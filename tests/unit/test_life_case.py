@@ -83,10 +83,11 @@ def test_a_mix_gives_its_law():
     mix = tl.mix("EB-GB3")
     for temperature in (5.0, 15.0, 30.0):
         asked = tl.FrenchBituminous.of(
-            mix, thickness=0.15, risk=0.05, temperature=temperature, platform_modulus=120e6
+            mix, thickness=0.21, risk=0.05, temperature=temperature, platform_modulus=120e6
         )
+        # 6 cm of BBSG3 and 15 cm of GB3: the laws ask for all asphalt.
         assert base.law_at(temperature) == asked
-        assert mepdg.law_at(temperature) == tl.MepdgBottomUp(mix.modulus(temperature), 0.15, 0.07, 0.11)
+        assert mepdg.law_at(temperature) == tl.MepdgBottomUp(mix.modulus(temperature), 0.21, 0.07, 0.11)
     assert surface.law_at(15.0) == tl.FatigueLine(tl.mix("EB-BBSG3").epsilon_6, tl.mix("EB-BBSG3").slope)
     assert (surface.layer, surface.place, surface.strain) == (0, "top", "principal")
     assert soil.law_at(15.0) == tl.FrenchSubgrade.of(tl.mix("PF3"))
@@ -98,6 +99,62 @@ def test_a_number_given_stands_before_the_mixs():
     law = LifeCase.from_text(text).build_criteria()[0].law_at(10.0)
     assert (law.epsilon_6, law.spread, law.slope) == (80e-6, 0.02, tl.mix("EB-GB3").slope)
     assert law.verified
+
+
+def test_laws_take_all_the_asphalt_where_no_thickness_is_given():
+    """The wearing course alone makes top-down cracking of the MEPDG 1048 times too slow."""
+    text = DESIGN.replace('law = "mepdg-bottom-up"\nlayer = 2', 'law = "mepdg-top-down"')
+    law = LifeCase.from_text(text).build_criteria()[3].law_at(15.0)
+    assert law.thickness == pytest.approx(0.21, rel=1e-12)
+    own = LifeCase.from_text(text + 'thickness = "6 cm"\n').build_criteria()[3].law_at(15.0)
+    assert own.thickness == 0.06
+    assert own.allowable_passes(1e-4) / law.allowable_passes(1e-4) == pytest.approx(1048, rel=1e-3)
+
+
+LIFTS = """
+[[pavement.layers]]
+mix = "EB-BBSG3"
+thickness = "4 cm"
+[[pavement.layers]]
+name = "upper"
+mix = "EB-GB3"
+thickness = "4 cm"
+[[pavement.layers]]
+name = "lower"
+mix = "EB-GB3"
+thickness = "4 cm"
+[[pavement.layers]]
+mix = "PF3"
+"""
+
+
+def test_lifts_of_one_mix_have_the_law_of_their_sum():
+    text = DESIGN[: DESIGN.index("[[criteria]]")].replace('pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }\n', "")
+    base = '[[criteria]]\nname = "base"\nlaw = "french-bituminous"\nrisk = 0.05\nlayer = "lower"\n'
+    two = LifeCase.from_text(text + LIFTS + base).build_criteria()[0].law_at(15.0)
+    whole = LIFTS[: LIFTS.index('[[pavement.layers]]\nname = "lower"')] + '[[pavement.layers]]\nmix = "PF3"\n'
+    whole = whole.replace(
+        '"upper"\nmix = "EB-GB3"\nthickness = "4 cm"', '"lower"\nmix = "EB-GB3"\nthickness = "8 cm"'
+    )
+    one = LifeCase.from_text(text + whole + base).build_criteria()[0].law_at(15.0)
+    assert one == two
+    # 4 + 4 + 4 cm: on the slope of the rule, 10 mm and three tenths of 2 cm.
+    assert two.spread == pytest.approx(0.016, rel=1e-12)
+
+
+def test_asphalt_that_is_not_known_is_asked_for():
+    text = DESIGN[: DESIGN.index("[[criteria]]")].replace('pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }\n', "")
+    stiff = LIFTS.replace(
+        'name = "lower"\nmix = "EB-GB3"', 'name = "lower"\nmaterial = { modulus = "9 GPa", poisson = 0.35 }'
+    )
+    base = '[[criteria]]\nname = "base"\nlaw = "french-bituminous"\nrisk = 0.05\nlayer = "upper"\n'
+    with pytest.raises(InputError, match=r"'base': layer 3 'lower' .* may be asphalt or bound by cement") as refused:
+        LifeCase.from_text(text + stiff + base)
+    assert "\n" not in str(refused.value)
+    law = LifeCase.from_text(text + stiff + base + 'thickness = "12 cm"\n').build_criteria()[0].law_at(15.0)
+    assert law.thickness == pytest.approx(0.12)
+    told = LifeCase.from_text(text + stiff + base + 'thickness_scatter = "2 cm"\n').build_criteria()[0].law_at(15.0)
+    assert told.spread == 0.02
 
 
 def test_the_text_of_a_case_reads_back():

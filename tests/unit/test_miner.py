@@ -1,5 +1,6 @@
 """Miner's sum: parts add up, damage is linear in passes, wander and growth follow their closed forms."""
 
+import json
 import math
 from dataclasses import replace
 
@@ -8,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from treadload.damage import FatigueLine, FrenchSubgrade
+from treadload.damage import FatigueLine, FrenchBituminous, FrenchSubgrade
 from treadload.damage.design import DesignCriterion
 from treadload.damage.miner import miner
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
@@ -190,3 +191,49 @@ def test_orientations_share_the_damage_of_the_worst_place():
     along, across = (data["orientation_damage"].sel(orientation=o).item() for o in ("longitudinal", "transverse"))
     assert (along, across) == pytest.approx(tuple(share), rel=1e-12)
     assert data["first_crack_angle"].item() == 0.0
+
+
+def test_wander_does_not_count_twice_for_laws_that_hold_it():
+    """The French law reads one track, the line the spread of its damage; both lives are told for both."""
+    values = readings(1, 1)
+    climate = Climate.constant(15.0)
+    wide = miner(values, CRITERIA, Traffic(classes(1.0), 1e5, wander=Wander.normal(0.2)), climate, y=Y)
+    still = miner(values, CRITERIA, Traffic(classes(1.0), 1e5), climate, y=Y)
+    assert wide.years("soil") == pytest.approx(still.years("soil"), rel=1e-12)
+    assert wide.years("top") > 1.2 * still.years("top")
+    for name in ("top", "soil"):
+        row = wide.dataset.sel(criterion=name)
+        assert row["life_years_without_wander"].item() == pytest.approx(still.years(name), rel=1e-12)
+        assert row["life_years_with_wander"].item() > 1.2 * still.years(name)
+    spread = Wander.normal(0.2).spread(still.dataset["damage_per_year"].to_numpy(), 0.02).max(axis=-1)
+    assert wide.dataset["life_years_with_wander"].to_numpy() == pytest.approx(1 / spread, rel=1e-9)
+    (said,) = [text for text in wide.warnings if "wander" in text]
+    assert said.startswith("soil: its law was calibrated on roads on which wheels wander")
+    assert f"{wide.dataset['life_years_with_wander'].sel(criterion='soil').item():.3g} years" in said
+    assert said in wide.summary()
+    assert not any("wander" in text for text in still.warnings)
+    assert "life_years_with_wander" not in still.dataset
+    # On the same y, damage that wanders and damage that does not.
+    assert wide.dataset["damage_per_year"].sel(criterion="soil").sum().item() == pytest.approx(
+        still.dataset["damage_per_year"].sel(criterion="soil").sum().item(), rel=1e-12
+    )
+
+
+def test_orientations_of_a_law_that_holds_wander_are_those_of_one_track():
+    values = np.stack([np.full(len(Y), 420e-6), np.full(len(Y), 300e-6)])[None, :, None]
+    angle = np.stack([np.zeros(len(Y)), np.full(len(Y), np.pi / 2)])[None, :, None]
+    law = FrenchBituminous(100e-6, -0.2, 0.25, 0.2, 0.5, 1.0)
+    traffic = Traffic(classes(0.5, 0.5), 1e5, wander=Wander.normal(0.2))
+    data = miner(
+        values, (DesignCriterion("base", law),), traffic, Climate.constant(15.0), y=Y,
+        cracks=(angle, np.full_like(angle, np.pi / 2)),
+    ).dataset  # fmt: skip
+    share = data["damage_share"].to_numpy()[0, :, 0]
+    along, across = (data["orientation_damage"].sel(orientation=o).item() for o in ("longitudinal", "transverse"))
+    assert (along, across) == pytest.approx(tuple(share), rel=1e-12)
+
+
+def test_the_summary_says_what_the_end_is():
+    said = miner(readings(1, 1), CRITERIA, Traffic(classes(1.0), 1e5), Climate.constant(15.0), y=Y)
+    assert "at its end the rut that the method bears" in said.summary()
+    assert json.loads(said.dataset.attrs["ends"])[0] == LINE.end_of_life

@@ -23,8 +23,9 @@ from treadload.damage import (
     MepdgTopDown,
     ShellFatigue,
 )
+from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Mix, Unbound
-from treadload.pavement import Layer, Pavement
+from treadload.pavement import Pavement, bituminous_thickness
 
 
 class CriterionPart(Part):
@@ -34,6 +35,8 @@ class CriterionPart(Part):
     and the top one for top-down cracking. place: "top" or "bottom"; left out, "top" for both of these, else "bottom".
     strain: "principal" or "in-plane". The rest are parameters of the law, see `LAWS`; those left out are taken from
     the layer where it is one of the catalogue: ε₆, slope, SN, k_c and E(θ) of a mix, A and b of a platform.
+    thickness: of all asphalt; left out, that of the bituminous layers around the criterion's, added up.
+    binder_volume: of the effective binder, a share of the mix's volume.
     """
 
     name: str
@@ -78,9 +81,7 @@ class CriterionPart(Part):
         """The criterion on a road. Raises InputError and ValueError."""
         kind = LAWS[self.law]
         number = self._number(road, kind.layer)
-        layer = road.layers[number]
-        below = road.layers[number + 1] if number + 1 < len(road.layers) else None
-        law = kind.build(self.name, layer, below, self._given())
+        law = kind.build(self.name, road, number, self._given())
         place = self.place or kind.place
         return DesignCriterion(self.name, law, number, place, self.strain)
 
@@ -110,7 +111,7 @@ def _listed(names: list[str]) -> str:
 
 
 Law = FatigueLaw | Callable[[float], FatigueLaw]
-_Build = Callable[[str, Layer, Layer | None, dict[str, Any]], Law]
+_Build = Callable[[str, Pavement, int, dict[str, Any]], Law]
 
 
 @dataclass(frozen=True)
@@ -134,33 +135,46 @@ def _with(layer: Any, given: dict[str, Any], *names: str) -> dict[str, Any]:
     return {**{name: getattr(layer, name, None) for name in names}, **given}
 
 
-def _platform(below: Layer | None) -> float | None:
+def _platform(road: Pavement, number: int) -> float | None:
     """Modulus of the unbound layer of the catalogue below, Pa, if there is one."""
-    return below.material.modulus if below is not None and isinstance(below.material, Unbound) else None
+    below = road.layers[number + 1].material if number + 1 < len(road.layers) else None
+    return below.modulus if isinstance(below, Unbound) else None
 
 
-def _bituminous(who: str, layer: Layer, below: Layer | None, given: dict[str, Any]) -> Law:
-    mix = layer.material
-    told = _with(mix, given, "epsilon_6", "slope", "scatter", "calibration") if isinstance(mix, Mix) else given
-    told = {"thickness": layer.thickness, "platform_modulus": _platform(below), **told}
+def _asphalt(who: str, road: Pavement, number: int) -> float:
+    """Thickness of all asphalt around a layer, m. Raises InputError where it is not known."""
+    try:
+        return bituminous_thickness(road, number)
+    except InputError as error:
+        raise InputError(f"{who!r}: {error}") from error
+
+
+def _bituminous(who: str, road: Pavement, number: int, given: dict[str, Any]) -> Law:
+    mix = road.layers[number].material
+    told = _with(mix, given, "epsilon_6", "slope", "scatter", "calibration") if isinstance(mix, Mix) else dict(given)
+    told.setdefault("platform_modulus", _platform(road, number))
+    if "thickness" not in told:
+        # Nothing but Sh depends on it.
+        known = "thickness_scatter" in told
+        told["thickness"] = road.layers[number].thickness if known else _asphalt(who, road, number)
     _needed(who, told, "risk", "epsilon_6", "slope", "scatter", "thickness", "calibration")
     if not isinstance(mix, Mix):
         return FrenchBituminous(**told)
     return lambda temperature: FrenchBituminous(**told, modulus_ratio=mix.modulus_ratio(temperature))
 
 
-def _hydraulic(who: str, layer: Layer, below: Layer | None, given: dict[str, Any]) -> Law:
+def _hydraulic(who: str, road: Pavement, number: int, given: dict[str, Any]) -> Law:
     own = ("sigma_6", "slope", "scatter", "calibration", "joints", "thickness_scatter")
-    mix = layer.material
+    mix = road.layers[number].material
     told = _with(mix, given, *own) if isinstance(mix, HydraulicMix) else given
-    told = {"platform_modulus": _platform(below), **told}
+    told = {"platform_modulus": _platform(road, number), **told}
     _needed(who, told, "risk", "sigma_6", "slope", "scatter", "calibration")
     return FrenchHydraulic(**{name: value for name, value in told.items() if value is not None})
 
 
-def _subgrade(who: str, layer: Layer, below: Layer | None, given: dict[str, Any]) -> Law:
+def _subgrade(who: str, road: Pavement, number: int, given: dict[str, Any]) -> Law:
     traffic = given.pop("traffic", "heavy")
-    soil = layer.material
+    soil = road.layers[number].material
     if isinstance(soil, Unbound):
         own = FrenchSubgrade.of(soil, traffic)
         return FrenchSubgrade(given.get("constant", own.constant), given.get("slope", own.slope))
@@ -169,8 +183,8 @@ def _subgrade(who: str, layer: Layer, below: Layer | None, given: dict[str, Any]
     return FrenchSubgrade(**given)
 
 
-def _line(who: str, layer: Layer, below: Layer | None, given: dict[str, Any]) -> Law:
-    told = _with(layer.material, given, "epsilon_6", "slope")
+def _line(who: str, road: Pavement, number: int, given: dict[str, Any]) -> Law:
+    told = _with(road.layers[number].material, given, "epsilon_6", "slope")
     _needed(who, told, "epsilon_6", "slope")
     return FatigueLine(told["epsilon_6"], told["slope"])
 
@@ -178,11 +192,11 @@ def _line(who: str, layer: Layer, below: Layer | None, given: dict[str, Any]) ->
 def _of_modulus(kind: Callable[..., FatigueLaw], *needed: str) -> _Build:
     """A law that needs the modulus of the asphalt: given, or that of the layer at its temperature."""
 
-    def build(who: str, layer: Layer, below: Layer | None, given: dict[str, Any]) -> Law:
-        material = layer.material
+    def build(who: str, road: Pavement, number: int, given: dict[str, Any]) -> Law:
+        material = road.layers[number].material
         told = dict(given)
-        if "thickness" in needed:
-            told.setdefault("thickness", layer.thickness)
+        if "thickness" in needed and "thickness" not in told:
+            told["thickness"] = _asphalt(who, road, number)
         if "modulus" not in told and isinstance(material, Mix):
             _needed(who, told, *needed)
             return lambda temperature: kind(**told, modulus=material.modulus(temperature))

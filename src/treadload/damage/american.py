@@ -83,13 +83,15 @@ class _Mepdg(_Regression):
 class MepdgBottomUp(_Mepdg):
     """Passes to bottom-up cracking, N = 0.00432 C k₁ ε^-3.9492 E^-1.281 (E in psi).
 
-    modulus: dynamic modulus of the asphalt, Pa. thickness: h of all asphalt layers, m. air_voids, binder_volume:
-    Va and Vb, shares of the mix's volume in (0, 1): 7 % is 0.07. calibration: local factor on the passes.
+    modulus: dynamic modulus of the asphalt, Pa. thickness: h of all asphalt layers together, m, see
+    `bituminous_thickness`. air_voids, binder_volume: Va and Vb, shares of the mix's volume in (0, 1): 7 % is 0.07;
+    Vb is the effective binder, without what the stones absorb. calibration: local factor on the passes.
     C = 10^(4.84 (Vb/(Va+Vb) - 0.69)); k₁ = 1/(0.000398 + 0.003602/(1 + exp(11.02 - 3.49 h))), h in inches.
     Source: NCHRP 1-37A (2004) as coded in ProductOneME.
     """
 
     quantity: ClassVar[str] = BOTTOM_EXTENSION
+    end_of_life: ClassVar[str] = "half of the lane's area is cracked, see `bottom_up_cracking`"
 
     @property
     def thickness_factor(self) -> float:
@@ -109,6 +111,7 @@ class MepdgTopDown(_Mepdg):
     """
 
     quantity: ClassVar[str] = SURFACE_EXTENSION
+    end_of_life: ClassVar[str] = "a metre of crack along each metre of lane, see `top_down_cracking`"
 
     @property
     def thickness_factor(self) -> float:
@@ -123,8 +126,8 @@ class MepdgTopDown(_Mepdg):
 class AsphaltInstitute(_Regression):
     """Passes to fatigue of a fifth of the lane, N = 0.0796 C ε^-3.291 E^-0.854 (E in psi).
 
-    modulus: of the asphalt, Pa. air_voids, binder_volume: Va and Vb, shares of the mix's volume in (0, 1), both
-    or none: C = 10^(4.84 (Vb/(Va+Vb) - 0.69)), 1 if left out.
+    modulus: of the asphalt, Pa. air_voids, binder_volume: Va and Vb (the effective binder), shares of the mix's
+    volume in (0, 1), both or none: C = 10^(4.84 (Vb/(Va+Vb) - 0.69)), 1 if left out.
     Not verified: the exponents and C stand in U.S. Army CRREL Special Report 96-21 (1996); the constant 0.0796 is
     recalled, public programs agree on it. The manual itself, Asphalt Institute MS-1 (1982), was not at hand.
     """
@@ -134,6 +137,7 @@ class AsphaltInstitute(_Regression):
 
     quantity: ClassVar[str] = BOTTOM_EXTENSION
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1; exponents in CRREL Special Report 96-21"
+    end_of_life: ClassVar[str] = "a fifth of the lane is cracked by fatigue"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -174,6 +178,7 @@ class AsphaltInstituteSubgrade(PowerLaw):
 
     quantity: ClassVar[str] = SUBGRADE
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1"
+    end_of_life: ClassVar[str] = "a rut of 12.7 mm"
 
     @property
     def doubt(self) -> str:
@@ -203,6 +208,7 @@ class ShellFatigue(_Regression):
 
     quantity: ClassVar[str] = BOTTOM_EXTENSION
     source: ClassVar[str] = "Shell Pavement Design Manual (1978), in the form that textbooks give"
+    end_of_life: ClassVar[str] = "fatigue of the asphalt; how much of it cracks was found in no source"
 
     @property
     def doubt(self) -> str:
@@ -224,7 +230,7 @@ class ShellFatigue(_Regression):
 
 
 def mix_factor(air_voids: float, binder_volume: float) -> float:
-    """C = 10^(4.84 (Vb/(Va+Vb) - 0.69)) of the volumes of air and binder, shares of the mix."""
+    """C = 10^(4.84 (Vb/(Va+Vb) - 0.69)) of the volumes of air and effective binder, shares of the mix."""
     return float(10 ** (4.84 * (binder_volume / (air_voids + binder_volume) - 0.69)))
 
 
@@ -264,6 +270,9 @@ def _sigmoid(value: float | Array) -> Array:
 
 
 def _check_volumes(air_voids: float, binder_volume: float) -> None:
-    for name, value, usual in (("air_voids", air_voids, "7 % is 0.07"), ("binder_volume", binder_volume, "0.11")):
+    for name, value, usual in (
+        ("air_voids", air_voids, "7 % is 0.07"),
+        ("binder_volume, of the effective binder,", binder_volume, "11 % is 0.11"),
+    ):
         if not (math.isfinite(value) and 0 < value < 1):
             raise InputError(f"{name} must be a share of the volume in (0, 1), got {value}; {usual}")

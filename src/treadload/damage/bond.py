@@ -175,6 +175,7 @@ class ShearFatigue(PowerLaw):
 
     quantity: ClassVar[str] = UTILISATION
     source: ClassVar[str] = "a power law of the bond's utilisation with the user's numbers"
+    end_of_life: ClassVar[str] = "the bond parts"
 
     def __post_init__(self) -> None:
         if not -1 < self.slope < 0:

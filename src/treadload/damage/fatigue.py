@@ -54,6 +54,14 @@ class FatigueLaw(Protocol):
         """True if all its numbers were read in its source."""
 
     @property
+    def end_of_life(self) -> str:
+        """What has come to pass when Miner's sum is 1, in words."""
+
+    @property
+    def includes_wander(self) -> bool:
+        """True if its numbers were fitted to roads whose traffic wanders, so that wander must not count again."""
+
+    @property
     def validity(self) -> tuple[float, float]:
         """Smallest and largest reading that it takes without a warning, in the unit of what it reads."""
 
@@ -77,6 +85,8 @@ class PowerLaw(ABC):
 
     quantity: ClassVar[str]
     source: ClassVar[str]
+    end_of_life: ClassVar[str]
+    includes_wander: ClassVar[bool] = False
 
     @property
     @abstractmethod
@@ -145,6 +155,7 @@ class FatigueLine(PowerLaw):
 
     quantity: ClassVar[str] = EXTENSION
     source: ClassVar[str] = "Wöhler's line with the user's numbers"
+    end_of_life: ClassVar[str] = "what the laboratory's test called failure, by custom half the stiffness lost"
 
     def __post_init__(self) -> None:
         check_strain(self.epsilon_6)

@@ -28,6 +28,7 @@ _SOURCE = (
     "NF P98-086 (2019), as coded in the public program UI_ChausseeNeuve (romeoolouro, commit f00e26e), "
     "a secondary source"
 )
+_FAILS = "the layer has failed structurally with the probability that the law's risk names"
 # Strain lost per length of missing thickness, decades of strain per m: 0.02 per cm.
 _PER_THICKNESS = 2.0
 # Sh of treated layers, m.
@@ -59,14 +60,14 @@ class FrenchBituminous(PowerLaw):
     """Allowable extension of bituminous layers, ε_adm = ε₆ k_θ (NE/10⁶)^b k_r k_c k_s.
 
     epsilon_6: strain of a million cycles at 10 °C and 25 Hz, plain strain. slope: b, near -0.2.
-    scatter: SN, of the logarithm of the fatigue life. thickness: of the bituminous base that tires, m; it gives
-    the scatter Sh of the thickness. risk: probability of failure over the design life, in (0, 1).
+    scatter: SN, of the logarithm of the fatigue life. thickness: of all bituminous layers, m, the wearing course
+    and every lift included, see `bituminous_thickness`; it gives the scatter Sh of the thickness. risk: probability
+    of failure over the design life, in (0, 1).
     calibration: k_c, 1.3 for base course asphalt GB, 1.1 for BBSG, 1.0 for EME.
     modulus_ratio: E(10 °C) / E(θ_eq), both at 10 Hz; k_θ is its root. platform_modulus: of what lies below, Pa;
     left out, k_s = 1. thickness_scatter: Sh, m, in place of the rule for it.
     The passes are those of the axle that the strain belongs to, by custom 130 kN on twin wheels.
-    Source: NF P98-086 (2019) by a secondary source. The rule Sh(thickness) is recalled from the guide of 1994
-    and was not found in a source: unless thickness_scatter is given, the law is not verified.
+    Source: NF P98-086 (2019) by a secondary source.
     """
 
     epsilon_6: float
@@ -81,6 +82,8 @@ class FrenchBituminous(PowerLaw):
 
     quantity: ClassVar[str] = BOTTOM_EXTENSION
     source: ClassVar[str] = _SOURCE
+    end_of_life: ClassVar[str] = _FAILS
+    includes_wander: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         check_strain(self.epsilon_6)
@@ -111,16 +114,6 @@ class FrenchBituminous(PowerLaw):
         ratio = mix.modulus_ratio(temperature)
         numbers = mix.epsilon_6, mix.slope, mix.scatter, thickness, risk, mix.calibration, ratio
         return cls(*numbers, platform_modulus, thickness_scatter)
-
-    @property
-    def doubt(self) -> str:
-        """The rule for the scatter of the thickness, where it is used."""
-        if self.thickness_scatter is not None:
-            return ""
-        return (
-            f"the scatter of the thickness, {self.spread * 1e3:g} mm, follows a rule recalled from the guide of 1994 "
-            "that was not found in a source"
-        )
 
     @property
     def spread(self) -> float:
@@ -182,6 +175,8 @@ class FrenchHydraulic(PowerLaw):
 
     quantity: ClassVar[str] = TENSION
     source: ClassVar[str] = _SOURCE
+    end_of_life: ClassVar[str] = _FAILS
+    includes_wander: ClassVar[bool] = True
 
     @classmethod
     def of(
@@ -249,6 +244,8 @@ class FrenchSubgrade(PowerLaw):
 
     quantity: ClassVar[str] = SUBGRADE
     source: ClassVar[str] = _SOURCE
+    end_of_life: ClassVar[str] = "the rut that the method bears; the source gives no depth"
+    includes_wander: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         check_positive("constant", self.constant, "strain", "12000 microstrain is 0.012")
@@ -294,9 +291,11 @@ def risk_factor(risk: float, slope: float, scatter: float, thickness_scatter: fl
 
 
 def thickness_scatter(thickness: float) -> float:
-    """Sh of bituminous layers of this thickness, both m: 10 mm up to 0.1 m, 25 mm from 0.15 m, linear between.
+    """Sh of bituminous layers, m: 10 mm up to 0.10 m, 25 mm from 0.15 m, linear between.
 
-    Recalled from the guide of 1994; not verified in a source.
+    thickness: of all bituminous layers together, m. The source draws Sh over the "structural thickness of bituminous
+    material" and asks for the "total thickness"; a second program's run, 6 cm of BBSG on 10 cm of GB3, has the Sh of
+    16 cm. Source: NF P98-086 by the public program UI_ChausseeNeuve, window on the scatter of the thickness.
     """
     return min(max(0.01 + 0.3 * (thickness - 0.10), 0.01), 0.025)
 

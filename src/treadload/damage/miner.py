@@ -16,7 +16,7 @@ from treadload.damage.design import Criterion
 from treadload.damage.direction import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.fatigue import FatigueLaw, in_words, warnings_of
 from treadload.damage.french import growth_factor
-from treadload.damage.traffic import Climate, Traffic
+from treadload.damage.traffic import Climate, Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -26,12 +26,13 @@ from treadload.kernels.arrays import Array
 class Life:
     """How long a road lasts under a traffic.
 
-    dataset: damage_per_year (criterion, y), of the first year, after wander; damage_share (criterion, axle_class,
-    season) of it at the worst y; life_years, life_passes, worst_y, largest_reading (criterion); with a design life
-    design_damage; with cracks first_crack_angle, first_crack_dip (criterion), of the class and season that do most,
-    and orientation_damage (criterion, orientation). criteria, traffic, climate: what was asked. readings, laws:
-    behind the sum, see `miner`, a law for each criterion and season. stats: solves and errors behind the readings.
-    warnings: sentences for the user.
+    dataset: damage_per_year (criterion, y), of the first year, after wander unless the criterion's law holds it;
+    damage_share (criterion, axle_class, season) of it at the worst y; life_years, life_passes, worst_y,
+    largest_reading (criterion); where the traffic wanders, life_years_without_wander and life_years_with_wander,
+    whichever the law takes; with a design life design_damage; with cracks first_crack_angle, first_crack_dip
+    (criterion), of the class and season that do most, and orientation_damage (criterion, orientation). criteria,
+    traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
+    season. stats: solves and errors behind the readings. warnings: sentences for the user.
     """
 
     dataset: xr.Dataset
@@ -68,7 +69,7 @@ class Life:
                 f"  {criterion.name}: {_years(float(row['life_years']))}, {float(row['life_passes']):.3g} passes; "
                 f"largest {criterion.quantity} {in_words(law, float(row['largest_reading']))} at "
                 f"y = {float(row['worst_y']) * 1e3:.0f} mm; most by {data['axle_class'].to_numpy()[worst[0]]}, "
-                f"{data['season'].to_numpy()[worst[1]]} ({100 * share[worst]:.0f} %)"
+                f"{data['season'].to_numpy()[worst[1]]} ({100 * share[worst]:.0f} %); at its end {law.end_of_life}"
             )
         if math.isinf(self.years(self.governing)):
             lines.append("Verdict: no criterion is ever used up by this traffic.")
@@ -105,6 +106,8 @@ def miner(
     next peak does not do again, D = Σ 1/N(peak) - Σ 1/N(valley). y: evenly spaced, m; left out, the coordinate of
     readings. layer_temperatures: (criterion, season), °C, for laws that depend on it; left out, the seasons' one
     temperature. cracks: angle of the trace and dip, rad, (criterion, axle_class, season, y), NaN for none.
+    Wander counts for laws that do not hold it (`includes_wander`); with those that do, such as the French ones whose
+    k_c was fitted to roads on which wheels wander, it would count twice: a warning tells both lives.
     The years are those after which the damage at the worst place is 1. Raises InputError for wrong shapes.
     """
     values = np.asarray(readings, dtype=float)
@@ -126,9 +129,12 @@ def miner(
     laws = [[c.law_at(float(t)) for t in row] for c, row in zip(criteria, layer_temperatures, strict=True)]
     damage = damage_of(values, laws, traffic, climate)
     spacing = float(at[1] - at[0])
-    spread = traffic.wander.spread(damage, spacing)
-    margin = (spread.shape[-1] - len(at)) // 2
-    wide = at[0] + spacing * (np.arange(spread.shape[-1]) - margin)
+    wandering = traffic.wander.spread(damage, spacing)
+    margin = (wandering.shape[-1] - len(at)) // 2
+    wide = at[0] + spacing * (np.arange(wandering.shape[-1]) - margin)
+    still = np.pad(damage, [(0, 0)] * 3 + [(margin, margin)])
+    wanders = [wander_of(row[0], traffic) for row in laws]
+    spread = np.where([[[[wander != traffic.wander]]] for wander in wanders], still, wandering)
     yearly = spread.sum(axis=(1, 2))
     worst = yearly.argmax(axis=-1)
     peak = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
@@ -136,6 +142,10 @@ def miner(
     with np.errstate(divide="ignore", invalid="ignore"):
         passes = np.where(peak > 0, traffic.passes_per_year / peak, math.inf)
     names = [criterion.name for criterion in criteria]
+
+    def years_of(part: Array) -> list[float]:
+        return [_years_to(traffic, float(top)) for top in part.sum(axis=(1, 2)).max(axis=-1)]
+
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
         "damage_per_year": (("criterion", "y"), yearly),
         "damage_share": (("criterion", "axle_class", "season"), shares),
@@ -150,11 +160,14 @@ def miner(
         "season": [season.name for season in climate.seasons],
         "y": wide,
     }
+    if traffic.wander.reach:
+        fields["life_years_without_wander"] = (("criterion",), years_of(still))
+        fields["life_years_with_wander"] = (("criterion",), years_of(wandering))
     if traffic.years is not None:
         growth = growth_factor(traffic.years, traffic.growth, traffic.kind)
         fields["design_damage"] = (("criterion",), peak * growth)
     if cracks is not None:
-        fields |= _cracks(damage, cracks, traffic, spacing, worst, peak)
+        fields |= _cracks(damage, cracks, wanders, spacing, (worst, margin), peak)
         coordinates["orientation"] = list(ORIENTATIONS)
     doubts = [row[0].doubt for row in laws]
     dataset = variables.dataset(
@@ -168,6 +181,7 @@ def miner(
         laws=json.dumps([str(criterion.law_at(15.0)) for criterion in criteria], ensure_ascii=False),
         sources=json.dumps([criterion.law_at(15.0).source for criterion in criteria], ensure_ascii=False),
         doubts=json.dumps(doubts, ensure_ascii=False),
+        ends=json.dumps([row[0].end_of_life for row in laws], ensure_ascii=False),
         quantities=json.dumps([criterion.quantity for criterion in criteria], ensure_ascii=False),
     )
     said = [
@@ -175,12 +189,24 @@ def miner(
         for k, criterion in enumerate(criteria)
         for text in _warnings(laws[k], values[k], shares[k])
     ]
+    said += [
+        f"{name}: its law was calibrated on roads on which wheels wander, so that the traffic's wander is left out "
+        f"here and the life is {_years(float(dataset['life_years'][k]))}; counted twice it would be "
+        f"{_years(float(dataset['life_years_with_wander'][k]))}"
+        for k, name in enumerate(names)
+        if wanders[k] != traffic.wander
+    ]
     dims = ("criterion", "axle_class", "season", "turn", "y")
     places = {name: coordinates[name] for name in ("criterion", "axle_class", "season")}
     kept = xr.DataArray(values, dims=dims, coords={**places, "y": at})
     return Life(
         dataset, tuple(criteria), traffic, climate, kept, tuple(map(tuple, laws)), warnings=tuple(dict.fromkeys(said))
     )
+
+
+def wander_of(law: FatigueLaw, traffic: Traffic) -> Wander:
+    """The wander of a traffic that counts with a law: none for a law that holds it."""
+    return Wander.none() if law.includes_wander else traffic.wander
 
 
 def damage_of(readings: Array, laws: Sequence[Sequence[FatigueLaw]], traffic: Traffic, climate: Climate) -> Array:
@@ -218,9 +244,18 @@ def passes_in_two_phases(before: Array, after: Array, change: float) -> Array:
 
 
 def _cracks(
-    damage: Array, cracks: tuple[Array, Array], traffic: Traffic, spacing: float, worst: Array, peak: Array
+    damage: Array,
+    cracks: tuple[Array, Array],
+    wanders: Sequence[Wander],
+    spacing: float,
+    place: tuple[Array, int],
+    peak: Array,
 ) -> dict[str, tuple[tuple[str, ...], Any]]:
-    """The first crack of every criterion, and the shares of orientations in the damage at its worst place."""
+    """The first crack of every criterion, and the shares of orientations in the damage at its worst place.
+
+    place: column of the worst y of each criterion, and how many of them lie before the first of damage.
+    """
+    worst, margin = place
     angle, dip = (np.asarray(part, dtype=float) for part in cracks)
     codes = orientation(angle, dip, OBLIQUE_TOLERANCE)
     shares = np.zeros((len(damage), len(ORIENTATIONS)))
@@ -228,7 +263,9 @@ def _cracks(
     for k, (one, column, top) in enumerate(zip(damage, worst, peak, strict=True)):
         for code in range(len(ORIENTATIONS)):
             part = np.where(codes[k] == code, one, 0.0).sum(axis=(0, 1))
-            shares[k, code] = _over(traffic.wander.spread(part, spacing)[column], top)
+            spread = wanders[k].spread(part, spacing)
+            at = column - margin + (len(spread) - len(part)) // 2
+            shares[k, code] = _over(spread[at] if 0 <= at < len(spread) else 0.0, top)
         most = np.unravel_index(int(one.argmax()), one.shape)
         first[:, k] = angle[k][most], dip[k][most]
     return {
@@ -242,6 +279,11 @@ def _warnings(laws: Sequence[FatigueLaw], values: Array, shares: Array) -> list[
     """Sentences on a criterion: of the season that does most, and of that which is read largest."""
     seasons = dict.fromkeys([int(shares.sum(axis=0).argmax()), int(values.max(axis=(0, 2, 3)).argmax())])
     return [text for season in seasons for text in warnings_of(laws[season], values[:, season])]
+
+
+def _years_to(traffic: Traffic, damage: float) -> float:
+    """Years until a damage of the first year has added up to 1."""
+    return traffic.years_to(traffic.passes_per_year / damage) if damage > 0 else math.inf
 
 
 def _over(part: Any, whole: float) -> Any:

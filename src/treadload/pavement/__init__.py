@@ -1,5 +1,6 @@
 """The road and its layers."""
 
+from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift_below
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
 from treadload.pavement.catalogue import Structure, read_structures, structures
 from treadload.pavement.rows import LayerRow, layer_rows
@@ -17,7 +18,10 @@ __all__ = [
     "Pavement",
     "Structure",
     "TemperatureProfile",
+    "bituminous_thickness",
+    "is_bituminous",
     "layer_rows",
+    "lift_below",
     "read_structures",
     "structures",
 ]

@@ -23,14 +23,14 @@ _NO_CRACK = "ruts, no crack"
 @dataclass(frozen=True)
 class LifeReport:
     """What a report says of one life. label: of the case. facts: (term, value). rows: of `COLUMNS`. laws: name of a
-    criterion, law, source, doubt. solved: what was solved for it.
+    criterion, law, source, doubt, what the end of life is. solved: what was solved for it.
     """
 
     label: str
     facts: tuple[tuple[str, str], ...]
     rows: tuple[tuple[str, ...], ...]
     pictures: tuple[Picture, ...]
-    laws: tuple[tuple[str, str, str, str], ...]
+    laws: tuple[tuple[str, str, str, str, str], ...]
     solved: str
 
 
@@ -40,13 +40,14 @@ def life_report(label: str, data: xr.Dataset) -> LifeReport:
         json.loads(data.attrs.get(name, "[]")) for name in ("laws", "sources", "doubts", "quantities")
     )
     names = [str(name) for name in data["criterion"].to_numpy()]
+    ends = json.loads(data.attrs.get("ends", "[]")) or [""] * len(names)
     rows = tuple(_row(data.isel(criterion=k), names[k], laws[k], quantities[k]) for k in range(len(names)))
     return LifeReport(
         label,
         _facts(data),
         rows,
         tuple(_pictures(data)),
-        tuple(zip(names, laws, sources, doubts, strict=True)),
+        tuple(zip(names, laws, sources, doubts, ends, strict=True)),
         _solved(data),
     )
 
@@ -191,8 +192,8 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
         ),
         *picture(
             "Damage across the wheel path",
-            "Miner's sum of every criterion after wander; dots mark the worst places. A full line above the dashed "
-            "ones means that cracks start at the surface.",
+            "Miner's sum of every criterion, after wander where the law does not hold it; dots mark the worst "
+            "places. A full line above the dashed ones means that cracks start at the surface.",
             lambda: life_damage(data),
             wide=True,
         ),

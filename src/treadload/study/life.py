@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from treadload import variables
-from treadload.damage.design import Criterion
+from treadload.damage.design import Criterion, DesignCriterion
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
-from treadload.pavement import Pavement
+from treadload.pavement import Pavement, lift_below
 from treadload.study.passages import Progress, solve_passages
 from treadload.tire import Tire
 
@@ -58,4 +58,23 @@ def design_life(
         "wheels_moved": passages.moved,
         "seconds": time.perf_counter() - start,
     }
-    return replace(life, stats=stats)
+    return replace(life, stats=stats, warnings=(*life.warnings, *_lifts(road, criteria)))
+
+
+def _lifts(road: Pavement, criteria: Sequence[Criterion]) -> tuple[str, ...]:
+    """Sentences on criteria that read the bottom of a lift which another of the same mix carries."""
+    said = []
+    for one in criteria:
+        if isinstance(one, DesignCriterion) and one.place == "bottom" and lift_below(road, one.layer):
+            number = one.number(road)
+            said.append(
+                f"{one.name}: it reads the bottom of layer {number + 1}, but a lift of the same mix lies below; the "
+                f"base is read at its bottom, that of layer {_lowest_lift(road, number) + 1}"
+            )
+    return tuple(said)
+
+
+def _lowest_lift(road: Pavement, number: int) -> int:
+    while lift_below(road, number):
+        number += 1
+    return number

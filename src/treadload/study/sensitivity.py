@@ -15,7 +15,7 @@ import xarray as xr
 from treadload import variables
 from treadload.contact import Coulomb
 from treadload.damage.design import Criterion
-from treadload.damage.miner import Life, damage_of
+from treadload.damage.miner import Life, damage_of, wander_of
 from treadload.damage.traffic import Climate, Season, Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -166,12 +166,11 @@ def _without_solves(life: Life, number: int, growth: float) -> dict[str, float]:
         return float(wander.spread(damage, float(y[1] - y[0])).sum(axis=(0, 1, 2)).max())
 
     apart = math.log((1 + _STEP) / (1 - _STEP))
-    stronger, weaker = (peak(readings / (1 + sign * _STEP), traffic.wander) for sign in (1, -1))
+    own = wander_of(laws[0], traffic)
+    stronger, weaker = (peak(readings / (1 + sign * _STEP), own) for sign in (1, -1))
     found[f"strength of {criterion.name}"] = -growth * math.log(stronger / weaker) / apart
-    if traffic.wander.deviation:
-        wide, narrow = (
-            peak(readings, Wander.normal(traffic.wander.deviation * (1 + sign * _STEP))) for sign in (1, -1)
-        )
+    if own.deviation:
+        wide, narrow = (peak(readings, Wander.normal(own.deviation * (1 + sign * _STEP))) for sign in (1, -1))
         found["wander"] = -growth * math.log(wide / narrow) / apart
     return found
 
@@ -314,6 +313,6 @@ class _Solver:
             warmth = layer_temperatures(road, (self.criterion,), climate.seasons)[0]
             laws = [self.criterion.law_at(float(t)) for t in warmth]
             damage = damage_of(values, [laws], traffic, climate)
-            spread = traffic.wander.spread(damage, float(y[1] - y[0]))
+            spread = wander_of(laws[0], traffic).spread(damage, float(y[1] - y[0]))
             result.append(float(spread.sum(axis=(0, 1, 2)).max()))
         return result

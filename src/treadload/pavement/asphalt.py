@@ -1,0 +1,75 @@
+"""How much asphalt lies in a road: the thickness that laws of fatigue ask for."""
+
+from __future__ import annotations
+
+from treadload.errors import InputError
+from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
+from treadload.pavement.bonds import FRICTIONLESS
+from treadload.pavement.structure import Layer, Pavement
+
+# An elastic layer softer than this, Pa, is no asphalt: the stiffest unbound material of the catalogue has 600 MPa,
+# the softest mix at 40 °C 800 MPa.
+_UNBOUND = 0.7e9
+
+
+def bituminous_thickness(road: Pavement, layer: int) -> float:
+    """Thickness of all bituminous layers that lie on each other around one of them, m.
+
+    layer: the bituminous one, counted from the surface, 0 is the top one, negative from the bottom. Wearing, binder
+    and base courses count alike, whatever their bonds: laws were fitted to the whole.
+    A mix of the catalogue and a viscoelastic material are bituminous; unbound and hydraulic materials of the
+    catalogue and elastic ones below 700 MPa are not. Above, a modulus tells nothing.
+    Raises InputError for a neighbour of which it is not known, and a layer that is not bituminous or has no end.
+    """
+    number = _number(road, layer)
+    own = road.layers[number]
+    if own.thickness is None or is_bituminous(own.material) is False:
+        why = "goes down for ever" if own.thickness is None else f"is no asphalt ({own.material})"
+        raise InputError(f"layer {number + 1} {own.name!r} {why}; ask for a bituminous layer, or give the thickness")
+    total = own.thickness
+    for step in (-1, 1):
+        at = number + step
+        while 0 <= at < len(road.layers) and _counts(road.layers[at], at):
+            thickness = road.layers[at].thickness
+            assert thickness is not None
+            total += thickness
+            at += step
+    return total
+
+
+def is_bituminous(material: Material | TemperatureDependent) -> bool | None:
+    """Whether a material is bituminous; None where it cannot be known, see `bituminous_thickness`."""
+    if isinstance(material, Unbound | HydraulicMix):
+        return False
+    if isinstance(material, Elastic):
+        return False if material.modulus < _UNBOUND else None
+    return True
+
+
+def lift_below(road: Pavement, layer: int) -> bool:
+    """True where the layer below is of the same bituminous material and holds to it: two lifts of one course."""
+    number = _number(road, layer)
+    if number + 1 >= len(road.layers):
+        return False
+    own, below = road.layers[number], road.layers[number + 1]
+    return isinstance(own.material, Mix) and own.material == below.material and own.bond != FRICTIONLESS
+
+
+def _number(road: Pavement, layer: int) -> int:
+    count = len(road.layers)
+    if not -count <= layer < count:
+        raise InputError(f"the road has {count} layers, {-count} to {count - 1}; there is no layer {layer}")
+    return layer % count
+
+
+def _counts(layer: Layer, number: int) -> bool:
+    """Whether a neighbour adds to the asphalt."""
+    if layer.thickness is None:
+        return False
+    found = is_bituminous(layer.material)
+    if found is None:
+        raise InputError(
+            f"layer {number + 1} {layer.name!r} ({layer.material}) may be asphalt or bound by cement, so that the "
+            "thickness of all asphalt is not known; give it as thickness, or build the layer of a catalogued mix"
+        )
+    return found
