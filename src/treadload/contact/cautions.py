@@ -8,6 +8,9 @@ import numpy as np
 import xarray as xr
 
 from treadload.contact.wheel import Rolling
+from treadload.grid import Grid
+from treadload.materials import Elastic
+from treadload.plausible import doubt, load_doubt
 from treadload.tire import Tire
 
 # NaN by design: no material, or nothing that rolls.
@@ -28,6 +31,23 @@ def of_rolling(tire: Tire, rolling: Rolling) -> list[str]:
         f"the tire leans by {math.degrees(tire.camber):.3g}° and rolls without spin; on a straight path its camber "
         f"makes a spin of {belongs:.3g} rad/m, -sin(camber)/R: give Rolling(spin={belongs:.3g})"
     ]
+
+
+def of_numbers(tire: Tire, rolling: Rolling, grid: Grid) -> list[str]:
+    """Loads, pressures, speeds, cells that no tire has, with the unit that was likely meant."""
+    length, width = tire.extent
+    said = doubt("width of the surface", width) or doubt("width of the surface", length)
+    if rolling.normal_load is not None:
+        said += load_doubt(rolling.normal_load, width)
+    if tire.inflation_pressure is not None:
+        said += doubt("inflation pressure", tire.inflation_pressure)
+    if isinstance(tire.material, Elastic):
+        said += doubt("modulus of the tire", tire.material.modulus)
+    said += doubt("friction", rolling.law.largest)
+    if rolling.speed is not None:
+        said += doubt("speed", rolling.speed)
+    said += doubt("size of the cells", min(grid.dx, grid.dy)) or doubt("size of the cells", max(grid.dx, grid.dy))
+    return list(said)
 
 
 def of_fields(data: xr.Dataset) -> list[str]:

@@ -99,5 +99,10 @@ def contact_of(
         **{name: ((), value) for name, value in scalars_of(scene, state).items()},
     }
     data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)
-    said = (*cautions.of_tire(scene.tire), *warnings, *cautions.of_fields(data))
+    said = (
+        *cautions.of_tire(scene.tire),
+        *cautions.of_numbers(scene.tire, rolling, grid),
+        *warnings,
+        *cautions.of_fields(data),
+    )
     return Contact(data, scene.tire, scene.road, rolling, stats, said)

@@ -337,7 +337,11 @@ def _contact(
         "cells": grid.nx * grid.ny,
         "seconds": seconds,
     }
-    warnings = cautions.of_tire(tire) + cautions.of_rolling(tire, rolling)
+    warnings = [
+        *cautions.of_tire(tire),
+        *cautions.of_rolling(tire, rolling),
+        *cautions.of_numbers(tire, rolling, grid),
+    ]
     if tangential.splitting:
         warnings.append(f"Newton's method stalled; {tangential.splitting} steps of the slower splitting helped it on")
     share = _share(tire, road, float((normal.pressure > 0).sum()) * grid.cell_area)

@@ -16,6 +16,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.depths import same_depth
 from treadload.kernels.points import Points
 from treadload.pavement import Pavement
+from treadload.response.doubts import overlapping, question_doubts, road_doubts
 from treadload.response.fields import response_dataset
 from treadload.response.half_space import half_space_response
 from treadload.response.layered import layered_response
@@ -117,6 +118,7 @@ def solve_response(
     stats = {"seconds": time.perf_counter() - start, "method": solved.method, "points": stress[0].size}
     gridded = [load for load in superposed if isinstance(load, GridLoad) and load.interpolation == "constant"]
     warnings = _warnings(gridded, at_depths) + solved.warnings
+    warnings += question_doubts(at_depths, speed) + road_doubts(road) + overlapping(superposed)
     if np.isnan(displacement).any():
         warnings += (
             "a net shear force acts above a frictionless or half-bonded interface, where nothing holds the layers: "

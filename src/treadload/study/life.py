@@ -11,6 +11,7 @@ from treadload.damage.design import Criterion, DesignCriterion
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
 from treadload.pavement import Pavement, lift_below
+from treadload.study.doubts import traffic_doubts
 from treadload.study.passages import Progress, solve_passages
 from treadload.tire import Tire
 
@@ -58,7 +59,8 @@ def design_life(
         "wheels_moved": passages.moved,
         "seconds": time.perf_counter() - start,
     }
-    return replace(life, stats=stats, warnings=(*life.warnings, *_lifts(road, criteria)))
+    said = (*_lifts(road, criteria), *traffic_doubts(tire, traffic, climate), *passages.warnings)
+    return replace(life, stats=stats, warnings=(*life.warnings, *said))
 
 
 def _lifts(road: Pavement, criteria: Sequence[Criterion]) -> tuple[str, ...]:

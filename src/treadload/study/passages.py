@@ -21,6 +21,7 @@ from treadload.kernels.arrays import Array
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, place, solve_response
+from treadload.response.doubts import overlapping, road_doubts
 from treadload.tire import Tire
 
 Found = TypeVar("Found")
@@ -44,7 +45,8 @@ class Passages:
     y), rad, of the crack at the worst instant, in the season's road or the nearest that was solved.
     layer_temperatures: (criterion, season), °C. contacts, responses: how many were really solved.
     interpolation_error: largest relative error of a reading that was interpolated over the climate, measured on the
-    heaviest class; 0 if none was. moved: how far a wheel was moved to stand on the common cells, m.
+    heaviest class; 0 if none was. moved: how far a wheel was moved to stand on the common cells, m. warnings:
+    sentences for the user.
     """
 
     readings: xr.DataArray
@@ -55,6 +57,7 @@ class Passages:
     responses: int
     interpolation_error: float
     moved: float
+    warnings: tuple[str, ...] = ()
 
     @property
     def combinations(self) -> int:
@@ -173,6 +176,7 @@ def solve_passages(
         count.total - len(states),
         error,
         max(_moved(one, row) for one, row in zip(wheels, classes, strict=True)),
+        tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads)) + road_doubts(warm[0].road),
     )
 
 

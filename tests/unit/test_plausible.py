@@ -1,0 +1,136 @@
+"""Numbers that no tire, no road and no traffic has are said, with the unit that was likely meant."""
+
+import json
+import math
+
+import pytest
+
+import treadload as tl
+from cases import COARSE_CASE
+from treadload.plausible import RANGES, doubt, load_doubt
+from treadload.study import run_case
+
+TRUCK = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
+ASPHALT = tl.Elastic(5.4e9, 0.35)
+SOIL = tl.Layer(tl.Elastic(100e6, 0.35), name="soil")
+DISC = tl.UniformDisc(0.125, 0.662e6)
+
+
+@pytest.mark.parametrize("kind", RANGES)
+def test_every_range_has_a_reason_and_holds_what_is_usual(kind):
+    row = RANGES[kind]
+    assert row.reason
+    assert row.low <= row.usual[0] < row.usual[1] <= row.high
+    for value in (*row.usual, math.nan, math.inf):
+        assert doubt(kind, value) == ()
+    # Beyond, not at, the bounds.
+    assert doubt(kind, row.low) == ()
+    assert doubt(kind, row.low - 1e-9 * max(abs(row.low), 1))
+    if math.isfinite(row.high):
+        assert doubt(kind, row.high) == ()
+        assert doubt(kind, row.high * 1.001)
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "meant"),
+    [
+        ("speed", 90.0, '"90 km/h"'),
+        ("thickness of the surface course", 6.0, '"6 cm"'),
+        ("thickness of the surface course", 60.0, '"60 mm"'),
+        ("thickness of the unbound layer", 25.0, '"25 cm"'),
+        ("modulus of the layer", 5400.0, '"5400 MPa"'),
+        ("inflation pressure", 8.2, '"8.2 bar"'),
+        ("inflation pressure", 820.0, '"820 kPa"'),
+        # 5400 GPa for 5400 MPa.
+        ("modulus of the layer", 5400e9, '"5.4e+09 Pa"'),
+        ("friction", 70.0, '"70 %"'),
+        ("growth a year", 2.0, '"2 %"'),
+        ("size of the cells", 3.0, '"3 mm"'),
+        ("stiffness of the bond", 1000.0, '"1000 MPa/m"'),
+    ],
+)
+def test_the_unit_that_was_likely_meant_is_named(kind, value, meant):
+    (text,) = doubt(kind, value)
+    assert meant in text
+    assert f"{value:g}" in text
+
+
+def test_a_load_is_judged_by_the_width_of_its_tire():
+    # 32.5 N on a truck tire, and the same on the wheel of a robot; an aircraft's, and the same on a bicycle's.
+    (text,) = load_doubt(32.5, 0.292)
+    assert 'carries 2 to 88 kN: did you mean "32.5 kN"?' in text
+    assert load_doubt(32.5, 0.03) == ()
+    assert load_doubt(200e3, 0.43) == ()
+    assert load_doubt(500e3, 0.025)
+
+
+def test_a_contact_says_what_no_tire_does():
+    wheel = tl.Rolling(normal_load=32.5, friction=70.0, speed=500.0)
+    contact = tl.solve_contact(TRUCK, tl.Pavement.half_space(ASPHALT), wheel, spacing=4e-3)
+    said = " ".join(contact.warnings)
+    for word in ("wheel load is 32.5 N", '"32.5 kN"', "friction is 70;", '"70 %"', "500 m/s, 1800 km/h"):
+        assert word in said
+        assert word in contact.summary()
+    usual = tl.Rolling(normal_load=32.5e3, friction=0.7, speed=20.0)
+    assert not tl.solve_contact(TRUCK, tl.Pavement.half_space(ASPHALT), usual, spacing=12e-3).warnings
+
+
+def test_a_response_says_what_no_road_is():
+    course = tl.Layer(ASPHALT, 6.0, name="wearing course")
+    told = tl.solve_response(DISC, tl.Pavement([course, SOIL]), depths=[0.0], x=[0.0], y=[0.0])
+    assert (
+        'thickness of the surface course is 6 m; surface courses usually measure 1 to 40 cm: did you mean "6 cm"?'
+        in (told.summary())
+    )
+    soft = tl.Pavement([tl.Layer(tl.Elastic(5400.0, 0.35), 0.06, name="top", bond=tl.Bond(1000.0)), SOIL])
+    said = " ".join(tl.solve_response(DISC, soft, depths=[0.0], x=[0.0], y=[0.0]).warnings)
+    assert "modulus of layer 1 (top) is 5400 Pa" in said
+    assert "stiffness of the bond below layer 1 (top) is 1000 Pa/m" in said
+    usual = tl.Pavement([tl.Layer(ASPHALT, 0.06), SOIL])
+    assert not tl.solve_response(DISC, usual, depths=[0.0, 1.0], x=[0.0], y=[0.0]).warnings
+
+
+def test_wheels_that_reach_into_each_other_are_told():
+    road, at = tl.Pavement.half_space(ASPHALT), {"depths": [0.05], "x": [0.0], "y": [0.0]}
+    near = tl.solve_response(tl.dual_wheels(DISC, 0.2), road, **at)
+    assert "wheels 1 and 2 reach into each other by 250 mm along travel and 50 mm across" in near.warnings[0]
+    assert "0 and 200 mm apart" in near.warnings[0]
+    # The French axle; and two parts of one load, which may lie on each other.
+    assert not tl.solve_response(tl.axle(DISC, 1.8, 0.375), road, **at).warnings
+    assert not tl.solve_response([DISC, DISC], road, **at).warnings
+    # Footprints, of which empty cells count for nothing.
+    grid = tl.Grid.centred(0.4, 0.4, 0.01)
+    pressed = (abs(grid.x)[None, :] < 0.1) & (abs(grid.y)[:, None] < 0.1)
+    foot = tl.GridLoad(grid, 7e5 * pressed)
+    assert not tl.solve_response(tl.dual_wheels(foot, 0.22), road, **at).warnings
+    told = tl.solve_response([foot, foot.moved(x=1.0), foot.moved(x=1.0, y=0.1)], road, **at).warnings
+    assert "wheels 2 and 3 reach into each other by 200 mm along travel and 100 mm across" in told[0]
+
+
+def test_a_case_carries_the_sentences_to_its_file():
+    case = tl.Case.from_text(COARSE_CASE.replace("friction       = 0.7", "friction = 0.7\nspeed = 90"))
+    tree = run_case(case).to_tree()
+    said = [text for group in tree.children.values() for text in json.loads(group.attrs.get("warnings", "[]"))]
+    assert any('did you mean "90 km/h"?' in text for text in said)
+
+
+def test_a_life_says_what_no_traffic_is():
+    row = tl.AxleClass("front", 1.0, 35.0, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
+    traffic = tl.Traffic((row,), 1e12, growth=2.0, years=2)
+    road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    criterion = tl.DesignCriterion("base", tl.FatigueLine(90e-6, -0.2), 1, "bottom")
+    life = tl.design_life(TRUCK, road, traffic, tl.Climate.constant(15.0), [criterion], spacing=4e-3)
+    said = "\n".join(life.warnings)
+    for word in (
+        "number of passes a year is 1e+12",
+        'growth a year is 2; traffic usually grows by -5 to 10 %: did you mean "2 %"?',
+        "wheel load of front is 35 N",
+        '"35 kN"',
+    ):
+        assert word in said
+        assert word in life.summary()
+    heavy = tl.AxleClass("front", 1.0, 35e3, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
+    usual = tl.Traffic((heavy,), 1e5, growth=0.02, years=20)
+    life = tl.design_life(TRUCK, road, usual, tl.Climate.constant(15.0), [criterion], spacing=12e-3)
+    (text,) = [text for text in life.warnings if "reach into" in text]
+    assert text.startswith("front: the footprints of wheels 1 and 2")
