@@ -65,6 +65,7 @@ if TYPE_CHECKING:
         thermal_stress,
     )
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
+    from treadload.exports import write_csv, write_excel
     from treadload.grid import Grid
     from treadload.materials import (
         WLF,
@@ -273,6 +274,8 @@ _HOME = {
     "thermal_stress": "damage",
     "to_tree": "results",
     "turn_on_the_spot": "contact",
+    "write_csv": "exports",
+    "write_excel": "exports",
 }
 
 __all__ = [
@@ -407,6 +410,8 @@ __all__ = [
     "thermal_stress",
     "to_tree",
     "turn_on_the_spot",
+    "write_csv",
+    "write_excel",
 ]
 
 

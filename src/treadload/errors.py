@@ -19,3 +19,8 @@ class ConvergenceError(TreadloadError, RuntimeError):
     def __init__(self, message: str, residual: float = float("nan")) -> None:
         super().__init__(message)
         self.residual = residual
+
+
+def how_to_install(extra: str) -> str:
+    """What to run for a package of an extra, such as "scan"; it works in a clone, which is all there is so far."""
+    return f"in the folder of the clone, run  pip install '.[{extra}]'"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,28 @@ from treadload.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
+
+# Suffixes, and what a file of that name holds.
+NETCDF = {".nc": "NetCDF", ".nc4": "NetCDF", ".h5": "NetCDF"}
+TABLE = {".csv": "tables"}
+EXCEL = {".xlsx": "an Excel workbook"}
+HTML = {".html": "a page", ".htm": "a page"}
+
+
+def check_suffix(path: str | os.PathLike[str], known: Mapping[str, str], what: str) -> str:
+    """The suffix of a path in small letters, if it is a known one, so that a file holds what its name says.
+
+    known: suffixes and what they mean. what: is to be written, for the error. Raises InputError.
+    """
+    _check_no_folder(Path(path))
+    suffix = Path(path).suffix.lower()
+    if suffix not in known:
+        means = {meaning: [one for one in known if known[one] == meaning] for meaning in known.values()}
+        listed = ", ".join(f"{' or '.join(names)} ({meaning})" for meaning, names in means.items())
+        said = f"the suffix {suffix} is not known" if suffix else "its name has no suffix"
+        pdf = "; for a PDF print the page of `treadload report` from a browser" if suffix == ".pdf" else ""
+        raise InputError(f"cannot write {what} to {os.fspath(path)}: {said}, use {listed}{pdf}")
+    return suffix
 
 
 def check_writable(path: str | os.PathLike[str]) -> None:
@@ -54,9 +76,13 @@ def read_tree(path: Path, kind: str) -> xr.DataTree:
     return loaded
 
 
-def _temporary(path: Path) -> Path:
+def _check_no_folder(path: Path) -> None:
     if path.is_dir():
         raise InputError(f"cannot write {path}: it is a folder; give a file name")
+
+
+def _temporary(path: Path) -> Path:
+    _check_no_folder(path)
     if not path.parent.is_dir():
         raise InputError(f"cannot write {path}: the folder {path.parent} does not exist; make it first")
     try:

@@ -22,7 +22,7 @@ from treadload.case import Case, LifeCase
 from treadload.contact import Contact
 from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
-from treadload.files import read_tree, replacing
+from treadload.files import NETCDF, check_suffix, read_tree, replacing
 from treadload.grid import Grid
 from treadload.materials import HuetSayegh, Model2S2P1D, Prony
 from treadload.pavement import BONDED, HALF_BONDED, LayerRow, Pavement, layer_rows
@@ -238,10 +238,11 @@ def height_map(tire: Tire, spacing: float) -> xr.Dataset:
 
 
 def save(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> Path:
-    """Write results as NetCDF-4; the file appears whole or not at all.
+    """Write results as NetCDF-4; the file appears whole or not at all. Tables: `write_csv`, `write_excel`.
 
-    Raises InputError if the path cannot be written.
+    Raises InputError if the path cannot be written, or its suffix names another format.
     """
+    check_suffix(path, NETCDF, "NetCDF")
     with replacing(path) as temporary:
         results.to_netcdf(temporary, engine="h5netcdf")
     return Path(path)
@@ -256,16 +257,6 @@ def load(path: str | os.PathLike[str]) -> xr.DataTree:
     if "treadload_version" not in loaded.attrs:
         raise InputError(f"{path} is a NetCDF file, but no result of treadload: it lacks treadload_version")
     return loaded
-
-
-def write_csv(data: xr.Dataset, path: str | os.PathLike[str]) -> Path:
-    """Write the fields of a dataset on (y, x), or (depth, y, x), as a table with one row a point."""
-    with replacing(path) as temporary:
-        fields = [name for name in data.data_vars if data[name].ndim and "component" not in data[name].dims]
-        frame = data[fields].to_dataframe()
-        frame.columns = [f"{name} [{data[name].attrs.get('units', '')}]" for name in fields]
-        frame.to_csv(temporary)
-    return Path(path)
 
 
 def road_in_rows(road: Pavement, case: Case | None = None) -> str:

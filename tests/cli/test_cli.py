@@ -3,6 +3,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 from rich.console import Console
@@ -224,3 +225,32 @@ def test_an_interrupted_run_leaves_nothing_behind(case, tmp_path):
     assert "interrupted" in stderr
     assert "Traceback" not in stderr
     assert sorted(p.name for p in tmp_path.iterdir()) == ["case.toml"]
+
+
+def test_what_is_written_is_what_the_name_says(case, tmp_path):
+    ran = call("run", case, "-o", tmp_path / "r.csv")
+    assert ran.exit_code == 0, ran.output
+    written = [line.removeprefix("written: ") for line in ran.stdout.splitlines() if line.startswith("written: ")]
+    assert str(tmp_path / "r_contact.csv") in written
+    for file in written:
+        assert file.endswith(".csv")
+        assert Path(file).read_text(encoding="utf-8").splitlines()[0].count(",") > 1
+    openpyxl = pytest.importorskip("openpyxl")
+    assert call("run", case, "-o", tmp_path / "r.xlsx").exit_code == 0
+    assert "response" in openpyxl.load_workbook(tmp_path / "r.xlsx", read_only=True).sheetnames
+    scanned = call("scan", tl.example_mesh(), "-o", tmp_path / "h.csv", "--spacing", "20 mm")
+    assert scanned.exit_code == 0, scanned.output
+    assert (tmp_path / "h.csv").read_text().startswith("y [m],x [m],initial_gap [m]\n")
+
+
+def test_a_suffix_that_is_not_known_is_refused_before_the_work(case, tmp_path, monkeypatch):
+    monkeypatch.setattr("treadload.study.run_case", None)
+    monkeypatch.setattr("treadload.study.run_design", None)
+    monkeypatch.setattr("treadload.tire.Tire.from_scan", None)
+    known = (".nc", ".csv", ".xlsx")
+    refused(call("run", case, "-o", tmp_path / "r.json"), 2, ".json", *known)
+    refused(call("run", case, "-o", tmp_path / "r.pdf"), 2, "print", *known)
+    refused(call("life", case, "-o", tmp_path / "r"), 2, "no suffix", *known)
+    refused(call("scan", tl.example_mesh(), "-o", tmp_path / "r.obj"), 2, ".obj", *known)
+    refused(call("report", case, "-o", tmp_path / "r.pdf"), 2, ".html", "print")
+    refused(call("report", case, "-o", tmp_path / "r.nc"), 2, ".html")

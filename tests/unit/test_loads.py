@@ -245,10 +245,8 @@ def test_a_saved_contact_loads_the_road_again(tmp_path):
 
 
 def test_our_own_table_of_a_contact_comes_back(tmp_path):
-    from treadload.results import write_csv
-
     names = {"pressure": PRESSURE, "traction_x": ALONG, "traction_y": ACROSS, "gap": 0 * PRESSURE}
     data = tl.variables.dataset({k: (("y", "x"), v) for k, v in names.items()}, {"x": GRID.x, "y": GRID.y})
-    load = GridLoad.from_csv(write_csv(data, tmp_path / "contact.csv"))
+    load = GridLoad.from_csv(tl.write_csv(data, tmp_path / "contact.csv")[0])
     np.testing.assert_allclose(load.array, LOAD.array, rtol=1e-12)
     np.testing.assert_allclose([load.grid.x, load.grid.y[:1].repeat(3)], [GRID.x, GRID.y[:1].repeat(3)], atol=1e-12)

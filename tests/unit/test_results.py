@@ -6,7 +6,7 @@ import xarray as xr
 
 import treadload as tl
 from treadload.case import Case
-from treadload.results import height_map, load, save, write_csv
+from treadload.results import height_map, load, save
 
 
 def test_a_tree_survives_the_disk(coarse_result, tmp_path):
@@ -62,7 +62,7 @@ def test_a_saved_height_map_makes_the_same_tire(tmp_path):
 
 def test_csv_has_a_row_a_cell_and_units_in_its_heading(coarse_result, tmp_path):
     data = coarse_result.contact.dataset
-    write_csv(data, tmp_path / "c.csv")
+    tl.write_csv(data, tmp_path / "c.csv")
     heading, *rows = (tmp_path / "c.csv").read_text().splitlines()
     assert "pressure [Pa]" in heading
     assert len(rows) == data.pressure.size

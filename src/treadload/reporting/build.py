@@ -14,7 +14,7 @@ import xarray as xr
 
 from treadload._version import __version__
 from treadload.errors import InputError
-from treadload.files import check_writable, replacing
+from treadload.files import HTML, check_suffix, check_writable, replacing
 from treadload.reporting.figures import case_figures, comparison_figures
 from treadload.reporting.inputs import input_table
 from treadload.reporting.life import COLUMNS as LIFE_COLUMNS
@@ -43,6 +43,7 @@ def write_report(cases: Mapping[str, xr.DataTree], path: str | PathLike[str], ti
     if not cases:
         raise InputError("a report needs at least one case; give a name and a tree of results")
     # Found before minutes go into figures, not after.
+    check_suffix(path, HTML, "the report")
     check_writable(path)
     read = [ReportCase.of(label, tree) for label, tree in cases.items()]
     html = _template().render(_content(read, title or _title(read)))

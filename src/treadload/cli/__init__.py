@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, NoReturn, ParamSpec
@@ -29,7 +29,10 @@ app = typer.Typer(
 _out = Console(highlight=False, soft_wrap=True)
 _err = Console(stderr=True, highlight=False, soft_wrap=True)
 
-_Output = Annotated[Path | None, typer.Option("--output", "-o", help="File to write.", show_default=False)]
+_Output = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", help="File to write: .nc (NetCDF), .csv or .xlsx.", show_default=False),
+]
 
 
 @contextmanager
@@ -77,6 +80,10 @@ def _fail(message: str, code: int) -> NoReturn:
     raise typer.Exit(code)
 
 
+def _written(files: Iterable[Path]) -> None:
+    _out.print("\n" + "\n".join(f"written: {file}" for file in files), markup=False)
+
+
 @app.callback(invoke_without_command=True)
 def _root(
     version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
@@ -94,20 +101,21 @@ def run(
 ) -> None:
     """Compute a case and write its result (NetCDF)."""
     from treadload.case import Case
+    from treadload.exports import check_output, write
     from treadload.files import check_writable
-    from treadload.results import save
     from treadload.study import run_case
 
     path = output or case.with_suffix(".nc")
-    question = Case.from_toml(case)
     # A path that cannot be written is found before the computation, not after it.
+    check_output(path)
+    question = Case.from_toml(case)
     check_writable(path)
     with _progress() as tell:
         result = run_case(question, progress=tell)
         tell(f"writing {path}")
-        save(result.to_tree(), path)
+        files = write(result.to_tree(), path)
     _out.print(result.summary(), markup=False)
-    _out.print(f"\nwritten: {path}", markup=False)
+    _written(files)
 
 
 @app.command()
@@ -120,18 +128,19 @@ def life(
 ) -> None:
     """Compute the life of a road under a traffic and a climate, and write it (NetCDF)."""
     from treadload.case import LifeCase
+    from treadload.exports import check_output, write
     from treadload.files import check_writable
-    from treadload.results import save
     from treadload.study import run_design
 
     path = output or design.with_suffix(".nc")
+    check_output(path)
     question = LifeCase.from_toml(design)
     check_writable(path)
     with _bar() as tell:
         result = run_design(question, sensitivity=sensitivity, workers=workers, progress=tell)
-    save(result.to_tree(), path)
+    files = write(result.to_tree(), path)
     _out.print(result.summary(), markup=False)
-    _out.print(f"\nwritten: {path}", markup=False)
+    _written(files)
 
 
 @app.command()
@@ -140,14 +149,18 @@ def report(
     results: Annotated[
         list[Path], typer.Argument(help="One or more result files of `treadload run` or `treadload life`.")
     ],
-    output: _Output = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File to write, .html.", show_default=False)
+    ] = None,
     title: Annotated[str, typer.Option(help="Heading of the report.")] = "",
 ) -> None:
     """Write a self-contained HTML report with figures; several results stand side by side."""
+    from treadload.files import HTML, check_suffix
     from treadload.reporting import write_report
     from treadload.results import load
 
     path = output or results[0].with_suffix(".html")
+    check_suffix(path, HTML, "the report")
     with _progress() as tell:
         tell("reading")
         trees = {}
@@ -172,10 +185,13 @@ def scan(
     spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
 ) -> None:
     """Read a tire mesh, tell how good it is, and write its height map (NetCDF)."""
-    from treadload.results import height_map, save
+    from treadload.exports import check_output, write
+    from treadload.results import height_map
     from treadload.tire import Tire
     from treadload.units import quantity
 
+    if output is not None:
+        check_output(output)
     with _progress() as tell:
         tell(f"reading {mesh}")
         tire = Tire.from_scan(
@@ -187,10 +203,10 @@ def scan(
         )
         if output is not None:
             tell("casting rays")
-            save(height_map(tire, quantity(spacing, "m")), output)
+            files = write(height_map(tire, quantity(spacing, "m")), output)
     _out.print(str(tire.quality), markup=False)
     if output is not None:
-        _out.print(f"written: {output}", markup=False)
+        _written(files)
 
 
 @app.command()
