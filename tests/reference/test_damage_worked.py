@@ -59,7 +59,7 @@ def test_allowable_strain_of_the_french_method(case):
     assert law.allowable_strain(case["NE"]) * 1e6 == pytest.approx(case["eps_adm_microstrain"], rel=PRINTED)
 
 
-def test_the_example_of_the_guide():
+def test_the_first_worked_case_to_three_digits():
     law = bituminous(WORKED["worked_eps_adm"][0])
     assert f"{law.risk_factor:.3f}" == "0.744"
     assert f"{law.allowable_strain(5e6) * 1e6:.1f}" == "72.5"

@@ -28,6 +28,16 @@ def test_every_row_passes(name):
         assert abs(check.deviation) <= check.bound
 
 
+def test_numbers_of_our_own_are_not_credited_to_a_publication():
+    """Worked out by us from a source's formulas: a regression. Printed by others: their name alone."""
+    checks = run_checks(names=["fatigue"])
+    ours = {"French fatigue law", "MEPDG fatigue"}
+    assert {check.group for check in checks} == {"French designs as printed", *ours}
+    for check in checks:
+        assert check.source.startswith("own regression") == (check.group in ours), check.quantity
+    assert sum(check.group not in ours for check in checks) == 5
+
+
 def test_relative_and_absolute():
     good = relative("g", "q", 1.01, 1.0, 0.02, "s")
     assert good.passed
