@@ -1,5 +1,6 @@
 """Criteria as fields of a response, what they need, and where they peak."""
 
+import json
 from types import SimpleNamespace
 
 import numpy as np
@@ -110,6 +111,47 @@ def test_energy_ratio_falls_with_tension_and_says_its_doubt():
     assert (np.diff(ratio[2:]) < 0).all()
     assert not MIX.verified
     assert "recalled" in MIX.doubt
+
+
+PSI = 6894.757293168361
+
+
+@pytest.mark.parametrize(
+    ("tension", "words"),
+    [
+        # The conventional stresses of reports pass.
+        (150 * PSI, ()),
+        (230 * PSI, ()),
+        (1.8e6, ("1.8 MPa is more than its sources put in",)),
+        # A peak of a computed contact: more than the mix bears once.
+        (np.array([[0.1e6, 3.4e6, np.nan]]), ("3.4 MPa exceeds the strength of the mix, 2 MPa; it is a peak",)),
+    ],
+)
+def test_energy_ratio_warns_of_stress_that_it_was_not_made_for(tension, words):
+    doubt, *said = MIX.warnings(tension)
+    assert "recalled" in doubt
+    assert len(said) == len(words)
+    for sentence, part in zip(said, words, strict=True):
+        assert part in sentence
+        assert "conventional stress of the layer, 1.03 to 1.59 MPa" in sentence
+
+
+def test_energy_ratio_of_a_computed_surface_keeps_its_warning():
+    found = compute_criteria(RESPONSE, ["horizontal_tension"])["horizontal_tension"]
+    ratio = MIX.ratio(found)
+    assert ratio.name == "energy_ratio"
+    assert ratio.dims == found.dims
+    np.testing.assert_array_equal(ratio, MIX.ratio(found.to_numpy()))
+    said = json.loads(ratio.attrs["warnings"])
+    assert "of a computed surface" in said[1]
+    # Below the surface it is a stress of the layer.
+    assert len(json.loads(MIX.ratio(found.sel(depth=[0.05, 0.1])).attrs["warnings"])) == 1
+
+
+def test_energy_ratio_in_words():
+    said = MIX.summary(150 * PSI)
+    assert said.startswith(f"energy ratio {float(MIX.ratio(150 * PSI)):.3g} under 1.03 MPa")
+    assert "warning: energy ratio: the exponent -3.10" in said
 
 
 def free(stress_zz=0.0):
