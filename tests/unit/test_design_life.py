@@ -116,7 +116,7 @@ def test_a_wheel_beside_the_path_is_read_there():
     ("change", "words"),
     [
         ({"criteria": ()}, "at least one criterion"),
-        ({"criteria": (DesignCriterion("deep", FatigueLine(1e-4, -0.2), -1),)}, "goes down for ever"),
+        ({"criteria": (DesignCriterion("deep", FatigueLine(1e-4, -0.2), -1),)}, "semi-infinite"),
         ({"climate": Climate((Season("a", 1.0, (1.0, 2.0)),))}, "temperature"),
         ({"climate": Climate.constant(60.0)}, "60"),
         ({"tolerance": 2.0}, "tolerance"),

@@ -209,7 +209,7 @@ def test_the_verdict_finds_where_and_when(bonded):
         assert float(data["parting_passes"][k]) == pytest.approx(used.max() ** -5, rel=1e-12)
     assert verdict.first == 1
     text = verdict.summary()
-    assert "wearing course / base" in text
+    assert "interface 1, below wearing course (60 mm deep)" in text
     assert "base / soil" in text
     assert "parts first" in text
 

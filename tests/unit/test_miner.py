@@ -133,7 +133,7 @@ def test_a_criterion_knows_its_depth_and_side():
     [
         (lambda: DesignCriterion("a", LINE, place="middle"), '"top" or "bottom"'),
         (lambda: DesignCriterion("a", LINE, strain="shear"), "principal"),
-        (lambda: DesignCriterion("a", LINE, -1).depth(ROAD), "goes down for ever"),
+        (lambda: DesignCriterion("a", LINE, -1).depth(ROAD), "semi-infinite"),
         (lambda: DesignCriterion("a", LINE, 5).depth(ROAD), "reads layer 5"),
         (
             lambda: miner(np.zeros((1, 1, 1, 5)), CRITERIA, Traffic(classes(1.0), 1), Climate.constant(1.0), y=Y),

@@ -80,7 +80,7 @@ def test_a_profile_is_linear_between_its_points_and_holds_beyond_if_told():
             lambda: ROAD.at_temperature(TemperatureProfile([0.0, 0.1], [30, 20])),
             "layer 'base': depth 0.13 m lies outside .* 0 to 0.1 m.*extrapolate=True",
         ),
-        (lambda: Pavement.half_space(Softening(), "block").at_temperature(PROFILE), "'block' goes down for ever"),
+        (lambda: Pavement.half_space(Softening(), "block").at_temperature(PROFILE), "'block' is semi-infinite"),
         (lambda: TemperatureProfile([0.0, 0.1, 0.1], [30, 20, 10]), r"increase, got \[0.0, 0.1, 0.1\]"),
         (lambda: TemperatureProfile([-0.1, 0.1], [30, 20]), ">= 0 m and increase"),
         (lambda: TemperatureProfile([0.0, 0.1], [30, 20, 10]), "2 depths and 3 temperatures"),

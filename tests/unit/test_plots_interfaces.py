@@ -42,8 +42,8 @@ def test_maps_share_a_scale_and_arrows_follow_the_braked_wheel(fields):
     figure = bond_utilisation(verdict)
     maps = [ax for ax in figure.axes if ax.get_xlabel()]
     assert [ax.get_title(loc="left") for ax in maps] == [
-        "Interface 0, wearing course / base",
-        "Interface 1, base / soil",
+        "Interface 1, below wearing course",
+        "Interface 2, below base",
     ]
     meshes = [next(c for c in ax.collections if isinstance(c, QuadMesh)) for ax in maps]
     assert len({mesh.get_clim() for mesh in meshes}) == 1
@@ -68,7 +68,7 @@ def test_maps_share_a_scale_and_arrows_follow_the_braked_wheel(fields):
 
 def test_only_interfaces_with_a_strength_are_drawn(fields):
     figure = bond_utilisation(assess_bonds(fields, [None, InterfaceStrength(1e6)]))
-    assert [ax.get_title(loc="left") for ax in figure.axes if ax.get_xlabel()] == ["Interface 1, base / soil"]
+    assert [ax.get_title(loc="left") for ax in figure.axes if ax.get_xlabel()] == ["Interface 2, below base"]
     with pytest.raises(InputError, match="needs utilisation"):
         bond_utilisation(fields)
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Discriminator, Tag
 
-from treadload.case.fields import Compliance, Number, Part, Pressure, Time
+from treadload.case.fields import Compliance, Modulus, Number, Part, Time
 from treadload.case.kinds import known_kind
 from treadload.case.materials import MaterialPart, kind_of_material
 from treadload.case.shift import Shift
@@ -49,7 +49,7 @@ class RoadPronyPart(ViscoelasticPart):
     """`material = { kind = "prony", modulus = "10 GPa", terms = [[0.7, "10 ms"]], poisson = 0.35 }`."""
 
     kind: Literal["prony"]
-    modulus: Pressure
+    modulus: Modulus
     terms: tuple[tuple[Number, Time], ...]
     poisson: Number
 
@@ -62,8 +62,8 @@ class HuetSayeghPart(ViscoelasticPart):
     """`material = { kind = "huet-sayegh", glassy_modulus = "40 GPa", static_modulus = "18 MPa", delta = 2.4, … }`."""
 
     kind: Literal["huet-sayegh"]
-    glassy_modulus: Pressure
-    static_modulus: Pressure
+    glassy_modulus: Modulus
+    static_modulus: Modulus
     delta: Number
     k: Number
     h: Number
@@ -81,8 +81,8 @@ class Model2S2P1DPart(ViscoelasticPart):
     """`material = { kind = "2s2p1d", … }`: as huet-sayegh, and beta."""
 
     kind: Literal["2s2p1d"]
-    glassy_modulus: Pressure
-    static_modulus: Pressure
+    glassy_modulus: Modulus
+    static_modulus: Modulus
     delta: Number
     k: Number
     h: Number

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from pydantic import model_validator
 
-from treadload.case.fields import Length, Number, Part, Pressure
+from treadload.case.fields import Length, Modulus, Number, Part, Share, Strain
 from treadload.damage import (
     AsphaltInstitute,
     AsphaltInstituteSubgrade,
@@ -44,19 +44,19 @@ class CriterionPart(Part):
     layer: int | str | None = None
     place: Literal["top", "bottom"] | None = None
     strain: Literal["principal", "in-plane"] = "in-plane"
-    epsilon_6: Number | None = None
-    sigma_6: Pressure | None = None
+    epsilon_6: Strain | None = None
+    sigma_6: Modulus | None = None
     slope: Number | None = None
     scatter: Number | None = None
-    risk: Number | None = None
+    risk: Share | None = None
     calibration: Number | None = None
     joints: Number | None = None
     thickness: Length | None = None
     thickness_scatter: Length | None = None
-    platform_modulus: Pressure | None = None
-    modulus: Pressure | None = None
-    air_voids: Number | None = None
-    binder_volume: Number | None = None
+    platform_modulus: Modulus | None = None
+    modulus: Modulus | None = None
+    air_voids: Share | None = None
+    binder_volume: Share | None = None
     constant: Number | None = None
     traffic: Literal["heavy", "light", "inverted"] | None = None
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Tag
 
-from treadload.case.fields import Conductivity, HeatCapacity, Kelvin, Length, Number, Part, Pressure, Speed
+from treadload.case.fields import Conductivity, HeatCapacity, Kelvin, Length, Number, Part, Pressure, SlidingSpeed
 from treadload.contact import (
     Anisotropic,
     Coulomb,
@@ -40,7 +40,7 @@ class FallingPart(Part):
     law: Literal["linear", "rational", "exponential"]
     static: Number
     kinetic: Number
-    reference_speed: Speed
+    reference_speed: SlidingSpeed
 
     def build(self, folder: Path) -> FrictionLaw:
         """The law."""

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Tag
 
-from treadload.case.fields import Number, Part, Pressure, Time
+from treadload.case.fields import Modulus, Number, Part, Time
 from treadload.case.kinds import known_kind
 from treadload.materials import Elastic, Prony
 
@@ -15,7 +15,7 @@ class MaterialPart(Part):
     """`material = { kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }`."""
 
     kind: Literal["elastic"] = "elastic"
-    modulus: Pressure
+    modulus: Modulus
     poisson: Number
 
     def build(self) -> Elastic:
@@ -27,7 +27,7 @@ class PronyPart(Part):
     """`material = { kind = "prony", modulus = "10 MPa", terms = [[0.7, "10 ms"]], poisson = 0.49 }`."""
 
     kind: Literal["prony"]
-    modulus: Pressure
+    modulus: Modulus
     terms: tuple[tuple[Number, Time], ...]
     poisson: Number
 

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from treadload.case.fields import Length, Number, Part
+from treadload.case.fields import Length, Number, Part, Strain
 from treadload.case.file import FilePart
 from treadload.case.loading import FootprintPart, RollingPart
 from treadload.case.response import ResponsePart
@@ -25,7 +25,7 @@ from treadload.tire import Tire
 class FatiguePart(Part):
     """`fatigue = { epsilon_6 = "120 microstrain", slope = -0.2 }`."""
 
-    epsilon_6: Number
+    epsilon_6: Strain
     slope: Number
 
     def build(self) -> FatigueLine:

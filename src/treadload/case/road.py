@@ -44,7 +44,7 @@ def _known_bond(value: Any) -> Any:
 
 def _finite(value: Any) -> Any:
     if isinstance(value, str) and value.strip().lower().startswith("inf"):
-        raise ValueError(f"a layer that goes down for ever is the last one: leave its thickness out, got {value!r}")
+        raise ValueError(f"a semi-infinite layer is the last one: leave its thickness out, got {value!r}")
     return value
 
 

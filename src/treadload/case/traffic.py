@@ -8,7 +8,22 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, model_validator
 
-from treadload.case.fields import Celsius, Curvature, Force, Length, Number, Part, Pressure, Speed
+from treadload.case.fields import (
+    Acceleration,
+    Celsius,
+    Curvature,
+    Force,
+    Length,
+    Number,
+    Part,
+    PerYear,
+    Pressure,
+    Radius,
+    Share,
+    Speed,
+    Unit,
+    Years,
+)
 from treadload.case.friction import Friction, law
 from treadload.contact import STRAIGHT, Maneuver
 from treadload.damage import AxleClass, Climate, Season, Traffic, Wander
@@ -53,13 +68,13 @@ class ManeuverPart(Part):
 
     kind: str
     name: str = ""
-    share: Number | None = None
-    deceleration: Number | None = None
-    grade: Number | None = None
-    driven_share: Number | None = None
-    radius: Length | None = None
+    share: Share | None = None
+    deceleration: Acceleration | None = None
+    grade: Share | None = None
+    driven_share: Share | None = None
+    radius: Radius | None = None
     speed: Speed | None = None
-    crossfall: Number | None = None
+    crossfall: Share | None = None
     track: Length | None = None
     centre_of_gravity: Length | None = None
     wheel: Literal["outer", "inner"] | None = None
@@ -108,7 +123,7 @@ class AxlePart(Part):
     """
 
     name: str
-    share: Number
+    share: Share
     axle_load: Force | None = None
     wheel_load: Force | None = None
     inflation_pressure: Pressure
@@ -172,7 +187,7 @@ class WanderPart(Part):
 
     deviation: Length | None = None
     offsets: tuple[Length, ...] | None = None
-    shares: tuple[Number, ...] | None = None
+    shares: tuple[Share, ...] | None = None
 
     def build(self) -> Wander:
         """The wander."""
@@ -184,10 +199,10 @@ class WanderPart(Part):
 class TrafficPart(Part):
     """`[traffic]`: passes_per_year in the wheel path, growth a year, years of design, wander, and classes."""
 
-    passes_per_year: Number
-    growth: Number = 0.0
+    passes_per_year: PerYear
+    growth: Share = 0.0
     kind: Literal["geometric", "arithmetic"] = "geometric"
-    years: Number | None = None
+    years: Years | None = None
     wander: WanderPart = WanderPart()
     classes: tuple[AxlePart, ...]
 
@@ -207,8 +222,8 @@ class SeasonPart(Part):
     """`[[climate.seasons]]`: name, share of the passes, temperature: °C, one, or one a layer."""
 
     name: str
-    share: Number
-    temperature: Annotated[float | tuple[float, ...], BeforeValidator(_one_or_several)]
+    share: Share
+    temperature: Annotated[float | tuple[float, ...], Unit("degC"), BeforeValidator(_one_or_several)]
 
 
 class ClimatePart(Part):

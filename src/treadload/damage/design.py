@@ -115,7 +115,7 @@ class DesignCriterion:
             return float(road.interfaces[number - 1]) if number else 0.0
         if number >= len(road.interfaces):
             raise InputError(
-                f"the criterion {self.name!r} reads the bottom of the last layer, which goes down for ever; "
+                f"the criterion {self.name!r} reads the bottom of the last layer, which is semi-infinite; "
                 "read its top, or a layer above it"
             )
         return float(road.interfaces[number])

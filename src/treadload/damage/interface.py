@@ -245,8 +245,14 @@ def _doubts(strength: InterfaceStrength, pressed: Array) -> list[str]:
     return said
 
 
+def interface_in_words(interface: int, between: str) -> str:
+    """An interface as people count it. interface: from 0 at the surface. between: names of both layers, "a / b"."""
+    return f"interface {interface + 1}, below {between.split(' / ')[0]}"
+
+
 def _named(one: xr.Dataset) -> str:
-    return f"interface {int(one['interface'])} ({one['between'].item()}, {float(one['depth']) * 1e3:g} mm)"
+    name = interface_in_words(int(one["interface"]), str(one["between"].item()))
+    return f"{name} ({float(one['depth']) * 1e3:g} mm deep)"
 
 
 def _mm(metres: xr.DataArray) -> str:

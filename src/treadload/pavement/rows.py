@@ -20,7 +20,7 @@ FREQUENCY = 10.0
 class LayerRow:
     """A layer in plain values.
 
-    name: of the layer. thickness: m, None where it goes down for ever. modulus: Young's, Pa; of a viscoelastic
+    name: of the layer. thickness: m, None where it is semi-infinite. modulus: Young's, Pa; of a viscoelastic
     material |E*| at `frequency`, Hz, which is None otherwise. poisson: Poisson's ratio. bond: to the layer below, in
     words; empty below the last. temperature: °C, None where it is not known. material: in words.
     """

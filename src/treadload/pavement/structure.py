@@ -28,7 +28,7 @@ class Layer:
     """One layer of a road.
 
     material: what it is made of: elastic, viscoelastic, or known once its temperature is. thickness: m; None for
-    the last layer, which goes down for ever. name: free text. bond: to the layer below, BONDED, FRICTIONLESS or
+    the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED, FRICTIONLESS or
     Bond(stiffness=...).
     """
 
@@ -118,7 +118,7 @@ class Pavement:
             if layer.thickness is None:
                 raise InputError(
                     f"layer {number} ({layer.name!r}) of {len(self.layers)} has no thickness; "
-                    "only the last layer goes down for ever"
+                    "only the last layer is semi-infinite"
                 )
         last = self.layers[-1]
         if self.rigid_base and last.thickness is None:
@@ -261,7 +261,7 @@ class Pavement:
         TemperatureProfile, of which a layer takes the temperature at its middle, as is usual.
         extrapolate: True to go beyond the data of materials and profile.
         Raises InputError for what looks like kelvin, a list of another length, temperatures outside the data, and
-        a profile for a layer that goes down for ever, which has no middle.
+        a profile for a semi-infinite layer, which has no middle.
         """
         values = self.layer_temperatures(temperature, extrapolate=extrapolate)
         found = [self._resolved(layer, value, extrapolate) for layer, value in zip(self.layers, values, strict=True)]
@@ -293,7 +293,7 @@ class Pavement:
         layer = self.layers[number]
         if layer.thickness is None:
             raise InputError(
-                f"layer {layer.name!r} goes down for ever and has no middle to read a temperature profile at; "
+                f"layer {layer.name!r} is semi-infinite and has no middle to read a temperature profile at; "
                 "give a list with one temperature a layer"
             )
         middle = float(self.interfaces[number]) - 0.5 * layer.thickness

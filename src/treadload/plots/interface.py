@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
+from treadload.damage.interface import interface_in_words
 from treadload.errors import InputError
 from treadload.plots.figure import new_figure
 from treadload.plots.plan import (
@@ -96,8 +97,8 @@ def _map(ax: Axes, one: xr.Dataset, plan: Plan, scale: Limits, contact: Source |
     else:
         empty_note(ax, "no shear and no tension here")
     travel_arrow(ax)
-    title = f"Interface {int(one['interface'])}, {one['between'].item()}"
-    headline(ax, title, _in_numbers(one, plan, row, column), _LETTERS)
+    title = interface_in_words(int(one["interface"]), str(one["between"].item()))
+    headline(ax, title[:1].upper() + title[1:], _in_numbers(one, plan, row, column), _LETTERS)
     return mesh
 
 
@@ -179,7 +180,8 @@ def bonded_and_parted(comparison: Source) -> Figure:
     ax.spines[["top", "right"]].set_visible(False)
     about = data.attrs
     details = (
-        f"interface {about.get('interface', '')}, {about.get('between', '')}; {about.get('bond', '')} once parted"
+        f"{interface_in_words(int(about.get('interface', 0)), str(about.get('between', '')))}; "
+        f"{about.get('bond', '')} once parted"
     )
     headline(ax, "Life with and without the bond", plain(details))
     figure.legend(loc="outside lower center", ncols=len(states))

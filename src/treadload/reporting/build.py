@@ -16,7 +16,7 @@ from treadload._version import __version__
 from treadload.errors import InputError
 from treadload.files import HTML, check_suffix, check_writable, replacing
 from treadload.reporting.figures import case_figures, comparison_figures
-from treadload.reporting.inputs import input_table
+from treadload.reporting.inputs import input_lists, input_table
 from treadload.reporting.life import COLUMNS as LIFE_COLUMNS
 from treadload.reporting.life import life_report
 from treadload.reporting.reading import ReportCase
@@ -91,6 +91,7 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
         "road_columns": COLUMNS,
         "roads": road_tables(cases),
         "inputs": input_table(cases),
+        "lists": input_lists(cases),
         "results": result_table(cases),
         "statistics": statistics_table(cases),
         "citations": list(dict.fromkeys(text for case in cases for text in case.citations)),

@@ -1,56 +1,18 @@
-"""The question of each case as a table: from its TOML text, or what the results remember."""
+"""The question of each case as tables: from its TOML text, or what the results remember."""
 
 from __future__ import annotations
 
-import math
 import tomllib
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
+from treadload.case import Case, LifeCase
+from treadload.case.criteria import LAWS, CriterionPart
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import MISSING, Row, Section
+from treadload.reporting.words import annotation_of, columns, entries, named_tables, part_of, worded
 
-# Numbers of a case are SI; people read them so. Name of the key → (unit, factor).
-_UNITS = {
-    **dict.fromkeys(
-        ("spacing", "cell", "thickness", "approach", "depths", "depth", "slice_depth", "nominal_diameter"),
-        ("mm", 1e3),
-    ),
-    **dict.fromkeys(("x", "y"), ("mm", 1e3)),
-    **dict.fromkeys(("modulus", "glassy_modulus", "static_modulus"), ("MPa", 1e-6)),
-    "stiffness": ("MPa/m", 1e-6),
-    **dict.fromkeys(("instantaneous_compliance", "long_term_compliance"), ("1/MPa", 1e6)),
-    **dict.fromkeys(("temperature", "temperatures", "values", "reference", "tested"), ("°C", 1.0)),
-    "activation_energy": ("kJ/mol", 1e-3),
-    "c2": ("K", 1.0),
-    "tau": ("s", 1.0),
-    "frequency": ("Hz", 1.0),
-    "inflation_pressure": ("kPa", 1e-3),
-    **dict.fromkeys(("normal_load", "tractive_force", "lateral_force"), ("kN", 1e-3)),
-    **dict.fromkeys(("rotation", "camber"), ("°", 180 / math.pi)),
-    "spin": ("rad/m", 1.0),
-    "speed": ("km/h", 3.6),
-    "epsilon_6": ("microstrain", 1e6),
-}
-_NAMES = {
-    "poisson": "Poisson's ratio",
-    "modulus": "Young's modulus",
-    "epsilon_6": "ε₆, strain of a million passes",
-    "slope": "slope of the fatigue line",
-    "creepage_x": "longitudinal creepage",
-    "creepage_y": "lateral creepage",
-    "spacing": "cells of the grid",
-    "friction": "coefficient of friction",
-    "structure": "structure of the catalogue",
-    "frequency": "frequency at which mixes are read",
-    "bond": "bond to the next layer",
-    "extrapolate": "beyond the materials' data",
-    "road_compliance": "compliance of the road in the contact",
-    "glassy_modulus": "E∞, of fast loading",
-    "static_modulus": "E₀, of slow loading",
-    "delta": "δ",
-    "tau": "τ at the reference of the shift",
-}
 _HEADINGS = {
     "": "Computation",
     "tire": "Tire",
@@ -58,8 +20,23 @@ _HEADINGS = {
     "rolling": "Rolling",
     "damage": "Fatigue",
     "footprint": "Recorded footprint",
+    "classes": "Axles",
+    "criteria": "Criteria asked for",
 }
 _DROPPED = {"title"}
+_CRITERION = ("criterion", "law", "layer", "place", "strain it reads", "parameters given")
+_OWN = ("name", "law", "layer", "place", "strain")
+
+Key = tuple[str, str, str]
+
+
+@dataclass(frozen=True)
+class NamedTable:
+    """Things with names of their own, as the axles of a traffic. rows: a tuple of cells for each."""
+
+    heading: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
 
 
 def input_table(cases: list[ReportCase]) -> list[Section]:
@@ -82,15 +59,34 @@ def input_table(cases: list[ReportCase]) -> list[Section]:
     ]
 
 
-Key = tuple[str, str, str]
+def input_lists(cases: list[ReportCase]) -> list[NamedTable]:
+    """The named things that the cases ask about: axles, seasons, criteria."""
+    found = []
+    for case in cases:
+        table = _table(case)
+        of = f": {case.label}" if len(cases) > 1 else ""
+        for key, items, part in named_tables(_model(table), table):
+            heading = _HEADINGS.get(key, key.capitalize()) + of
+            if part is CriterionPart:
+                found.append(NamedTable(heading, _CRITERION, tuple(_criterion(case, item) for item in items)))
+            else:
+                found.append(NamedTable(heading, *columns(items, part)))
+    return found
+
+
+def _table(case: ReportCase) -> dict[str, Any]:
+    try:
+        return tomllib.loads(case.toml)
+    except tomllib.TOMLDecodeError:
+        return {}
+
+
+def _model(table: Mapping[str, Any]) -> type[Case] | type[LifeCase]:
+    return LifeCase if {"traffic", "criteria"} & set(table) else Case
 
 
 def _asked(case: ReportCase) -> dict[Key, str]:
-    try:
-        table = tomllib.loads(case.toml)
-    except tomllib.TOMLDecodeError:
-        table = {}
-    found = dict(_rows(table))
+    found = dict(_rows(_table(case)))
     contact = case.group("contact")
     if contact is not None:
         told = {"tire": "Tire", "road": "Road", "rolling": "Rolling"}
@@ -109,45 +105,43 @@ def _asked(case: ReportCase) -> dict[Key, str]:
 
 
 def _rows(table: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+    model = _model(table)
     for section, value in table.items():
         if section in _DROPPED:
             continue
-        if not isinstance(value, Mapping):
-            yield _row("", (section,), value)
-            continue
-        for path, leaf in _leaves(value):
-            yield _row(section, path, leaf)
-
-
-def _leaves(table: Mapping[str, Any], before: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Values of nested tables with their path; tables in a list are numbered."""
-    for key, value in table.items():
         if isinstance(value, Mapping):
-            yield from _leaves(value, (*before, key))
-        elif isinstance(value, list) and value and all(isinstance(item, Mapping) for item in value):
-            single = key.removesuffix("s")
-            for number, item in enumerate(value, start=1):
-                yield from _leaves(item, (*before, f"{single} {number}"))
+            heading = _HEADINGS.get(section, section.replace("_", " ").capitalize())
+            found = entries(part_of(annotation_of(model, section), value), value)
         else:
-            yield (*before, key), value
+            heading, found = _HEADINGS[""], entries(model, {section: value})
+        for entry in found:
+            yield (heading, entry.name, entry.unit), entry.text
 
 
-def _row(section: str, path: tuple[str, ...], value: Any) -> tuple[Key, str]:
-    key = path[-1]
-    unit, factor = _UNITS.get(key, ("", 1.0))
-    items = value if isinstance(value, list) else [value]
-    # A quoted number carries its own unit.
-    own = any(isinstance(item, str) for item in items)
-    text = ", ".join(_value(item, factor) for item in items)
-    parents = [part for part in path[:-1] if part not in ("material", "fatigue")]
-    name = ": ".join([*parents, _NAMES.get(key, key.replace("_", " "))])
-    heading = _HEADINGS.get(section, section.replace("_", " ").capitalize())
-    return (heading, name, "" if own else unit), text
+def _criterion(case: ReportCase, table: Mapping[str, Any]) -> tuple[str, ...]:
+    """Cells of `_CRITERION`; what the table leaves to the law is filled in."""
+    name = str(table.get("name", ""))
+    law = LAWS.get(str(table.get("law", "")))
+    rest = {key: value for key, value in table.items() if key not in _OWN}
+    told = [str(entry) for entry in entries(CriterionPart, rest)]
+    place = table.get("place") or (law.place if law is not None else MISSING)
+    strain = table.get("strain") or CriterionPart.model_fields["strain"].default
+    return (
+        name,
+        case.laws.get(name) or str(table.get("law", MISSING)).replace("-", " "),
+        _layer(case, table.get("layer"), law.layer if law is not None else None),
+        str(place),
+        worded(strain, None)[0],
+        ", ".join(told) or "those of the layer",
+    )
 
 
-def _value(item: Any, factor: float) -> str:
-    if isinstance(item, bool):
-        return "yes" if item else "no"
-    if isinstance(item, int | float):
-        return f"{round(item * factor, 10):.6g}".replace("-", "\u2212")
-    return str(item)
+def _layer(case: ReportCase, asked: Any, usual: int | None) -> str:
+    """Name of a layer, asked for by its name or its number, 1 the top one; else that which its law usually reads."""
+    names = [str(layer.get("name") or f"layer {number}") for number, layer in enumerate(case.layers, start=1)]
+    index = asked - 1 if isinstance(asked, int) else usual if asked is None else None
+    if index is None:
+        return str(asked or MISSING)
+    if not names:
+        return f"layer {index + 1}" if index >= 0 else "the last"
+    return names[index] if -len(names) <= index < len(names) else MISSING

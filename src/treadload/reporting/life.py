@@ -15,7 +15,7 @@ from treadload.plots.style import measure, power_of_ten, signed
 from treadload.reporting.pictures import Picture, picture
 
 COLUMNS = (
-    "criterion", "life", "passes", "damage at the design life", "largest reading", "where", "first crack", "law",
+    "criterion", "life", "passes", "damage at the design life", "largest reading", "where", "first crack",
 )  # fmt: skip
 _NO_CRACK = "ruts, no crack"
 
@@ -41,7 +41,7 @@ def life_report(label: str, data: xr.Dataset) -> LifeReport:
     )
     names = [str(name) for name in data["criterion"].to_numpy()]
     ends = json.loads(data.attrs.get("ends", "[]")) or [""] * len(names)
-    rows = tuple(_row(data.isel(criterion=k), names[k], laws[k], quantities[k]) for k in range(len(names)))
+    rows = tuple(_row(data.isel(criterion=k), names[k], quantities[k]) for k in range(len(names)))
     return LifeReport(
         label,
         _facts(data),
@@ -98,7 +98,7 @@ def changed_life(name: str, elasticity: float) -> str:
     return f"{'+' if change > 0 else ''}{signed(change, 0)} %"
 
 
-def _row(row: xr.Dataset, name: str, law: str, quantity: str) -> tuple[str, ...]:
+def _row(row: xr.Dataset, name: str, quantity: str) -> tuple[str, ...]:
     reading = float(row["largest_reading"])
     if "stress" in quantity:
         read = f"{reading / 1e6:.3g} MPa"
@@ -114,7 +114,6 @@ def _row(row: xr.Dataset, name: str, law: str, quantity: str) -> tuple[str, ...]
         read,
         f"{_deep(row)}, {_aside(row)}",
         _crack(row),
-        law,
     )
 
 

@@ -95,6 +95,16 @@ class ReportCase:
         return [dict(layer) for layer in _json(self.attrs.get("layers"), [])]
 
     @property
+    def laws(self) -> dict[str, str]:
+        """Law of each criterion of a life in words; empty without one."""
+        life = self.group("life")
+        if life is None or "criterion" not in life.coords:
+            return {}
+        names = [str(name) for name in np.atleast_1d(life["criterion"].to_numpy())]
+        laws = [str(law) for law in _json(life.attrs.get("laws"), [])]
+        return dict(zip(names, laws, strict=True)) if len(names) == len(laws) else {}
+
+    @property
     def speed(self) -> float | None:
         """Speed of the wheels over a viscoelastic road, m/s; None if it does not matter or is not known."""
         data = self.group("response")

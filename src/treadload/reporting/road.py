@@ -42,7 +42,7 @@ def _row(number: int, layer: dict[str, Any]) -> tuple[str, ...]:
     modulus = f"{layer['modulus'] / 1e6:.4g}"
     return (
         layer.get("name") or f"layer {number}",
-        "goes down for ever" if thickness is None else f"{thickness * 1e3:g}",
+        "semi-infinite" if thickness is None else f"{thickness * 1e3:g}",
         modulus + (f" (|E*| at {layer['frequency']:g} Hz)" if layer.get("frequency") else ""),
         f"{layer['poisson']:g}",
         MISSING if temperature is None else f"{temperature:g}",

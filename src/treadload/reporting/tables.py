@@ -198,7 +198,9 @@ def _degrees(data: xr.Dataset, name: str) -> str:
 def _number(value: Any) -> str:
     if value is None:
         return MISSING
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, int | float):
         return str(value)
     if float(value).is_integer() and abs(value) < 1e9:
         return thousands(float(value))

@@ -14,7 +14,13 @@ from numpy.typing import ArrayLike
 from treadload import variables
 from treadload.damage.design import Criterion
 from treadload.damage.fatigue import in_words
-from treadload.damage.interface import BondCriterion, delaminate, interface_fields, interface_number
+from treadload.damage.interface import (
+    BondCriterion,
+    delaminate,
+    interface_fields,
+    interface_in_words,
+    interface_number,
+)
 from treadload.damage.miner import Life, passes_in_two_phases
 from treadload.damage.traffic import Climate, Traffic
 from treadload.describing import first_line
@@ -88,8 +94,9 @@ class BondComparison:
         """A table of readings and lives in the three states, when the bond parts, and a verdict."""
         data = self.dataset
         when = float(data["parting_passes"])
+        where = interface_in_words(self.interface, data.attrs["between"])
         lines = [
-            f"bond of interface {self.interface} ({data.attrs['between']}): {BEFORE}, or {PARTING} ({self.bond})",
+            f"bond of {where}: {BEFORE}, or {PARTING} ({self.bond})",
             f"{'':30s}{'reading (life) ' + BEFORE:>34s}{'reading (life) ' + AFTER:>34s}{'life ' + PARTING:>28s}",
         ]
         for one in self.bonded.criteria:

@@ -206,6 +206,10 @@ class Tire:
             parts.append(self.material)
         if self.inflation_pressure is not None:
             parts.append(f"inflated to {self.inflation_pressure / 1e3:g} kPa")
+            if self.material is None:
+                # What the contact will be solved with.
+                modulus = modulus_from_inflation(self.inflation_pressure) / 1e6
+                parts.append(f"E = {modulus:.4g} MPa by the inflation pressure, ν = {POISSON_OF_RUBBER:g}")
         return "; ".join(str(part) for part in parts)
 
     __repr__ = as_call

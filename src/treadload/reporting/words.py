@@ -1,0 +1,306 @@
+"""Keys and numbers of a case as a person says them: a name, a value, a unit, by the types of the case's fields."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+
+from treadload.case.fields import Part, Unit
+from treadload.plots.style import power_of_ten, thousands
+
+PURE = "–"
+_MINUS = "\u2212"
+
+# Unit of a field (`treadload.case.fields.Unit`) → the unit that people use, and the factor to it.
+SHOWN = {
+    "": (PURE, 1.0),
+    "strain": ("microstrain", 1e6),
+    "share": ("%", 100.0),
+    "years": ("years", 1.0),
+    "1/year": ("a year", 1.0),
+    "m": ("mm", 1e3),
+    "radius": ("m", 1.0),
+    "Pa": ("kPa", 1e-3),
+    "modulus": ("MPa", 1e-6),
+    "Pa/m": ("MPa/m", 1e-6),
+    "N": ("kN", 1e-3),
+    "s": ("s", 1.0),
+    "m/s": ("km/h", 3.6),
+    "sliding speed": ("m/s", 1.0),
+    "m/s^2": ("m/s²", 1.0),
+    "rad": ("°", 180 / math.pi),
+    "rad/m": ("rad/m", 1.0),
+    "K": ("K", 1.0),
+    "degC": ("°C", 1.0),
+    "1/K": ("1/K", 1.0),
+    "1/K^2": ("1/K²", 1.0),
+    "Hz": ("Hz", 1.0),
+    "1/Pa": ("1/MPa", 1e6),
+    "J/mol": ("kJ/mol", 1e-3),
+    "W/(m K)": ("W/(m K)", 1.0),
+    "J/(m^3 K)": ("MJ/(m³ K)", 1e-6),
+}
+
+# Keys that do not say by themselves what they are; the rest only lose their underscores.
+_NAMES = {
+    "TrafficPart.kind": "kind of growth",
+    "FootprintPart.units": "units of columns",
+    "a1": "A₁",
+    "a2": "A₂",
+    "beta": "β",
+    "bond": "bond to the next layer",
+    "c1": "C₁",
+    "c2": "C₂",
+    "classes": "axles",
+    "creepage_x": "longitudinal creepage",
+    "creepage_y": "lateral creepage",
+    "delta": "δ",
+    "epsilon_6": "ε₆, strain of a million passes",
+    "extrapolate": "beyond the materials' data",
+    "fill_holes": "holes filled",
+    "frequency": "frequency at which mixes are read",
+    "friction": "coefficient of friction",
+    "gear": "wheels",
+    "glassy_modulus": "E∞, of fast loading",
+    "growth": "growth of the traffic a year",
+    "layers": "layer",
+    "modulus": "Young's modulus",
+    "months": "temperature, January to December",
+    "passes_per_year": "passes in the first year",
+    "poisson": "Poisson's ratio",
+    "revolve": "meridian revolved",
+    "road_compliance": "compliance of the road in the contact",
+    "sigma_6": "σ₆, stress of a million passes",
+    "slope": "slope of the law of fatigue",
+    "spacing": "cells of the grid",
+    "static_modulus": "E₀, of slow loading",
+    "structure": "structure of the catalogue",
+    "tau": "τ at the reference of the shift",
+    "terms": "terms (share, relaxation time)",
+    "values": "temperatures there",
+    "years": "years of design",
+}
+_VALUES = {
+    "2s2p1d": "2S2P1D",
+    "arrhenius": "Arrhenius",
+    "half_space": "half-space",
+    "huet-sayegh": "Huet-Sayegh",
+    "in-plane": "in the horizontal plane",
+    "power-law-creep": "power law of creep",
+    "principal": "three-dimensional",
+    "prony": "Prony series",
+    "tandem-dual": "tandem, dual wheels",
+    "tridem-dual": "tridem, dual wheels",
+    "wlf": "WLF",
+}
+# Tables whose keys say enough without the table's name, and the name of what they are.
+_SILENT = {"material": "material", "fatigue": "law of fatigue"}
+_KINDS = ("kind", "law")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A given value.
+
+    name: in words, after the tables it stands in. unit: "–" of a pure number, "" of words.
+    """
+
+    name: str
+    unit: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.name} {self.text}{'' if self.unit in ('', PURE) else f' {self.unit}'}"
+
+
+def entries(model: Any, table: Mapping[str, Any], before: tuple[str, ...] = (), what: str = "") -> Iterator[Entry]:
+    """What a table of a case gives, nested tables after their own names and those in a list numbered.
+
+    model: the part of a case that the table is, or None where it is not known. what: the table's kind is one of.
+    Lists of named things are left to `named_tables`.
+    """
+    for key, value in table.items():
+        annotation = annotation_of(model, key)
+        if isinstance(value, Mapping) and value:
+            inside = () if key in _SILENT else (key.replace("_", " "),)
+            yield from entries(part_of(annotation, value), value, (*before, *inside), _SILENT.get(key, ""))
+        elif _is_tables(value):
+            if is_named(annotation, value):
+                continue
+            for count, item in enumerate(value, start=1):
+                yield from entries(part_of(annotation, item), item, (*before, f"{_single(key)} {count}"))
+        else:
+            text, unit = worded(value, annotation)
+            name = what if what and key in _KINDS else name_of(key, model)
+            yield Entry(": ".join([*before, name]), unit, text)
+
+
+def named_tables(model: Any, table: Mapping[str, Any]) -> Iterator[tuple[str, list[Mapping[str, Any]], Any]]:
+    """Lists of things with a name of their own, wherever they stand: key, the tables, their part."""
+    for key, value in table.items():
+        annotation = annotation_of(model, key)
+        if isinstance(value, Mapping):
+            yield from named_tables(part_of(annotation, value), value)
+        elif _is_tables(value) and is_named(annotation, value):
+            yield key, value, part_of(annotation, value[0])
+
+
+def columns(items: list[Mapping[str, Any]], model: Any) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+    """Heading and rows of named things: a column for each key that one of them gives, with its unit."""
+    order = list(model.model_fields) if model is not None else []
+    given = dict.fromkeys(key for item in items for key in item)
+    keys = [key for key in order if key in given] + [key for key in given if key not in order]
+    heads, cells = [], []
+    for key in keys:
+        annotation = annotation_of(model, key)
+        values = [item.get(key) for item in items]
+        label, factor = shown_in(annotation, [value for value in values if value is not None])
+        unit = f", {label}" if label not in ("", PURE) else ""
+        heads.append(f"{name_of(key, model)}{unit}")
+        cells.append([PURE if value is None else _text(value, annotation, factor) for value in values])
+    return tuple(heads), tuple(zip(*cells, strict=True))
+
+
+def sentence(model: Any, table: Mapping[str, Any]) -> str:
+    """A table in a line: what it is, then its numbers with their units."""
+    what = [str(table[key]) for key in ("name", *_KINDS) if isinstance(table.get(key), str)]
+    rest = {key: value for key, value in table.items() if key not in ("name", *_KINDS)}
+    told = [str(entry) for entry in entries(model, rest)]
+    first = _VALUES.get(what[0], what[0]) if what else ""
+    return ": ".join(part for part in (first, ", ".join(told)) if part)
+
+
+def worded(value: Any, annotation: Any) -> tuple[str, str]:
+    """A value and its unit."""
+    label, factor = shown_in(annotation, value)
+    return _text(value, annotation, factor), label
+
+
+def shown_in(annotation: Any, value: Any) -> tuple[str, float]:
+    """Unit and factor in which numbers of a field are shown; ("", 1) of words and of numbers of several kinds."""
+    if not any(True for _ in _numbers(value)):
+        return "", 1.0
+    symbols = list(dict.fromkeys(units_in(annotation)))
+    if not symbols:
+        return PURE, 1.0
+    # A pair of unlike numbers: each tells its own unit.
+    return ("", 1.0) if len(symbols) > 1 and isinstance(value, list) else SHOWN[symbols[0]]
+
+
+def name_of(key: str, model: Any = None) -> str:
+    """A key in words."""
+    own = f"{model.__name__}.{key}" if model is not None else ""
+    return _NAMES.get(own) or _NAMES.get(key) or key.replace("_", " ")
+
+
+def number(value: float) -> str:
+    """A number with at most six digits and a true minus."""
+    value = round(value, 12)
+    if value and abs(value) < 1e-4:
+        return (_MINUS if value < 0 else "") + power_of_ten(abs(value))
+    if abs(value) >= 1e4 and float(value).is_integer():
+        return thousands(value).replace("-", _MINUS)
+    return f"{value:.6g}".replace("-", _MINUS)
+
+
+@cache
+def _hints(model: type) -> dict[str, Any]:
+    return get_type_hints(model, include_extras=True)
+
+
+def annotation_of(model: Any, key: str) -> Any:
+    """Type of a field with its unit; None where the part or the key is not known."""
+    return None if model is None else _hints(model).get(key)
+
+
+def units_in(annotation: Any) -> Iterator[str]:
+    """Symbols of the units in a type; the outermost where one stands around another, none inside tables."""
+    if get_origin(annotation) is Annotated:
+        inner, *marks = get_args(annotation)
+        own = [mark.symbol for mark in marks if isinstance(mark, Unit)]
+        if own:
+            yield own[-1]
+        else:
+            yield from units_in(inner)
+        return
+    for one in get_args(annotation):
+        yield from units_in(one)
+
+
+def parts_in(annotation: Any) -> Iterator[type[Part]]:
+    """The parts of a case that a type may be."""
+    if isinstance(annotation, type) and issubclass(annotation, Part):
+        yield annotation
+    for one in get_args(annotation):
+        yield from parts_in(one)
+
+
+def part_of(annotation: Any, table: Mapping[str, Any]) -> type[Part] | None:
+    """The part that a table is: it knows its keys and its kind, and misses least."""
+    found = [part for part in parts_in(annotation) if _fits(part, table)]
+    return min(found, key=lambda part: _missing(part, table), default=None)
+
+
+def is_named(annotation: Any, items: list[Mapping[str, Any]]) -> bool:
+    """True for a list of things that must have a name."""
+    part = part_of(annotation, items[0])
+    return part is not None and "name" in part.model_fields and part.model_fields["name"].is_required()
+
+
+def _fits(part: type[Part], table: Mapping[str, Any]) -> bool:
+    literals = {key: get_args(hint) for key, hint in _hints(part).items() if get_origin(hint) is Literal}
+    return set(table) <= set(part.model_fields) and all(
+        table[key] in words for key, words in literals.items() if key in table
+    )
+
+
+def _missing(part: type[Part], table: Mapping[str, Any]) -> int:
+    return sum(field.is_required() and key not in table for key, field in part.model_fields.items())
+
+
+def _is_tables(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(item, Mapping) for item in value)
+
+
+def _single(key: str) -> str:
+    return key.removesuffix("es") if key.endswith("sses") else key.removesuffix("s")
+
+
+def _numbers(value: Any) -> Iterator[float]:
+    if isinstance(value, list | tuple):
+        for one in value:
+            yield from _numbers(one)
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield float(value)
+
+
+def _text(value: Any, annotation: Any, factor: float) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, Mapping):
+        return sentence(part_of(annotation, value), value)
+    if _is_tables(value):
+        return "; ".join(_text(item, annotation, factor) for item in value)
+    if isinstance(value, list | tuple):
+        return ", ".join(
+            f"({_pair(one, annotation, factor)})" if isinstance(one, list) else _text(one, annotation, factor)
+            for one in value
+        )
+    if isinstance(value, int | float):
+        return number(value * factor)
+    return _VALUES.get(str(value), str(value))
+
+
+def _pair(pair: list[Any], annotation: Any, factor: float) -> str:
+    """Numbers in a bracket; each with its unit where they are of several kinds."""
+    symbols = list(units_in(annotation))
+    if len(set(symbols)) < 2 or len(symbols) != len(pair):
+        return ", ".join(_text(one, annotation, factor) for one in pair)
+    told = []
+    for one, symbol in zip(pair, symbols, strict=True):
+        text, label = worded(one, Annotated[float, Unit(symbol)])
+        told.append(text if label == PURE else f"{text} {label}")
+    return ", ".join(told)
