@@ -210,7 +210,7 @@ def test_the_verdict_finds_where_and_when(bonded):
     assert verdict.first == 1
     text = verdict.summary()
     assert "interface 1, below wearing course (60 mm deep)" in text
-    assert "base / soil" in text
+    assert "interface 2, below base" in text
     assert "parts first" in text
 
 
