@@ -204,7 +204,8 @@ def test_slices_reach_below_the_last_interface_but_not_below_rock():
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('structure = "6', 'structure = "7', "pavement: no structure .*; did you mean '8 BBSG3 / 15 GB3 / PF3'"),
+        ('structure = "6', 'structure = "B', "pavement: no structure .*; did you mean '[68] BBSG3 / 15 GB3 / PF3'"),
+        ("15 GB3", "15 GB9", "pavement: no structure .*; as layers it cannot be read: no mix 'GB9'; did you mean"),
         ("structure", "struture", r"unknown key 'pavement\.struture'; did you mean 'structure'"),
         ("temperature = 15", "", r"pavement: the road needs a temperature.*EB-BBSG3"),
         ("temperature = 15", "temperature = 288", r"hotter than 100 °C; if it is in kelvin"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import tomllib
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import tomli_w
 from pydantic import Field, ValidationError
@@ -20,14 +20,26 @@ class FilePart(Part):
 
     title: str = ""
     folder: Path = Field(default=Path("."), exclude=True, repr=False)
+    # Tables that only this kind of case has, and what runs it.
+    own_tables: ClassVar[tuple[str, ...]] = ()
+    how_to_run: ClassVar[str] = ""
 
     @classmethod
     def from_dict(cls, table: dict[str, Any], *, folder: Path | str = ".", name: str = "case") -> Self:
         """Case from nested tables as a TOML file holds them. Raises InputError that names the key."""
+        cls._check_kind(table, name)
         try:
             return cls.model_validate({**table, "folder": Path(folder)})
         except ValidationError as error:
             raise InputError(f"{name}: {in_words(error, cls)}") from error
+
+    @classmethod
+    def _check_kind(cls, table: dict[str, Any], name: str) -> None:
+        """Refuse a case of another kind, and say what runs it."""
+        for other in FilePart.__subclasses__():
+            theirs = [key for key in other.own_tables if key in table]
+            if other is not cls and theirs and not any(key in table for key in cls.own_tables):
+                raise InputError(f"{name} has [{theirs[0]}], so it is {other.how_to_run.format(name=name)}")
 
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Self:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from pydantic import model_validator
 
 from treadload.case.criteria import CriterionPart
@@ -32,6 +34,9 @@ class LifeCase(FilePart):
     Numbers are SI; in a TOML file a quoted number carries its unit. spacing: of the contact's cells. tolerance: of
     readings interpolated over the climate.
     """
+
+    own_tables: ClassVar = ("traffic", "climate", "criteria")
+    how_to_run: ClassVar = "a case of design: use `treadload life {name}`, in Python LifeCase"
 
     spacing: Length = 6e-3
     tolerance: Number = 5e-3

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import model_validator
 
@@ -47,6 +47,9 @@ class Case(FilePart):
     Numbers are SI; in a TOML file a quoted number carries its unit. road_compliance: "layers" for a stiff body such
     as a steel wheel, see `solve_contact`.
     """
+
+    own_tables: ClassVar = ("rolling", "footprint", "response", "damage")
+    how_to_run: ClassVar = "the case of a wheel: use `treadload run {name}`, in Python Case"
 
     spacing: Length | None = None
     tolerance: Number = 1e-6

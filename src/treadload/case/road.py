@@ -114,9 +114,9 @@ Temperature = Annotated[
 class PavementPart(Part):
     """`[pavement]`: the road's layers, or a structure of the catalogue, and its temperature.
 
-    structure: a name, as "6 BBSG3 / 15 GB3 / PF3". temperature: °C, one, one a layer, or over depth. frequency: of
-    loading, Hz, at which the catalogue's mixes are read; left out, that of their data, 10 Hz. extrapolate: True to go
-    beyond the data of the materials.
+    structure: a name, or layers, "6 BBSG3 / 10 GB3 / 10 GB3 / PF3", see `Pavement.from_catalogue`. temperature: °C,
+    one, one a layer, or over depth. frequency: of loading, Hz, at which the catalogue's mixes are read; left out,
+    that of their data, 10 Hz. extrapolate: True to go beyond the data of the materials.
     """
 
     layers: tuple[LayerPart, ...] | None = None

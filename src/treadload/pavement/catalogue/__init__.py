@@ -17,6 +17,7 @@ from treadload.errors import InputError
 from treadload.materials.catalogue import Catalogue, only, read_tables
 from treadload.materials.library import mix
 from treadload.materials.mixture import Mix
+from treadload.pavement import notation
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
 from treadload.pavement.structure import Layer, Pavement
 
@@ -68,8 +69,24 @@ class Structure:
 
 
 def find_structure(name: str) -> Structure:
-    """A catalogued structure by name. Raises InputError that names the nearest known one."""
-    return _catalogue().find(name)
+    """A catalogued structure by name, or one written out as layers, see `pavement.notation`.
+
+    Raises InputError that names the nearest known one, and says what is wrong with the layers.
+    """
+    try:
+        return _catalogue().find(name)
+    except InputError as unknown:
+        if not isinstance(name, str):
+            raise
+        if "/" not in name:
+            raise InputError(f'{unknown}; or write its layers, "{notation.EXAMPLE}"') from unknown
+        try:
+            layers = notation.read_layers(name)
+        except InputError as error:
+            raise InputError(f"{unknown}; as layers it cannot be read: {error}") from error
+    held = notation.bonds([material for material, _ in layers])
+    courses = tuple(Course(one.name, deep, bond) for (one, deep), bond in zip(layers, held, strict=True))
+    return Structure(notation.in_words(layers), "layers as written", courses)
 
 
 def structures() -> dict[str, Structure]:
