@@ -221,7 +221,10 @@ def catalogue() -> None:
     def cited(source: str) -> str:
         return f"[{sources.setdefault(source, len(sources) + 1)}]" if source else ""
 
-    roads = Table(_name(), "layers from the surface down", "source", title="structure = … or layers, 6 BBSG3 / 10 GB3 / 10 GB3 / PF3")
+    roads = Table(
+        _name(), "layers from the surface down", "source",
+        title='structure = … or layers of mixes, "6 BBSG3 / 10 GB3 / 10 GB3 / PF3"',
+    )  # fmt: skip
     for road in structures().values():
         layers = ", ".join(
             course.mix if course.thickness is None else f"{course.thickness * 1e3:g} mm {course.mix}"
