@@ -1,8 +1,28 @@
-"""Errors that say what was wrong, the number, the bound and the remedy."""
+"""Errors that say what was wrong, the number, the bound and the remedy, in one line."""
+
+from __future__ import annotations
+
+import re
+
+# Characters of a word, and of a message, that a reader can still take in.
+_WORD, _MESSAGE = 300, 1200
 
 
 class TreadloadError(Exception):
-    """Base of every error that treadload raises on purpose."""
+    """Base of every error that treadload raises on purpose. Its message is one line of bounded length."""
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(one_line(message))
+
+
+def one_line(text: str) -> str:
+    """A text without line breaks and control characters, its endless words and itself cut in the middle.
+
+    Messages quote what they were given, and what other libraries said of it.
+    """
+    text = re.sub(r"[\x00-\x08\x0e-\x1b\x7f-\x84\x86-\x9f]", "\ufffd", " ".join(text.splitlines()))
+    text = re.sub(rf"\S{{{_WORD},}}", lambda word: f"{word[0][:100]}…{word[0][-20:]}", text)
+    return text if len(text) <= _MESSAGE else f"{text[: _MESSAGE - 200]} … {text[-100:]}"
 
 
 class InputError(TreadloadError, ValueError):

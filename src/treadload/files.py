@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import os
+import sys
 import tempfile
+import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from treadload.errors import InputError
 
@@ -61,6 +63,20 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         raise InputError(f"cannot write {path}: {error.strerror or error}") from error
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def parse_toml(text: str, name: str) -> dict[str, Any]:
+    """The tables of a TOML text. name: of the file, for the error. Raises InputError."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{name} is not valid TOML: {error}") from error
+    except ValueError as error:
+        # The only other error of Python's reader: whole numbers beyond what it converts.
+        most = sys.get_int_max_str_digits()
+        raise InputError(f"{name} holds a whole number of more than {most} digits") from error
+    except RecursionError as error:
+        raise InputError(f"{name} holds lists or tables too deep in each other to be read") from error
 
 
 def read_tree(path: Path, kind: str) -> xr.DataTree:

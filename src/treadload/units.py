@@ -21,8 +21,8 @@ _NUMBER = re.compile(
     r"(?P<mark>[.,]?)(?P<part>(?<=[.,])[0-9]*|)"
     r"(?:[eE](?P<power>[+\-\u2212]?[0-9]+))?"
 )
-# Digits that belong to a unit: powers, and the one of "1/m".
-_POWERS = re.compile(r"(?:\^|\*\*)\s*\(?-?[0-9]+\)?|^1\s*(?=/)")
+# Digits that belong to a unit: powers, and the one of "1/m". A power of a power would keep pint busy for ever.
+_POWERS = re.compile(r"(?:\^|\*\*)\s*\(?-?[0-9]\)?(?!\s*(?:\^|\*\*))|^1\s*(?=/)")
 _LETTERS = re.compile(r"(?:[^\W\d]|[%‰°⁻/*() ])*")
 _BARE_POWER = re.compile(r"(?<=[A-Za-zµμ])([23])(?![0-9A-Za-z])")
 _TIMES = str.maketrans({"·": "*", "⋅": "*", "\u00a0": " ", "\u2009": " ", "\u202f": " "})

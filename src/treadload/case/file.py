@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -13,6 +13,7 @@ from pydantic import Field, ValidationError
 from treadload.case.fields import Part
 from treadload.case.words import in_words
 from treadload.errors import InputError
+from treadload.files import parse_toml
 
 
 class FilePart(Part):
@@ -27,6 +28,10 @@ class FilePart(Part):
     @classmethod
     def from_dict(cls, table: dict[str, Any], *, folder: Path | str = ".", name: str = "case") -> Self:
         """Case from nested tables as a TOML file holds them. Raises InputError that names the key."""
+        if not isinstance(table, Mapping):
+            raise InputError(f"{name}: a case is a table of keys and values, got {table!r}")
+        if "folder" in table:
+            raise InputError(f"{name}: unknown key 'folder'; paths start from the folder of the file")
         cls._check_kind(table, name)
         try:
             return cls.model_validate({**table, "folder": Path(folder)})
@@ -56,11 +61,7 @@ class FilePart(Part):
     @classmethod
     def from_text(cls, text: str, *, folder: Path | str = ".", name: str = "case") -> Self:
         """Case from TOML text. Raises InputError."""
-        try:
-            table = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
-            raise InputError(f"{name} is not valid TOML: {error}") from error
-        return cls.from_dict(table, folder=folder, name=name)
+        return cls.from_dict(parse_toml(text, name), folder=folder, name=name)
 
     def to_toml(self) -> str:
         """The case as TOML text in SI units; what was left out stays out."""

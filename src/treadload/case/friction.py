@@ -139,8 +139,9 @@ def _kind_of_friction(value: Any) -> str:
 
 def _known_law(value: Any) -> Any:
     """Friction whose law is one of ours. Raises ValueError that says which are."""
-    if isinstance(value, dict) and value.get("law") not in LAW_PARTS:
-        law = value.get("law")
+    law = value.get("law") if isinstance(value, dict) else None
+    # A list or a table where the name should stand has no place in a dictionary.
+    if isinstance(value, dict) and (not isinstance(law, str) or law not in LAW_PARTS):
         near = difflib.get_close_matches(str(law), LAW_PARTS, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(LAW_PARTS)}"
         raise ValueError(

@@ -38,6 +38,8 @@ class TirePart(Part):
             raise ValueError(
                 f"give exactly one of scan, profile and height_map, got {' and '.join(given) or 'none of them'}"
             )
+        if isinstance(self.profile, dict):
+            TreadProfile.from_dict(self.profile)
         only_scan = {"units", "nominal_diameter", "rotation", "camber", "revolve", "fill_holes"}
         stray = sorted(only_scan & self.model_fields_set) if self.scan is None else []
         if stray:

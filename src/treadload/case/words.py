@@ -31,9 +31,15 @@ _TABLES: dict[str, type[BaseModel]] = {
 }
 
 
+# Errors told at once: a reader repairs the first, and the rest may follow from it.
+_TOLD = 4
+
+
 def in_words(error: ValidationError, case: type[BaseModel]) -> str:
-    """Every error of a case on one line. case: the model that was validated."""
-    return "; ".join(_one_error(item, case) for item in error.errors())
+    """The first errors of a case on one line. case: the model that was validated."""
+    found = error.errors()
+    told = [_one_error(item, case) for item in found[:_TOLD]]
+    return "; ".join([*told, f"and {len(found) - _TOLD} more"] if len(found) > _TOLD else told)
 
 
 def _one_error(item: Any, case: type[BaseModel]) -> str:

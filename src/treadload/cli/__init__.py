@@ -222,9 +222,11 @@ def catalogue() -> None:
         return f"[{sources.setdefault(source, len(sources) + 1)}]" if source else ""
 
     roads = Table(
-        _name(), "layers from the surface down", "source",
-        title='structure = … or layers of mixes, "6 BBSG3 / 10 GB3 / 10 GB3 / PF3"',
-    )  # fmt: skip
+        _name(),
+        "layers from the surface down",
+        "source",
+        title="structure = … or layers, 6 BBSG3 / 10 GB3 / 10 GB3 / PF3",
+    )
     for road in structures().values():
         layers = ", ".join(
             course.mix if course.thickness is None else f"{course.thickness * 1e3:g} mm {course.mix}"

@@ -69,7 +69,10 @@ class LateralGrooves:
                 f"{self.pitch:g} m ({land:g} m); widen the pitch or narrow the grooves"
             )
         if self.y_range is not None:
-            low, high = (float(value) for value in self.y_range)
+            try:
+                low, high = (float(value) for value in self.y_range)
+            except (TypeError, ValueError):
+                low = high = math.nan
             if not (math.isfinite(low) and math.isfinite(high) and low < high):
                 raise InputError(
                     f"lateral groove: y_range must be (from, to) in m with from < to, got {self.y_range}"

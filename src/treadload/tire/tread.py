@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import MISSING, asdict, dataclass, fields
 from functools import cached_property
@@ -15,10 +14,12 @@ import numpy as np
 
 from treadload.describing import as_call
 from treadload.errors import GeometryError, InputError
+from treadload.files import parse_toml
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.tire.grooves import EDGE, Groove, LateralGrooves, check_finite, rounding_start, trench
 from treadload.tire.quality import ScanQuality
+from treadload.units import quantity
 
 LIBRARY = Path(__file__).parent / "library"
 EXTENT_HEIGHT = 0.060  # a contact never climbs this far up the tread, m
@@ -96,26 +97,31 @@ class TreadProfile:
 
     @classmethod
     def from_toml(cls, path: str | Path) -> TreadProfile:
-        """Profile of a TOML file, lengths in m and angles in rad; the keys are the arguments of the class."""
+        """Profile of a TOML file: the keys are the arguments of the class; m and rad, or texts with their unit."""
         path = Path(path)
         if not path.is_file():
             raise InputError(f"no tread profile file {str(path)!r}; library profiles: {', '.join(library_names())}")
         try:
-            table = tomllib.loads(path.read_text(encoding="utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise InputError(f"{path.name!r} is not valid TOML: {error}") from error
-        return cls.from_dict(table)
+            text = path.read_text(encoding="utf-8")
+        except OSError as error:
+            raise InputError(f"cannot read {path.name!r}: {error.strerror or error}") from error
+        except UnicodeDecodeError as error:
+            raise InputError(f"{path.name!r} is not valid TOML: it is no UTF-8 text (byte {error.start})") from error
+        return cls.from_dict(parse_toml(text, repr(path.name)))
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> TreadProfile:
-        """Profile of plain tables, as to_dict gives them. Raises InputError on unknown or missing keys."""
-        values = dict(table)
+        """Profile of plain tables, as to_dict gives them; a text carries its unit. Raises InputError."""
+        values = _checked(cls, table, "tread profile")
         for key, part in (("grooves", Groove), ("lateral", LateralGrooves)):
+            several = values.get(key, ())
+            if not isinstance(several, list | tuple):
+                raise InputError(f"tread profile: {key} must be a list of tables, got {several!r}")
             values[key] = tuple(
                 item if isinstance(item, part) else part(**_checked(part, item, f"{key}[{number}]"))
-                for number, item in enumerate(values.get(key, ()))
+                for number, item in enumerate(several)
             )
-        return cls(**_checked(cls, values, "tread profile"))
+        return cls(**values)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain tables of numbers and text; from_dict reads them back."""
@@ -276,19 +282,31 @@ def _checked(owner: Any, table: Any, where: str) -> dict[str, Any]:
             close = difflib.get_close_matches(str(key), known, n=1)
             hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
             raise InputError(f"{where}: unknown key {key!r}; {hint}")
-    values = dict(table)
-    for key, value in values.items():
-        if key == "y_range" and value is not None:
-            values[key] = tuple(value)
-        elif key not in ("name", "source", "notes", "grooves", "lateral", "y_range") and not (
-            isinstance(value, int | float | np.floating) and not isinstance(value, bool)
-        ):
-            raise InputError(f"{where}: {key} must be a number in m or rad, got {value!r}")
+    values = {key: _field(value, key, where) for key, value in table.items()}
     required = [field.name for field in fields(owner) if field.default is MISSING]
     missing = [key for key in required if key not in values]
     if missing:
         raise InputError(f"{where}: missing {', '.join(missing)}")
     return values
+
+
+def _field(value: Any, key: str, where: str) -> Any:
+    """Value of a key in m or rad; a text carries its unit."""
+    if key in ("grooves", "lateral") or (key == "y_range" and value is None):
+        return value
+    if key in ("name", "source", "notes"):
+        if not isinstance(value, str):
+            raise InputError(f"{where}: {key} must be a text, got {value!r}")
+        return value
+    if key == "y_range":
+        if not (isinstance(value, list | tuple) and len(value) == 2):
+            raise InputError(f"{where}: y_range must be two lengths, [from, to], got {value!r}")
+        return tuple(_field(one, f"y_range[{number}]", where) for number, one in enumerate(value))
+    try:
+        number = float(value) if isinstance(value, np.floating) else value
+        return quantity(number, "rad" if key in ("angle", "wall_angle") else "m")
+    except InputError as error:
+        raise InputError(f"{where}: {key}: {error}") from error
 
 
 def _plain(name: str) -> str:

@@ -1,0 +1,68 @@
+"""`python -m fuzz cases --count 1000 --jobs 2`, in the folder tests."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import importlib
+import multiprocessing
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+from fuzz.runner import Attack, Tally, run
+
+KINDS = ("cases", "meshes", "tables", "results")
+_BATCH = 200
+
+
+def attack_of(kind: str) -> Attack:
+    """The attack of a kind."""
+    made: Attack = importlib.import_module(f"fuzz.{kind}").attack
+    return made
+
+
+def _batch(work: tuple[str, int, range, Path]) -> Tally:
+    kind, seed, indices, keep = work
+    return run(kind, attack_of(kind), seed, indices, keep)
+
+
+@contextlib.contextmanager
+def _mapped(jobs: int) -> Iterator[Callable[..., Iterator[Tally]]]:
+    """`map` in this process, or in several: one that a reader of files crashes ends the run with an error."""
+    if jobs == 1:
+        yield map
+        return
+    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
+        yield pool.map
+
+
+def main() -> int:
+    """Run attacks; 1 if any broke something."""
+    parser = argparse.ArgumentParser(prog="python -m fuzz", description="Attack the doors of treadload.")
+    parser.add_argument("kind", choices=KINDS)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--count", type=int, default=1000, help="attacks")
+    parser.add_argument("--start", type=int, default=0, help="first attack: to resume, or to share the work")
+    parser.add_argument("--only", type=int, help="the one attack to repeat")
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--keep", type=Path, default=Path("fuzz-failures"), help="folder for what broke something")
+    asked = parser.parse_args()
+    start, count = (asked.only, 1) if asked.only is not None else (asked.start, asked.count)
+    work = [
+        (asked.kind, asked.seed, range(first, min(first + _BATCH, start + count)), asked.keep)
+        for first in range(start, start + count, _BATCH)
+    ]
+    total = Tally(asked.kind)
+    with _mapped(asked.jobs) as mapped:
+        for done, tally in enumerate(mapped(_batch, work), start=1):
+            total.add(tally)
+            if sys.stderr.isatty() or done % 10 == 0:
+                print(f"{done * _BATCH} of {count}, {len(total.failures)} failures", file=sys.stderr, flush=True)
+    print(total)
+    return 1 if total.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,14 @@
+"""A few hundred attacks of each kind; `python -m fuzz` runs as many as you like."""
+
+import pytest
+
+from fuzz.__main__ import attack_of
+from fuzz.runner import run
+
+
+@pytest.mark.parametrize(("kind", "count"), [("cases", 400)])
+def test_nothing_breaks(kind, count):
+    tally = run(kind, attack_of(kind), seed=1, indices=range(count))
+    assert not tally.failures, str(tally)
+    # An attack that only ever is refused, or only ever taken, tests little.
+    assert {"refused", "taken"} <= set(tally.words)
