@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from treadload.errors import InputError
+from treadload.errors import InputError, one_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,13 +82,17 @@ def parse_toml(text: str, name: str) -> dict[str, Any]:
 def read_tree(path: Path, kind: str) -> xr.DataTree:
     """A NetCDF-4 file in memory. kind: what it should be, for the error. Raises InputError if it cannot be read."""
     # The command line writes files and starts without numbers.
+    import h5py
     import xarray as xr
 
     try:
+        # Of a file whose root cannot be read h5netcdf makes half an object, whose end prints a traceback.
+        with h5py.File(path, "r") as probe:
+            probe.attrs.get("_nc3_strict")
         with xr.open_datatree(path, engine="h5netcdf") as tree:
             loaded: xr.DataTree = tree.load()
     except Exception as error:
-        raise InputError(f"cannot read {path} as {kind}: {error}") from error
+        raise InputError(f"cannot read {path} as {kind}: {one_line(str(error))}") from error
     return loaded
 
 

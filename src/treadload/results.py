@@ -299,7 +299,8 @@ def _footprint(load: GridLoad, road: Pavement | None) -> xr.Dataset:
     }
     words = {} if road is None else {"road": _road_in_words(road)}
     cell = {"dx": load.grid.dx, "dy": load.grid.dy}
-    return dataset(fields, {"x": load.grid.x, "y": load.grid.y}, **cell, tire="recorded footprint", **words)
+    told = f"recorded footprint{f', read from {load.source}' if load.source else ''}: {load}"
+    return dataset(fields, {"x": load.grid.x, "y": load.grid.y}, **cell, tire=told, **words)
 
 
 def _response_group(data: xr.Dataset) -> str:

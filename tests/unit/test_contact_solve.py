@@ -146,6 +146,7 @@ def test_a_height_map_keeps_its_cells():
     contact = solve(Tire.from_height_map(bowl(), 3e-3, material=RUBBER), spacing=None, normal_load=300.0)
     assert contact.dataset.sizes == {"y": 40, "x": 40}
     holds(contact)
+    assert "height map, 40 x 40 cells of 3 x 3 mm, gap up to 8.55 mm, no holes" in contact.summary()
     same = solve(Tire.from_height_map(bowl(), 3e-3, material=RUBBER), spacing=3e-3, normal_load=300.0)
     np.testing.assert_array_equal(same.dataset.pressure, contact.dataset.pressure)
 
@@ -412,3 +413,10 @@ def test_camber_without_spin_says_the_spin_that_belongs_to_it():
     assert float(rolling.dataset.lateral_force) > float(upright_on_top.dataset.lateral_force) + 100.0
     history = solve_transient(tire, ROAD, Rolling(normal_load=20e3, friction=0.6), distances=[0.01], spacing=12e-3)
     assert any("camber" in text for text in history.contact.warnings)
+
+
+def test_a_height_map_in_millimetres_taken_for_metres_is_said():
+    contact = solve(
+        Tire.from_height_map(1e3 * bowl(), 3e-3, material=RUBBER), spacing=None, normal_load=None, approach=1e-3
+    )
+    assert any('give units={"gap": "mm"}' in text for text in contact.warnings)

@@ -250,3 +250,116 @@ def test_our_own_table_of_a_contact_comes_back(tmp_path):
     load = GridLoad.from_csv(tl.write_csv(data, tmp_path / "contact.csv")[0])
     np.testing.assert_allclose(load.array, LOAD.array, rtol=1e-12)
     np.testing.assert_allclose([load.grid.x, load.grid.y[:1].repeat(3)], [GRID.x, GRID.y[:1].repeat(3)], atol=1e-12)
+
+
+def stored(tmp_path, pressure="Pa", factor=1.0, at="m", places=1.0, **more):
+    """A NetCDF file of 10 kN on 3 x 4 cells in units of its own."""
+    attrs = {} if pressure is None else {"units": pressure}
+    where = {} if at is None else {"units": at}
+    values = np.full((4, 3), 10e3 / (12 * 0.005 * 0.004)) * factor
+    data = xr.Dataset(
+        {"pressure": (("y", "x"), values, attrs), **more},
+        {"x": ("x", 0.005 * np.arange(3) * places, where), "y": ("y", 0.004 * np.arange(4) * places, where)},
+    )
+    path = tmp_path / "stress.nc"
+    data.to_netcdf(path, engine="h5netcdf")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("pressure", "factor"),
+    [
+        ("kPa", 1e-3),
+        ("MPa", 1e-6),
+        ("N m-2", 1.0),
+        ("N.mm-2", 1e-6),
+        ("kg m-1 s-2", 1.0),
+        ("psi", 1 / 6894.757293168361),
+        ("Pascal", 1.0),
+        ("bars", 1e-5),
+    ],
+)
+def test_netcdf_is_read_in_its_own_units(tmp_path, pressure, factor):
+    """Pressures in kPa once made 10 N of 10 kN."""
+    path = stored(tmp_path, pressure, factor, "mm", 1e3)
+    load = GridLoad.from_file(path)
+    assert load.normal_load == pytest.approx(10e3, rel=1e-12)
+    assert (load.grid.dx, load.grid.dy) == pytest.approx((0.005, 0.004), rel=1e-12)
+    assert str(load).startswith("10 kN on 240 mm² (3 x 4 cells of 5 x 4 mm), peak pressure 4.167e+04 kPa")
+    assert load.source == f"stress.nc: x and y in mm, pressure in {pressure}"
+    # A dataset in memory keeps what its attributes say.
+    assert GridLoad.from_dataset(xr.load_dataset(path, engine="h5netcdf")).normal_load == pytest.approx(10e3)
+
+
+def test_netcdf_without_units_takes_them_by_keyword(tmp_path):
+    path = stored(tmp_path, None, 1e-3)
+    with pytest.raises(InputError, match=r'pressure names no unit; .* or give units={"pressure": "kPa"}'):
+        GridLoad.from_file(path)
+    assert GridLoad.from_file(path, units={"pressure": "kPa"}).normal_load == pytest.approx(10e3)
+    # In memory a bare number is SI, as everywhere.
+    bare = xr.load_dataset(path, engine="h5netcdf")
+    assert GridLoad.from_dataset(bare).normal_load == pytest.approx(10.0)
+    assert GridLoad.from_dataset(bare, units={"pressure": "kPa"}).normal_load == pytest.approx(10e3)
+
+
+@pytest.mark.parametrize(
+    ("given", "units", "message"),
+    [
+        ({"pressure": "kpa"}, None, "pressure is in 'kpa', which is no unit of pressure such as Pa, kPa"),
+        ({"pressure": "mm"}, None, "'mm', which is no unit of pressure"),
+        ({"pressure": "kg/cm2"}, None, "'kg/cm2', which is no unit of pressure"),
+        ({"pressure": "1"}, None, "no unit of pressure"),
+        ({"at": "km/h"}, None, "x is in 'km/h', which is no unit of length"),
+        ({"at": None}, None, "x names no unit"),
+        ({"at": "days since 2000-01-01"}, None, "x must hold numbers in m or the like"),
+        ({}, {"pressure": "kPa"}, "pressure names a unit of its own, 'Pa'"),
+        ({}, {"stress": "kPa"}, "units names 'stress'; the variables are x, y, pressure"),
+        ({"pressure": None}, {"pressure": "kilo"}, "units has 'kilo' for pressure, which is no unit of pressure"),
+        ({"traction_x": ("x", [1.0, 2.0, 3.0], {"units": "Pa"})}, None, r"traction_x must have dimensions \(y, x\)"),
+        ({"traction_x": (("y", "x"), np.full((4, 3), "a"), {"units": "Pa"})}, None, "traction_x must hold numbers"),
+    ],
+)
+def test_netcdf_with_strange_units_is_refused(tmp_path, given, units, message):
+    with pytest.raises(InputError, match=message) as caught:
+        GridLoad.from_file(stored(tmp_path, **given), units=units)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x [mm]\ty [mm]\tpressure [kPa]\n0,5\t0\t100,5\n1,0\t0\t200\n",
+        "x [mm] y [mm] pressure [kPa]\n0,5 0 100,5\n1,0 0 200\n",
+        'x [mm],y [mm],pressure [kPa]\n"0,5",0,"100,5"\n"1,0",0,200\n',
+    ],
+)
+def test_tables_with_decimal_commas(tmp_path, text):
+    load = GridLoad.from_csv(write(tmp_path, text), spacing=("0.5 mm", "1 mm"))
+    np.testing.assert_allclose(load.pressure, [[100.5e3, 200e3]], rtol=1e-12)
+    assert "decimal commas" in load.source
+    assert "pressure in kPa" in load.source
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("1;2,5\n3;4.5\n", "a comma in '2,5' in line 1 and a point in '4.5' in line 2"),
+        ("1 2\n3 ERR\n", "line 2: pressure is 'ERR', not a number"),
+        ("x;y;pressure\n0;0;1\n1;0;o\n", "line 3: pressure is 'o', not a number"),
+        ("x,y,pressure\n0;0;1\n", "line 1: pressure|unknown column"),
+        ("x,y,pressure\n0,0,1,5\n1,0,2,5\n", "line 2: 4 values where the header has 3"),
+        ("100,200\n300,400\n", "may be two whole numbers or one with a decimal comma"),
+        ("1;2;3\n#4;5;6\n7;8;9\n", "line 2 reads like a row of numbers"),
+        ("ERR;2;3\n4;5;6\n", "line 1: pressure is 'ERR'"),
+    ],
+)
+def test_what_a_table_cannot_mean(tmp_path, text, message):
+    with pytest.raises(InputError, match=message):
+        GridLoad.from_csv(write(tmp_path, text), spacing="5 mm")
+
+
+def test_whole_numbers_of_a_sensor_are_read(tmp_path):
+    load = GridLoad.from_csv(write(tmp_path, "0,12,7\n0,115,90\n"), spacing="5 mm", units={"pressure": "kPa"})
+    np.testing.assert_array_equal(load.pressure, [[0, 12e3, 7e3], [0, 115e3, 90e3]])
+    given = GridLoad.from_csv(write(tmp_path, "100,200\n300,400\n"), spacing="5 mm", decimal=".")
+    np.testing.assert_array_equal(given.pressure, [[100, 200], [300, 400]])

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import treadload as tl
 from cases import COARSE_CASE
@@ -310,6 +311,60 @@ def test_a_recorded_footprint_in_place_of_a_tire(tmp_path):
     assert float(tree["contact"].normal_load) == pytest.approx(350)
     assert "Kalker" not in tree.attrs["citations"]
     assert "Kennett" in tree.attrs["citations"]
+
+
+def test_a_recorded_footprint_tells_what_was_read(tmp_path):
+    result = tl.run_case(footprint(tmp_path))
+    told = "0.35 kN on 500 mm² (3 x 2 cells of 10 x 10 mm), peak pressure 700 kPa"
+    how = "stress.csv: commas between cells, decimal points, pressure in kPa"
+    assert told in result.summary()
+    assert how in result.summary()
+    tire = result.to_tree()["contact"].attrs["tire"]
+    assert told in tire
+    assert how in tire
+
+
+def test_a_footprint_from_netcdf_may_be_told_its_units(tmp_path):
+    values = (("y", "x"), np.full((2, 3), 700.0))
+    places = {"x": ("x", [0.0, 10.0, 20.0], {"units": "mm"}), "y": ("y", [0.0, 10.0], {"units": "mm"})}
+    xr.Dataset({"pressure": values}, places).to_netcdf(tmp_path / "stress.nc", engine="h5netcdf")
+    text = '[footprint]\nfile = "stress.nc"\n' + STRUCTURE + TAIL[TAIL.index("[response]") :]
+    with pytest.raises(tl.InputError, match="pressure names no unit"):
+        tl.Case.from_text(text, folder=tmp_path).footprint.build(tmp_path)
+    case = tl.Case.from_text(text.replace('.nc"', '.nc"\nunits = { pressure = "kPa" }'), folder=tmp_path)
+    assert case.footprint.build(tmp_path).normal_load == pytest.approx(6 * 70.0)
+
+
+def test_a_height_map_of_a_case_in_the_french_way(tmp_path):
+    x = np.arange(-20, 21) * 3.0
+    gap = (x[None, :] ** 2 + x[:, None] ** 2) / 800
+    rows = "\n".join(";".join(f"{value:.3f}".replace(".", ",") for value in row) for row in gap)
+    (tmp_path / "map.csv").write_text(rows)
+    tire = '[tire]\nheight_map = "map.csv"\ncell = "3 mm"\nunits = "mm"\n'
+    material = 'material = { kind = "elastic", modulus = "3 MPa", poisson = 0.5 }\n'
+    rest = COARSE_CASE[COARSE_CASE.index("[[pavement") :].replace("32.5 kN", "0.3 kN").replace("10 kN", "50 N")
+    case = tl.Case.from_text(tire + material + rest, folder=tmp_path)
+    assert tl.Case.from_text(case.to_toml(), folder=tmp_path) == case
+    result = tl.run_case(case)
+    told = (
+        "41 x 41 cells of 3 x 3 mm, gap up to 9 mm, no holes; read from map.csv: semicolons between cells, decimal "
+    )
+    assert told + "commas, gap in mm" in result.summary()
+    assert told in result.to_tree()["contact"].attrs["tire"]
+    (tmp_path / "map.csv").write_text(rows[: rows.rindex(";") + 1] + "ERR")
+    with pytest.raises(tl.InputError, match="line 41: the gap is 'ERR', not a number"):
+        case.build_tire()
+    for old, new, message in (
+        ('units = "mm"', 'units = { heigth = "mm" }', "units names 'heigth'"),
+        (
+            'height_map = "map.csv"\ncell = "3 mm"',
+            'profile = "315/80R22.5"',
+            "units belongs to a scan or a height_map",
+        ),
+    ):
+        text = (tire + material + rest).replace(old, new)
+        with pytest.raises(tl.InputError, match=message):
+            tl.Case.from_text(text, folder=tmp_path).build_tire()
 
 
 @pytest.mark.slow

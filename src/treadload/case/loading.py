@@ -35,9 +35,10 @@ class RollingPart(Part):
 class FootprintPart(Part):
     """`[footprint]`, in place of [tire] and [rolling]: recorded contact stress.
 
-    file: a CSV table or matrix, or a result of this package (.nc). units: { pressure = "kPa" }, of columns whose
-    heading names none. spacing: of the cells of a matrix. missing: "error" or "zero". noise: pressures this far below
-    zero are none. shear_on: the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
+    file: a CSV table or matrix, or NetCDF such as a result of this package (.nc). units: { pressure = "kPa" }, of
+    columns and variables that name none. spacing: of the cells of a matrix. missing: "error" or "zero". noise:
+    pressures this far below zero are none. decimal: "." or ",", where a CSV file can be read in two ways. shear_on:
+    the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
     """
 
     file: str
@@ -45,12 +46,13 @@ class FootprintPart(Part):
     spacing: Length | tuple[Length, Length] | None = None
     missing: Literal["error", "zero"] = "error"
     noise: Pressure = 0.0
+    decimal: Literal[".", ","] | None = None
     shear_on: Literal["road", "tire"] = "road"
     interpolation: Literal["constant", "bilinear"] = "constant"
 
     @model_validator(mode="after")
     def _of_a_table(self) -> FootprintPart:
-        stray = sorted(self.model_fields_set - {"file", "interpolation"}) if self.is_result else []
+        stray = sorted(self.model_fields_set - {"file", "units", "interpolation"}) if self.is_result else []
         if stray:
             raise ValueError(f"{stray[0]} belongs to a CSV file; {self.file} is NetCDF and tells it itself")
         return self
@@ -63,6 +65,6 @@ class FootprintPart(Part):
     def build(self, folder: Path) -> GridLoad:
         """The load; a relative path starts from the folder."""
         if self.is_result:
-            return GridLoad.from_file(folder / self.file, interpolation=self.interpolation)
+            return GridLoad.from_file(folder / self.file, units=self.units, interpolation=self.interpolation)
         told: dict[str, Any] = {name: value for name, value in self if name != "file"}
         return GridLoad.from_csv(folder / self.file, **told)

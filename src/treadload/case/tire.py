@@ -16,12 +16,17 @@ EXAMPLE = "example"
 
 
 class TirePart(Part):
-    """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of."""
+    """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of.
+
+    units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names none.
+    cell: of a height map without coordinates. decimal: "." or ",", of a height map as text.
+    """
 
     scan: str | None = None
     profile: str | dict[str, Any] | None = None
     height_map: str | None = None
-    units: str | None = None
+    units: str | dict[str, str] | None = None
+    decimal: Literal[".", ","] | None = None
     nominal_diameter: Length | None = None
     rotation: Angle = 0.0
     camber: Angle = 0.0
@@ -40,7 +45,13 @@ class TirePart(Part):
             )
         if isinstance(self.profile, dict):
             TreadProfile.from_dict(self.profile)
-        only_scan = {"units", "nominal_diameter", "rotation", "camber", "revolve", "fill_holes"}
+        if self.profile is not None and self.units is not None:
+            raise ValueError("units belongs to a scan or a height_map; this tire is a profile")
+        if self.scan is not None and isinstance(self.units, dict):
+            raise ValueError('a scan has one unit of length: write units = "mm"')
+        if self.decimal is not None and self.height_map is None:
+            raise ValueError(f"decimal belongs to a height_map; this tire is a {given[0]}")
+        only_scan = {"nominal_diameter", "rotation", "camber", "revolve", "fill_holes"}
         stray = sorted(only_scan & self.model_fields_set) if self.scan is None else []
         if stray:
             raise ValueError(f"{stray[0]} belongs to a scan; this tire is a {given[0]}")
@@ -58,6 +69,7 @@ class TirePart(Part):
         }
         if self.scan is not None:
             path = example_mesh() if self.scan == EXAMPLE else folder / self.scan
+            assert not isinstance(self.units, dict)
             return Tire.from_scan(
                 path,
                 units=self.units,
@@ -69,7 +81,9 @@ class TirePart(Part):
                 **body,
             )
         if self.height_map is not None:
-            return Tire.from_height_map(folder / self.height_map, self.cell, **body)
+            return Tire.from_height_map(
+                folder / self.height_map, self.cell, units=self.units, decimal=self.decimal, **body
+            )
         profile = self.profile
         if isinstance(profile, dict):
             return Tire.from_profile(TreadProfile.from_dict(profile), **body)

@@ -12,6 +12,7 @@ from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.plausible import doubt, load_doubt
 from treadload.tire import Tire
+from treadload.tire.surface import HeightMapSurface
 
 # NaN by design: no material, or nothing that rolls.
 _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip_y", "approach"}
@@ -19,7 +20,15 @@ _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip
 
 def of_tire(tire: Tire) -> list[str]:
     """What is known of the tire's surface."""
-    return [] if tire.quality is None else list(tire.quality.warnings)
+    said = [] if tire.quality is None else list(tire.quality.warnings)
+    surface = tire.surface
+    if isinstance(surface, HeightMapSurface) and surface.is_steep:
+        length, width = surface.extent
+        said.append(
+            f"the heights of the tread differ by {surface.relief:.4g} m on a map of {length:.3g} x {width:.3g} m; if "
+            'they are in mm, give units={"gap": "mm"}'
+        )
+    return said
 
 
 def of_rolling(tire: Tire, rolling: Rolling) -> list[str]:

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from treadload.contact.friction import FrictionLaw, Interface, check_base
-from treadload.errors import InputError
+from treadload.errors import InputError, one_line
 from treadload.kernels.arrays import Array
+from treadload.tables import read_table, real_array
 
 _CLEARANCE = 1e-9
 
@@ -56,7 +57,10 @@ class FrictionMap(FrictionLaw):
         if (self.spacing is None) == (self.x is None and self.y is None):
             raise InputError("give a friction map either spacing (m) or x and y (m, centres of its cells)")
         if self.spacing is not None:
-            step = np.broadcast_to(np.asarray(self.spacing, float), 2)
+            step = real_array(self.spacing, "spacing of a friction map")
+            if step.size > 2 or step.ndim > 1:
+                raise InputError(f"spacing of a friction map is one number of metres or (dx, dy), got {self.spacing}")
+            step = np.broadcast_to(step, 2)
             if not (np.isfinite(step).all() and (step > 0).all()):
                 raise InputError(f"spacing of a friction map must be a positive number of metres, got {self.spacing}")
             counts = shape[1], shape[0]
@@ -80,26 +84,32 @@ class FrictionMap(FrictionLaw):
         path: str | os.PathLike[str],
         spacing: float | tuple[float, float],
         base: FrictionLaw | None = None,
+        decimal: str | None = None,
     ) -> FrictionMap:
         """Map from a file: NPY, or a table of numbers (CSV, TXT, TSV), rows along y from left to right.
 
-        spacing: of the cells, m, or (dx, dy). Raises InputError.
+        spacing: of the cells, m, or (dx, dy). decimal: "." or ",", where a text can be read in two ways.
+        Raises InputError.
         """
         path = Path(path)
-        try:
-            if path.suffix.lower() == ".npy":
+        if path.suffix.lower() == ".npy":
+            try:
                 values = np.load(path, allow_pickle=False)
-            elif path.suffix.lower() in (".csv", ".txt", ".tsv", ".dat"):
-                comma = "," in path.read_text(encoding="utf-8").split("\n", 1)[0]
-                values = np.loadtxt(path, delimiter="," if comma else None, ndmin=2)
-            else:
-                raise InputError(f"{path.name!r} is no friction map; use .npy, .csv, .txt, .tsv or .dat")
-        except OSError as error:
-            raise InputError(f"cannot read the friction map {path}: {error.strerror or error}") from error
-        except ValueError as error:
-            if isinstance(error, InputError):
-                raise
-            raise InputError(f"the friction map {path} is no table of numbers: {error}") from error
+            except OSError as error:
+                raise InputError(f"cannot read the friction map {path}: {error.strerror or error}") from error
+            except Exception as error:
+                raise InputError(f"the friction map {path} is no table of numbers: {one_line(str(error))}") from error
+        elif path.suffix.lower() in (".csv", ".txt", ".tsv", ".dat"):
+            try:
+                table = read_table(path, decimal=decimal)
+            except InputError as error:
+                raise InputError(f"cannot read the friction map: {error}") from error
+            try:
+                values, _ = table.values(name=lambda column: "the friction")
+            except InputError as error:
+                raise InputError(f"the friction map is no table of numbers: {error}") from error
+        else:
+            raise InputError(f"{path.name!r} is no friction map; use .npy, .csv, .txt, .tsv or .dat")
         return cls(values, spacing, base=base)
 
     @property
@@ -157,10 +167,7 @@ class FrictionMap(FrictionLaw):
 
 
 def _numbers(what: str, given: object, dimensions: int) -> Array:
-    try:
-        values = np.array(given, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{what} must be an array of numbers: {error}") from error
+    values = real_array(given, what)
     if values.ndim != dimensions or values.size == 0:
         shape = "(ny, nx)" if dimensions == 2 else "(n,)"
         raise InputError(f"{what} must be an array {shape} with at least one cell, got the shape {values.shape}")

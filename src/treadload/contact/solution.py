@@ -64,6 +64,8 @@ class Contact:
             f"creepage      x {float(d.creepage_x):z.5f}, y {float(d.creepage_y):z.5f}, spin {float(d.spin):g} rad/m",
             f"slip zone     {100 * self.slip_fraction:.1f} % of the contact area",
         ]
+        if self.tire.fixed_grid is not None:
+            lines.insert(1, f"tread         {self.tire.surface}")
         if "road_share" in self.stats:
             lines.append(self._road_line())
         if "friction_work_total" in d:

@@ -22,9 +22,8 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.bilinear import bilinear_spectrum
 from treadload.kernels.wavenumbers import Spectrum, cells_spectrum
 from treadload.response import measured
+from treadload.tables import real_array
 
-# Round-off of coordinates that went through a file, as a part of a cell.
-_EVEN = 1e-4
 # A pressure this far below zero, as a part of the largest, is a solver's tolerance; more is a wrong sign.
 _TINY = 1e-6
 
@@ -49,7 +48,7 @@ class GridLoad:
     then converges like dx² instead of dx: for a Gaussian and cells of 0.16 of its standard deviation, the largest
     error at cell centres falls from 4.5 % of the largest strain to 0.5 %. Two cells deep and deeper both converge
     like dx², "constant" being twice as near. "bilinear" does not help where the load itself has steps, as at the
-    edges of ribs: it blurs them over a cell.
+    edges of ribs: it blurs them over a cell. source: where it was read and in which units, for people.
     """
 
     grid: Grid
@@ -57,13 +56,14 @@ class GridLoad:
     traction_x: Array | None = None
     traction_y: Array | None = None
     interpolation: Literal["constant", "bilinear"] = "constant"
+    source: str = ""
 
     def __post_init__(self) -> None:
         if self.interpolation not in ("constant", "bilinear"):
             raise InputError(f'interpolation must be "constant" or "bilinear", got {self.interpolation!r}')
         for name in ("pressure", "traction_x", "traction_y"):
             given = getattr(self, name)
-            values = np.zeros(self.grid.shape) if given is None else np.array(given, dtype=float)
+            values = np.zeros(self.grid.shape) if given is None else real_array(given, name)
             if values.shape != self.grid.shape:
                 raise InputError(f"{name} has shape {values.shape}, the grid has {self.grid.shape} (ny, nx)")
             if not np.isfinite(values).all():
@@ -99,12 +99,13 @@ class GridLoad:
         None: the origin lies in the middle. shear_on: the body that the recorded shear acts on; what the tire
         feels, "tire", changes its sign. InputError for a wrong shape or value.
         """
-        values = np.asarray(pressure, dtype=float)
+        values = real_array(pressure, "pressure")
         if values.ndim != 2 or not values.size:
             raise InputError(f"pressure must be an array of rows along y, columns along x; got shape {values.shape}")
         sign = measured.shear_sign(shear_on)
         along, across = (
-            None if part is None else sign * np.asarray(part, float) for part in (traction_x, traction_y)
+            None if part is None else sign * real_array(part, name)
+            for name, part in (("traction_x", traction_x), ("traction_y", traction_y))
         )
         return cls(measured.grid_of(values.shape, spacing, x0, y0), values, along, across, interpolation)
 
@@ -119,51 +120,57 @@ class GridLoad:
         units: Mapping[str, str] | None = None,
         missing: Literal["error", "zero"] = "error",
         noise: float | str = 0.0,
+        decimal: Literal[".", ","] | None = None,
         shear_on: Literal["road", "tire"] = "road",
         interpolation: Literal["constant", "bilinear"] = "constant",
     ) -> GridLoad:
         """Load from a text file, a table of points or a matrix of pressures; see `measured.read_csv`."""
         sign = measured.shear_sign(shear_on)
-        read = measured.read_csv(path, spacing=spacing, x0=x0, y0=y0, units=units, missing=missing, noise=noise)
-        grid, pressure, traction_x, traction_y = read
-        return cls(grid, pressure, sign * traction_x, sign * traction_y, interpolation)
+        read = measured.read_csv(
+            path, spacing=spacing, x0=x0, y0=y0, units=units, missing=missing, noise=noise, decimal=decimal
+        )
+        return cls._of(read, interpolation, sign)
 
     @classmethod
     def from_file(
-        cls, path: str | os.PathLike[str], *, interpolation: Literal["constant", "bilinear"] = "constant"
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        units: Mapping[str, str] | None = None,
+        interpolation: Literal["constant", "bilinear"] = "constant",
     ) -> GridLoad:
-        """Load from a NetCDF file: the contact of a saved result, or pressure over y and x. See `from_dataset`."""
-        return cls.from_dataset(measured.read_netcdf(path), interpolation=interpolation)
+        """Load from a NetCDF file: the contact of a saved result, or pressure over y and x. See `from_dataset`.
+
+        Every variable is read in the unit that its attribute `units` names ("kPa", "N m-2", "mm"); units: variable →
+        unit where the file names none, {"pressure": "kPa"}. Raises InputError where neither does.
+        """
+        return cls._of(measured.read_netcdf(path, units), interpolation)
 
     @classmethod
     def from_dataset(
-        cls, dataset: xr.Dataset | HasDataset, *, interpolation: Literal["constant", "bilinear"] = "constant"
+        cls,
+        dataset: xr.Dataset | HasDataset,
+        *,
+        units: Mapping[str, str] | None = None,
+        interpolation: Literal["constant", "bilinear"] = "constant",
     ) -> GridLoad:
         """Load from `pressure`, `traction_x` and `traction_y` over `y` and `x`; a missing shear is none.
 
         dataset: a dataset, or a result that has one, such as a contact. Its attributes dx and dy give the cell
-        where a single coordinate cannot.
+        where a single coordinate cannot. A variable whose attribute `units` names another unit than SI is converted;
+        units: variable → unit where there is none; else SI, as all bare numbers.
         Raises InputError if pressure or a coordinate is missing, or the coordinates are not evenly spaced.
         """
-        if not isinstance(dataset, xr.Dataset):
-            dataset = dataset.dataset
-        missing = [name for name in ("pressure", "x", "y") if name not in dataset.variables]
-        if missing:
-            raise InputError(f"a load needs pressure over y and x; {', '.join(missing)} missing in the dataset")
-        x0, nx, dx = _even("x", dataset["x"].to_numpy(), dataset.attrs.get("dx"))
-        y0, ny, dy = _even("y", dataset["y"].to_numpy(), dataset.attrs.get("dy"))
+        data = dataset if isinstance(dataset, xr.Dataset) else dataset.dataset
+        return cls._of(measured.of_dataset(data, units=units), interpolation)
 
-        def field(name: str) -> Array | None:
-            if name not in dataset:
-                return None
-            if set(dataset[name].dims) != {"y", "x"}:
-                raise InputError(f"{name} must have dimensions (y, x), got {dataset[name].dims}")
-            return np.asarray(dataset[name].transpose("y", "x").to_numpy(), dtype=float)
-
-        pressure = field("pressure")
-        assert pressure is not None
-        grid = Grid(nx, ny, dx, dy, x0, y0)
-        return cls(grid, pressure, field("traction_x"), field("traction_y"), interpolation)
+    @classmethod
+    def _of(
+        cls, read: measured.Recorded, interpolation: Literal["constant", "bilinear"], sign: float = 1.0
+    ) -> GridLoad:
+        """Load as recorded; sign: of its shear."""
+        along, across = (None if part is None else sign * part for part in (read.traction_x, read.traction_y))
+        return cls(read.grid, read.pressure, along, across, interpolation, read.source)
 
     @property
     def spectrum(self) -> Spectrum:
@@ -181,6 +188,16 @@ class GridLoad:
         grid = replace(self.grid, y0=-(self.grid.y0 + (self.grid.ny - 1) * self.grid.dy))
         pressure, along, across = self.array[:, ::-1]
         return replace(self, grid=grid, pressure=pressure, traction_x=along, traction_y=-across)
+
+    def __str__(self) -> str:
+        """What presses where, so that a wrong unit is seen."""
+        loaded = float((self.pressure > 0).sum()) * self.grid.cell_area
+        told = [
+            f"{self.normal_load / 1e3:.4g} kN on {loaded * 1e6:.4g} mm² ({self.grid})",
+            f"peak pressure {float(self.pressure.max()) / 1e3:.4g} kPa",
+        ]
+        shear = float(np.hypot(self.array[1], self.array[2]).max())
+        return ", ".join([*told, f"peak shear {shear / 1e3:.4g} kPa"] if shear else told)
 
     @property
     def normal_load(self) -> float:
@@ -355,21 +372,3 @@ def _load(item: Load) -> PlacedLoad:
 
 def _kind(value: Any) -> str:
     return f"an empty {type(value).__name__}" if isinstance(value, Sequence) and not value else type(value).__name__
-
-
-def _even(name: str, values: Array, single: float | None) -> tuple[float, int, float]:
-    """First value, number and spacing of evenly spaced, rising coordinates; `single`: spacing if there is but one."""
-    if values.size == 1 and single is not None:
-        return float(values.item()), 1, float(single)
-    if values.ndim != 1 or len(values) < 2:
-        raise InputError(
-            f"the spacing along {name} cannot be read from {values.size} coordinate(s); give a GridLoad with its Grid"
-        )
-    spacing = float(values[-1] - values[0]) / (len(values) - 1)
-    uneven = float(np.abs(np.diff(values) - spacing).max())
-    if not (spacing > 0 and uneven <= _EVEN * spacing):
-        raise InputError(
-            f"{name} must rise in even steps: the mean step is {spacing:g} m, the worst differs by {uneven:g} m; "
-            "sort or resample the load"
-        )
-    return float(values[0]), len(values), spacing

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import difflib
-import io
-import math
 import os
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
@@ -20,18 +18,33 @@ from treadload.errors import InputError
 from treadload.files import read_tree
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
+from treadload.labels import check_names, factor, factor_asked, factor_of
+from treadload.tables import Table, read_table
 from treadload.units import quantity
 
-# Each column of a table and its SI unit.
+# What is read and its SI unit.
 _COLUMNS = {"x": "m", "y": "m", "pressure": "Pa", "traction_x": "Pa", "traction_y": "Pa"}
 _STRESS = ("pressure", "traction_x", "traction_y")
-# Rounding of coordinates in a text file, as a part of a cell.
-_EVEN = 0.02
+# Rounding of coordinates in a text file, as a part of a cell; round-off of those that went through a binary one.
+_EVEN, _EXACT = 0.02, 1e-4
 # Cells that a table may span; more is a coordinate gone astray.
 _MOST = 20_000_000
 
 _HEADER = re.compile(r"\s*(?P<name>[^\[(]*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*$")
-_Row = tuple[int, list[str]]
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """Stress as it was recorded: cells, and pressure, traction_x, traction_y (ny, nx), Pa.
+
+    source: where it was read and how it was understood, in words; "" for arrays.
+    """
+
+    grid: Grid
+    pressure: Array
+    traction_x: Array | None
+    traction_y: Array | None
+    source: str = ""
 
 
 def read_csv(
@@ -43,48 +56,99 @@ def read_csv(
     units: Mapping[str, str] | None = None,
     missing: Literal["error", "zero"] = "error",
     noise: float | str = 0.0,
-) -> tuple[Grid, Array, Array, Array]:
-    """Cells and pressure, traction_x, traction_y (ny, nx) in Pa from a text file in one of two forms.
+    decimal: str | None = None,
+) -> Recorded:
+    """Cells and stress from a text file in one of two forms.
 
     A table has a header with x, y, pressure and perhaps traction_x, traction_y, and a row for each point, in any
     order, on an evenly spaced grid. A column may name its unit, "pressure [kPa]"; other variables of this package
     are passed over. A matrix has pressures only, rows along y (to the right), columns along x (travel).
-    Commas, semicolons (then decimal commas too), tabs or blanks separate; # starts a comment line.
+    Semicolons, tabs, commas or blanks separate, and points or commas are decimal marks, as `tables.read_table`
+    recognises them; # starts a comment line.
 
     spacing: of the cells, m or a text with a unit, or (dx, dy); a matrix needs it, a table where its coordinates
     do not tell. x0, y0: of a matrix, centre of the first cell, m; None: the origin lies in the middle.
     units: column → unit where the header names none, {"pressure": "kPa"}; otherwise SI. missing: what stands where
-    a cell is empty, NaN or absent: "error" or "zero". noise: pressures this far below zero, Pa or a text with a
-    unit, are set to zero. Raises InputError that names the line for what cannot be read.
+    a cell is empty, says NaN or NoData, or is absent: "error" or "zero". noise: pressures this far below zero, Pa or
+    a text with a unit, are set to zero. decimal: "." or ",", where the file can be read in two ways.
+    Raises InputError that names the line for what cannot be read.
     """
     path = Path(path)
-    rows = _rows(path)
-    units = dict(units or {})
     if missing not in ("error", "zero"):
         raise InputError(f'missing must be "error" or "zero", got {missing!r}')
     floor = quantity(noise, "Pa")
-    unknown = set(units) - set(_COLUMNS)
-    if unknown:
-        raise InputError(f"units names {sorted(unknown)[0]!r}; the columns are {', '.join(_COLUMNS)}")
-    if all(_is_number(cell) for cell in rows[0][1]):
-        return _matrix(path, rows, spacing, x0, y0, units, missing, floor)
+    units = dict(units or {})
+    check_names(units, _COLUMNS, "the columns")
+    table = read_table(path, decimal=decimal)
+    if not table.has_header:
+        return _matrix(table, spacing, x0, y0, units, missing, floor)
     if x0 is not None or y0 is not None:
         raise InputError(f"{path} is a table with coordinates of its own: leave out x0 and y0, and move the load")
-    return _table(path, rows, spacing, units, missing, floor)
+    return _table(table, spacing, units, missing, floor)
 
 
-def read_netcdf(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Dataset of the contact in a saved result, or of the root of another NetCDF file; InputError if unreadable."""
+def read_netcdf(path: str | os.PathLike[str], units: Mapping[str, str] | None = None) -> Recorded:
+    """Stress of the contact in a saved result, or of the root of another NetCDF file.
+
+    Every variable must name its unit (attribute units); units: {"pressure": "kPa"} where it does not.
+    Raises InputError for what cannot be read.
+    """
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file {path}")
     loaded = read_tree(path, "NetCDF-4")
     if "contact" in loaded.children:
-        return loaded["contact"].to_dataset()
-    if "pressure" in loaded.to_dataset():
-        return loaded.to_dataset()
-    groups = ", ".join(loaded.children) or "none"
-    raise InputError(f"{path} holds no contact and no pressure; its groups: {groups}")
+        data = loaded["contact"].to_dataset()
+    elif "pressure" in loaded.to_dataset():
+        data = loaded.to_dataset()
+    else:
+        groups = ", ".join(loaded.children) or "none"
+        raise InputError(f"{path} holds no contact and no pressure; its groups: {groups}")
+    return of_dataset(data, where=str(path), units=units, strict=True)
+
+
+def of_dataset(
+    data: xr.Dataset, *, where: str = "", units: Mapping[str, str] | None = None, strict: bool = False
+) -> Recorded:
+    """Stress of a dataset: `pressure`, and `traction_x` and `traction_y` if they are there, over `y` and `x`.
+
+    where: the file it comes from, for errors. units: of variables that name none; strict: refuse those that neither
+    names, which are SI otherwise. Attributes dx and dy give the cell, m, where a single coordinate cannot.
+    Raises InputError if pressure or a coordinate is missing, no number, or not evenly spaced.
+    """
+    units = dict(units or {})
+    missing = [name for name in ("pressure", "x", "y") if name not in data.variables]
+    if missing:
+        begin = f"{where}: a" if where else "a"
+        raise InputError(f"{begin} load needs pressure over y and x; {', '.join(missing)} missing in the dataset")
+    check_names(units, _COLUMNS, "the variables")
+    about = where or "the dataset"
+    parts: dict[str, Array] = {}
+    told: dict[str, list[str]] = {}
+    factors: dict[str, float] = {}
+    for name, si in _COLUMNS.items():
+        if name not in data.variables:
+            continue
+        part = data[name]
+        wanted = (name,) if name in ("x", "y") else ("y", "x")
+        if set(part.dims) != set(wanted) or len(part.dims) != len(wanted):
+            raise InputError(f"{name} must have dimensions ({', '.join(wanted)}), got {part.dims}")
+        if part.dtype.kind not in "iuf":
+            # What names a unit of time is read as time.
+            raise InputError(f"{about}: {name} must hold numbers in {si} or the like, got {part.dtype}")
+        named = part.attrs.get("units")
+        factors[name] = factor_of(name, named, si, units, where=about, bare=None if strict else si)
+        told.setdefault(str(units.get(name) if named is None else named), []).append(name)
+        with np.errstate(over="ignore"):
+            parts[name] = factors[name] * np.asarray(part.transpose(*wanted).to_numpy(), dtype=float)
+    cell = {name: data.attrs.get(f"d{name}") for name in ("x", "y") if factors[name] == 1.0}
+    x0, nx, dx = _evenly("x", parts["x"], cell.get("x"))
+    y0, ny, dy = _evenly("y", parts["y"], cell.get("y"))
+    source = f"{Path(where).name}: " + ", ".join(f"{' and '.join(names)} in {unit}" for unit, names in told.items())
+    grid = Grid(nx, ny, dx, dy, x0, y0)
+    stress = [parts.get(name) for name in _STRESS]
+    assert stress[0] is not None
+    return Recorded(grid, stress[0], stress[1], stress[2], source if where else "")
 
 
 def grid_of(
@@ -114,115 +178,67 @@ def _spacing(spacing: Any) -> tuple[float, float]:
     return quantity(both[0], "m"), quantity(both[1], "m")
 
 
-def _rows(path: Path) -> list[_Row]:
-    """Cells of every line that holds some, with the line's number."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise InputError(f"cannot read {path}: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"cannot read {path}: it is no UTF-8 text (byte {error.start}); save it as UTF-8") from error
-    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    lines = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
-    if not lines:
-        raise InputError(f"{path} holds no numbers: it is empty or all comments")
-    separator = next((mark for mark in (";", "\t", ",") if mark in lines[0][1]), None)
-    if separator is None:
-        # A blank stands before a unit, too.
-        return [(number, re.findall(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?", line)) for number, line in lines]
-    rows = []
-    for number, line in lines:
-        cells = [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=separator))]
-        rows.append((number, [cell.replace(",", ".") for cell in cells] if separator == ";" else cells))
-    return rows
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell or "nan")
-    except ValueError:
-        return False
-    return True
-
-
-def _value(path: Path, line: int, name: str, cell: str) -> float:
-    """The number in a cell; NaN where it is empty."""
-    try:
-        value = float(cell or "nan")
-    except ValueError as error:
-        raise InputError(f"{path}, line {line}: {name} is {cell!r}, not a number") from error
-    if math.isinf(value):
-        raise InputError(f"{path}, line {line}: {name} is infinite")
-    return value
-
-
-def _checked(path: Path, line: int, name: str, value: float, missing: str, floor: float) -> float:
-    """A stress in Pa: what is missing and what is noise as asked for."""
-    if math.isnan(value):
-        if missing == "zero":
-            return 0.0
-        raise InputError(f'{path}, line {line}: {name} is missing; give missing="zero" if nothing pressed there')
-    if name == "pressure" and -floor <= value < 0:
-        return 0.0
-    if name == "pressure" and value < 0:
+def _checked(table: Table, first: int, name: str, values: Array, missing: str, floor: float) -> Array:
+    """Stress (rows, …), Pa: what is missing and what is noise as asked for."""
+    values = values.copy()
+    unknown = np.isnan(values)
+    if unknown.any() and missing != "zero":
+        line = table.lines[first + int(np.argwhere(unknown)[0][0])]
         raise InputError(
-            f"{path}, line {line}: pressure is negative, {value:g} Pa; compression counts positive, and noise= says "
-            "how far below zero a sensor may read"
+            f'{table.path}, line {line}: {name} is missing; give missing="zero" if nothing pressed there'
         )
-    return value
-
-
-def _factor(name: str, unit: str | None) -> float:
-    return 1.0 if unit is None else quantity(f"1 {unit}", _COLUMNS[name])
+    values[unknown] = 0.0
+    if name == "pressure":
+        values[(values < 0) & (values >= -floor)] = 0.0
+        below = np.argwhere(values < 0)
+        if len(below):
+            raise InputError(
+                f"{table.path}, line {table.lines[first + int(below[0][0])]}: pressure is negative, "
+                f"{values[tuple(below[0])]:g} Pa; compression counts positive, and noise= says how far below zero a "
+                "sensor may read"
+            )
+    return values
 
 
 def _matrix(
-    path: Path,
-    rows: list[_Row],
+    table: Table,
     spacing: Any,
     x0: float | None,
     y0: float | None,
     units: Mapping[str, str],
     missing: str,
     floor: float,
-) -> tuple[Grid, Array, Array, Array]:
+) -> Recorded:
     if spacing is None:
         raise InputError(
-            f'{path} starts with numbers, so it is a matrix of pressures and needs spacing="5 mm" or (dx, dy); '
+            f'{table.path} starts with numbers, so it is a matrix of pressures and needs spacing="5 mm" or (dx, dy); '
             "a table of points starts with a header x, y, pressure"
         )
-    factor, width = _factor("pressure", units.get("pressure")), len(rows[0][1])
-    pressure = np.empty((len(rows), width))
-    for row, (line, cells) in enumerate(rows):
-        if len(cells) != width:
-            raise InputError(f"{path}, line {line}: {len(cells)} values where the first row has {width}")
-        for column, cell in enumerate(cells):
-            value = factor * _value(path, line, "pressure", cell)
-            pressure[row, column] = _checked(path, line, "pressure", value, missing, floor)
-    none = np.zeros_like(pressure)
-    return grid_of(pressure.shape, spacing, x0, y0), pressure, none, none
+    values, how = table.values(name=lambda column: "pressure")
+    unit = units.get("pressure")
+    scaled: Array = values * (1.0 if unit is None else factor_asked("pressure", unit, "Pa"))
+    pressure = _checked(table, 0, "pressure", scaled, missing, floor)
+    grid = grid_of(pressure.shape, spacing, x0, y0)
+    return Recorded(grid, pressure, None, None, f"{table.path.name}: {how}, pressure in {unit or 'Pa'}")
 
 
-def _table(
-    path: Path, rows: list[_Row], spacing: Any, units: Mapping[str, str], missing: str, floor: float
-) -> tuple[Grid, Array, Array, Array]:
-    columns, factors = _columns(path, rows[0], units)
-    body = rows[1:]
-    if not body:
+def _table(table: Table, spacing: Any, units: Mapping[str, str], missing: str, floor: float) -> Recorded:
+    path, lines = table.path, table.lines[1:]
+    columns, named = _columns(table, units)
+    if not lines:
         raise InputError(f"{path} has a header and no points")
-    width, at = len(rows[0][1]), {name: np.empty(len(body)) for name in columns}
-    for row, (line, cells) in enumerate(body):
-        if len(cells) != width:
-            raise InputError(f"{path}, line {line}: {len(cells)} values where the header has {width}")
-        for name, column in columns.items():
-            value = factors[name] * _value(path, line, name, cells[column])
-            if name in ("x", "y"):
-                if math.isnan(value):
-                    raise InputError(f"{path}, line {line}: {name} is missing")
-            else:
-                value = _checked(path, line, name, value, missing, floor)
-            at[name][row] = value
-    lines = [line for line, _ in body]
+    heads = {place: name for name, place in columns.items()}
+    values, how = table.values(list(columns.values()), first=1, name=heads.__getitem__)
+    at: dict[str, Array] = {}
+    for (name, unit), column in zip(named.items(), values.T, strict=True):
+        with np.errstate(over="ignore"):
+            found: Array = column * (1.0 if unit is None else factor(unit, _COLUMNS[name]))
+        if name in ("x", "y"):
+            if np.isnan(found).any():
+                raise InputError(f"{path}, line {lines[int(np.isnan(found).argmax())]}: {name} is missing")
+            at[name] = found
+        else:
+            at[name] = _checked(table, 1, name, found, missing, floor)
     steps = (None, None) if spacing is None else _spacing(spacing)
     x0, nx, dx, i = _places(path, "x", at["x"], lines, steps[0])
     y0, ny, dy, j = _places(path, "y", at["y"], lines, steps[1])
@@ -242,18 +258,22 @@ def _table(
             f"{path} has no row for x = {x0 + column * dx:g} m, y = {y0 + row * dy:g} m ({int((owner < 0).sum())} of "
             f'{nx * ny} points are missing); give missing="zero" if nothing pressed there'
         )
-    fields = {name: np.zeros((ny, nx)) for name in _STRESS}
+    fields: dict[str, Array] = {}
     for name in set(columns) & set(_STRESS):
+        fields[name] = np.zeros((ny, nx))
         fields[name][j, i] = at[name]
-    return Grid(nx, ny, dx, dy, x0, y0), fields["pressure"], fields["traction_x"], fields["traction_y"]
+    grid = Grid(nx, ny, dx, dy, x0, y0)
+    said = ", ".join(f"{name} in {unit or _COLUMNS[name]}" for name, unit in named.items())
+    source = f"{path.name}: {how}, {said}"
+    return Recorded(grid, fields["pressure"], fields.get("traction_x"), fields.get("traction_y"), source)
 
 
-def _columns(path: Path, header: _Row, units: Mapping[str, str]) -> tuple[dict[str, int], dict[str, float]]:
-    """Place in the row and factor to SI of each column that is read."""
+def _columns(table: Table, units: Mapping[str, str]) -> tuple[dict[str, int], dict[str, str | None]]:
+    """Place in the row and unit, None for SI, of each column that is read."""
     columns: dict[str, int] = {}
-    factors: dict[str, float] = {}
-    line, cells = header
-    for place, cell in enumerate(cells):
+    named: dict[str, str | None] = {}
+    path, line = table.path, table.lines[0]
+    for place, cell in enumerate(table.rows[0]):
         match = _HEADER.match(cell)
         name, unit = (match["name"], match["unit"]) if match else (cell, None)
         if name not in _COLUMNS:
@@ -269,16 +289,20 @@ def _columns(path: Path, header: _Row, units: Mapping[str, str]) -> tuple[dict[s
             raise InputError(f"{path}, line {line}: the column {name} stands there twice")
         if unit is not None and name in units:
             raise InputError(f"{path}, line {line}: {name} has a unit in the header, [{unit}]; leave it out of units")
+        if unit is None and name in units:
+            factor_asked(name, units[name], _COLUMNS[name])
+        elif unit is not None:
+            factor(unit, _COLUMNS[name])
         columns[name] = place
-        factors[name] = _factor(name, units.get(name) if unit is None else unit)
+        named[name] = units.get(name) if unit is None else unit
     lacking = [name for name in ("x", "y", "pressure") if name not in columns]
     if lacking:
         raise InputError(f"{path}, line {line}: a table needs x, y and pressure; {', '.join(lacking)} missing")
-    return columns, factors
+    return columns, named
 
 
 def _places(
-    path: Path, name: str, values: Array, lines: list[int], step: float | None
+    path: Path, name: str, values: Array, lines: Sequence[int], step: float | None
 ) -> tuple[float, int, float, Array]:
     """First coordinate, number of cells, spacing and index of each value; step: the spacing if given."""
     ordered = np.sort(values)
@@ -293,9 +317,29 @@ def _places(
     index = (values - first) / step
     off = np.abs(index - np.round(index))
     worst = int(off.argmax())
-    if off[worst] > _EVEN:
+    if not off[worst] <= _EVEN:
         raise InputError(
             f"{path}, line {lines[worst]}: {name} = {values[worst]:g} m is no whole number of steps of {step:g} m "
             f"from {first:g} m; resample onto an even grid"
         )
+    if index.max() > _MOST:
+        raise InputError(f"{path} spans {index.max():.3g} cells of {step:g} m along {name}; check it for strays")
     return first, round(float(index.max())) + 1, step, np.round(index).astype(int)
+
+
+def _evenly(name: str, values: Array, single: object) -> tuple[float, int, float]:
+    """First value, number and spacing of evenly spaced, rising coordinates; `single`: spacing if there is but one."""
+    if values.size == 1 and isinstance(single, int | float | np.number):
+        return float(values.item()), 1, float(single)
+    if len(values) < 2:
+        raise InputError(
+            f"the spacing along {name} cannot be read from {values.size} coordinate(s); give a GridLoad with its Grid"
+        )
+    spacing = float(values[-1] - values[0]) / (len(values) - 1)
+    uneven = float(np.abs(np.diff(values) - spacing).max())
+    if not (spacing > 0 and uneven <= _EXACT * spacing):
+        raise InputError(
+            f"{name} must rise in even steps: the mean step is {spacing:g} m, the worst differs by {uneven:g} m; "
+            "sort or resample the load"
+        )
+    return float(values[0]), len(values), spacing

@@ -207,9 +207,8 @@ def _centre(load: GridLoad) -> tuple[float, float]:
 
 
 def _footprint_in_words(load: GridLoad) -> str:
-    peak = float(load.array[0].max()) / 1e3
-    return (
-        f"recorded footprint, {load.grid}\n"
-        f"normal load {load.normal_load / 1e3:.2f} kN, peak pressure {peak:.0f} kPa, "
-        f"tractive force {load.tractive_force / 1e3:z.2f} kN, lateral force {load.lateral_force / 1e3:z.2f} kN"
-    )
+    lines = [
+        f"recorded footprint: {load}",
+        f"tractive force {load.tractive_force / 1e3:z.2f} kN, lateral force {load.lateral_force / 1e3:z.2f} kN",
+    ]
+    return "\n".join(lines + ([f"read from {load.source}"] if load.source else []))

@@ -3,17 +3,30 @@
 from __future__ import annotations
 
 import hashlib
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
-from treadload.errors import GeometryError, InputError
+from treadload.errors import GeometryError, InputError, one_line
+from treadload.files import read_tree
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
+from treadload.labels import check_names, factor_asked, factor_of
+from treadload.tables import read_table, real_array
 from treadload.tire.quality import ScanQuality
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# What a map of a height is made of.
+_NAMES = ("gap", "x", "y")
+# A groove on a small piece of tread is this deep, m.
+_DEEP = 0.05
 
 
 @runtime_checkable
@@ -57,15 +70,16 @@ class HeightMapSurface:
     """A tread known by its gap on a grid of its own.
 
     gap: (ny, nx), m; NaN means no material there; its minimum is shifted to 0.
-    grid: cells of the map.
+    grid: cells of the map. source: the file it was read from and how it was understood, for people.
     Raises InputError for infinite values or a shape that is not the grid's, GeometryError for a map of NaN only.
     """
 
     gap: Array
     grid: Grid
+    source: str = ""
 
     def __post_init__(self) -> None:
-        gap = np.array(self.gap, dtype=np.float64)
+        gap = real_array(self.gap, "a height map")
         if gap.ndim != 2 or gap.shape != self.grid.shape:
             raise InputError(f"a height map must be 2-D of shape (ny, nx) = {self.grid.shape}, got {gap.shape}")
         if np.isinf(gap).any():
@@ -99,7 +113,20 @@ class HeightMapSurface:
         return f"HeightMapSurface({self.grid})"
 
     def __str__(self) -> str:
-        return f"height map, {self.grid}"
+        holes = int(np.isnan(self.gap).sum())
+        told = f"height map, {self.grid}, gap up to {self.relief * 1e3:.4g} mm, "
+        told += f"{holes} of {self.gap.size} without material" if holes else "no holes"
+        return f"{told}; read from {self.source}" if self.source else told
+
+    @property
+    def relief(self) -> float:
+        """From the lowest to the highest cell, m."""
+        return float(np.nanmax(self.gap))
+
+    @property
+    def is_steep(self) -> bool:
+        """True if the map is higher than it is long: no tread is, but millimetres taken for metres are."""
+        return self.relief > max(math.hypot(*self.extent), _DEEP)
 
     @property
     def extent(self) -> tuple[float, float]:
@@ -131,75 +158,98 @@ class HeightMapSurface:
         return self.gap.copy()
 
 
-def read_height_map(path: str | Path, spacing: tuple[float, float] | None) -> HeightMapSurface:
+def read_height_map(
+    path: str | Path,
+    spacing: tuple[float, float] | None,
+    units: str | Mapping[str, str] | None = None,
+    decimal: str | None = None,
+) -> HeightMapSurface:
     """Height map of a file.
 
-    path: NetCDF (variable `initial_gap`, or its only 2-D one, on coordinates x and y in m), or a matrix of
-    numbers in m as text, CSV, NPY or NPZ (rows along y, columns along x). spacing: (dx, dy) in m, for a matrix.
-    Raises InputError when it is missing, unreadable or without spacing.
+    path: NetCDF (variable `initial_gap`, or its only 2-D one, on coordinates x and y), or a matrix of numbers as
+    text, CSV, NPY or NPZ (rows along y, columns along x). spacing: (dx, dy) in m, for a matrix.
+    units: of the gap of a matrix, {"gap": "mm"}, m if left out; of variables of a NetCDF file that name none, "gap",
+    "x" and "y", which are refused if left out. A text alone, "mm", is the unit of all three. decimal: "." or ",", of
+    a text that can be read in two ways. An empty cell, NaN, NA, N/A, NoData and null are no material.
+    Raises InputError when it is missing, unreadable, without spacing or unit, or steeper than a tread can be.
     """
     path = Path(path)
     if not path.is_file():
         raise InputError(f"no file {str(path)!r}: give the path of a NetCDF, CSV, text, NPY or NPZ height map")
     suffix = path.suffix.lower()
+    asked = asked_units(units)
     if suffix in (".nc", ".nc4", ".h5", ".cdf"):
-        return _read_netcdf(path, spacing)
-    if suffix not in (".csv", ".txt", ".dat", ".tsv", ".npy", ".npz"):
+        surface = _read_netcdf(path, spacing, asked)
+    elif suffix not in (".csv", ".txt", ".dat", ".tsv", ".npy", ".npz"):
         raise InputError(
             f"{path.name!r} has the unknown ending {suffix!r} for a height map; "
             "use .nc, .csv, .txt, .dat, .tsv, .npy or .npz"
         )
-    if spacing is None:
+    elif spacing is None:
         raise InputError(f"{path.name!r} does not say the size of its cells; give spacing in m, e.g. spacing=3e-3")
-    try:
-        gap = _read_matrix(path, suffix)
-    except InputError:
-        raise
-    except Exception as error:
-        raise InputError(f"{path.name!r} could not be read as a matrix of numbers: {error}") from error
-    return centred_height_map(gap, spacing)
+    else:
+        gap, how = _read_matrix(path, suffix, decimal)
+        source = f"{path.name}{how}, gap in {asked.get('gap', 'm')}"
+        surface = centred_height_map(in_metres(gap, asked), spacing, source)
+    if surface.is_steep:
+        length, width = surface.extent
+        raise InputError(
+            f"{path.name!r}: its heights differ by {surface.relief:.4g} m on a map of {length:.3g} x {width:.3g} m, "
+            'more than any tread\'s; give units={"gap": "mm"}, or write NaN where there is no material'
+        )
+    return surface
 
 
-def centred_height_map(gap: Array, spacing: tuple[float, float]) -> HeightMapSurface:
+def asked_units(units: str | Mapping[str, str] | None) -> dict[str, str]:
+    """Units of gap, x and y that a caller gave, one text for all or by name. Raises InputError."""
+    if isinstance(units, str):
+        return dict.fromkeys(_NAMES, units)
+    asked = dict(units or {})
+    check_names(asked, _NAMES, "the names of a height map")
+    return asked
+
+
+def in_metres(gap: Array, units: Mapping[str, str]) -> Array:
+    """A gap in the unit that was given for it, in m."""
+    with np.errstate(over="ignore"):
+        return gap * factor_asked("gap", units["gap"], "m") if "gap" in units else gap
+
+
+def centred_height_map(gap: Array, spacing: tuple[float, float], source: str = "") -> HeightMapSurface:
     """Height map of an array (ny, nx) in m with its origin at the middle. spacing: (dx, dy), m."""
-    gap = np.asarray(gap, dtype=np.float64)
+    gap = real_array(gap, "a height map")
     if gap.ndim != 2 or gap.size == 0:
         raise InputError(f"a height map must be a 2-D array (ny, nx) with at least one value, got shape {gap.shape}")
     ny, nx = gap.shape
     dx, dy = spacing
-    return HeightMapSurface(gap, Grid(nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy))
+    return HeightMapSurface(gap, Grid(nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy), source)
 
 
-def _read_matrix(path: Path, suffix: str) -> Array:
-    if suffix == ".npy":
-        return np.asarray(np.load(path, allow_pickle=False), dtype=np.float64)
-    if suffix == ".npz":
-        with np.load(path, allow_pickle=False) as archive:
-            names = [name for name in archive.files if archive[name].ndim == 2]
-            if "initial_gap" in names:
-                names = ["initial_gap"]
-            if len(names) != 1:
-                raise InputError(
-                    f"{path.name!r} must hold one 2-D array or one named 'initial_gap', found {names or 'none'}"
-                )
-            return np.asarray(archive[names[0]], dtype=np.float64)
-    text = path.read_text(encoding="utf-8-sig")
-    if not text.strip():
-        raise InputError(f"{path.name!r} is empty; write the height map again")
-    delimiter = next((mark for mark in (";", "\t", ",") if mark in text), None)
-    return np.atleast_2d(
-        np.genfromtxt(text.splitlines(), delimiter=delimiter, dtype=np.float64, missing_values="", invalid_raise=True)
-    )
-
-
-def _read_netcdf(path: Path, spacing: tuple[float, float] | None) -> HeightMapSurface:
-    import xarray as xr
-
+def _read_matrix(path: Path, suffix: str, decimal: str | None) -> tuple[Array, str]:
+    """Gap as it stands in the file, and how it was understood."""
+    if suffix not in (".npy", ".npz"):
+        gap, how = read_table(path, decimal=decimal).values(name=lambda column: "the gap")
+        return gap, f": {how}"
     try:
-        with xr.open_dataset(path, engine="h5netcdf") as opened:
-            data = opened.load()
+        loaded = np.load(path, allow_pickle=False)
+        if isinstance(loaded, np.ndarray):
+            return real_array(loaded, f"{path.name!r}"), ""
+        with loaded as archive:
+            arrays = {name: archive[name] for name in archive.files}
+    except InputError:
+        raise
     except Exception as error:
-        raise InputError(f"{path.name!r} could not be read as NetCDF-4: {error}") from error
+        raise InputError(f"{path.name!r} could not be read as a matrix of numbers: {one_line(str(error))}") from error
+    names = [name for name, array in arrays.items() if array.ndim == 2]
+    if "initial_gap" in names:
+        names = ["initial_gap"]
+    if len(names) != 1:
+        raise InputError(f"{path.name!r} must hold one 2-D array or one named 'initial_gap', found {names or 'none'}")
+    return real_array(arrays[names[0]], f"{names[0]!r} of {path.name!r}"), ""
+
+
+def _read_netcdf(path: Path, spacing: tuple[float, float] | None, units: Mapping[str, str]) -> HeightMapSurface:
+    data = read_tree(path, "NetCDF-4").to_dataset()
     planar = [str(name) for name, variable in data.data_vars.items() if variable.ndim == 2]
     if "initial_gap" in planar:
         planar = ["initial_gap"]
@@ -208,22 +258,62 @@ def _read_netcdf(path: Path, spacing: tuple[float, float] | None) -> HeightMapSu
             f"{path.name!r} must hold the variable 'initial_gap' or exactly one 2-D variable, "
             f"found {planar or 'none'}"
         )
-    variable = data[planar[0]]
+    return of_variable(data[planar[0]], spacing, units, where=path.name, strict=True)
+
+
+def of_variable(
+    variable: xr.DataArray,
+    spacing: tuple[float, float] | None,
+    units: Mapping[str, str],
+    *,
+    where: str = "",
+    strict: bool = False,
+) -> HeightMapSurface:
+    """Height map of a variable over y and x.
+
+    spacing: (dx, dy) in m, where it has no coordinates. units: of gap, x and y where the variable names none; strict:
+    refuse it if neither does, m otherwise. where: the file it comes from. Raises InputError.
+    """
+    about = where or "the array"
+    bare = None if strict else "m"
+    factors = {"gap": _factor("gap", variable, units, about, bare)}
     if {"x", "y"} <= set(variable.dims):
         variable = variable.transpose("y", "x")
-    unit = variable.attrs.get("units", "m")
-    if unit != "m":
-        raise InputError(f"variable {planar[0]!r} of {path.name!r} is in {unit!r}; it must be in m")
-    if not {"x", "y"} <= set(data.coords):
+    if not {"x", "y"} <= set(variable.coords):
         if spacing is None:
-            raise InputError(f"{path.name!r} has no coordinates x and y; add them in m, or give spacing in m")
-        return centred_height_map(variable.to_numpy(), spacing)
+            raise InputError(f"{about!r} has no coordinates x and y; add them in m, or give spacing in m")
+        source = f"{where}: gap in {_told('gap', variable, units)}" if where else ""
+        return centred_height_map(factors["gap"] * real_array(variable.to_numpy(), about), spacing, source)
+    for name in ("x", "y"):
+        if variable[name].dims != (name,):
+            raise InputError(f"coordinate {name} of {about!r} must run along {name}, got {variable[name].dims}")
+        factors[name] = _factor(name, variable[name], units, about, bare)
     variable = variable.sortby(["y", "x"])
-    x0, dx = _even_steps(variable["x"].to_numpy(), "x", path.name, None if spacing is None else spacing[0])
-    y0, dy = _even_steps(variable["y"].to_numpy(), "y", path.name, None if spacing is None else spacing[1])
-    gap = variable.to_numpy()
+    steps: dict[str, tuple[float, float]] = {}
+    for k, name in enumerate(("x", "y")):
+        places = factors[name] * variable[name].to_numpy().astype(np.float64)
+        steps[name] = _even_steps(places, name, about, None if spacing is None else spacing[k])
+    with np.errstate(over="ignore"):
+        gap = factors["gap"] * real_array(variable.to_numpy(), about)
     ny, nx = gap.shape
-    return HeightMapSurface(gap, Grid(nx, ny, dx, dy, x0, y0))
+    told = ", ".join(
+        f"{name} in {_told(name, part, units)}"
+        for name, part in (("gap", variable), ("x", variable["x"]), ("y", variable["y"]))
+    )
+    grid = Grid(nx, ny, steps["x"][1], steps["y"][1], steps["x"][0], steps["y"][0])
+    return HeightMapSurface(gap, grid, f"{where}: {told}" if where else "")
+
+
+def _told(name: str, part: xr.DataArray, units: Mapping[str, str]) -> str:
+    return str(part.attrs.get("units") or units.get(name, "m"))
+
+
+def _factor(name: str, part: xr.DataArray, units: Mapping[str, str], about: str, bare: str | None) -> float:
+    """What makes a part of a height map metres; refuses what holds no numbers."""
+    if part.dtype.kind not in "iuf":
+        # What names a unit of time is read as time.
+        raise InputError(f"{about}: {name} must hold numbers in m or the like, got {part.dtype}")
+    return factor_of(name, part.attrs.get("units"), "m", units, where=about, bare=bare)
 
 
 def _even_steps(values: Array, name: str, file: str, given: float | None) -> tuple[float, float]:
@@ -234,7 +324,7 @@ def _even_steps(values: Array, name: str, file: str, given: float | None) -> tup
         return float(values[0]), given
     step = float(values[-1] - values[0]) / (len(values) - 1)
     error = float(np.abs(np.diff(values) - step).max())
-    if not step > 0 or error > 1e-3 * step:
+    if not (step > 0 and error <= 1e-3 * step):
         raise InputError(
             f"coordinate {name} of {file!r} is not evenly spaced: "
             f"steps differ by up to {error:.3g} m from {step:.3g} m"

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,10 +17,21 @@ from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Prony
+from treadload.tables import real_array
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
-from treadload.tire.surface import Surface, centred_height_map, read_height_map
+from treadload.tire.surface import (
+    Surface,
+    asked_units,
+    centred_height_map,
+    in_metres,
+    of_variable,
+    read_height_map,
+)
 from treadload.tire.tread import ProfileSurface, TreadProfile
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 POISSON_OF_RUBBER = 0.5
 
@@ -53,9 +64,11 @@ class Tire:
     @classmethod
     def from_height_map(
         cls,
-        gap: ArrayLike | str | PathLike[str],
+        gap: ArrayLike | xr.DataArray | str | PathLike[str],
         spacing: float | Sequence[float] | None = None,
         *,
+        units: str | Mapping[str, str] | None = None,
+        decimal: Literal[".", ","] | None = None,
         material: Elastic | Prony | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
@@ -63,22 +76,26 @@ class Tire:
         """Tire of a map of its initial gap.
 
         gap: (ny, nx) in m, distance of the tread from the plane it touches, curvature included; NaN where there
-        is no material. Its minimum is shifted to 0, so heights above any horizontal plane will do. Or the path of
-        a NetCDF file (variable `initial_gap` or the only 2-D one, coordinates x and y in m), or of a matrix as
-        CSV, text, NPY or NPZ. spacing: cell size, m, or (dx, dy); a NetCDF file brings its own.
-        The map keeps its cells: the contact is solved on them.
-        Raises InputError for infinite values, a wrong shape or a missing spacing, GeometryError for NaN only.
+        is no material. Its minimum is shifted to 0, so heights above any horizontal plane will do. Or a DataArray, or
+        the path of a NetCDF file (variable `initial_gap` or the only 2-D one), over y and x, whose attributes `units`
+        are obeyed; or the path of a matrix as CSV, text, NPY or NPZ. spacing: cell size, m, or (dx, dy); coordinates
+        bring their own. units: "mm", or {"gap": "mm"}, of what names no unit: the gap of a matrix (else m), gap, x
+        and y of a NetCDF file (else refused). decimal: "." or ",", where a text can be read in two ways.
+        The map keeps its cells: the contact is solved on them. `str` tells what was read.
+        Raises InputError for infinite values, a wrong shape, a missing spacing or unit, a cell of a text that is
+        neither a number nor empty, NaN, NA, N/A, NoData or null; GeometryError for NaN only.
         """
         cell = _cell(spacing)
         if isinstance(gap, str | PathLike):
-            surface = read_height_map(Path(gap), cell)
+            surface = read_height_map(Path(gap), cell, units, decimal)
             return cls(surface, material, inflation_pressure, name or Path(gap).name)
+        asked = asked_units(units)
+        if hasattr(gap, "dims") and hasattr(gap, "coords"):
+            labelled: Any = gap
+            return cls(of_variable(labelled, cell, asked), material, inflation_pressure, name)
         if cell is None:
             raise InputError("a height map needs the spacing of its cells in m, e.g. spacing=3e-3")
-        try:
-            values = np.asarray(gap, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError(f"a height map must be a 2-D array of numbers in m: {error}") from error
+        values = in_metres(real_array(gap, "a height map"), asked)
         return cls(centred_height_map(values, cell), material, inflation_pressure, name)
 
     @classmethod
