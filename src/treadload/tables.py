@@ -224,7 +224,7 @@ def _check_dropped(table: Table, comments: Sequence[_Line], numbered: Sequence[_
         bare = line.lstrip()[1:]
         cells = () if '"' in bare else _split(table.path, number, bare, table.separator)
         row = len(cells) == width and any(cells) and all(_is_value(cell) for cell in cells)
-        if row and (width > 2 or begin < number < end):
+        if row and (width > 1 or begin < number < end):
             raise InputError(
                 f"{table.path}, line {number} reads like a row of numbers and is a comment; remove it, or its #"
             )

@@ -343,7 +343,7 @@ def test_separators_and_decimal_marks_are_recognised(tmp_path, kind):
         ("0.001,0.002\n0.003,1_0\n", "'1_0', not a number"),
         ("0.001,0.002\n0.003,\u0661\n", "not a number"),
         ("0.001,0.002\n0.003,1\u202f000\n", "not a number"),
-        ("0.001,0.002,0\n#0.003,0.001,0\n0.003,0.001,0\n", "line 2 reads like a row of numbers and is a comment"),
+        ("0.001,0.002\n0.003,0.001\n#0.003,0.001\n", "line 3 reads like a row of numbers and is a comment"),
         ("0.001\n\n0.003\n", "line 2 is empty; write NaN"),
         ('0.001,"0.0"2\n', "line 1: its quotation marks cannot be read"),
         ("x;y;gap\n0;0;0.001\n", "line 1: the gap is 'x', not a number"),

@@ -193,11 +193,11 @@ class GridLoad:
         """What presses where, so that a wrong unit is seen."""
         loaded = float((self.pressure > 0).sum()) * self.grid.cell_area
         told = [
-            f"{self.normal_load / 1e3:.4g} kN on {loaded * 1e6:.4g} mm² ({self.grid})",
-            f"peak pressure {float(self.pressure.max()) / 1e3:.4g} kPa",
+            f"{_plain(self.normal_load / 1e3)} kN on {_plain(loaded * 1e6)} mm² ({self.grid})",
+            f"peak pressure {_plain(float(self.pressure.max()) / 1e3)} kPa",
         ]
         shear = float(np.hypot(self.array[1], self.array[2]).max())
-        return ", ".join([*told, f"peak shear {shear / 1e3:.4g} kPa"] if shear else told)
+        return ", ".join([*told, f"peak shear {_plain(shear / 1e3)} kPa"] if shear else told)
 
     @property
     def normal_load(self) -> float:
@@ -372,3 +372,8 @@ def _load(item: Load) -> PlacedLoad:
 
 def _kind(value: Any) -> str:
     return f"an empty {type(value).__name__}" if isinstance(value, Sequence) and not value else type(value).__name__
+
+
+def _plain(value: float) -> str:
+    """Four digits, and all of a whole number."""
+    return f"{value:.0f}" if 1e3 <= value < 1e9 else f"{value:.4g}"
