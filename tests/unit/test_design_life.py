@@ -1,6 +1,7 @@
 """From tire to life: what is solved, what is interpolated and how well."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ from treadload.pavement import Layer, Pavement
 from treadload.response import solve_response
 from treadload.study.life import design_life
 from treadload.study.passages import solve_passages
-from treadload.tire import Tire
+from treadload.tire import Groove, Tire, TreadProfile
 
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
@@ -204,3 +205,51 @@ def test_two_lifts_live_as_long_as_one_and_the_upper_says_that_it_is_none():
     assert said.startswith("base: it reads the bottom of layer 2, but a lift of the same mix lies below")
     assert "that of layer 3" in said
     assert upper.years("base") > 5 * lives["two"].years("base")
+
+
+ONE_SIDED = Tire.from_profile(
+    TreadProfile(0.538, 1.678, 0.2, 0.0088, (Groove(0.03, 0.024, 0.015),)), inflation_pressure=820e3
+)
+
+
+def test_the_inner_tire_of_a_pair_is_turned_round_and_pushes_the_same_way():
+    bend = Maneuver("bend", lateral=0.2, spin=1 / 60)
+    pair = AxleClass("pair", 0.5, 15e3, 820e3, ((0.0, -0.17), (0.0, 0.17)), mirrored=(0,))
+    traffic = Traffic((pair, replace(pair, name="in a bend", maneuver=bend)), 1e5)
+    road = Pavement.half_space(Elastic(5e9, 0.35))
+    passages = solve_passages(ONE_SIDED, road, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+    # Straight one contact, in the bend one for each way that the tire is mounted.
+    assert passages.contacts == 3
+    for wheels, side in zip(passages.wheels, (0.0, 0.2), strict=True):
+        left, right = wheels.loads
+        assert left.lateral_force == pytest.approx(right.lateral_force, abs=1e-4 * 15e3)
+        assert right.lateral_force == pytest.approx(side * 15e3, abs=1e-4 * 15e3)
+        # The groove lies 30 mm to the right of the middle of the right tire, and to the left on the left one.
+        for load, groove in ((left, -0.17 - 0.03), (right, 0.17 + 0.03)):
+            row = int(np.abs(load.grid.y - groove).argmin())
+            assert load.pressure[row].max() == 0
+            assert load.pressure.max() > 3e5
+    # A symmetric tread has but one contact, and two equal wheels.
+    symmetric = solve_passages(TIRE, road, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+    assert symmetric.contacts == 2
+    for wheels in symmetric.wheels:
+        np.testing.assert_array_equal(wheels.loads[0].array, wheels.loads[1].array)
+
+
+def test_a_class_may_have_a_tire_of_its_own():
+    """The narrower tire is pressed harder; the one of the traffic serves the rest."""
+    own = AxleClass("own", 0.5, 15e3, 820e3, tire=ONE_SIDED)
+    traffic = Traffic((replace(own, name="common", tire=None), own), 1e5)
+    road = Pavement.half_space(Elastic(5e9, 0.35))
+    passages = solve_passages(TIRE, road, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+    assert passages.contacts == 2
+    common, narrow = (wheels.loads[0] for wheels in passages.wheels)
+    assert narrow.normal_load == pytest.approx(common.normal_load, rel=1e-6)
+    assert (narrow.pressure > 0).any(axis=1).sum() < (common.pressure > 0).any(axis=1).sum()
+    fixed = Tire.from_height_map(np.add.outer(np.arange(-9.0, 10) ** 2, np.arange(-9.0, 10) ** 2) * 1e-4, 10e-3,
+                                 inflation_pressure=820e3)  # fmt: skip
+    mixed = Traffic((replace(own, name="common", tire=None), replace(own, tire=fixed)), 1e5)
+    with pytest.raises(InputError, match="the height map has cells of 10 mm and keeps them"):
+        solve_passages(TIRE, road, mixed, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+    with pytest.raises(InputError, match="has 1 wheels, 0 to 0; none is number 1"):
+        replace(own, mirrored=(1,))

@@ -77,6 +77,18 @@ def test_classes_and_maneuvers_become_rows():
     assert (bend.friction, traffic.years, traffic.wander) == (0.6, 20, tl.Wander.normal(0.25))
 
 
+def test_a_class_may_bring_its_tire_and_pairs_are_mounted_back_to_back():
+    text = DESIGN.replace('gear = "tandem-dual"', 'gear = "tandem-dual"\ntire = { profile = "315/80R22.5" }')
+    case = LifeCase.from_text(text)
+    front, driven, _ = case.build_traffic().classes
+    assert (front.tire, front.mirrored) == (None, ())
+    assert driven.tire == tl.Tire.from_profile("315/80R22.5")
+    assert [driven.wheels[number][1] for number in driven.mirrored] == pytest.approx([-0.17, -0.17])
+    assert LifeCase.from_text(case.to_toml()).build_traffic() == case.build_traffic()
+    with pytest.raises(InputError, match=r"did you mean '315/80R22\.5'"):
+        LifeCase.from_text(text.replace('315/80R22.5" }', '315/80" }'))
+
+
 def test_a_mix_gives_its_law():
     """The numbers of the catalogue, at the temperature of the layer, and k_s of what lies below."""
     base, surface, soil, mepdg = LifeCase.from_text(DESIGN).build_criteria()

@@ -363,3 +363,40 @@ def test_whole_numbers_of_a_sensor_are_read(tmp_path):
     np.testing.assert_array_equal(load.pressure, [[0, 12e3, 7e3], [0, 115e3, 90e3]])
     given = GridLoad.from_csv(write(tmp_path, "100,200\n300,400\n"), spacing="5 mm", decimal=".")
     np.testing.assert_array_equal(given.pressure, [[100, 200], [300, 400]])
+
+
+def shoulder(traction_y=0.0, y0=-0.02):
+    """A wheel that presses harder on its right side."""
+    pressure = np.tile([[2e5], [3e5], [9e5]], (1, 4))
+    return GridLoad(Grid(4, 3, 0.02, 0.02, -0.03, y0), pressure, None, np.full((3, 4), traction_y))
+
+
+def test_the_tires_of_a_pair_are_mounted_back_to_back():
+    """What faces outward on the right wheel faces inward on the left one: the harder sides are the outer ones."""
+    left, right = dual_wheels(shoulder(), 0.3)
+    np.testing.assert_array_equal(right.pressure, shoulder().pressure)
+    np.testing.assert_array_equal(left.pressure, shoulder().pressure[::-1])
+    assert (left.grid.y.mean(), right.grid.y.mean()) == pytest.approx((-0.15, 0.15))
+    # Where the load stands off the origin, the pair stands about that place.
+    left, right = dual_wheels(shoulder(y0=0.98), 0.3)
+    assert (left.grid.y.mean(), right.grid.y.mean()) == pytest.approx((0.85, 1.15))
+    assert left.pressure[0, 0] == right.pressure[-1, 0] == 9e5
+    same, _ = dual_wheels(shoulder(), 0.3, mirrored=False)
+    np.testing.assert_array_equal(same.pressure, shoulder().pressure)
+
+
+def test_a_mirror_would_turn_a_side_force_round():
+    """A pair in a bend pushes one way; free shear that balances is turned round with its tire."""
+    left, right = dual_wheels(shoulder(traction_y=1e5), 0.3)
+    assert left.lateral_force == pytest.approx(right.lateral_force)
+    np.testing.assert_array_equal(left.pressure, right.pressure)
+    turned, right = dual_wheels(shoulder(traction_y=1e5), 0.3, mirrored=True)
+    assert turned.lateral_force == pytest.approx(-right.lateral_force)
+    spinning = xr.Dataset(
+        {"pressure": (("y", "x"), shoulder().pressure), "spin": 0.1},
+        {"y": shoulder().grid.y, "x": shoulder().grid.x},
+    )
+    left, right = dual_wheels(spinning, 0.3)
+    np.testing.assert_array_equal(left.pressure, right.pressure)
+    left, right = dual_wheels(spinning.assign(spin=0.0), 0.3)
+    np.testing.assert_array_equal(left.pressure, right.pressure[::-1])

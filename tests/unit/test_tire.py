@@ -8,7 +8,7 @@ import xarray as xr
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.materials import Elastic
-from treadload.tire import Tire, TreadProfile, modulus_from_inflation
+from treadload.tire import Groove, Tire, TreadProfile, modulus_from_inflation
 
 
 def bowl(nx=9, ny=7, d=3e-3):
@@ -411,3 +411,13 @@ def test_broken_files_say_one_line_and_leave_no_traceback(tmp_path, recwarn, mon
     assert len(said) > 30
     assert not any("\n" in text for text in said)
     assert not ended
+
+
+def test_which_treads_are_their_own_mirror_image():
+    rib = TreadProfile(0.5, 1.0, 0.2, grooves=(Groove(0.03, 0.01, 0.01),))
+    assert not Tire.from_profile(rib).is_symmetric
+    assert Tire.from_profile("315/80R22.5").is_symmetric
+    gap = np.add.outer(np.abs(np.arange(-3, 4)) * 1e-3, np.zeros(5))
+    assert Tire.from_height_map(gap, 3e-3).is_symmetric
+    gap[0] = np.nan
+    assert not Tire.from_height_map(gap, 3e-3).is_symmetric

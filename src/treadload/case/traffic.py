@@ -25,6 +25,7 @@ from treadload.case.fields import (
     Years,
 )
 from treadload.case.friction import Friction, law
+from treadload.case.tire import TirePart
 from treadload.contact import STRAIGHT, Maneuver
 from treadload.damage import AxleClass, Climate, Season, Traffic, Wander
 from treadload.units import quantity
@@ -120,6 +121,8 @@ class AxlePart(Part):
     share: of all passes. axle_load: of one axle on level ground, N, over its wheels; or wheel_load, of each wheel.
     gear: "single", "dual", "tandem", "tandem-dual", "tridem", "tridem-dual", with dual_spacing and wheelbase; or
     wheels = [[x, y], ...], the wheel path at y = 0. maneuver: one, or maneuvers: several with their shares.
+    tire: of this class, as [tire]; left out, that of the case. Of dual wheels the left one, at y < 0, has its tire
+    turned round, as on the right of a vehicle; only treads that are not symmetric feel it.
     """
 
     name: str
@@ -135,6 +138,7 @@ class AxlePart(Part):
     maneuvers: tuple[_Maneuver, ...] | None = None
     friction: Friction = 0.7
     speed: Speed | None = None
+    tire: TirePart | None = None
 
     @model_validator(mode="after")
     def _consistent(self) -> AxlePart:
@@ -172,13 +176,21 @@ class AxlePart(Part):
             load = self.axle_load / (2 * side_by_side)
         friction = self.friction if isinstance(self.friction, float) else law(self.friction, folder)
         assert friction is not None
+        tire = None if self.tire is None else self.tire.build(folder)
+        # The left one of each pair, unless the wheels are given one by one.
+        duals = self.wheels is None and side_by_side > 1
+        mirrored = tuple(range(0, len(places), side_by_side)) if duals else ()
         several = self.maneuvers or (self.maneuver or ManeuverPart(kind="straight"),)
         rows = []
         for one in several:
             made = one.build()
             name = self.name if len(several) == 1 else f"{self.name}, {one.name or made.name}"
             share = self.share * (1.0 if one.share is None else one.share)
-            rows.append(AxleClass(name, share, load, self.inflation_pressure, places, made, friction, self.speed))
+            rows.append(
+                AxleClass(
+                    name, share, load, self.inflation_pressure, places, made, friction, self.speed, tire, mirrored
+                )
+            )
         return rows
 
 

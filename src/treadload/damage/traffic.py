@@ -16,6 +16,7 @@ from treadload.damage.french import NO_GROWTH, growth_factor
 from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.tire import Tire
 
 # Shares that come from a table with few digits.
 _ROUND_OFF = 1e-6
@@ -30,6 +31,8 @@ class AxleClass:
     name: for tables. share: of all passes, in [0, 1]. wheel_load: N on each wheel. inflation_pressure: Pa.
     wheels: (x, y) of the wheels that act together, m, the wheel path at y = 0: one wheel, dual wheels, the duals
     of a tandem. maneuver: how they roll. friction: coefficient or law. speed: m/s, for viscoelastic roads.
+    tire: its own; None for that of the traffic. mirrored: numbers of the wheels, from 0, whose tire is turned round,
+    as that of one of dual wheels is: their contact is a mirror image, which shows where a tread is not symmetric.
     Raises InputError.
     """
 
@@ -41,6 +44,8 @@ class AxleClass:
     maneuver: Maneuver = STRAIGHT
     friction: float | FrictionLaw = 0.7
     speed: float | None = None
+    tire: Tire | None = None
+    mirrored: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         if not 0 <= self.share <= 1:
@@ -56,6 +61,12 @@ class AxleClass:
         if not wheels or not np.isfinite(wheels).all():
             raise InputError(f"{self.name!r} needs at least one wheel at finite (x, y) in m, got {self.wheels!r}")
         object.__setattr__(self, "wheels", wheels)
+        object.__setattr__(self, "mirrored", tuple(self.mirrored))
+        stray = next((number for number in self.mirrored if number not in range(len(wheels))), None)
+        if stray is not None:
+            raise InputError(
+                f"{self.name!r} has {len(wheels)} wheels, 0 to {len(wheels) - 1}; none is number {stray}"
+            )
 
     __repr__ = as_call
 

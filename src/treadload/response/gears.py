@@ -12,9 +12,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
+
+import xarray as xr
 
 from treadload.errors import InputError
-from treadload.response.loads import Load, PlacedLoad, gather
+from treadload.response.loads import GridLoad, Load, PlacedLoad, gather
+
+# Side force over the load, above which a wheel does not roll straight.
+_SIDE = 0.01
 
 
 def place(load: Load, *, x: float = 0.0, y: float = 0.0, mirror: bool = False) -> PlacedLoad:
@@ -29,13 +35,38 @@ def place(load: Load, *, x: float = 0.0, y: float = 0.0, mirror: bool = False) -
     return placed.moved(x, y)
 
 
-def dual_wheels(load: Load, spacing: float) -> tuple[PlacedLoad, ...]:
+def dual_wheels(load: Load, spacing: float, *, mirrored: bool | None = None) -> tuple[PlacedLoad, ...]:
     """Two like wheels side by side, at y = -spacing/2 and y = spacing/2 from where the load stands.
 
-    spacing: between the wheels' centres, m, > 0. Raises InputError for another.
+    spacing: between the wheels' centres, m, > 0. mirrored: whether the left one is the mirror image of the load in
+    the plane of its wheel, as the two tires of a pair are mounted back to back: what faces outward on the right one
+    faces inward on the left one. Left out: yes, unless the load rolls with spin or carries a side force of more than
+    1 % of its weight, which a mirror would turn round; for the pair in a bend solve the turned tire too and `place`
+    both. A symmetric tire that rolls straight gives two equal loads either way.
+    Raises InputError for a wrong spacing.
     """
     _check("the spacing of dual wheels", spacing)
-    return tuple(one.moved(y=side * spacing / 2) for side in (-1, 1) for one in gather(load))
+    turned = not any(_leans(one) for one in _each(load)) if mirrored is None else mirrored
+    right = gather(load)
+    left = tuple(one.mirrored().moved(y=2 * _middle(one)) if turned else one for one in right)
+    return tuple(one.moved(y=side * spacing / 2) for side, pair in ((-1, left), (1, right)) for one in pair)
+
+
+def _middle(load: PlacedLoad) -> float:
+    """Where the plane of the wheel stands, m."""
+    return sum(load.extent_y) / 2 if isinstance(load, GridLoad) else load.y
+
+
+def _each(load: Any) -> Sequence[Any]:
+    return load if isinstance(load, Sequence) else [load]
+
+
+def _leans(load: Any) -> bool:
+    """Whether a load is one of a wheel that rolls with spin, or carries a side force."""
+    data = load if isinstance(load, xr.Dataset) else getattr(load, "dataset", None)
+    if data is not None and "spin" in data and float(data["spin"]) != 0:
+        return True
+    return any(abs(getattr(one, "lateral_force", 0.0)) > _SIDE * one.normal_load for one in gather(load))
 
 
 def axle(load: Load | Sequence[Load], track: float, dual_spacing: float | None = None) -> tuple[PlacedLoad, ...]:

@@ -20,7 +20,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
-from treadload.response import GridLoad, place, solve_response
+from treadload.response import GridLoad, solve_response
 from treadload.response.doubts import overlapping, road_doubts
 from treadload.tire import Tire
 
@@ -57,6 +57,7 @@ class Passages:
     responses: int
     interpolation_error: float
     moved: float
+    wheels: tuple[Wheels, ...]
     warnings: tuple[str, ...] = ()
 
     @property
@@ -103,7 +104,8 @@ def solve_passages(
 
     A point of the road sees the whole field along x as the wheels roll by. Each axle of a group is a cycle of its
     own, less what is left of it before the next one comes; wheels side by side are one.
-    tire: its inflation pressure is replaced by that of the class. road: materials may depend on temperature.
+    tire: of classes without one of their own; the inflation pressure is that of the class. road: materials may depend
+    on temperature.
     spacing: cells of the contact, m; wheels are moved by half a cell at most, so that all share one lattice.
     tolerance: of readings interpolated over the climate, relative; 0 solves every season. workers: threads; all
     cores if left out. progress: called after every solve.
@@ -123,7 +125,7 @@ def solve_passages(
     for row in classes:
         check_speed(row, warm[0].road)
     distinct = [one for k, one in enumerate(warm) if one not in warm[:k]]
-    states = list(dict.fromkeys(state(row) for row in classes))
+    states = list(dict.fromkeys(one for row in classes for one in states_of(row, tire)))
     count = Counter(len(states) + len(classes) * len(distinct), progress)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
 
@@ -131,9 +133,9 @@ def solve_passages(
             return count.after(contact_of(tire, warm[0].road, one, spacing), "contact")
 
         found = dict(zip(states, pool.map(touch, states), strict=True))
-        contacts = [found[state(row)] for row in classes]
-        y = across(contacts, classes)
-        wheels = [wheels_of(contact, row, y) for contact, row in zip(contacts, classes, strict=True)]
+        contacts = [[found[one] for one in states_of(row, tire)] for row in classes]
+        y = across([one[0] for one in contacts], classes)
+        wheels = [wheels_of(own, row, y) for own, row in zip(contacts, classes, strict=True)]
         turns = 2 * max(len(one.x) for one in wheels) - 1
 
         def solve(pair: tuple[int, Warm]) -> Array:
@@ -176,6 +178,7 @@ def solve_passages(
         count.total - len(states),
         error,
         max(_moved(one, row) for one, row in zip(wheels, classes, strict=True)),
+        tuple(wheels),
         tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads)) + road_doubts(warm[0].road),
     )
 
@@ -222,13 +225,23 @@ def check_speed(row: AxleClass, road: Pavement) -> None:
 
 def state(row: AxleClass) -> tuple[Any, ...]:
     """What the contact of a class depends on, besides the tire and the road."""
-    return row.wheel_load, row.inflation_pressure, row.maneuver, row.friction, row.speed
+    return row.wheel_load, row.inflation_pressure, row.maneuver, row.friction, row.speed, row.tire
+
+
+def states_of(row: AxleClass, tire: Tire) -> tuple[tuple[Any, ...], ...]:
+    """The state of a class; and, where wheels are mirrored and their tread is not its own mirror image, that whose
+    mirror image is theirs: with side force and spin turned round.
+    """
+    if not row.mirrored or (row.tire or tire).is_symmetric:
+        return (state(row),)
+    maneuver = replace(row.maneuver, lateral=-row.maneuver.lateral, spin=-row.maneuver.spin)
+    return state(row), state(replace(row, maneuver=maneuver))
 
 
 def contact_of(tire: Tire, road: Pavement, one: tuple[Any, ...], spacing: float) -> Contact:
     """The contact in a state, see `state`."""
-    load, pressure, maneuver, friction, speed = one
-    inflated = replace(tire, inflation_pressure=pressure)
+    load, pressure, maneuver, friction, speed, own = one
+    inflated = replace(own or tire, inflation_pressure=pressure)
     return solve_contact(inflated, road, maneuver.rolling(load, friction, speed=speed), spacing=spacing)
 
 
@@ -244,17 +257,22 @@ def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
     return start + dy * np.arange(low, high + 1)
 
 
-def wheels_of(contact: Contact, row: AxleClass, y: Array) -> Wheels:
-    """The wheels of a class, each moved by half a cell at most onto the lattice of y and of its own x."""
-    grid = GridLoad.from_dataset(contact.dataset).grid
+def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
+    """The wheels of a class, each moved by half a cell at most onto the lattice of y and of its own x.
+
+    contacts: in the states of the class, see `states_of`.
+    """
+    own, other = GridLoad.from_dataset(contacts[0].dataset), GridLoad.from_dataset(contacts[-1].dataset)
+    grid = own.grid
     dx, dy = grid.dx, grid.dy
     loads = []
-    for at_x, at_y in row.wheels:
-        row_y = round((at_y + grid.y0 - y[0]) / dy)
-        loads.append(place(contact, x=dx * round(at_x / dx), y=float(y[0]) + dy * row_y - grid.y0))
+    for number, (at_x, at_y) in enumerate(row.wheels):
+        one = other.mirrored() if len(contacts) > 1 and number in row.mirrored else own
+        row_y = round((at_y + one.grid.y0 - y[0]) / dy)
+        loads.append(one.moved(x=dx * round(at_x / dx), y=float(y[0]) + dy * row_y - one.grid.y0))
     centres = sorted({round(at_x / dx) for at_x, _ in row.wheels})
     return Wheels(
-        tuple(one for one in loads if isinstance(one, GridLoad)),
+        tuple(loads),
         np.array([grid.x + dx * centre for centre in centres]),
         row.speed,
         row.name,

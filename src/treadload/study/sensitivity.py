@@ -29,7 +29,7 @@ from treadload.study.passages import (
     contact_of,
     layer_temperatures,
     passage,
-    state,
+    states_of,
     warmed,
     wheels_of,
 )
@@ -285,7 +285,14 @@ class _Solver:
     def damages(self, questions: Sequence[Question], pool: ThreadPoolExecutor) -> list[float]:
         """The largest damage of a year across the wheel path in each question."""
         rows = list(dict.fromkeys(row for row, _ in self.pairs))
-        states = list(dict.fromkeys(state(traffic.classes[row]) for _, traffic, _ in questions for row in rows))
+        states = list(
+            dict.fromkeys(
+                one
+                for _, traffic, _ in questions
+                for row in rows
+                for one in states_of(traffic.classes[row], self.tire)
+            )
+        )
         self.contacts, self.responses = len(states), len(questions) * len(self.pairs)
         count = Counter(self.contacts + self.responses, self.progress)
         road, _, climate = questions[0]
@@ -298,8 +305,8 @@ class _Solver:
         for road, traffic, climate in questions:
             warm_roads = _warm(road, climate, self.criterion, self.pairs)
             classes = [traffic.classes[row] for row in rows]
-            found = [contacts[state(one)] for one in classes]
-            y = across(found, classes)
+            found = [[contacts[one] for one in states_of(row, self.tire)] for row in classes]
+            y = across([own[0] for own in found], classes)
             wheels = {row: wheels_of(c, one, y) for row, c, one in zip(rows, found, classes, strict=True)}
             turns = 2 * max(len(one.x) for one in wheels.values()) - 1
             places.append((y, turns))

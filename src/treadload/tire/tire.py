@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -34,6 +35,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 POISSON_OF_RUBBER = 0.5
+# Cells, m, on which a tread is compared with its mirror image; round-off of their places and of its gap, m.
+_LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
 
 
 @dataclass(frozen=True)
@@ -209,6 +212,11 @@ class Tire:
         quality = self.quality
         return 0.0 if quality is None else 0.0 - math.sin(self.camber) / quality.crown_radius
 
+    @property
+    def is_symmetric(self) -> bool:
+        """True if the tread is its own mirror image in the plane of the wheel; never of a scan, which is as it is."""
+        return _is_symmetric(self)
+
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap in m at the cell centres, ≥ 0, to the plane at first contact; NaN where there is no material.
 
@@ -230,6 +238,20 @@ class Tire:
         return "; ".join(str(part) for part in parts)
 
     __repr__ = as_call
+
+
+@lru_cache(maxsize=32)
+def _is_symmetric(tire: Tire) -> bool:
+    """Whether a tread that is no scan is its own mirror image."""
+    surface = tire.surface
+    if surface.quality is not None:
+        return False
+    length, width = surface.extent
+    grid = surface.fixed_grid or Grid.on_lattice(0.8 * length, 0.9 * width, _LOOK)
+    if abs(grid.y[0] + grid.y[-1]) > _SAME * grid.dy:
+        return False
+    gap = surface.height_map(grid)
+    return bool(np.allclose(gap, gap[::-1], rtol=0, atol=_SAME_GAP, equal_nan=True))
 
 
 def _cell(spacing: float | Sequence[float] | None) -> tuple[float, float] | None:
