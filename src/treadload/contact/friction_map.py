@@ -94,7 +94,8 @@ class FrictionMap(FrictionLaw):
         path = Path(path)
         if path.suffix.lower() == ".npy":
             try:
-                values = np.load(path, allow_pickle=False)
+                with path.open("rb") as stream:
+                    values = np.load(stream, allow_pickle=False)
             except OSError as error:
                 raise InputError(f"cannot read the friction map {path}: {error.strerror or error}") from error
             except Exception as error:

@@ -231,11 +231,13 @@ def _read_matrix(path: Path, suffix: str, decimal: str | None) -> tuple[Array, s
         gap, how = read_table(path, decimal=decimal).values(name=lambda column: "the gap")
         return gap, f": {how}"
     try:
-        loaded = np.load(path, allow_pickle=False)
-        if isinstance(loaded, np.ndarray):
-            return real_array(loaded, f"{path.name!r}"), ""
-        with loaded as archive:
-            arrays = {name: archive[name] for name in archive.files}
+        # Opened here: of a broken archive numpy forgets to close the file.
+        with path.open("rb") as stream:
+            loaded = np.load(stream, allow_pickle=False)
+            if isinstance(loaded, np.ndarray):
+                return real_array(loaded, f"{path.name!r}"), ""
+            with loaded as archive:
+                arrays = {name: archive[name] for name in archive.files}
     except InputError:
         raise
     except Exception as error:
