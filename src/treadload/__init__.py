@@ -116,6 +116,7 @@ if TYPE_CHECKING:
     )
     from treadload.reporting import report
     from treadload.response import (
+        MATERIAL_LENGTH,
         GridLoad,
         Response,
         UniformDisc,
@@ -133,6 +134,7 @@ if TYPE_CHECKING:
         Result,
         Sensitivity,
         UniformComparison,
+        assess_on_two_grids,
         compare_bonds,
         compare_uniform,
         design_life,
@@ -173,6 +175,7 @@ _HOME = {
     "GridLoad": "response",
     "Groove": "tire",
     "HALF_BONDED": "pavement",
+    "MATERIAL_LENGTH": "response",
     "HuetSayegh": "materials",
     "HydraulicMix": "materials",
     "InputError": "errors",
@@ -225,6 +228,7 @@ _HOME = {
     "as_prony": "materials",
     "assess": "damage",
     "assess_bonds": "damage",
+    "assess_on_two_grids": "study",
     "axle": "response",
     "bituminous_thickness": "pavement",
     "compare_bonds": "study",
@@ -283,6 +287,7 @@ __all__ = [
     "FRICTIONLESS",
     "HALF_BONDED",
     "LEUTNER_MINIMUM",
+    "MATERIAL_LENGTH",
     "STRAIGHT",
     "WLF",
     "Arrhenius",
@@ -361,6 +366,7 @@ __all__ = [
     "as_prony",
     "assess",
     "assess_bonds",
+    "assess_on_two_grids",
     "axle",
     "bituminous_thickness",
     "compare_bonds",

@@ -104,10 +104,13 @@ _DAMAGE = {
     "orientation_share": ("1", "share of the cracks of an orientation"),
     "worst_x": ("m", "position along travel of the largest extension"),
     "worst_y": ("m", "position to the right of travel of the largest extension"),
-    "worst_strain": ("1", "largest extension strain of the field"),
+    "worst_depth": ("m", "depth of the largest extension"),
+    "worst_strain": ("1", "largest extension strain that is read"),
     "worst_passes": ("1", "passes that the fatigue line allows at the largest extension"),
     "worst_crack_angle": ("rad", "crack_angle at the largest extension"),
     "worst_crack_dip": ("rad", "crack_dip at the largest extension"),
+    "worst_crack_orientation": ("1", "crack_orientation at the largest extension"),
+    "extension_by_depth": ("1", "largest extension strain that is read at each depth"),
 }
 
 _CRITERIA = {

@@ -18,6 +18,7 @@ from treadload.damage import (
     miner,
 )
 from treadload.damage.design import DesignCriterion
+from treadload.damage.direction import in_tension
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
@@ -69,8 +70,10 @@ def test_the_readings_are_those_of_the_response():
     passages = solve_passages(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA, **COARSE)
     road = ROAD.at_temperature(15.0)
     contact = solve_contact(TIRE, road, Rolling(normal_load=32.5e3, friction=0.7), spacing=12e-3)
-    top = solve_response(contact, road, depths=[0.0]).dataset["principal_strain_1"].max().item()
-    assert passages.readings.sel(criterion="top-down").max().item() == pytest.approx(top, rel=1e-9)
+    mean = solve_response(contact, road, depths=[0.0], mean_over=0.01).dataset
+    top = mean["principal_strain_1"].where(in_tension(mean)).max().item()
+    # Curves through the cells find what lies between them: a few per cent of a field some cells wide.
+    assert top <= passages.readings.sel(criterion="top-down").max().item() <= 1.03 * top
     x = np.arange(-0.3, 0.3, 0.01)
     base = solve_response(contact, road, depths=[0.21], x=x, y=x).dataset["in_plane_strain_1"].max().item()
     # 20 mm between the points of a deep criterion: 0.5 % of a field that is 0.2 m wide.
@@ -177,7 +180,8 @@ def test_a_wheel_moves_by_half_a_cell_at_most():
 
 def test_a_braked_wheel_tears_the_surface_across_travel():
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3, maneuver=Maneuver.braking(5.0)),), 1e5)
-    life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+    plane = (DesignCriterion("top-down", FatigueLine(100e-6, -0.2), 0, "top"),)
+    life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), plane, **COARSE)
     assert life.dataset["orientation_damage"].sel(orientation="transverse").item() > 0.9
     assert abs(life.dataset["first_crack_angle"].item()) == pytest.approx(math.pi / 2, abs=math.radians(15))
 

@@ -103,8 +103,10 @@ def test_report_holds_the_numbers_of_every_case(page, results):
             f"{result.contact.area * 1e6:,.0f}".replace(",", "\u202f"),
             f"{float(data.pressure.max()) / 1e3:.0f}",
             f"{100 * result.contact.slip_fraction:.1f}",
-            f"{verdict.attrs['largest_principal_strain'] * 1e6:.1f}",
-            f"{verdict.attrs['largest_in_plane_strain'] * 1e6:.1f}",
+            f"{float(result.response.dataset.principal_strain_1.isel(depth=0).max()) * 1e6:.1f}",
+            f"{float(result.response.dataset.in_plane_strain_1.isel(depth=0).max()) * 1e6:.1f}",
+            f"{float(verdict.worst_strain) * 1e6:.1f} microstrain at depth {float(verdict.worst_depth) * 1e3:g} mm",
+            "in the horizontal plane, mean over 10 mm",
             power_of_ten(float(verdict.worst_passes)),
             result.verdict.orientation,
         ):

@@ -19,6 +19,8 @@ from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.kernels.depths import same_depth
 from treadload.pavement import Pavement
+from treadload.response import MATERIAL_LENGTH
+from treadload.response.material import check_length
 from treadload.tire import Tire
 
 
@@ -34,11 +36,25 @@ class FatiguePart(Part):
 
 
 class DamagePart(Part):
-    """`[damage]`: the fatigue line, and which strain it reads at which of the response's depths."""
+    """`[damage]`: the fatigue line, and which strain it reads, where, over how much road.
+
+    mean_over: side of the cube of road whose mean strain is read; 10 mm if left out. depth: one of the response's
+    depths, whose points are read instead; left out, the means of all that lie in the top layer. error_estimate: solve
+    the case on cells twice as large too, and tell how much the reading moves. See `treadload.assess`.
+    """
 
     fatigue: FatiguePart
-    strain: Literal["principal", "in-plane"] = "principal"
-    depth: Length = 0.0
+    strain: Literal["principal", "in-plane"] = "in-plane"
+    mean_over: Length = MATERIAL_LENGTH
+    depth: Length | None = None
+    error_estimate: bool = False
+
+    @model_validator(mode="after")
+    def _one_reading(self) -> DamagePart:
+        check_length(self.mean_over)
+        if self.depth is not None and "mean_over" in self.model_fields_set:
+            raise ValueError("depth reads points and mean_over a mean: give one of them")
+        return self
 
 
 class Case(FilePart):
@@ -77,7 +93,8 @@ class Case(FilePart):
             )
         if self.damage is not None:
             self.damage.fatigue.build()
-            if not same_depth(self.response.depths, self.damage.depth).any():
+            depth = self.damage.depth
+            if depth is not None and not same_depth(self.response.depths, depth).any():
                 raise ValueError(
                     f"damage.depth {self.damage.depth:g} m is none of response.depths "
                     f"{list(self.response.depths)} m; add it there"

@@ -12,12 +12,18 @@ import xarray as xr
 from treadload import variables
 from treadload.damage.fatigue import FatigueLaw
 from treadload.errors import InputError
-from treadload.kernels.arrays import Array
+from treadload.kernels import tensors
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.response.fields import COMPONENTS
 
 # Values of `crack_orientation`.
 ORIENTATIONS = ("none", "longitudinal", "transverse", "oblique", "horizontal")
 NONE, LONGITUDINAL, TRANSVERSE, OBLIQUE, HORIZONTAL = range(5)
 OBLIQUE_TOLERANCE = math.radians(15)
+# A plane nearer to the horizontal than this has no trace to speak of.
+_FLAT = math.radians(45)
+# Stress above this part of the largest is tension, below it round-off of a free surface.
+_TENSION = 1e-9
 
 Reading = Literal["principal", "in-plane"]
 READINGS: dict[str, str] = {"principal": "three-dimensional", "in-plane": "in-plane"}
@@ -56,12 +62,16 @@ def crack_plane(direction: Array) -> tuple[Array, Array]:
 
 
 def orientation(angle: Array, dip: Array, tolerance: float) -> Array:
-    """Codes of `ORIENTATIONS` (...) from the angle of the trace and the dip (...), rad; none where dip is NaN."""
+    """Codes of `ORIENTATIONS` (...) from the angle of the trace and the dip (...), rad; none where dip is NaN.
+
+    A plane nearer to the horizontal than to the vertical is horizontal: it parts the road, no crack runs down it.
+    tolerance: of the trace, rad, see `assess`.
+    """
     steep = np.abs(angle)
     code = np.full(np.shape(dip), OBLIQUE, dtype=np.int8)
     code = np.where(steep <= tolerance, LONGITUDINAL, code)
     code = np.where(steep >= math.pi / 2 - tolerance, TRANSVERSE, code)
-    code = np.where(dip <= tolerance, HORIZONTAL, code)
+    code = np.where(dip < _FLAT, HORIZONTAL, code)
     codes: Array = np.where(np.isnan(dip), NONE, code).astype(np.int8)
     return codes
 
@@ -81,8 +91,22 @@ def extension(data: xr.Dataset, strain: Reading) -> tuple[Array, Array]:
     return data["in_plane_strain_1"].transpose(*order).to_numpy(), direction
 
 
+def in_tension(data: xr.Dataset) -> BoolArray:
+    """Where a principal stress of a response's dataset is tensile: (depth, y, x), or fewer; all if it has no stress.
+
+    No crack opens elsewhere, whatever extends: beside a point that is squeezed hard a body extends as well.
+    """
+    order = [dim for dim in ("depth", "y", "x") if dim in data.dims]
+    if any(f"stress_{name}" not in data for name in COMPONENTS):
+        return np.ones([data.sizes[dim] for dim in order], dtype=bool)
+    stress = np.stack([data[f"stress_{name}"].transpose(*order).to_numpy() for name in COMPONENTS])
+    limit = _TENSION * np.abs(stress).max(initial=0.0)
+    tensile: BoolArray = np.linalg.eigvalsh(tensors.matrices(stress))[..., -1] > limit
+    return tensile
+
+
 def envelope(
-    response: HasDataset, *, strain: Reading = "principal", oblique_tolerance: float = OBLIQUE_TOLERANCE
+    response: HasDataset, *, strain: Reading = "in-plane", oblique_tolerance: float = OBLIQUE_TOLERANCE
 ) -> xr.Dataset:
     """The largest extension that every point of the road sees while the wheel rolls by, and its crack.
 
@@ -93,8 +117,9 @@ def envelope(
     response: on x that reach from before the wheel to behind it. strain, oblique_tolerance: see `assess`.
     Returns a dataset over (depth, y): extension_strain; instant_x, where the point stands in the response's
     x at its worst instant; extension_direction (component); crack_angle, crack_dip, crack_orientation, NaN and
-    "none" where nothing ever extends. The instant is one of the response's x: the strain errs by the square of
-    their distance. Its attribute `warnings` says where the worst instant is the first or the last x.
+    "none" where nothing ever extends, or no principal stress is tensile as it extends most. The instant is one of
+    the response's x: the strain errs by the square of their distance. Its attribute `warnings` says where the worst
+    instant is the first or the last x.
     Raises InputError for a response of a single x.
     """
     check_tolerance(oblique_tolerance)
@@ -108,7 +133,7 @@ def envelope(
     instant = np.argmax(np.where(np.isnan(strains), -np.inf, strains), axis=-1)
     worst = np.take_along_axis(strains, instant[..., None], axis=-1)[..., 0]
     direction = np.take_along_axis(directions, instant[..., None, None], axis=-2)[..., 0, :]
-    opens = worst > 0
+    opens = (worst > 0) & np.take_along_axis(in_tension(data), instant[..., None], axis=-1)[..., 0]
     angle, dip = (np.where(opens, part, np.nan) for part in crack_plane(direction))
     cut = opens & ((instant == 0) | (instant == data.sizes["x"] - 1))
     dims = ("depth", "y")

@@ -300,6 +300,11 @@ class BondCriterion:
         """Depth of the interface, m. Raises InputError for one that is not there."""
         return float(road.interfaces[self.number(road)])
 
+    @property
+    def mean_over(self) -> None:
+        """None: an interface lies deep enough that no cell of the contact is felt."""
+        return None
+
     def read(self, data: xr.Dataset) -> Array:
         """Utilisation (y, x) of the bond in a response at the interface's depth; at most 1000, round-off is 0."""
         xz, yz, zz = (data[f"stress_{name}"].transpose("y", "x").to_numpy() for name in ("xz", "yz", "zz"))

@@ -13,7 +13,7 @@ import xarray as xr
 
 from treadload import variables
 from treadload.damage.direction import (
-    NONE,
+    HORIZONTAL,
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
     READINGS,
@@ -21,24 +21,27 @@ from treadload.damage.direction import (
     Reading,
     check_reading,
     check_tolerance,
-    crack_plane,
-    extension,
-    gridded,
     orientation,
 )
-from treadload.damage.fatigue import SUBGRADE, TENSION, FatigueLine, PowerLaw, warnings_of
+from treadload.damage.fatigue import FatigueLine, PowerLaw, warnings_of
+from treadload.damage.reading import Field, check_law, closer, local_field, mean_field
 from treadload.describing import first_line
-from treadload.errors import InputError
-from treadload.kernels.depths import same_depth
+from treadload.response import MATERIAL_LENGTH
+
+# A local reading less deep than this, m, feels the cells of the contact.
+_FELT = 2 * MATERIAL_LENGTH
+# An extension this many times the one that is read is worth a sentence.
+_NOTABLE = 1.1
 
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
     """What a law of fatigue says of a strain field.
 
-    dataset: fields (y, x) extension_strain, allowable_passes, crack_angle, crack_dip, crack_orientation;
-    scalars worst_*; NaN angle and dip where nothing extends. line: the law of fatigue. strain: the strain
-    that the verdict reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
+    dataset: fields (y, x) extension_strain, allowable_passes, crack_angle, crack_dip, crack_orientation at the worst
+    depth; extension_by_depth (depth), the largest reading of each; scalars worst_*, which stand between the points of
+    the fields where the reading is largest there; NaN angle and dip where no crack opens. line: the law of fatigue.
+    strain: the strain that the verdict reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
     """
 
     dataset: xr.Dataset
@@ -53,47 +56,61 @@ class Verdict:
     @property
     def orientation(self) -> str:
         """Orientation of the crack at the worst point, in a word of `ORIENTATIONS`."""
-        data = self.dataset
-        if data["worst_strain"] <= 0:
-            return ORIENTATIONS[NONE]
-        worst = data["crack_orientation"].sel(x=data["worst_x"], y=data["worst_y"])
-        return ORIENTATIONS[int(worst)]
+        return ORIENTATIONS[int(self.dataset["worst_crack_orientation"])]
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Sentences for the user: numbers of the law without a source, extrapolation."""
+        """Sentences for the user: what is not read, numbers of the law without a source, extrapolation."""
         return tuple(json.loads(self.dataset.attrs["warnings"]))
 
     def summary(self) -> str:
-        """Worst strain and place, both readings of the strain, passes, the way of the crack, and a verdict."""
+        """What is read, both strains, the worst point, passes, the way of the crack, and a verdict."""
         data = self.dataset
-        depth, read = float(data.attrs["depth"]), READINGS[self.strain]
         strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
+        depths = ", ".join(f"{1e3 * float(z):g}" for z in data["depth"])
         lines = [
-            f"{self.line}, read with the {read} strain at depth {depth * 1e3:g} mm",
+            f"{self.line}, read with the {READINGS[self.strain]} strain, {data.attrs['reading']}, at depth "
+            f"{depths} mm",
             f"largest extension, three-dimensional: {data.attrs['largest_principal_strain'] * 1e6:.1f} microstrain",
             f"largest extension, horizontal plane:  {data.attrs['largest_in_plane_strain'] * 1e6:.1f} microstrain",
         ]
-        if strain <= 0:
+        if not strain > 0:
             lines += [f"warning: {text}" for text in self.warnings]
-            return "\n".join([*lines, "Verdict: nothing extends here; this criterion sees no crack."])
+            return "\n".join([*lines, f"Verdict: {_no_crack(float(data.attrs['largest_unread']))}"])
         million = "ε₆" if isinstance(self.line, FatigueLine) else "what allows a million passes"
         angle, dip = float(data["worst_crack_angle"]), float(data["worst_crack_dip"])
         against = f"{strain * 1e6:.1f} microstrain is {strain / self.line.at_a_million:.2f} of {million}"
         lines += [
-            f"worst point: x = {float(data['worst_x']) * 1e3:.1f} mm, y = {float(data['worst_y']) * 1e3:.1f} mm; "
-            f"{against}",
+            f"worst point: x = {float(data['worst_x']) * 1e3:.1f} mm, y = {float(data['worst_y']) * 1e3:.1f} mm, "
+            f"depth {float(data['worst_depth']) * 1e3:g} mm; {against}",
             f"crack: {_crack_in_words(self.orientation, angle, dip)}",
             f"allowable passes: {passes:.3g}",
+            *self._error_estimate(),
             *(f"warning: {text}" for text in self.warnings),
         ]
         name = "fatigue line" if isinstance(self.line, FatigueLine) else "law of fatigue"
         few = "fewer" if passes < 1e6 else "more"
+        first = f"{_article(self.orientation)} {self.orientation} crack is the first to expect"
+        if self.orientation == ORIENTATIONS[HORIZONTAL]:
+            first = "the road parts along a plane nearer to its surface than upright, and no crack runs down from it"
         lines.append(
-            f"Verdict: the {name} allows {passes:.2g} passes at the worst point, {few} than a million; "
-            f"{_article(self.orientation)} {self.orientation} crack is the first to expect."
+            f"Verdict: the {name} allows {passes:.2g} passes at the worst point, {few} than a million; {first}."
         )
         return "\n".join(lines)
+
+    def _error_estimate(self) -> list[str]:
+        """What coarser cells change, where that was asked for, see `treadload.assess_on_two_grids`."""
+        about = self.dataset.attrs
+        if "coarse_strain" not in about:
+            return []
+        read, cells = float(self.dataset["worst_strain"]), 1e3 * float(about["spacing"])
+        coarse = float(about["coarse_strain"])
+        error = abs(coarse - read)
+        fewest, most = (self.line.allowable_passes(read + part) for part in (error, -error))
+        return [
+            f"error estimate: {coarse * 1e6:.1f} microstrain on cells of {2 * cells:g} mm; {read * 1e6:.1f} on cells "
+            f"of {cells:g} mm holds within {100 * error / read:.2g} %, {fewest:.2g} to {most:.2g} passes"
+        ]
 
     def __str__(self) -> str:
         return self.summary()
@@ -105,80 +122,111 @@ def assess(
     response: HasDataset,
     line: PowerLaw,
     *,
-    depth: float = 0.0,
-    strain: Reading = "principal",
+    depth: float | None = None,
+    strain: Reading = "in-plane",
+    mean_over: float = MATERIAL_LENGTH,
     oblique_tolerance: float = OBLIQUE_TOLERANCE,
 ) -> Verdict:
     """Where and which way a road cracks under repeated passes of a load.
 
     A crack opens across the largest extension: its plane is perpendicular to that direction, and its trace
-    on the surface is perpendicular to the direction's horizontal projection.
+    on the surface is perpendicular to the direction's horizontal projection. None opens where no principal stress is
+    tensile; such points are not read.
 
-    response: with principal_strain_1, principal_direction_1, in_plane_strain_1 and in_plane_angle_1 over
-    (depth, y, x). line: fatigue line or another law that reads an extension. depth: one of the response's depths, m.
-    strain: "principal" reads the three-dimensional extension, which at the surface contains the shear of
-    the load itself; "in-plane" the largest in the horizontal plane, whose cracks are vertical.
+    response: of `solve_response` on a grid. Its road is solved again for means over a cube of `mean_over`, m, at each
+    of its depths that lies in the top layer, whose fatigue the line tells, and around the worst of them on points
+    closer to each other; the worst of all is the verdict. A response that already is a mean is read as it is.
+    line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
+    bottom needs `depth`.
+    depth: one of the response's depths, m, whose points are read as they are; a response from elsewhere, with
+    principal_strain_1, principal_direction_1, in_plane_strain_1 and in_plane_angle_1 over (depth, y, x), needs it.
+    Such a local reading has no limit under finer cells near the surface: at the edges of ribs and at the rear of the
+    slip zone the exact field has roots and logarithms.
+    strain: "in-plane" reads the largest extension in the horizontal plane, whose cracks are vertical; "principal"
+    that in space, which near the surface is upright as a rule where the road bends, and parts it parallel to itself.
     oblique_tolerance: rad, in (0, π/4]. A trace within it of the direction of travel is longitudinal, within
-    it of across transverse, else oblique; an extension within it of the vertical opens a horizontal crack.
-    At the surface the extension peaks at rib edges and at the rear of the slip zone, where the exact field
-    has roots and logarithms: the largest value still grows as the cells of the contact shrink.
-    Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance.
+    it of across transverse, else oblique; a plane nearer to the horizontal than 45° is horizontal.
+    Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance, for a law that reads something
+    else, and for a response without its road.
     """
     check_reading(strain)
     check_tolerance(oblique_tolerance)
-    if line.quantity in (SUBGRADE, TENSION):
-        raise InputError(
-            f"a verdict reads an extension, but {line} reads the {line.quantity}; take a law of extension"
-        )
-    plane = _plane(gridded(response), depth)
-    largest, direction = extension(plane, strain)
-    crack_angle, dip = crack_plane(direction)
-    opens = largest > 0
-    crack_angle, dip = np.where(opens, crack_angle, np.nan), np.where(opens, dip, np.nan)
-    passes = line.allowable_passes(largest)
-    row, column = np.unravel_index(int(np.nanargmax(largest)), largest.shape)
+    check_law(line)
+    if depth is None:
+        data, said = mean_field(response, line, mean_over)
+        reading = f"mean over {float(data.attrs['mean_over']) * 1e3:g} mm"
+    else:
+        data, said = local_field(response, line, depth), []
+        reading = "local, depends on the cells" if depth < _FELT else "local"
+    field = Field(data, strain)
+    row = field.worst[0]
+    fine = closer(response, data, field.worst) if depth is None and field.value[field.worst] > 0 else None
+    near = Field(data if fine is None else fine, strain)
+    at = near.worst
+    opens = bool(near.value[at] > 0)
+    angle, dip = (part[row] for part in field.crack)
+    worst_angle, worst_dip = (float(part[at]) for part in near.crack)
+    codes = orientation(np.append(angle, worst_angle), np.append(dip, worst_dip), oblique_tolerance)
     dims, none = ("y", "x"), ()
+    passes = line.allowable_passes(field.value[row])
     fields: dict[str, tuple[tuple[str, ...], object]] = {
-        "extension_strain": (dims, largest),
+        "extension_strain": (dims, field.extension[row]),
         "allowable_passes": (dims, passes),
-        "crack_angle": (dims, crack_angle),
+        "crack_angle": (dims, angle),
         "crack_dip": (dims, dip),
-        "crack_orientation": (dims, orientation(crack_angle, dip, oblique_tolerance)),
-        "worst_x": (none, float(plane["x"][column])),
-        "worst_y": (none, float(plane["y"][row])),
-        "worst_strain": (none, largest[row, column]),
-        "worst_passes": (none, passes[row, column]),
-        "worst_crack_angle": (none, crack_angle[row, column]),
-        "worst_crack_dip": (none, dip[row, column]),
+        "crack_orientation": (dims, codes[:-1].reshape(dip.shape)),
+        "extension_by_depth": (("depth",), field.value.max(axis=(1, 2))),
+        "worst_x": (none, float(near.data["x"][at[2]])),
+        "worst_y": (none, float(near.data["y"][at[1]])),
+        "worst_depth": (none, float(data["depth"][row])),
+        "worst_strain": (none, float(near.value[at])),
+        "worst_passes": (none, float(line.allowable_passes(float(near.value[at])))),
+        "worst_crack_angle": (none, worst_angle),
+        "worst_crack_dip": (none, worst_dip),
+        "worst_crack_orientation": (none, codes[-1]),
     }
+    largest = {
+        name: max(float(one.data[name].max()) for one in (field, near))
+        for name in ("principal_strain_1", "in_plane_strain_1")
+    }
+    unread = float(field.extension.max())
+    if opens and unread > _NOTABLE * float(near.value[at]):
+        said.append(
+            f"the largest extension, {unread * 1e6:.1f} microstrain, lies where no principal stress is tensile: no "
+            "crack opens there, and it is not read"
+        )
     dataset = variables.dataset(
         fields,
-        {"y": plane["y"].to_numpy(), "x": plane["x"].to_numpy()},
-        depth=float(plane["depth"]),
+        {"depth": data["depth"].to_numpy(), "y": data["y"].to_numpy(), "x": data["x"].to_numpy()},
+        depth=float(data["depth"][row]),
+        reading=reading,
+        **{name: data.attrs[name] for name in ("mean_over",) if depth is None},
         strain=strain,
         law=str(line),
         epsilon_6=line.at_a_million,
         slope=line.exponent,
         oblique_tolerance=oblique_tolerance,
-        largest_principal_strain=float(plane["principal_strain_1"].max()),
-        largest_in_plane_strain=float(plane["in_plane_strain_1"].max()),
-        warnings=json.dumps(warnings_of(line, largest), ensure_ascii=False),
+        largest_principal_strain=largest["principal_strain_1"],
+        largest_in_plane_strain=largest["in_plane_strain_1"],
+        largest_unread=unread,
+        warnings=json.dumps([*said, *warnings_of(line, near.value[at])], ensure_ascii=False),
     )
     return Verdict(dataset, line, strain)
 
 
-def _plane(data: xr.Dataset, depth: float) -> xr.Dataset:
-    depths = data["depth"].to_numpy()
-    nearest = int(np.argmin(np.abs(depths - depth)))
-    if not same_depth(depths[nearest], depth):
-        known = ", ".join(f"{d:g}" for d in depths)
-        raise InputError(f"the response has no depth {depth:g} m, it has {known} m; solve it with that depth")
-    return data.isel(depth=nearest).transpose("y", "x", ...)
+def _no_crack(unread: float) -> str:
+    """Why nothing cracks. unread: the largest extension, whatever opens."""
+    if unread <= 0:
+        return "nothing extends here; this criterion sees no crack."
+    return (
+        f"the road extends by up to {unread * 1e6:.1f} microstrain, but only where no principal stress is tensile; "
+        "this criterion sees no crack."
+    )
 
 
 def _crack_in_words(name: str, angle: float, dip: float) -> str:
-    if name == "horizontal":
-        return f"horizontal, as when layers part (dip {math.degrees(dip):.0f}° from the horizontal)"
+    if name == ORIENTATIONS[HORIZONTAL]:
+        return f"nearer to the horizontal than upright, as when layers part (dip {math.degrees(dip):.0f}°)"
     side = "right" if angle > 0 else "left"
     turned = f"{abs(math.degrees(angle)):.0f}° from travel" + (f" to the {side}" if name == "oblique" else "")
     return f"{name}, its trace {turned}, its plane {math.degrees(dip):.0f}° from the horizontal"

@@ -24,7 +24,7 @@ _LETTERS = 34
 
 @styled
 def tearing(
-    contact: Source, response: Source, *, depth: float = 0.0, strain: Strain = "principal", title: str = ""
+    contact: Source, response: Source, *, depth: float = 0.0, strain: Strain = "in-plane", title: str = ""
 ) -> Figure:
     """Shear and slip beside the extension of the road, each with what a strip of road meets as the wheel rolls by.
 

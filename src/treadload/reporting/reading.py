@@ -187,15 +187,30 @@ class ReportCase:
         return f"{float(data['depth']) * MM:g} mm deep{f', {side}' if side else ''}"
 
     @property
+    def reads(self) -> str:
+        """What the verdict reads, over how much road; empty without one."""
+        data = self.group("damage")
+        if data is None:
+            return ""
+        plane = "in the horizontal plane" if data.attrs.get("strain") == "in-plane" else "three-dimensional"
+        return f"{plane}, {data.attrs.get('reading', 'local')}"
+
+    @property
+    def worst_read(self) -> str:
+        """The largest extension that the verdict reads, with its depth; empty without one."""
+        data = self.group("damage")
+        if data is None or not float(data["worst_strain"]) > 0:
+            return ""
+        depth = float(data["worst_depth"]) * MM
+        return f"{float(data['worst_strain']) * MICRO:.1f} microstrain at depth {depth:g} mm"
+
+    @property
     def orientation(self) -> str:
         """Orientation of the first crack in a word; empty without a verdict."""
         data = self.group("damage")
         if data is None:
             return ""
-        if not float(data["worst_strain"]) > 0:
-            return ORIENTATIONS[0]
-        worst = data["crack_orientation"].sel(x=data["worst_x"], y=data["worst_y"], method="nearest")
-        return ORIENTATIONS[int(worst)]
+        return ORIENTATIONS[int(data["worst_crack_orientation"])]
 
     @property
     def exhausted(self) -> bool:

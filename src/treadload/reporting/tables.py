@@ -58,7 +58,11 @@ def result_table(cases: list[ReportCase]) -> list[Section]:
                 contact("share of the contact that slips", "%", lambda d: f"{_slip(d):.1f}"),
             ),
         ),
-        Section(f"Largest extension strain, {cases[0].depth_in_words}", tuple(_strain_rows(cases))),
+        Section(
+            f"Largest extension strain at points {cases[0].depth_in_words}: near the edges of ribs it depends on the "
+            "cells",
+            tuple(_strain_rows(cases)),
+        ),
         Section(
             "Fatigue and cracks",
             (
@@ -66,7 +70,11 @@ def result_table(cases: list[ReportCase]) -> list[Section]:
                     "ε₆, strain of a million passes", "microstrain", lambda d: f"{d.attrs['epsilon_6'] * MICRO:g}"
                 ),
                 damage("slope of the fatigue line", "–", lambda d: signed(float(d.attrs["slope"]), 2)),
-                damage("strain that the line reads", "", lambda d: _READS.get(str(d.attrs.get("strain")), MISSING)),
+                Row("strain that the line reads", "", tuple(case.reads or MISSING for case in cases)),
+                damage(
+                    "worst strain that is read", "microstrain", lambda d: f"{float(d['worst_strain']) * MICRO:.1f}"
+                ),
+                damage("its place", "mm", _worst_place),
                 damage(
                     "worst strain over ε₆", "–", lambda d: f"{float(d['worst_strain']) / d.attrs['epsilon_6']:.2f}"
                 ),
@@ -100,7 +108,6 @@ def statistics_table(cases: list[ReportCase]) -> list[Section]:
     return _filled(sections)
 
 
-_READS = {"principal": "three-dimensional", "in-plane": "in the horizontal plane"}
 _STATISTICS = {
     "normal_iterations": "iterations of the normal contact",
     "normal_residual": "residual of the normal contact",
@@ -132,6 +139,11 @@ def _read(data: xr.Dataset | None, read: Callable[[xr.Dataset], str]) -> str:
         return MISSING
 
 
+def _worst_place(data: xr.Dataset) -> str:
+    x, y, depth = (1e3 * float(data[f"worst_{name}"]) for name in ("x", "y", "depth"))
+    return f"x = {signed(x, 1)}, y = {signed(y, 1)}, {depth:g} deep"
+
+
 def _strain_rows(cases: list[ReportCase]) -> list[Row]:
     rows = []
     for strain, name in (("principal", "three-dimensional"), ("in-plane", "in the horizontal plane")):
@@ -142,7 +154,7 @@ def _strain_rows(cases: list[ReportCase]) -> list[Row]:
             Row(f"{name}: direction", "", tuple(MISSING if w is None else w.direction for w in worst)),
         ]
     deepest = [case.worst_in_sections() for case in cases]
-    # Below the edges of ribs the largest extension can lie under the surface, out of the verdict's sight.
+    # Below the edges of ribs the largest extension at points can lie under the surface.
     rows += [
         Row(
             "in the vertical sections",

@@ -5,13 +5,15 @@ from __future__ import annotations
 import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
 
 from treadload.describing import first_line
+from treadload.pavement import Pavement
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
+from treadload.response.loads import PlacedLoad
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,11 +25,17 @@ class Response:
     stats: seconds spent, points evaluated, method ("fft", "precorrected", "direct", "disc", "layered" or several,
     "none" without load).
     warnings: sentences for the user.
+    loads, road, speed, side: the question, so that more can be asked of the same road; no road for fields that
+    come from elsewhere.
     """
 
     dataset: xr.Dataset
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    loads: tuple[PlacedLoad, ...] = ()
+    road: Pavement | None = None
+    speed: float | None = None
+    side: Literal["above", "below"] = "above"
 
     @property
     def plot(self) -> Any:
@@ -40,6 +48,7 @@ class Response:
         lines = [
             f"response of a road, {data.attrs.get('road', 'unnamed')}; "
             f"{data.sizes['depth']} depth(s) of {_count(data)} points"
+            + (f"; means over {data.attrs['mean_over'] * 1e3:g} mm" if "mean_over" in data.attrs else "")
         ]
         for depth in data["depth"].values:
             plane = data.sel(depth=depth)

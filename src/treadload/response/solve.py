@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal
 
 import numpy as np
@@ -21,6 +21,7 @@ from treadload.response.fields import response_dataset
 from treadload.response.half_space import half_space_response
 from treadload.response.layered import layered_response
 from treadload.response.loads import GridLoad, Load, SurfaceLoad, UniformRectangle, gather
+from treadload.response.material import Windows, check_length, spread_over, windows
 from treadload.response.moving import MovingFields, at_speed, moving_response
 from treadload.response.solution import Response
 from treadload.response.superposition import common_grid, merged
@@ -36,6 +37,7 @@ def solve_response(
     points: ArrayLike | None = None,
     speed: float | None = None,
     side: Literal["above", "below"] = "above",
+    mean_over: float | None = None,
 ) -> Response:
     """Stress, strain and displacement in a road under pressure and shear.
 
@@ -51,13 +53,17 @@ def solve_response(
     speed: at which the loads travel along +x, m/s, needed where a layer is viscoelastic. The result is then the
     steady state, seen from the loads, without inertia: what a fixed point lives through is a line along x read
     from front to rear, at the time -x / speed. 0 and infinity give the elastic limits.
+    mean_over: side of a cube of road, m, over which every field is a mean; left out, fields are those of the points.
+    The cube stands around the point, below the surface and within its layer; from two sides down the point itself
+    is read, where the field no longer varies over the cube. Means near the edges of ribs do not depend on the
+    contact's cells, as points there do, see `response.material`.
     Returns a Response with fields (depth, y, x), or (depth, point), tension positive, tensor shear strain,
     displacement_z down.
     At the surface stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear
     leaves an error O(dx) in the surface strain at cell centres, and shows the cells' edges down to half a cell
     of depth. A GridLoad with interpolation="bilinear" has neither, see there.
     Where layers are viscoelastic `dissipated_energy` (depth, y), or (depth, point), is the energy that one
-    passage dissipates, NaN at the surface.
+    passage dissipates, NaN at the surface; it has no mean.
     Raises InputError for a wrong value, a speed that is missing or negative, a layer that needs a temperature or
     is a fluid, depths below a rigid base and depths that need too many wavenumbers.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`; on
@@ -87,13 +93,18 @@ def solve_response(
         raise InputError("the response is wanted on a grid or at points: give x and y or points, not both")
 
     cells = merged([load.cell if isinstance(load, UniformRectangle) else load for load in superposed])
-    road = at_speed(road, speed)
-    solved = _mean(
-        [
-            _solve(cells, limit, speed, at_depths, at_x, at_y, below=side == "below", at=at)
-            for limit in road.bond_limits
-        ]
-    )
+    asked, road = road, at_speed(road, speed)
+
+    def solve(loads: Sequence[SurfaceLoad], depths: Array) -> MovingFields:
+        limits = road.bond_limits
+        return _mean([_solve(loads, one, speed, depths, at_x, at_y, below=side == "below", at=at) for one in limits])
+
+    if mean_over is None:
+        solved, read = solve(cells, at_depths), None
+    else:
+        check_length(mean_over)
+        read = windows(at_depths, mean_over, road.interfaces, layers)
+        solved = _over_windows(solve, cells, at_depths, mean_over, read)
     stress, strain, displacement = solved.stress, solved.strain, solved.displacement
     dataset = response_dataset(
         stress,
@@ -111,20 +122,45 @@ def solve_response(
         layer_names=json.dumps([layer.name for layer in road.layers], ensure_ascii=False),
         **({"interfaces": road.interfaces} if len(road.interfaces) else {}),
         **({} if speed is None else {"speed": float(speed)}),
+        **({} if read is None else {"mean_over": mean_over, "read_from": read.low, "read_to": read.high}),
     )
-    if speed is not None:
+    if speed is not None and read is None:
         energy, line = (solved.energy, "y") if at is None else (solved.energy[:, at.rows], "point")
         dataset["dissipated_energy"] = (("depth", line), energy, variables.attributes("dissipated_energy"))
     stats = {"seconds": time.perf_counter() - start, "method": solved.method, "points": stress[0].size}
     gridded = [load for load in superposed if isinstance(load, GridLoad) and load.interpolation == "constant"]
-    warnings = _warnings(gridded, at_depths) + solved.warnings
+    local = at_depths if read is None else at_depths[read.local]
+    warnings = _warnings(gridded, local) + solved.warnings
     warnings += question_doubts(at_depths, speed) + road_doubts(road) + overlapping(superposed)
     if np.isnan(displacement).any():
         warnings += (
             "a net shear force acts above a frictionless or half-bonded interface, where nothing holds the layers: "
             "their horizontal displacement has no finite value and is NaN; stress and strain hold",
         )
-    return Response(dataset, stats, warnings)
+    return Response(dataset, stats, warnings, superposed, asked, speed, side)
+
+
+def _over_windows(
+    solve: Callable[[Sequence[SurfaceLoad], Array], MovingFields],
+    loads: Sequence[SurfaceLoad],
+    depths: Array,
+    length: float,
+    read: Windows,
+) -> MovingFields:
+    """Means over windows of depth under loads spread over as much, and the points themselves where those are read."""
+    parts: list[tuple[MovingFields, Array]] = []
+    if len(read.nodes):
+        parts.append((solve(merged([spread_over(load, length) for load in loads]), read.nodes), read.mean))
+    if read.local.any():
+        parts.append((solve(loads, depths[read.local]), np.eye(len(depths))[:, read.local]))
+    stress, strain, displacement = (
+        sum(np.einsum("zn,cnyx->czyx", weights, getattr(found, name)) for found, weights in parts)
+        for name in ("stress", "strain", "displacement")
+    )
+    found = [part for part, _ in parts]
+    methods = " and ".join(dict.fromkeys(one.method for one in found))
+    warnings = tuple(dict.fromkeys(text for one in found for text in one.warnings))
+    return MovingFields(stress, strain, displacement, np.zeros((len(depths), 0)), methods, warnings)
 
 
 def _solve(

@@ -6,6 +6,7 @@ from treadload.study.life import design_life
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.run import Result, run_case
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
+from treadload.study.two_grids import assess_on_two_grids
 from treadload.study.uniform import UniformComparison, compare_uniform
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "Result",
     "Sensitivity",
     "UniformComparison",
+    "assess_on_two_grids",
     "compare_bonds",
     "compare_uniform",
     "design_life",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -11,7 +12,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 import xarray as xr
-from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
 
 from treadload.contact import Contact, solve_contact
 from treadload.damage.design import Criterion, Side
@@ -30,6 +31,8 @@ Progress = Callable[[int, int, str], None]
 
 # Points beyond the outer edges of the wheels, m: strain there is a few per cent of the largest.
 _MARGIN = 0.3
+# Readings are told at least this close to each other across travel, m: a fifth of the mean that they are over.
+_BETWEEN = 2e-3
 # Near the surface points stand on every cell up to this far beside a wheel, m.
 _BESIDE = 0.06
 # Below this depth, m, fields are as smooth as a sixth of the depth, m, can follow: 1 % of the shear at 60 mm.
@@ -86,6 +89,11 @@ class Wheels:
     x: Array
     speed: float | None
     name: str
+
+    @property
+    def cell(self) -> float:
+        """Size of the cells across travel, m."""
+        return self.loads[0].grid.dy
 
 
 def solve_passages(
@@ -246,7 +254,10 @@ def contact_of(tire: Tire, road: Pavement, one: tuple[Any, ...], spacing: float)
 
 
 def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
-    """Evenly spaced y, m, on the cells of the first contact, over all wheels of all classes and a margin."""
+    """Evenly spaced y, m, on the cells of the first contact and between them, over all wheels and a margin.
+
+    Between cells lie the places of the largest readings, which must not depend on where the cells lie.
+    """
     first = contacts[0].dataset
     dy, start = float(first.attrs["dy"]), float(first["y"][0])
     half = max(
@@ -254,7 +265,8 @@ def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
         for contact, row in zip(contacts, classes, strict=True)
     )
     low, high = np.floor((-half - _MARGIN - start) / dy), np.ceil((half + _MARGIN - start) / dy)
-    return start + dy * np.arange(low, high + 1)
+    between = math.ceil(dy / _BETWEEN - 1e-9)
+    return start + dy / between * np.arange(between * low, between * high + 1)
 
 
 def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
@@ -293,30 +305,35 @@ def passage(wheels: Wheels, warm: Warm, y: Array, turns: int) -> Array:
     """(criterion, turns + 2, y): peaks and valleys, see `Passages`, then the angle and the dip of the crack."""
     found = np.empty((len(warm.criteria), turns + 2, len(y)))
     depths = [criterion.depth(warm.road) for criterion in warm.criteria]
-    groups: dict[tuple[int, Side], list[int]] = {}
+    groups: dict[tuple[int, Side, float | None], list[int]] = {}
     for k, (depth, criterion) in enumerate(zip(depths, warm.criteria, strict=True)):
-        groups.setdefault((_stride(depth, y), criterion.side if depth > 0 else "above"), []).append(k)
+        stride = _stride(depth, wheels.cell)
+        side = criterion.side if depth > 0 else "above"
+        # Deep down points and means are alike.
+        groups.setdefault((stride, side, None if stride else criterion.mean_over), []).append(k)
     speed = wheels.speed if warm.road.is_viscoelastic else None
-    for (stride, side), members in groups.items():
+    for (stride, side, mean_over), members in groups.items():
         at = sorted({depths[k] for k in members})
         x, rows = _along(wheels, stride), _rows(wheels, y, stride)
-        data = solve_response(wheels.loads, warm.road, depths=at, x=x, y=y[rows], speed=speed, side=side).dataset
+        data = solve_response(
+            wheels.loads, warm.road, depths=at, x=x, y=y[rows], speed=speed, side=side, mean_over=mean_over
+        ).dataset
         nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
         for k in members:
             plane = data.isel(depth=at.index(depths[k]))
             read = warm.criteria[k].read(plane)
-            peaks = _turns(x, read, wheels.x.mean(axis=1), turns, smooth=stride > 0)
-            found[k, :turns] = np.maximum(CubicSpline(y[rows], peaks, axis=1)(y), 0.0)
+            peaks = _turns(x, read, wheels.x.mean(axis=1), turns, smooth=stride > 0 or mean_over is not None)
+            found[k, :turns] = np.maximum(_between(y[rows], peaks, smooth=stride > 0)(y), 0.0)
             instant = read.argmax(axis=1)[:, None]
             for part, field in enumerate(warm.criteria[k].crack(plane)):
                 found[k, turns + part] = np.take_along_axis(field, instant, axis=1)[nearest, 0]
     return found
 
 
-def _stride(depth: float, y: Array) -> int:
+def _stride(depth: float, cell: float) -> int:
     """Cells from one point to the next at a depth; 0 near the surface, where each counts."""
     wide = min(depth / _PER_DEPTH, _COARSE)
-    return max(1, int(wide / (y[1] - y[0]) + 0.5)) if depth > _DEEP else 0
+    return max(1, int(wide / cell + 0.5)) if depth > _DEEP else 0
 
 
 def _along(wheels: Wheels, stride: int) -> Array:
@@ -335,14 +352,22 @@ def _along(wheels: Wheels, stride: int) -> Array:
 
 def _rows(wheels: Wheels, y: Array, stride: int) -> Any:
     """Which of y to solve: every cell under and beside a wheel, few elsewhere; few everywhere where it is deep."""
-    wanted = np.zeros(len(y), dtype=bool)
-    wanted[:: stride or max(1, int(_COARSE / (y[1] - y[0]) + 0.5))] = True
+    cells = np.arange(0, len(y), round(wheels.cell / (y[1] - y[0])))
+    wanted = np.zeros(len(cells), dtype=bool)
+    wanted[:: stride or max(1, int(_COARSE / wheels.cell + 0.5))] = True
     wanted[-1] = True
     if not stride:
         for load in wheels.loads:
             low, high = load.grid.y[0] - _BESIDE, load.grid.y[-1] + _BESIDE
-            wanted |= (y > low) & (y < high)
-    return np.flatnonzero(wanted)
+            wanted |= (y[cells] > low) & (y[cells] < high)
+    return cells[wanted]
+
+
+def _between(y: Array, peaks: Array, *, smooth: bool) -> CubicSpline | Akima1DInterpolator:
+    """Curves through peaks (turns, ny) over y. smooth: as they are deep down; near the surface they end at once where
+    nothing is tensile, and nothing may swing beside such an end.
+    """
+    return CubicSpline(y, peaks, axis=1) if smooth else Akima1DInterpolator(y, peaks, axis=1, method="makima")
 
 
 def _turns(x: Array, read: Array, centres: Array, turns: int, *, smooth: bool) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from treadload.case import Case
+from treadload.case.model import DamagePart
 from treadload.contact import Contact, solve_contact
 from treadload.damage import Verdict, assess
 from treadload.describing import first_line
@@ -20,6 +21,7 @@ from treadload.pavement import Pavement
 from treadload.response import GridLoad, Response, solve_response
 from treadload.response.superposition import common_grid
 from treadload.results import road_in_rows, to_tree
+from treadload.study.two_grids import COARSER, check_two_grids, with_error
 
 Progress = Callable[[str], None]
 
@@ -93,15 +95,21 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     # An elastic road does not know how fast it is rolled over.
     speed = case.speed if road.is_viscoelastic else None
 
-    def solve(depths: Sequence[float] | Array, **points: Any) -> Response:
-        return solve_response(loads, road, depths=depths, side=asked.side, speed=speed, **points)
+    def solve(depths: Sequence[float] | Array, wheels: Sequence[GridLoad] = loads, **points: Any) -> Response:
+        return solve_response(wheels, road, depths=depths, side=asked.side, speed=speed, **points)
 
     count = f" under {len(loads)} wheels" if len(loads) > 1 else ""
     tell(f"stress and strain in the road{count}")
     grid = _map_grid(loads, road)
     response = solve(asked.depths, x=grid.x, y=grid.y)
+    verdict = None
+    if case.damage is not None:
+        tell("verdict")
+        verdict = _verdict(case.damage, response)
+        if case.damage.error_estimate:
+            verdict = _on_two_grids(case, road, wheel.grid.dx, verdict, solve, tell)
     tell("vertical slices")
-    worst_x, worst_y = _worst_point(response, asked.depths[0] if case.damage is None else case.damage.depth)
+    worst_x, worst_y = _worst_point(response, verdict)
     bottom = asked.slices_to(road.interfaces.tolist(), rigid_base=road.rigid_base)
     depths = _slice_depths(bottom, wheel.grid.dx, road)
     crossing = [(x, worst_y) for x in grid.x] + [(worst_x, y) for y in grid.y]
@@ -115,21 +123,35 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
         bowl = solve([0.0], x=ahead + steps, y=[right])
         # Told to who draws it: a line of points does not say where the load's centre is.
         bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
-    verdict = None
-    if case.damage is not None:
-        tell("verdict")
-        line = case.damage.fatigue.build()
-        verdict = assess(response, line, depth=case.damage.depth, strain=case.damage.strain)
     return Result(case, road, contact, footprint, response, along, across, bowl, verdict)
 
 
-def _contact(case: Case, road: Pavement, tell: Progress) -> Contact:
+def _verdict(damage: DamagePart, response: Response) -> Verdict:
+    return assess(
+        response, damage.fatigue.build(), depth=damage.depth, strain=damage.strain, mean_over=damage.mean_over
+    )
+
+
+def _on_two_grids(
+    case: Case, road: Pavement, cell: float, verdict: Verdict, solve: Callable[..., Response], tell: Progress
+) -> Verdict:
+    """The verdict with what it is on cells twice as large."""
+    assert case.damage is not None
+    check_two_grids(None if case.tire is None else case.build_tire())
+    tell("error estimate")
+    loads = case.response.place(GridLoad.from_dataset(_contact(case, road, tell, COARSER * cell)))
+    grid = _map_grid(loads, road)
+    coarse = _verdict(case.damage, solve(case.response.depths, loads, x=grid.x, y=grid.y))
+    return with_error(verdict, coarse, cell)
+
+
+def _contact(case: Case, road: Pavement, tell: Progress, spacing: float | None = None) -> Contact:
     tell("reading the tire")
     return solve_contact(
         case.build_tire(),
         road,
         case.build_rolling(),
-        spacing=case.spacing,
+        spacing=case.spacing if spacing is None else spacing,
         tolerance=case.tolerance,
         road_compliance=case.road_compliance,
         progress=tell,
@@ -152,9 +174,11 @@ def _map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:
     )
 
 
-def _worst_point(response: Response, depth: float) -> tuple[float, float]:
-    """X and y, m, of the largest extension at a depth."""
-    strain = response.dataset.principal_strain_1.sel(depth=depth, method="nearest")
+def _worst_point(response: Response, verdict: Verdict | None) -> tuple[float, float]:
+    """X and y, m, of the verdict's worst point; without one of the largest extension of the first map."""
+    if verdict is not None and float(verdict.dataset["worst_strain"]) > 0:
+        return float(verdict.dataset["worst_x"]), float(verdict.dataset["worst_y"])
+    strain = response.dataset.principal_strain_1.isel(depth=0)
     row, column = np.unravel_index(int(np.nanargmax(strain.values)), strain.shape)
     return float(strain.x[column]), float(strain.y[row])
 

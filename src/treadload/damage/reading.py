@@ -1,0 +1,172 @@
+"""What a verdict reads of a response: at which depths, over how much road, and where no crack can open."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import xarray as xr
+
+from treadload.damage.direction import HasDataset, Reading, crack_plane, extension, gridded, in_tension
+from treadload.damage.fatigue import BOTTOM_EXTENSION, EXTENSION, SURFACE_EXTENSION, PowerLaw
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.kernels.depths import on_interface, same_depth
+from treadload.response import Response, solve_response
+
+# Points around the worst of a map, in a material length.
+_STEPS = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Extension over (depth, y, x) as a verdict sees it. data: stress and strain, see `assess`."""
+
+    data: xr.Dataset
+    strain: Reading
+
+    @cached_property
+    def extension(self) -> Array:
+        """Largest extension, whatever opens."""
+        return extension(self.data, self.strain)[0]
+
+    @cached_property
+    def value(self) -> Array:
+        """What is read: the extension, and nothing where no principal stress is tensile."""
+        found: Array = np.where(in_tension(self.data), self.extension, np.minimum(self.extension, 0.0))
+        return found
+
+    @cached_property
+    def crack(self) -> tuple[Array, Array]:
+        """Angle of the trace and dip, rad; NaN where no crack opens."""
+        angle, dip = crack_plane(extension(self.data, self.strain)[1])
+        opens = self.value > 0
+        return np.where(opens, angle, np.nan), np.where(opens, dip, np.nan)
+
+    @cached_property
+    def worst(self) -> tuple[int, int, int]:
+        """Index of the largest reading."""
+        at = np.unravel_index(int(np.nanargmax(self.value)), self.value.shape)
+        return int(at[0]), int(at[1]), int(at[2])
+
+
+def check_law(line: PowerLaw) -> None:
+    """Raise InputError for a law that reads no extension."""
+    if line.quantity not in (EXTENSION, SURFACE_EXTENSION, BOTTOM_EXTENSION):
+        raise InputError(
+            f"a verdict reads an extension, but {line} reads the {line.quantity}; take a law of extension"
+        )
+
+
+def local_field(response: HasDataset, line: PowerLaw, depth: float) -> xr.Dataset:
+    """The points of a response at one of its depths, m, over (depth, y, x). Raises InputError."""
+    data = gridded(response)
+    depths = data["depth"].to_numpy()
+    nearest = int(np.argmin(np.abs(depths - depth)))
+    if not same_depth(depths[nearest], depth):
+        known = ", ".join(f"{d:g}" for d in depths)
+        raise InputError(f"the response has no depth {depth:g} m, it has {known} m; solve it with that depth")
+    _check_place(data, line, float(depths[nearest]))
+    return data.isel(depth=[nearest])
+
+
+def mean_field(response: HasDataset, line: PowerLaw, length: float) -> tuple[xr.Dataset, list[str]]:
+    """Means over a length, m, at the depths of a response that the law speaks of; and what to say of the others.
+
+    A response that is a mean is taken as it is. Raises InputError for one without its road.
+    """
+    data = gridded(response)
+    if line.quantity == BOTTOM_EXTENSION:
+        raise InputError(
+            f"{line} reads the {line.quantity}; give depth= of that bottom, an interface of the road, solved from "
+            "above"
+        )
+    if "mean_over" in data.attrs:
+        depths, said = _asked(data, line)
+        return data.isel(depth=np.flatnonzero(np.isin(data["depth"], depths)).tolist()), said
+    if not isinstance(response, Response) or response.road is None:
+        raise InputError(
+            "a mean over the road needs a response of solve_response, whose road can be solved again; give depth= "
+            "to read the points of this one as they are"
+        )
+    depths, said = _asked(data, line)
+    at = {"x": data["x"].to_numpy(), "y": data["y"].to_numpy()}
+    return _solved(response, depths, length, **at), said
+
+
+def closer(response: HasDataset, data: xr.Dataset, worst: tuple[int, int, int]) -> xr.Dataset | None:
+    """Means on points close to each other around a point of their map; None where the road cannot be asked again.
+
+    data: means over (depth, y, x). worst: index of the point. The map's points lie as far apart as its cells, and the
+    largest reading between them.
+    """
+    if not isinstance(response, Response) or response.road is None:
+        return None
+    length = float(data.attrs["mean_over"])
+    row, *place = worst
+    around = [_around(data[name].to_numpy(), k, length) for name, k in zip(("y", "x"), place, strict=True)]
+    if any(at is None for at in around):
+        return None
+    y, x = (np.asarray(at) for at in around)
+    return _solved(response, data["depth"].to_numpy()[row : row + 1], length, x=x, y=y)
+
+
+def _solved(response: Response, depths: Array, length: float, *, x: Array, y: Array) -> xr.Dataset:
+    assert response.road is not None
+    return solve_response(
+        response.loads, response.road, depths=depths, x=x, y=y, speed=response.speed, side=response.side,
+        mean_over=length,
+    ).dataset  # fmt: skip
+
+
+def _around(at: Array, k: int, length: float) -> Array | None:
+    """Coordinates up to the neighbours of one; it alone where there are none, None where they are too far."""
+    if len(at) == 1:
+        return at
+    apart = float(np.abs(np.diff(at)[max(k - 1, 0) : k + 1]).max())
+    if apart > length:
+        return None
+    steps = math.ceil(_STEPS * apart / length)
+    around: Array = at[k] + apart / steps * np.arange(-steps, steps + 1)
+    return around
+
+
+def _asked(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
+    """Depths that a law speaks of: the surface, or the top layer, whose fatigue it tells."""
+    depths = data["depth"].to_numpy()
+    if line.quantity == SURFACE_EXTENSION:
+        surface = same_depth(depths, 0.0)
+        if not surface.any():
+            raise InputError(f"{line} reads the {line.quantity}; solve the response with depth 0")
+        return depths[surface], []
+    own = data["layer"].to_numpy() == 0
+    if not own.any():
+        raise InputError(
+            "no depth of the response lies in the top layer, whose fatigue the law tells; give depth= to read "
+            "another layer with its own law"
+        )
+    if own.all():
+        return depths, []
+    left = ", ".join(f"{1e3 * z:g}" for z in depths[~own])
+    return depths[own], [
+        f"the depths {left} mm lie below the top layer, whose fatigue the law tells, and are not read; give depth= "
+        "for one of them and the law of its layer"
+    ]
+
+
+def _check_place(data: xr.Dataset, line: PowerLaw, depth: float) -> None:
+    """Refuse a law at a depth of which it does not speak."""
+    if line.quantity == SURFACE_EXTENSION and not same_depth(depth, 0.0):
+        raise InputError(f"{line} reads the {line.quantity}, got depth {depth:g} m; give depth 0")
+    if line.quantity != BOTTOM_EXTENSION or "layer" not in data.coords:
+        return
+    interfaces = np.atleast_1d(data.attrs.get("interfaces", []))
+    side = data.attrs.get("side", "above")
+    if side != "above" or not on_interface([depth], interfaces)[0]:
+        known = ", ".join(f"{z:g}" for z in interfaces) or "no interface"
+        raise InputError(
+            f"{line} reads the {line.quantity}, got depth {depth:g} m from {side}; the road has {known} m: give the "
+            "depth of the asphalt's bottom, and solve it from above"
+        )

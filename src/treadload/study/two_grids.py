@@ -1,0 +1,61 @@
+"""How far the contact's cells move a verdict: the same question on cells twice as large."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from treadload.contact import Rolling, solve_contact
+from treadload.contact.solve import DEFAULT_SPACING
+from treadload.damage import Verdict, assess
+from treadload.damage.fatigue import PowerLaw
+from treadload.errors import InputError
+from treadload.pavement import Pavement
+from treadload.response import solve_response
+from treadload.tire import Tire
+
+COARSER = 2.0
+
+
+def assess_on_two_grids(
+    tire: Tire,
+    road: Pavement,
+    rolling: Rolling,
+    line: PowerLaw,
+    *,
+    spacing: float = DEFAULT_SPACING,
+    depths: Sequence[float] = (0.0,),
+    speed: float | None = None,
+    **reading: Any,
+) -> Verdict:
+    """A verdict that tells how far the contact's cells move it.
+
+    Contact, response and verdict are solved on cells of `spacing`, m, and on cells twice as large. The difference of
+    the two readings bounds the error of the finer one as long as the error falls with the cells at all: it is the
+    error itself where that falls like the first power, three times as much where it falls like the second.
+    depths, speed: of `solve_response`. reading: keywords of `assess`.
+    Returns the verdict on the finer cells, with the estimate in its summary and the coarser reading in its
+    attributes.
+    Raises InputError for a height map, which knows no other cells, and what contact, response and verdict raise.
+    """
+    check_two_grids(tire)
+
+    def solve(cells: float) -> Verdict:
+        contact = solve_contact(tire, road, rolling, spacing=cells)
+        return assess(solve_response(contact, road, depths=depths, speed=speed), line, **reading)
+
+    return with_error(solve(spacing), solve(COARSER * spacing), spacing)
+
+
+def check_two_grids(tire: Tire | None) -> None:
+    """Raise InputError for what can be solved on its own cells only; None stands for a recorded footprint."""
+    if tire is None or tire.fixed_grid is not None:
+        what = "a recorded footprint" if tire is None else "a height map"
+        raise InputError(f"an error estimate solves the contact on two grids, and {what} has one; leave it out")
+
+
+def with_error(verdict: Verdict, coarse: Verdict, spacing: float) -> Verdict:
+    """A verdict on cells of `spacing`, m, that tells what it read on coarser ones."""
+    about = {"spacing": spacing, "coarse_strain": float(coarse.dataset["worst_strain"])}
+    return replace(verdict, dataset=verdict.dataset.assign_attrs(about))
