@@ -104,7 +104,7 @@ def test_the_layer_of_a_depth():
 
 
 def test_depths_that_round_off_alone_tells_apart_are_one():
-    with pytest.raises(tl.InputError, match=r"distinct by more than round-off, got 0.41 m twice"):
+    with pytest.raises(tl.InputError, match=r"distinct by more than round-off, got 0.41 m, an interface, 2 times"):
         tl.solve_response(DISC, DESIGN, depths=[0.41, DESIGN.interfaces[2]], x=[0.0], y=[0.0])
 
 

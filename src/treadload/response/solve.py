@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from treadload import variables
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.kernels.depths import same_depth
+from treadload.kernels.depths import snapped
 from treadload.kernels.points import Points
 from treadload.pavement import Pavement
 from treadload.response.doubts import overlapping, question_doubts, road_doubts
@@ -76,9 +76,12 @@ def solve_response(
     at_depths = _coordinates("depths", depths)
     if (at_depths < 0).any():
         raise InputError(f"depths must not be negative, got {at_depths.min():g} m; depth counts downwards")
-    ordered = np.sort(at_depths)
-    if (twice := same_depth(ordered[1:], ordered[:-1])).any():
-        raise InputError(f"depths must be distinct by more than round-off, got {ordered[1:][twice][0]:g} m twice")
+    unique, counts = np.unique(snapped(at_depths, road.interfaces), return_counts=True)
+    if (counts > 1).any():
+        raise InputError(
+            f"depths must be distinct by more than round-off, got {unique[counts > 1][0]:g} m, an interface, "
+            f"{counts.max()} times"
+        )
     layers = [road.layer_at(float(depth), side) for depth in at_depths]
     superposed = gather(loads)
     at = None
