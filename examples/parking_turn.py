@@ -11,12 +11,13 @@ import math
 import sys
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 
 import treadload as tl
 from treadload.contact.turning import TurnResult, turn_on_the_spot
-from treadload.plots import save
+from treadload.plots import new_figure, save
+from treadload.plots.style import CASES, INK, MUTED, headline, open_axes, styled
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 STANDING = tl.Rolling(normal_load=32.5e3, friction=0.7)
@@ -37,22 +38,24 @@ def extension(contact: tl.Contact) -> tl.Response:
     return tl.solve_response(contact, ROAD, depths=[0.0])
 
 
-def draw_torque(right: TurnResult, loop: TurnResult) -> plt.Figure:
+@styled
+def draw_torque(right: TurnResult, loop: TurnResult) -> Figure:
     """Torque against the angle, to the right and in the loop."""
-    figure, ax = plt.subplots(figsize=(6.4, 4.2), layout="constrained")
+    figure = new_figure(6.8, 4.4)
+    ax = figure.add_subplot()
+    open_axes(ax)
     limit = float(right.dataset.sliding_torque) / 1e3
-    for result, style in (
-        (loop, {"color": "0.6", "lw": 1.2}),
-        (right, {"color": "tab:blue", "marker": "o", "ms": 3}),
-    ):
+    for result, style in ((loop, {"color": MUTED, "lw": 1.2}), (right, {"color": CASES[0], "marker": "o", "ms": 3})):
         d = result.dataset
         label = "first turn" if result is right else "right, left and right again"
         ax.plot(np.degrees(d.turn_angle), d.steering_torque / 1e3, label=label, **style)
-    ax.axhline(limit, color="0.3", ls=":", lw=1)
-    ax.annotate("all slides", (0, limit), (3, 3), textcoords="offset points", fontsize=9, color="0.3")
-    ax.set(xlabel="angle of the wheel (°)", ylabel="steering torque (kN m)", title="A truck wheel turned on the spot")
-    ax.legend(frameon=False, loc="lower right")
-    ax.spines[["top", "right"]].set_visible(False)
+    ax.axhline(limit, color=INK, ls=":", lw=1)
+    ax.annotate(
+        "all slides", (0, limit), (3, 3), xycoords=("axes fraction", "data"), textcoords="offset points", fontsize=8.5
+    )
+    ax.set(xlabel="angle of the wheel (°)", ylabel="steering torque (kN m)", ylim=(None, 1.12 * limit))
+    headline(ax, "A truck wheel turned on the spot", "32.5 kN, μ = 0.7; positive to the right")
+    ax.legend(loc="lower right")
     return figure
 
 

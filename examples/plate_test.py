@@ -14,10 +14,10 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 import treadload as tl
-from treadload.plots import save
+from treadload.plots import new_figure, save
+from treadload.plots.style import CASES, MUTED, headline, open_axes, styled
 
 POISSON = 0.35
 STEEL = tl.Elastic(210e9, 0.3)
@@ -94,30 +94,38 @@ def main(folder: Path, diameters: tuple[float, ...] = DIAMETERS, cells: int = 64
     return {"modulus": read, "settlement": settled, "share": share}
 
 
+@styled
 def figure(read, shown):
-    fig = Figure(figsize=(9.5, 3.8), layout="constrained")
-    left, right = fig.subplots(1, 2)
-    left.semilogx([1e3 * d for d in read], list(read.values()), "o-", ms=4)
+    drawn = new_figure(9.6, 4.0)
+    left, right = drawn.subplots(1, 2)
+    open_axes(left, right)
+    left.semilogx([1e3 * d for d in read], list(read.values()), "o-", ms=4, color=CASES[0])
     for layer in ROAD.layers:
         modulus = layer.material.modulus / 1e6
-        left.axhline(modulus, color="0.6", lw=0.8, ls="--")
-        left.annotate(layer.name, (0.02, modulus), xycoords=("axes fraction", "data"), va="bottom")
-    left.set(xlabel="diameter of the plate, mm", ylabel="modulus read, MPa", ylim=(0, 330))
+        left.axhline(modulus, color=MUTED, lw=0.9, ls="--")
+        left.annotate(
+            layer.name, (0, modulus), (4, 3), xycoords=("axes fraction", "data"), textcoords="offset points",
+            fontsize=8.5, color=MUTED,
+        )  # fmt: skip
+    left.set(xlabel="diameter of the plate (mm)", ylabel="modulus read (MPa)", ylim=(0, 330))
     ticks = [50, 100, 300, 600, 1200, 4000]
     left.set_xticks(ticks, [str(tick) for tick in ticks])
     left.minorticks_off()
-    left.grid(alpha=0.3)
-    for name, label in (("layers", "on the layers"), ("half_space", "on a half-space")):
+    headline(left, "What a plate test reads", "dashed: moduli of the layers")
+    labels = (("layers", "on the layers"), ("half_space", "on crushed stone alone"))
+    for (name, label), colour in zip(labels, CASES, strict=False):
         pressure = shown[name].dataset.pressure
         row = pressure.isel(y=pressure.sizes["y"] // 2)
         row = row[row > 0]
-        right.plot(1e3 * row.x, row / 1e6, label=label)
-    right.axhline(0.25, color="0.6", lw=0.8, ls="--")
-    right.annotate("mean", (0, 0.25), ha="center", va="bottom")
-    right.set(xlabel="x, mm", ylabel="pressure, MPa", ylim=(0, 0.8), title=f"plate of {1e3 * SHOWN:.0f} mm")
-    right.legend(frameon=False, loc="upper center")
-    right.grid(alpha=0.3)
-    return fig
+        right.plot(1e3 * row.x, row / 1e6, color=colour, label=label)
+    right.axhline(0.25, color=MUTED, lw=0.9, ls="--")
+    right.annotate("mean, 0.25 MPa", (0, 0.25), (0, 3), textcoords="offset points", ha="center", color=MUTED)
+    right.set(xlabel="x (mm)", ylabel="pressure (MPa)", ylim=(0, 0.8))
+    headline(
+        right, f"Pressure under the plate of {1e3 * SHOWN:.0f} mm", "through its middle; it has no bound at the edge"
+    )
+    right.legend(loc="upper center")
+    return drawn
 
 
 if __name__ == "__main__":

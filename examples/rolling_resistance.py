@@ -13,10 +13,10 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 import treadload as tl
-from treadload.plots import save
+from treadload.plots import new_figure, save
+from treadload.plots.style import CASES, MUTED, headline, open_axes, styled, travel_arrow
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 LONG_TERM, INSTANTANEOUS, POISSON = 3e6, 3.6e6, 0.5
@@ -25,7 +25,7 @@ RUBBERS = {
     "one relaxation, 5 ms": tl.Prony.standard_linear_solid(INSTANTANEOUS, LONG_TERM, 5e-3, POISSON),
     "five, 50 µs to 0.5 s": tl.Prony(INSTANTANEOUS, tuple((SHARE / 5, 5e-5 * 10**k) for k in range(5)), POISSON),
 }
-SPEEDS = (0.1, 0.5, 2.0, 5.0, 10.0, 20.0, 40.0, 100.0, 500.0)  # m/s
+SPEEDS = (0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 40.0)  # m/s, to 144 km/h
 WHEEL = {"normal_load": 32.5e3, "friction": 0.7}
 
 
@@ -53,25 +53,29 @@ def main(folder: Path, spacing: float = 6e-3, speeds: tuple[float, ...] = SPEEDS
     return found
 
 
+@styled
 def figure(found, lines, speeds):
-    fig = Figure(figsize=(9.5, 3.8), layout="constrained")
-    left, right = fig.subplots(1, 2)
-    for name, values in found.items():
-        left.semilogx(np.array(speeds) * 3.6, values, "o-", ms=4, label=name)
-    left.set(xlabel="speed, km/h", ylabel="rolling resistance, N/kN", ylim=(0, None))
-    left.legend(frameon=False)
-    left.grid(alpha=0.3)
+    drawn = new_figure(9.6, 4.0)
+    left, right = drawn.subplots(1, 2)
+    open_axes(left, right)
+    for (name, values), colour in zip(found.items(), CASES, strict=False):
+        left.semilogx(np.array(speeds) * 3.6, values, "o-", ms=4, color=colour, label=name)
+    left.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    left.set(xlabel="speed (km/h)", ylabel="rolling resistance (N/kN)", ylim=(0, None))
+    headline(left, "Rolling resistance", "of the tread's own memory, for two rubbers")
+    left.legend(loc="upper left")
     name, values = next(iter(found.items()))
-    worst = speeds[int(np.argmax(values))]
-    for speed in sorted({speeds[0], worst, speeds[-1]}):
+    worst = int(np.argmax(values))
+    shown = sorted({speeds[0], speeds[worst], speeds[-1]})
+    for speed, colour in zip(shown, CASES, strict=False):
         line = lines[name, speed]
-        right.plot(line.x * 1e3, line / 1e3, label=f"{3.6 * speed:g} km/h")
-    right.axvline(0, color="0.6", lw=0.8)
-    right.annotate("travel →", (0.98, 0.94), xycoords="axes fraction", ha="right")
-    right.set(xlabel="x, mm", ylabel="load on a slice across the tire, kN/m", ylim=(0, None), title=name)
-    right.legend(frameon=False, loc="upper left", fontsize="small")
-    right.grid(alpha=0.3)
-    return fig
+        right.plot(line.x * 1e3, line / 1e3, color=colour, label=f"{3.6 * speed:g} km/h")
+    right.axvline(0, color=MUTED, lw=0.9)
+    right.set(xlabel="x, direction of travel (mm)", ylabel="load on a strip across the tire (kN/m)", ylim=(0, None))
+    headline(right, "Where the load stands", f"{name}; the axle stands at x = 0")
+    right.legend(loc="lower center")
+    travel_arrow(right)
+    return drawn
 
 
 if __name__ == "__main__":

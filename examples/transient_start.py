@@ -11,12 +11,13 @@ end with steady rolling, and writes the figures.
 import sys
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 
 import treadload as tl
 from treadload.contact.transient import TransientResult, solve_transient
-from treadload.plots import save
+from treadload.plots import new_figure, save
+from treadload.plots.style import CASES, MUTED, RULE, headline, open_axes, sequential, signed, styled, travel_arrow
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 DRIVING = tl.Rolling(normal_load=32.5e3, friction=0.7, creepage_x=-0.03)
@@ -31,37 +32,43 @@ def started(spacing: float, step: float) -> tuple[TransientResult, tl.Contact]:
     return start, tl.solve_contact(tire, ROAD, DRIVING, spacing=spacing)
 
 
-def draw_force(start: TransientResult, steady: tl.Contact) -> plt.Figure:
+@styled
+def draw_force(start: TransientResult, steady: tl.Contact) -> Figure:
     """Tractive force and share of slip against the distance."""
-    figure, (above, below) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 5), layout="constrained")
+    figure = new_figure(6.8, 5.4)
+    above, below = figure.subplots(2, 1, sharex=True)
+    open_axes(above, below)
     far = start.dataset.distance * 1e3
-    above.plot(far, start.dataset.tractive_force / 1e3, color="tab:blue", label="from rest")
-    above.axhline(float(steady.dataset.tractive_force) / 1e3, color="0.4", ls=":", label="steady rolling")
-    above.set(ylabel="tractive force (kN)", title="Driving off at a creepage of 3 %")
-    above.legend(frameon=False, loc="lower right")
-    below.plot(far, 100 * start.dataset.slip_fraction, color="tab:red")
-    below.axhline(100 * steady.slip_fraction, color="0.4", ls=":")
-    below.set(xlabel="distance rolled (mm)", ylabel="slip (% of the contact)")
-    for ax in (above, below):
-        ax.spines[["top", "right"]].set_visible(False)
+    above.plot(far, start.dataset.tractive_force / 1e3, color=CASES[0], label="from rest")
+    above.axhline(float(steady.dataset.tractive_force) / 1e3, color=MUTED, ls=":", label="steady rolling")
+    above.set(ylabel="tractive force (kN)", ylim=(0, None))
+    headline(above, "Driving off", f"creepage of {-100 * DRIVING.creepage_x:g} %, 32.5 kN, μ = {DRIVING.friction:g}")
+    above.legend(loc="lower right")
+    below.plot(far, 100 * start.dataset.slip_fraction, color=CASES[1])
+    below.axhline(100 * steady.slip_fraction, color=MUTED, ls=":")
+    below.set(xlabel="distance rolled (mm)", ylabel="slip (% of the contact)", ylim=(0, None))
     return figure
 
 
-def draw_shear(start: TransientResult) -> plt.Figure:
+@styled
+def draw_shear(start: TransientResult) -> Figure:
     """Shear along the middle of a rib at several distances."""
     d = start.dataset
     row = int(np.argmax(d.pressure[-1].sum("x").values))
-    figure, ax = plt.subplots(figsize=(6.4, 4.2), layout="constrained")
+    figure = new_figure(6.8, 4.6)
+    ax = figure.add_subplot()
+    open_axes(ax)
     x, p = d.x * 1e3, d.pressure[-1, row] / 1e3
-    ax.fill_between(x, DRIVING.friction * p, color="0.92", label="μp")
+    ax.fill_between(x, DRIVING.friction * p, color=RULE, alpha=0.35, lw=0, label="μp")
     picked = np.unique(np.searchsorted(d.distance, [0.03, 0.09, 0.2, 0.4, DISTANCE - 1e-9]))
-    for number, colour in zip(picked, plt.get_cmap("viridis")(np.linspace(0.85, 0, picked.size)), strict=True):
+    shades = sequential("shear")(np.linspace(0.25, 1, picked.size))
+    for number, colour in zip(picked, shades, strict=True):
         shear = -d.traction_x[number, row] / 1e3
         ax.plot(x, shear, color=colour, label=f"{float(d.distance[number]) * 1e3:.0f} mm")
-    ax.set(xlabel="x, along travel (mm)", ylabel="shear of the road on the tire (kPa)")
-    ax.set_title(f"Shear builds up from the leading edge, y = {float(d.y[row]) * 1e3:+.0f} mm")
-    ax.legend(frameon=False, title="rolled")
-    ax.spines[["top", "right"]].set_visible(False)
+    ax.set(xlabel="x, direction of travel (mm)", ylabel="shear of the road on the tire (kPa)", ylim=(0, None))
+    headline(ax, "Shear builds up from the leading edge", f"along y = {signed(float(d.y[row]) * 1e3, 0)} mm")
+    ax.legend(title="rolled", alignment="left")
+    travel_arrow(ax)
     return figure
 
 

@@ -1,4 +1,4 @@
-"""The paper's table 1 and figures 5, 6, 8 and 9, with the fitted 315/80R22.5 tread.
+"""The paper's table 1 and figures 5 to 9, with the fitted 315/80R22.5 tread.
 
 Materials 2021, 14, 2117: 35 kN at 820 kPa (figure 5), free and tractive rolling at 32.5 kN (figures 6, 8, 9).
 Area and peak pressure were fitted (fit_profile.py); shear and strains are predictions. Prints the paper's
@@ -11,11 +11,14 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import xarray as xr
+
 import treadload as tl
-from treadload.plots import compare_strain, save
+from treadload.plots import ResponsePlots, both_sides, compare_strain, fatigue_line, save
 
 RUBBER, ASPHALT = tl.Elastic(3e6, 0.5), tl.Elastic(5.4e9, 0.35)  # table 1
 LINE = tl.FatigueLine(epsilon_6=120e-6, slope=-0.2)
+STRUCTURE = "6 BBSG3 / 15 GB3 / PF3"
 STATIC = tl.Rolling(normal_load=35e3, friction=0.7)
 FREE = tl.Rolling(normal_load=32.5e3, friction=0.7)
 TRACTIVE = tl.Rolling(normal_load=32.5e3, tractive_force=10e3, friction=0.7)
@@ -35,6 +38,22 @@ def contact_of(
 def response_of(contact: tl.Contact, depth: float = 0.0) -> tl.Response:
     """Stress and strain of the paper's road at a depth, m."""
     return tl.solve_response(contact, tl.Pavement.half_space(ASPHALT), depths=[depth])
+
+
+def layered_response(contact: tl.Contact) -> xr.Dataset:
+    """Strain in layers, in a section across the wheel, for figure 7; the paper tells no layers, these are ours."""
+    road = tl.Pavement.from_catalogue(STRUCTURE, temperature=15)
+    depths = [
+        0.0,
+        *(1e-3 * depth for depth in (5, 10, 20, 30, 40, 50, 60, 80, 110, 140, 170, 190, 210, 230, 260, 300)),
+    ]
+    across = contact.dataset.y.values
+    return both_sides(
+        *(
+            tl.solve_response(contact, road, depths=depths, x=[0.0], y=across, side=side)
+            for side in ("above", "below")
+        )
+    )
 
 
 def extensions(response: tl.Response) -> tuple[float, float]:
@@ -101,11 +120,17 @@ def main(folder: Path) -> dict[str, float]:
         print(f"{name:34s} {values[0]:9.1f} {values[1]:9.1f} {values[2]:11.1f} {values[3]:9.1f}")
     save(static.plot.pressure(), folder / "figure_5.png")
     save(tractive.plot.shear(), folder / "figure_6.png")
-    save(responses["Free rolling"].plot.strain_directions(), folder / "figure_8.png")
-    save(responses["Tractive rolling"].plot.strain_directions(), folder / "figure_9.png")
+    layers = ResponsePlots(layered_response(free))
+    save(layers.strain_profiles(epsilon_6=LINE.epsilon_6), folder / "figure_7_layers.png")
+    # The paper's admissible strain, 90 microstrain, against ε₆.
+    verdicts = [tl.assess(response, LINE) for response in responses.values()]
+    line = fatigue_line(verdicts, list(responses), design_passes=float(LINE.allowable_passes(90e-6)))
+    save(line, folder / "figure_7_fatigue_line.png")
+    for number, response, contact in zip((8, 9), responses.values(), (free, tractive), strict=True):
+        save(response.plot.strain_panels(contact=contact), folder / f"figure_{number}.png")
     save(compare_strain(list(responses.values()), list(responses)), folder / "figures_8_and_9.png")
     tl.report([tractive, responses["Tractive rolling"], worst], folder / "tractive.html", title="Tractive rolling")
-    print(f"\nfigures 5, 6, 8, 9 and tractive.html are in {folder}")
+    print(f"\nfigures 5 to 9 and tractive.html are in {folder}")
     return measured
 
 

@@ -5,6 +5,7 @@ from treadload.plots.bowl import deflection_bowl
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.energy import dissipated_energy
+from treadload.plots.figure import new_figure
 from treadload.plots.files import png, save
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.layers import both_sides
@@ -39,6 +40,7 @@ __all__ = [
     "life_shares",
     "life_years",
     "master_curve",
+    "new_figure",
     "orientation_shares",
     "places_under",
     "png",

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.plots import contact as contact_figures
+from treadload.plots import panels
 from treadload.plots import profile as profiles
 from treadload.plots import response as response_figures
 from treadload.plots import rose as roses
@@ -60,6 +61,12 @@ class ResponsePlots:
     ) -> Figure:
         """Largest extension in plan with its directions, microstrain. depth: m."""
         return response_figures.strain_directions(self._response, depth=depth, strain=strain, contact=contact, ax=ax)
+
+    def strain_panels(
+        self, depth: float = 0.0, strain: Strain = "principal", *, contact: Source | None = None
+    ) -> Figure:
+        """Largest extension in plan above, microstrain; its direction below. depth: m."""
+        return panels.strain_panels(self._response, depth=depth, strain=strain, contact=contact)
 
     def depth_slice(
         self,

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from treadload.errors import InputError
 from treadload.plots.figure import new_figure
 from treadload.plots.plan import Source, fields_of
-from treadload.plots.style import CASES, MUTED, headline, styled
+from treadload.plots.style import CASES, MUTED, headline, open_axes, styled
 
-_FORCE = {"x": ("tractive_force", "tractive force over μP"), "y": ("lateral_force", "lateral force over μP")}
+_FORCE = {"x": ("tractive_force", "tractive force over μP (–)"), "y": ("lateral_force", "lateral force over μP (–)")}
+
+_LINES = ("-", "-", (0, (3, 1.5)))
 
 
 @styled
@@ -31,26 +35,40 @@ def creep_curves(curves: Sequence[Source], labels: Sequence[str], *, along: str 
     figure = new_figure(8.6, 3.9)
     left, right = figure.subplots(1, 2)
     for number, (case, label) in enumerate(zip(cases, labels, strict=True)):
-        data, colour = case.sortby("creepage"), CASES[number % len(CASES)]
+        data, look = case.sortby("creepage"), _look(number, len(cases))
         limit = (data.friction * data.normal_load).values
-        left.plot(data.creepage, data[force].values / limit, "o-", ms=3, color=colour, label=label)
-        right.plot(data.creepage, _second(data, along), "o-", ms=3, color=colour, label=label)
+        left.plot(data.creepage, data[force].values / limit, label=label, **look)
+        right.plot(data.creepage, _second(data, along), label=label, **look)
+    open_axes(left, right)
     for ax in (left, right):
         ax.axhline(0, color=MUTED, lw=0.7)
         ax.axvline(0, color=MUTED, lw=0.7)
-        ax.grid(True)
-        ax.spines[["top", "right"]].set_visible(False)
-        ax.set_xlabel(f"creepage along {along}")
+        ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+        ax.set_xlabel(f"creepage along {along} (–)")
     left.set_ylabel(name)
     headline(left, "Creep curve", "negative creepage drives" if along == "x" else "force of the road, to the right")
     right.set_ylabel("share of the contact that slips (%)" if along == "x" else "aligning moment (N m)")
     if along == "x":
         headline(right, "Slip zone", "all of the contact slips in gross sliding")
     else:
-        headline(right, "Aligning moment", "about the vertical through the origin, of the road on the tire")
+        headline(right, "Aligning moment", "of the road on the tire, about the vertical")
     if len(cases) > 1:
         left.legend()
     return figure
+
+
+def _look(number: int, count: int) -> dict[str, Any]:
+    """Line of a curve among several: each thinner than the one under it, so that equal curves are all seen."""
+    share = number / max(1, count - 1)
+    return {
+        "color": CASES[number % len(CASES)],
+        "lw": 1.6 if count == 1 else 3.4 - 2.2 * share,
+        "ls": _LINES[number % len(_LINES)] if count > 1 else "-",
+        "marker": "o",
+        "ms": 3.0 if count == 1 else 4.6 - 1.8 * share,
+        "mew": 0,
+        "zorder": 2 + 0.1 * number,
+    }
 
 
 def _second(data: xr.Dataset, along: str) -> np.ndarray:

@@ -91,12 +91,12 @@ def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outli
     """Draw a strain map on a scale in microstrain: colours, strokes, outline of the contact, mark of the peak."""
     plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO
     mesh = draw_cells(ax, plan, values, sequential("strain"), scale)
-    _outline(ax, outline)
+    draw_contact(ax, outline)
     row, column = peak_of(values)
     peak = float(values[row, column])
     if peak > 0:
         own = limits(values)
-        along_x, along_y = _horizontal(data, strain)
+        along_x, along_y = horizontal(data, strain)
         draw_strokes(ax, strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * own.high))
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(peak))
     else:
@@ -150,7 +150,7 @@ def depth_slice(
     return figure
 
 
-def _horizontal(data: xr.Dataset, strain: Strain) -> tuple[Array, Array]:
+def horizontal(data: xr.Dataset, strain: Strain) -> tuple[Array, Array]:
     """Components along x and y (ny, nx) of the direction of the largest extension."""
     if strain == "in-plane":
         angle = plane(data, "in_plane_angle_1")
@@ -159,7 +159,8 @@ def _horizontal(data: xr.Dataset, strain: Strain) -> tuple[Array, Array]:
     return direction[..., 0], direction[..., 1]
 
 
-def _outline(ax: Axes, source: Source | None) -> None:
+def draw_contact(ax: Axes, source: Source | None) -> None:
+    """Outline of the contact, where a source tells it."""
     if source is None:
         return
     data = fields_of(source)

@@ -132,6 +132,13 @@ def headline(ax: Axes, title: str, details: str = "", letters: int = _TITLE) -> 
         )  # fmt: skip
 
 
+def open_axes(*axes: Axes) -> None:
+    """Axes of curves: a quiet grid, no frame above and right."""
+    for ax in axes:
+        ax.grid(True)
+        ax.spines[["top", "right"]].set_visible(False)
+
+
 def plain(text: str) -> str:
     """Text of a user, safe from being read as mathematics."""
     return text.replace("$", r"\$")

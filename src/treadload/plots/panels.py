@@ -1,0 +1,118 @@
+"""Strain at one depth in two panels: how large it is, and which way it points."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from treadload.damage.direction import OBLIQUE_TOLERANCE
+from treadload.kernels.arrays import Array
+from treadload.plots.figure import new_figure
+from treadload.plots.plan import (
+    MICRO,
+    X_LABEL,
+    Y_LABEL,
+    Plan,
+    Source,
+    colour_bar,
+    draw_cells,
+    empty_note,
+    limits,
+    mark_peak,
+    peak_of,
+    plane,
+)
+from treadload.plots.response import (
+    NAMES,
+    VARIABLE,
+    Strain,
+    draw_contact,
+    horizontal,
+    place_in_words,
+    strain_in_numbers,
+    strain_plane,
+)
+from treadload.plots.strokes import draw_strokes, strokes
+from treadload.plots.style import headline, legend_below, measure, sequential, styled, travel_arrow
+
+# Inches of a panel along travel, and of what stands beside and around it.
+_MAP, _BESIDE, _AROUND = 4.6, 1.7, 1.3
+# Strokes along the longer side; directions of strains below this share of the largest are left out.
+_ALONG, _SIGNIFICANT = 46, 0.02
+# Components below this share of the direction leave it upright.
+_UPRIGHT = math.sin(math.radians(45))
+_WAYS = (
+    ("along travel", "#d55e00"),
+    ("oblique", "#8a3b74"),
+    ("across travel", "#0b6fae"),
+    ("upright", "#00805f"),
+)
+
+
+@styled
+def strain_panels(
+    response: Source, *, depth: float = 0.0, strain: Strain = "principal", contact: Source | None = None
+) -> Figure:
+    """Largest extension strain in plan above, microstrain; below, the direction of that extension.
+
+    response, depth, strain and contact: as for `strain_directions`. Strokes lie along the extension, all of one
+    length but for what stands out of the horizontal, wherever it exceeds 2 % of the largest; their colour tells
+    whether they point along travel, across it, obliquely or upright. Returns the figure. Raises InputError as
+    `strain_directions`.
+    """
+    data = strain_plane(response, depth, strain)
+    plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO
+    figure = new_figure(_MAP + _BESIDE, 2 * (min(_MAP * plan.aspect, 4.6) + _AROUND), "compressed")
+    upper, lower = figure.subplots(2, 1, sharex=True, sharey=True)
+    scale = limits(values)
+    mesh = draw_cells(upper, plan, values, sequential("strain"), scale)
+    draw_contact(upper, contact or response)
+    colour_bar(mesh, upper, "largest extension (microstrain)", scale)
+    title = f"Largest extension {place_in_words(depth)}"
+    kind = "three-dimensional" if strain == "principal" else "horizontal plane"
+    headline(upper, f"{title}, {kind}", strain_in_numbers(data, strain, scale))
+    row, column = peak_of(values)
+    if values[row, column] > 0:
+        mark_peak(upper, float(plan.x[column]), float(plan.y[row]), measure(float(values[row, column])))
+    else:
+        empty_note(upper, "nothing extends here")
+    upper.tick_params(labelbottom=True)
+    upper.set_xlabel(X_LABEL)
+    _directions(lower, data, strain, plan, values)
+    draw_contact(lower, contact or response)
+    headline(lower, "Its direction", f"of the extension, {NAMES[strain]}; where it exceeds 2 % of the peak")
+    for ax in (upper, lower):
+        travel_arrow(ax)
+    return figure
+
+
+def _directions(ax: Axes, data: xr.Dataset, strain: Strain, plan: Plan, values: Array) -> None:
+    ax.set_aspect("equal")
+    ax.set_xlabel(X_LABEL)
+    ax.set_ylabel(Y_LABEL)
+    largest = float(np.nanmax(values))
+    if not largest > 0:
+        empty_note(ax, "nothing extends here")
+        return
+    along_x, along_y = horizontal(data, strain)
+    drawn = strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * largest, plan.span / _ALONG)
+    ways = way_of(along_x, along_y)[drawn.index[:, 0], drawn.index[:, 1]]
+    draw_strokes(ax, drawn, [_WAYS[way][1] for way in ways], 1.2, backing=False)
+    handles = [Line2D([], [], color=colour, lw=2.2, label=name) for name, colour in _WAYS[:3]]
+    handles += [Line2D([], [], color=_WAYS[3][1], lw=0, marker="o", ms=3.5, label=_WAYS[3][0])]
+    legend_below(ax, [handle for way, handle in enumerate(handles) if (ways == way).any()])
+
+
+def way_of(along_x: Array, along_y: Array) -> Array:
+    """Way of unit directions with these horizontal components: 0 along travel, 1 oblique, 2 across, 3 upright."""
+    from_travel = np.arctan2(np.abs(along_y), np.abs(along_x))
+    way = np.full(np.shape(along_x), 1)
+    way[from_travel <= OBLIQUE_TOLERANCE] = 0
+    way[from_travel >= math.pi / 2 - OBLIQUE_TOLERANCE] = 2
+    way[np.hypot(along_x, along_y) < _UPRIGHT] = 3
+    return way
