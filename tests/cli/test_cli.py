@@ -15,6 +15,12 @@ from treadload.cli import app
 from treadload.results import load
 
 
+@pytest.fixture(autouse=True)
+def no_progress(monkeypatch):
+    """A busy machine may take longer than what is told as long; tests/cli/test_progress.py looks at that."""
+    monkeypatch.setattr("treadload.cli.progress.SHORT", 3600.0)
+
+
 @pytest.fixture
 def case(tmp_path):
     path = tmp_path / "case.toml"
@@ -254,3 +260,50 @@ def test_a_suffix_that_is_not_known_is_refused_before_the_work(case, tmp_path, m
     refused(call("scan", tl.example_mesh(), "-o", tmp_path / "r.obj"), 2, ".obj", *known)
     refused(call("report", case, "-o", tmp_path / "r.pdf"), 2, ".html", "print")
     refused(call("report", case, "-o", tmp_path / "r.nc"), 2, ".html")
+
+
+def test_keys_are_set_and_a_dry_run_solves_nothing(case, tmp_path, monkeypatch):
+    monkeypatch.setattr("treadload.study.run_case", None)
+    told = call(
+        "run", case, "--dry-run", "--set", "rolling.friction=0.6", "--set", "spacing=10 mm", "-o", tmp_path / "r.csv"
+    )
+    assert told.exit_code == 0, told.output
+    assert "μ = 0.6" in told.stdout
+    assert "cells of 10 x 10 mm" in told.stdout
+    assert f"would be written: {tmp_path / 'r.csv'}" in told.stdout
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["case.toml"]
+    refused(call("run", case, "--dry-run", "--set", "rolling.frictoin=0.6"), 2, "did you mean 'friction'")
+    refused(call("run", case, "--dry-run", "-o", tmp_path / "r.pdf"), 2, ".pdf")
+
+
+def test_a_dry_run_of_a_design(tmp_path):
+    path = tmp_path / "design.toml"
+    path.write_text(DESIGN)
+    told = call("life", path, "--dry-run", "--set", "traffic.classes.0.axle_load=90 kN", "--set", "spacing=8 mm")
+    assert told.exit_code == 0, told.output
+    assert "contacts  1 on cells of 8 mm" in told.stdout
+    assert "design.nc" in told.stdout
+    refused(call("life", path, "--set", "traffic.classes.1.share=1"), 2, "a list of 1")
+
+
+def test_a_case_of_the_other_kind_says_what_runs_it(case, tmp_path):
+    path = tmp_path / "design.toml"
+    path.write_text(DESIGN)
+    refused(call("run", path), 2, f"treadload life {path}")
+    refused(call("life", case), 2, f"treadload run {case}")
+
+
+def test_shells_can_complete():
+    shown = call("--help")
+    assert "--install-completion" in shown.stdout
+    environment = {
+        **os.environ,
+        "_TREADLOAD_COMPLETE": "complete_bash",
+        "COMP_WORDS": "treadload ca",
+        "COMP_CWORD": "1",
+    }
+    done = subprocess.run(
+        [sys.executable, "-c", "from treadload.cli import app; app(prog_name='treadload')"],
+        env=environment, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.stdout.split() == ["catalogue"]

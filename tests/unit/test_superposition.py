@@ -64,3 +64,27 @@ def test_the_response_is_the_sum_of_the_wheels_own(road, interpolation):
         total = sum(part[name] for part in parts)
         # Waves and interpolation; the issue asks for 1e-8 of the largest value.
         np.testing.assert_allclose(whole[name], total, atol=1e-8 * float(np.abs(total).max()), rtol=0)
+
+
+def test_rows_of_many_wheels_become_one_load():
+    # Twenty rows of fifteen: rows are near each other only once they are whole. One transform instead of twenty.
+    grid = Grid(9, 10, 0.03, 0.03, 0.0, 0.0)
+    foot = GridLoad(grid, np.full(grid.shape, 7e5), np.full(grid.shape, 1e5))
+    wheels = [foot.moved(x=-0.36 * row, y=0.36 * column) for row in range(20) for column in range(15)]
+    (one,) = merged(wheels)
+    assert one.normal_load == pytest.approx(300 * foot.normal_load, rel=1e-12)
+    assert one.tractive_force == pytest.approx(300 * foot.tractive_force, rel=1e-12)
+    for wheel in (wheels[0], wheels[16], wheels[-1]):
+        column = round((wheel.grid.x0 - one.grid.x0) / 0.03)
+        row = round((wheel.grid.y0 - one.grid.y0) / 0.03)
+        np.testing.assert_array_equal(one.pressure[row : row + 10, column : column + 9], foot.pressure)
+
+
+def test_many_loads_are_told_one_by_one():
+    road, said = Pavement.half_space(Elastic(5e9, 0.35)), []
+    discs = [UniformDisc(0.1, 7e5, y=float(k)) for k in range(5)]
+    solve_response(discs, road, depths=[0.1], x=[0.0], y=[0.0], progress=said.append)
+    assert said == [f"stress and strain under load {k} of 5" for k in range(1, 6)]
+    said.clear()
+    solve_response(discs[0], road, depths=[0.1], x=[0.0], y=[0.0], progress=said.append)
+    assert said == []

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
 import tomli_w
 from pydantic import Field, ValidationError
 
+from treadload.case.changes import changed
 from treadload.case.fields import Part
 from treadload.case.words import in_words
 from treadload.errors import InputError
@@ -47,8 +48,11 @@ class FilePart(Part):
                 raise InputError(f"{name} has [{theirs[0]}], so it is {other.how_to_run.format(name=name)}")
 
     @classmethod
-    def from_toml(cls, path: str | os.PathLike[str]) -> Self:
-        """Case from a TOML file; paths in it start from its folder. Raises InputError."""
+    def from_toml(cls, path: str | os.PathLike[str], *, changes: Sequence[str] = ()) -> Self:
+        """Case from a TOML file; paths in it start from its folder. Raises InputError.
+
+        changes: keys to set, "rolling.friction=0.6" or "pavement.layers.0.thickness=8 cm", see `case.changes`.
+        """
         path = Path(path)
         try:
             text = path.read_text(encoding="utf-8")
@@ -56,12 +60,14 @@ class FilePart(Part):
             raise InputError(f"cannot read the case {path}: {error.strerror or error}") from error
         except UnicodeDecodeError as error:
             raise InputError(f"{path} is not a text file in UTF-8, so it is no case; give a TOML file") from error
-        return cls.from_text(text, folder=path.parent, name=str(path))
+        return cls.from_text(text, folder=path.parent, name=str(path), changes=changes)
 
     @classmethod
-    def from_text(cls, text: str, *, folder: Path | str = ".", name: str = "case") -> Self:
-        """Case from TOML text. Raises InputError."""
-        return cls.from_dict(parse_toml(text, name), folder=folder, name=name)
+    def from_text(
+        cls, text: str, *, folder: Path | str = ".", name: str = "case", changes: Sequence[str] = ()
+    ) -> Self:
+        """Case from TOML text. changes: as for `from_toml`. Raises InputError."""
+        return cls.from_dict(changed(parse_toml(text, name), changes), folder=folder, name=name)
 
     def to_toml(self) -> str:
         """The case as TOML text in SI units; what was left out stays out."""

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated, NoReturn, ParamSpec
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Column, Table
 from rich.text import Text
 
 from treadload._version import __version__
+from treadload.cli.progress import counts, stages
 from treadload.errors import ConvergenceError, TreadloadError
 
 DONE, FAILED, WRONG = 0, 1, 2
@@ -24,7 +23,6 @@ app = typer.Typer(
     help="What a tire does to a road: contact, rolling, strain, cracks and life.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    add_completion=False,
 )
 _out = Console(highlight=False, soft_wrap=True)
 _err = Console(stderr=True, highlight=False, soft_wrap=True)
@@ -35,22 +33,18 @@ _Output = Annotated[
 ]
 
 
-@contextmanager
-def _progress() -> Iterator[Callable[[str], None]]:
-    """A line on stderr that tells the stage; nothing when stderr is not a terminal."""
-    with _err.status("starting") as status:
-        yield lambda text: status.update(text)
-
-
-@contextmanager
-def _bar() -> Iterator[Callable[[int, int, str], None]]:
-    """A bar on stderr of how many solves are done; nothing when stderr is not a terminal."""
-    with Progress(
-        TextColumn("{task.description:10}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
-        console=_err, transient=True, disable=not _err.is_terminal,
-    ) as bar:  # fmt: skip
-        task = bar.add_task("reading", total=None)
-        yield lambda done, total, what: bar.update(task, completed=done, total=total, description=f"{what}s")
+_Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on stderr.")]
+_Set = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Set a key of the case, as rolling.friction=0.6 or pavement.layers.0.thickness='8 cm'; without a value "
+        "the key is taken out. May be given several times.",
+        show_default=False,
+    ),
+]
+_DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and tell what would be solved.")]
 
 
 def _name() -> Column:
@@ -80,6 +74,11 @@ def _fail(message: str, code: int) -> NoReturn:
     raise typer.Exit(code)
 
 
+def _planned(plan: str, path: Path) -> None:
+    _out.print(plan, markup=False)
+    _out.print(f"\nwould be written: {path}", markup=False)
+
+
 def _written(files: Iterable[Path]) -> None:
     _out.print("\n" + "\n".join(f"written: {file}" for file in files), markup=False)
 
@@ -98,19 +97,24 @@ def _root(
 def run(
     case: Annotated[Path, typer.Argument(help="The case, a TOML file.")],
     output: _Output = None,
+    changes: _Set = None,
+    dry_run: _DryRun = False,
+    quiet: _Quiet = False,
 ) -> None:
-    """Compute a case and write its result (NetCDF)."""
+    """Compute a case and write its result."""
     from treadload.case import Case
     from treadload.exports import check_output, write
     from treadload.files import check_writable
-    from treadload.study import run_case
+    from treadload.study import plan_case, run_case
 
     path = output or case.with_suffix(".nc")
     # A path that cannot be written is found before the computation, not after it.
     check_output(path)
-    question = Case.from_toml(case)
+    question = Case.from_toml(case, changes=changes or ())
     check_writable(path)
-    with _progress() as tell:
+    if dry_run:
+        return _planned(plan_case(question), path)
+    with stages(_err, quiet=quiet) as tell:
         result = run_case(question, progress=tell)
         tell(f"writing {path}")
         files = write(result.to_tree(), path)
@@ -125,18 +129,23 @@ def life(
     output: _Output = None,
     sensitivity: Annotated[bool, typer.Option(help="Ask what the life depends on most; as much work again.")] = True,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; all cores if left out.")] = None,
+    changes: _Set = None,
+    dry_run: _DryRun = False,
+    quiet: _Quiet = False,
 ) -> None:
-    """Compute the life of a road under a traffic and a climate, and write it (NetCDF)."""
+    """Compute the life of a road under a traffic and a climate, and write it."""
     from treadload.case import LifeCase
     from treadload.exports import check_output, write
     from treadload.files import check_writable
-    from treadload.study import run_design
+    from treadload.study import plan_design, run_design
 
     path = output or design.with_suffix(".nc")
     check_output(path)
-    question = LifeCase.from_toml(design)
+    question = LifeCase.from_toml(design, changes=changes or ())
     check_writable(path)
-    with _bar() as tell:
+    if dry_run:
+        return _planned(plan_design(question), path)
+    with counts(_err, quiet=quiet) as tell:
         result = run_design(question, sensitivity=sensitivity, workers=workers, progress=tell)
     files = write(result.to_tree(), path)
     _out.print(result.summary(), markup=False)
@@ -153,6 +162,7 @@ def report(
         Path | None, typer.Option("--output", "-o", help="File to write, .html.", show_default=False)
     ] = None,
     title: Annotated[str, typer.Option(help="Heading of the report.")] = "",
+    quiet: _Quiet = False,
 ) -> None:
     """Write a self-contained HTML report with figures; several results stand side by side."""
     from treadload.files import HTML, check_suffix
@@ -161,7 +171,7 @@ def report(
 
     path = output or results[0].with_suffix(".html")
     check_suffix(path, HTML, "the report")
-    with _progress() as tell:
+    with stages(_err, quiet=quiet) as tell:
         tell("reading")
         trees = {}
         for file in results:
@@ -183,8 +193,9 @@ def scan(
     rotation: Annotated[str, typer.Option(help="Angle of the wheel about its axle.")] = "0 deg",
     camber: Annotated[str, typer.Option(help="Lean to the right.")] = "0 deg",
     spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
+    quiet: _Quiet = False,
 ) -> None:
-    """Read a tire mesh, tell how good it is, and write its height map (NetCDF)."""
+    """Read a tire mesh, tell how good it is, and write its height map."""
     from treadload.exports import check_output, write
     from treadload.results import height_map
     from treadload.tire import Tire
@@ -192,7 +203,7 @@ def scan(
 
     if output is not None:
         check_output(output)
-    with _progress() as tell:
+    with stages(_err, quiet=quiet) as tell:
         tell(f"reading {mesh}")
         tire = Tire.from_scan(
             mesh,
@@ -255,11 +266,12 @@ def catalogue() -> None:
 @_one_sentence
 def demo(
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder to write.")] = Path("demo"),
+    quiet: _Quiet = False,
 ) -> None:
     """A real truck tire, rolling free and driving: results, figures and a report."""
     from treadload.demo import run_demo
 
-    with _progress() as tell:
+    with stages(_err, quiet=quiet) as tell:
         made = run_demo(output, progress=tell)
     heading, *rows = made.table
     table = Table(*heading, title="A 335/65R22.5 truck tire at 32.5 kN on asphalt, friction 0.7")
@@ -274,11 +286,12 @@ def demo(
 @_one_sentence
 def validate(
     markdown: Annotated[bool, typer.Option("--markdown", help="Print a table for a document.")] = False,
+    quiet: _Quiet = False,
 ) -> None:
     """Compare the solvers with closed forms and published numbers, row by row."""
     from treadload.validation import format_markdown, format_table, run_checks
 
-    with _progress() as tell:
+    with stages(_err, quiet=quiet) as tell:
         checks = run_checks(progress=tell)
     # The table goes out as it is: a terminal may be narrower than it.
     print(format_markdown(checks) if markdown else format_table(checks))

@@ -26,11 +26,13 @@ def half_space_response(
     x: Array,
     y: Array,
     at: Points | None = None,
+    tell: Callable[[str], None] | None = None,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a half-space under superposed loads.
 
     material: of the half-space. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates.
-    at: of the grid of x and y only these points, line by line or summed directly.
+    at: of the grid of x and y only these points, line by line or summed directly. tell: called with a line of text
+    at every load of several.
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
     `kernels.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where x and y
     lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
@@ -42,7 +44,9 @@ def half_space_response(
     stress, displacement = np.zeros((6, len(depths), *shape)), np.zeros((3, len(depths), *shape))
     methods: set[str] = set()
     shear, poisson = material.shear_modulus, material.poisson
-    for load in loads:
+    for number, load in enumerate(loads, start=1):
+        if tell is not None and len(loads) > 1:
+            tell(f"stress and strain under load {number} of {len(loads)}")
         if isinstance(load, UniformDisc):
             lines = np.meshgrid(x, y) if at is None else (x[None, at.columns], y[None, at.rows])
             across_x, across_y = lines[0] - load.x, lines[1] - load.y

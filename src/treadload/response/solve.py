@@ -38,6 +38,7 @@ def solve_response(
     speed: float | None = None,
     side: Literal["above", "below"] = "above",
     mean_over: float | None = None,
+    progress: Callable[[str], None] | None = None,
 ) -> Response:
     """Stress, strain and displacement in a road under pressure and shear.
 
@@ -57,6 +58,8 @@ def solve_response(
     The cube stands around the point, below the surface and within its layer; from two sides down the point itself
     is read, where the field no longer varies over the cube. Means near the edges of ribs do not depend on the
     contact's cells, as points there do, see `response.material`.
+    progress: called with a line of text as many loads on one material are gone through; loads on one lattice near
+    each other become one first.
     Returns a Response with fields (depth, y, x), or (depth, point), tension positive, tensor shear strain,
     displacement_z down.
     At the surface stress_zz = -pressure and stress_xz = -traction_x. Loads are uniform on each cell: shear
@@ -100,7 +103,12 @@ def solve_response(
 
     def solve(loads: Sequence[SurfaceLoad], depths: Array) -> MovingFields:
         limits = road.bond_limits
-        return _mean([_solve(loads, one, speed, depths, at_x, at_y, below=side == "below", at=at) for one in limits])
+        return _mean(
+            [
+                _solve(loads, one, speed, depths, at_x, at_y, below=side == "below", at=at, tell=progress)
+                for one in limits
+            ]
+        )
 
     if mean_over is None:
         solved, read = solve(cells, at_depths), None
@@ -176,12 +184,15 @@ def _solve(
     *,
     below: bool,
     at: Points | None,
+    tell: Callable[[str], None] | None,
 ) -> MovingFields:
     if road.is_viscoelastic:
         assert speed is not None
         return moving_response(loads, road, speed, depths, x, y, below=below, at=at)
     if road.is_homogeneous:
-        stress, strain, displacement, method = half_space_response(loads, road.surface_material, depths, x, y, at)
+        stress, strain, displacement, method = half_space_response(
+            loads, road.surface_material, depths, x, y, at, tell
+        )
     else:
         stress, strain, displacement, method = layered_response(loads, road, depths, x, y, below=below, at=at)
     return MovingFields(stress, strain, displacement, np.zeros((len(depths), len(y))), method)

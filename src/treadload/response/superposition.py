@@ -34,21 +34,28 @@ def common_grid(several: Sequence[PlacedLoad]) -> Grid:
 def merged(loads: Sequence[SurfaceLoad]) -> list[SurfaceLoad]:
     """Loads with the same sum, fewer where gridded ones share a lattice and little ground lies between them.
 
-    Dual wheels a whole number of cells apart become one load, so that they cost what one does.
+    Dual wheels a whole number of cells apart become one load, so that they cost what one does; of many wheels rows
+    become loads first, and then rows of rows.
     """
-    rest: list[SurfaceLoad] = []
+    rest = [load for load in loads if not isinstance(load, GridLoad)]
+    sums, before = [load for load in loads if isinstance(load, GridLoad)], -1
+    while len(sums) != before:
+        before = len(sums)
+        sums = _joined(sums)
+    return [*rest, *sums]
+
+
+def _joined(loads: Sequence[GridLoad]) -> list[GridLoad]:
+    """Loads with the same sum: each joined to the first that it belongs to."""
     sums: list[GridLoad] = []
     for load in loads:
-        if not isinstance(load, GridLoad):
-            rest.append(load)
-            continue
         for place, other in enumerate(sums):
             if _belong(other, load):
                 sums[place] = _sum(other, load)
                 break
         else:
             sums.append(load)
-    return [*rest, *sums]
+    return sums
 
 
 def _belong(one: GridLoad, other: GridLoad) -> bool:

@@ -96,11 +96,11 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     speed = case.speed if road.is_viscoelastic else None
 
     def solve(depths: Sequence[float] | Array, wheels: Sequence[GridLoad] = loads, **points: Any) -> Response:
-        return solve_response(wheels, road, depths=depths, side=asked.side, speed=speed, **points)
+        return solve_response(wheels, road, depths=depths, side=asked.side, speed=speed, progress=tell, **points)
 
     count = f" under {len(loads)} wheels" if len(loads) > 1 else ""
     tell(f"stress and strain in the road{count}")
-    grid = _map_grid(loads, road)
+    grid = map_grid(loads, road)
     response = solve(asked.depths, x=grid.x, y=grid.y)
     verdict = None
     if case.damage is not None:
@@ -111,7 +111,7 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     tell("vertical slices")
     worst_x, worst_y = _worst_point(response, verdict)
     bottom = asked.slices_to(road.interfaces.tolist(), rigid_base=road.rigid_base)
-    depths = _slice_depths(bottom, wheel.grid.dx, road)
+    depths = slice_depths(bottom, wheel.grid.dx, road)
     crossing = [(x, worst_y) for x in grid.x] + [(worst_x, y) for y in grid.y]
     slices = solve(depths, points=crossing)
     along, across = _line(slices, slice(grid.nx), "x"), _line(slices, slice(grid.nx, None), "y")
@@ -140,7 +140,7 @@ def _on_two_grids(
     check_two_grids(None if case.tire is None else case.build_tire())
     tell("error estimate")
     loads = case.response.place(GridLoad.from_dataset(_contact(case, road, tell, COARSER * cell)))
-    grid = _map_grid(loads, road)
+    grid = map_grid(loads, road)
     coarse = _verdict(case.damage, solve(case.response.depths, loads, x=grid.x, y=grid.y))
     return with_error(verdict, coarse, cell)
 
@@ -158,7 +158,7 @@ def _contact(case: Case, road: Pavement, tell: Progress, spacing: float | None =
     )
 
 
-def _map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:
+def map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:
     """The cells of all wheels, on layers with a margin around them."""
     grid = common_grid(loads)
     if road.is_homogeneous:
@@ -208,7 +208,7 @@ def _line(response: Response, members: slice, along: str) -> Response:
     return replace(response, dataset=data, stats=stats)
 
 
-def _slice_depths(bottom: float, cell: float, road: Pavement) -> Array:
+def slice_depths(bottom: float, cell: float, road: Pavement) -> Array:
     """Depths from the surface to the bottom, close to each other near the surface where strain varies fast.
 
     None lies between the surface and half a cell: there the field shows the edges of the cells. Both sides of every

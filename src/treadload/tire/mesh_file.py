@@ -9,7 +9,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from treadload.errors import GeometryError, InputError
+from treadload.errors import GeometryError, InputError, how_to_install
 from treadload.kernels.arrays import Array
 
 FORMATS = (".obj", ".ply", ".stl", ".glb", ".off")
@@ -34,9 +34,7 @@ def import_trimesh() -> ModuleType:
     try:
         import trimesh
     except ImportError as error:
-        raise InputError(
-            'reading a scan needs trimesh, which is not installed; run  pip install "treadload[scan]"'
-        ) from error
+        raise InputError(f"reading a scan needs trimesh, which is not installed; {how_to_install('scan')}") from error
     module: ModuleType = trimesh
     return module
 

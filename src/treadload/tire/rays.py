@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from treadload.errors import InputError
+from treadload.errors import InputError, how_to_install
 from treadload.kernels.arrays import Array
 from treadload.tire.mesh_file import import_trimesh
 
@@ -34,7 +34,7 @@ class Caster:
         except ModuleNotFoundError as error:  # trimesh's own caster needs rtree
             raise InputError(
                 f"casting rays needs embreex (or, slower, rtree), but {error.name} is not installed; "
-                'run  pip install "treadload[scan]"'
+                f"{how_to_install('scan')}"
             ) from error
         hit = face >= 0
         normal, anchor = self._normal[face], self._anchor[face]

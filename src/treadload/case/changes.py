@@ -1,0 +1,76 @@
+"""Keys of a case set from outside: "rolling.friction=0.6", "pavement.layers.0.thickness=8 cm"."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from typing import Any
+
+from treadload.errors import InputError
+from treadload.files import parse_toml
+
+_EXAMPLE = 'rolling.friction=0.6 or pavement.layers.0.thickness="8 cm"'
+
+
+def changed(table: dict[str, Any], changes: Sequence[str]) -> dict[str, Any]:
+    """A copy of the tables of a case with keys set.
+
+    changes: "key=value"; parts of a key are joined by points, rows of a list are counted from 0. A value is TOML,
+    0.6 or true or [0, 0.02], or else text, 8 cm; without a value the key is taken out. Whether the case knows the
+    key is found when it is read. Raises InputError.
+    """
+    table = copy.deepcopy(table)
+    for change in changes:
+        key, sign, value = change.partition("=")
+        path = key.strip().split(".")
+        if not sign or not all(path):
+            raise InputError(f"cannot set {change!r}: write key=value, such as {_EXAMPLE}")
+        _set(table, path, value.strip(), change)
+    return table
+
+
+def _set(table: dict[str, Any], path: Sequence[str], value: str, change: str) -> None:
+    here: Any = table
+    for number, part in enumerate(path[:-1]):
+        before = ".".join(path[:number])
+        if isinstance(here, list):
+            here = here[_row(here, part, before, change)]
+        elif isinstance(here, dict):
+            here = here.setdefault(part, {})
+        else:
+            raise InputError(f"cannot set {change!r}: {before} is {here!r} and has no keys")
+    last, before = path[-1], ".".join(path[:-1])
+    if isinstance(here, list):
+        row = _row(here, last, before, change)
+        if value:
+            here[row] = _read(value)
+        else:
+            del here[row]
+    elif not isinstance(here, dict):
+        raise InputError(f"cannot set {change!r}: {before} is {here!r} and has no keys")
+    elif value:
+        here[last] = _read(value)
+    elif last in here:
+        del here[last]
+    else:
+        raise InputError(f"cannot take out {'.'.join(path)}: the case does not give it; it has {', '.join(here)}")
+
+
+def _row(rows: list[Any], part: str, before: str, change: str) -> int:
+    if not (part.isascii() and part.isdigit() and int(part) < len(rows)):
+        raise InputError(
+            f"cannot set {change!r}: {before} is a list of {len(rows)}, whose rows are 0 to {len(rows) - 1}, "
+            f"got {part!r}"
+        )
+    return int(part)
+
+
+def _read(value: str) -> Any:
+    """A value of TOML, or the text itself."""
+    try:
+        found = parse_toml(f"value = {value}", value)
+    except InputError:
+        return value
+    # A date is no value of a case, and a second line would be another key.
+    plain = isinstance(found["value"], bool | int | float | str | list | dict)
+    return found["value"] if plain and len(found) == 1 else value

@@ -1,0 +1,92 @@
+"""Progress on stderr: a bar or a spinner in a terminal; in pipes, CI and notebooks a line now and then."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+# Work shorter than this says nothing where there is no terminal, s; no two lines are closer than it.
+SHORT = 3.0
+# A stage that goes on is told again after this long, s.
+AGAIN = 10.0
+
+Stage = Callable[[str], None]
+Count = Callable[[int, int, str], None]
+
+
+class Lines:
+    """Lines that tell the stage: once it has lasted a moment, and again every while, from a thread of their own."""
+
+    def __init__(self, write: Callable[[str], None], began: float | None = None) -> None:
+        self._write, self._short, self._again = write, SHORT, AGAIN
+        self._began = self._last = time.monotonic() if began is None else began
+        self._text, self._told = "", False
+        self._over = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+
+    def stage(self, text: str) -> None:
+        """A stage begins, or the text of the present one changes."""
+        self._text, self._told = text, False
+
+    def count(self, done: int, total: int, what: str) -> None:
+        """So many of so many are done."""
+        self._text = f"{done} of {total} {what}s"
+
+    def tick(self, now: float) -> None:
+        """Look at the clock, s, and write a line if it is time for one."""
+        quiet = now - self._last
+        if self._text and (quiet >= self._again or (quiet >= self._short and not self._told)):
+            self._write(f"{now - self._began:5.0f} s  {self._text}")
+            self._last, self._told = now, True
+
+    def _run(self) -> None:
+        while not self._over.wait(self._short / 8):
+            self.tick(time.monotonic())
+
+    def __enter__(self) -> Lines:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._over.set()
+        self._thread.join()
+
+
+def _lines(console: Console) -> Lines:
+    return Lines(lambda text: console.print(text, markup=False))
+
+
+@contextlib.contextmanager
+def stages(console: Console, *, quiet: bool) -> Iterator[Stage]:
+    """What to call with the text of every stage. console: stderr. quiet: True to say nothing."""
+    if quiet:
+        yield lambda text: None
+    elif console.is_terminal:
+        with console.status("starting") as status:
+            yield lambda text: status.update(text)
+    else:
+        with _lines(console) as lines:
+            yield lines.stage
+
+
+@contextlib.contextmanager
+def counts(console: Console, *, quiet: bool) -> Iterator[Count]:
+    """What to call with how many solves are done, of how many, and of what."""
+    if quiet:
+        yield lambda done, total, what: None
+    elif console.is_terminal:
+        with Progress(
+            TextColumn("{task.description:10}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
+            console=console, transient=True,
+        ) as bar:  # fmt: skip
+            task = bar.add_task("reading", total=None)
+            yield lambda done, total, what: bar.update(task, completed=done, total=total, description=f"{what}s")
+    else:
+        with _lines(console) as lines:
+            lines.stage("reading")
+            yield lines.count
