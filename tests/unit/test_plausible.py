@@ -9,6 +9,7 @@ import treadload as tl
 from cases import COARSE_CASE
 from treadload.plausible import RANGES, doubt, load_doubt
 from treadload.study import run_case
+from treadload.study.doubts import traffic_doubts
 
 TRUCK = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ASPHALT = tl.Elastic(5.4e9, 0.35)
@@ -134,3 +135,14 @@ def test_a_life_says_what_no_traffic_is():
     life = tl.design_life(TRUCK, road, usual, tl.Climate.constant(15.0), [criterion], spacing=12e-3)
     (text,) = [text for text in life.warnings if "reach into" in text]
     assert text.startswith("front: the footprints of wheels 1 and 2")
+
+
+def test_a_class_is_judged_by_its_own_tire():
+    narrow = tl.Tire.from_profile(tl.TreadProfile(0.1, 0.03, 0.03))
+    rows = [
+        tl.AxleClass("robot", 0.5, 20.0, 5e4, tire=narrow),
+        tl.AxleClass("truck", 0.5, 20.0, 8e5),
+    ]
+    said = traffic_doubts(TRUCK, tl.Traffic(tuple(rows), 1e5), tl.Climate.constant(15.0))
+    assert len(said) == 1
+    assert "wheel load of truck is 20 N" in said[0]
