@@ -49,6 +49,13 @@ def check(result: tl.DesignResult) -> None:
     found = result.sensitivity.dataset["elasticity"]
     strength = float(found.sel(input=f"strength of {life.governing}"))
     assert abs(strength / (-5 * float(found.sel(input="passes"))) - 1) < 1e-6
+    # The French laws hold the wander of traffic: their lives are those of one track, and the other is printed beside.
+    for name, held in (("base, bottom-up", True), ("surface, top-down", False), ("platform, rutting", True)):
+        row = data.sel(criterion=name)
+        still, wide = float(row["life_years_without_wander"]), float(row["life_years_with_wander"])
+        print(f"{name}: {still:.1f} years in one track, {wide:.1f} with wander on top")
+        assert life.years(name) == (still if held else wide)
+        assert still < wide
     # The base fails first, from below, and later than the design life.
     assert life.governing == "base, bottom-up"
     assert life.years(life.governing) > traffic.years

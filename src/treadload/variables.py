@@ -145,6 +145,8 @@ _LIFE = {
     "life_passes": ("1", "passes until the damage at the worst place is 1"),
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
     "design_damage": ("1", "Miner's damage at the worst place at the end of the design life; 1 is failure"),
+    "group_factor": ("1", "harm of one axle of a group over that of the same axle alone, K"),
+    "axles": ("1", "number of axles of a class, one behind the other"),
     "read_depth": ("m", "depth at which a criterion reads"),
     "first_crack_angle": ("rad", "angle of the first crack's trace from travel towards the right"),
     "first_crack_dip": ("rad", "angle of the first crack's plane from the horizontal, π/2 is vertical"),

@@ -1,5 +1,6 @@
 """From tire to life: what is solved, what is interpolated and how well."""
 
+import json
 import math
 from dataclasses import replace
 
@@ -257,3 +258,30 @@ def test_a_class_may_have_a_tire_of_its_own():
         solve_passages(TIRE, road, mixed, Climate.constant(15.0), CRITERIA[:1], **COARSE)
     with pytest.raises(InputError, match="has 1 wheels, 0 to 0; none is number 1"):
         replace(own, mirrored=(1,))
+
+
+def test_the_harm_of_an_axle_in_its_group_is_printed_beside_the_french_factor():
+    """K by two lives: that of the group, and that of one of its axles."""
+    wheels = ((-1.31, 0.0), (0.0, 0.0), (1.31, 0.0))
+    climate = Climate.constant(15.0)
+    group = design_life(
+        TIRE, ROAD, Traffic((AxleClass("tridem", 1.0, 39e3, 850e3, wheels),), 1e5), climate, CRITERIA, **COARSE
+    )
+    alone = design_life(
+        TIRE, ROAD, Traffic((AxleClass("single", 1.0, 39e3, 850e3),), 1e5), climate, CRITERIA, **COARSE
+    )
+    factor = group.dataset["group_factor"].sel(axle_class="tridem")
+    expected = alone.dataset["life_passes"] / group.dataset["life_passes"] / 3
+    # The same points but for those along of deep criteria, which stand elsewhere below the axles.
+    np.testing.assert_allclose(factor, expected, rtol=5e-3)
+    # On the soil the basins of the axles add up; the surface is pressed together between them.
+    assert factor.sel(criterion="soil").item() > 1.05
+    assert factor.sel(criterion="top-down").item() < 0.95
+    (said,) = json.loads(group.dataset.attrs["groups"])
+    assert said.startswith("tridem: each of 3 axles does K = ")
+    assert f"{factor.sel(criterion='base').item():.2f} (base)" in said
+    assert said.endswith("the French method takes 1.1 for bituminous layers and 113 for hydraulic layers")
+    assert said in group.summary()
+    assert group.stats["responses"] == alone.stats["responses"] + 1
+    assert np.isnan(alone.dataset["group_factor"]).all()
+    assert json.loads(alone.dataset.attrs["groups"]) == []

@@ -54,6 +54,12 @@ AGGRESSIVENESS: Mapping[str, Mapping[str, float]] = {
 }
 """Mean aggressiveness CAM of a heavy vehicle, in axles of 130 kN, by what it wears and class of traffic."""
 
+GROUP_FACTORS: Mapping[str, Mapping[int, float]] = {
+    "bituminous": {1: 1.0, 2: 0.75, 3: 1.1},
+    "hydraulic": {1: 1.0, 2: 12.0, 3: 113.0},
+}
+"""K of one axle by the number of axles in its group and the kind of layer; recalled, not verified in a source."""
+
 
 @dataclass(frozen=True)
 class FrenchBituminous(PowerLaw):

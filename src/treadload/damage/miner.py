@@ -69,8 +69,10 @@ class Life:
                 f"  {criterion.name}: {_years(float(row['life_years']))}, {float(row['life_passes']):.3g} passes; "
                 f"largest {criterion.quantity} {in_words(law, float(row['largest_reading']))} at "
                 f"y = {float(row['worst_y']) * 1e3:.0f} mm; most by {data['axle_class'].to_numpy()[worst[0]]}, "
-                f"{data['season'].to_numpy()[worst[1]]} ({100 * share[worst]:.0f} %); at its end {law.end_of_life}"
+                f"{data['season'].to_numpy()[worst[1]]} ({100 * share[worst]:.0f} %); "
+                f"damage 1 means {law.end_of_life}"
             )
+        lines += [f"  {text}" for text in json.loads(data.attrs.get("groups", "[]"))]
         if math.isinf(self.years(self.governing)):
             lines.append("Verdict: no criterion is ever used up by this traffic.")
         else:

@@ -23,7 +23,8 @@ _NO_CRACK = "ruts, no crack"
 @dataclass(frozen=True)
 class LifeReport:
     """What a report says of one life. label: of the case. facts: (term, value). rows: of `COLUMNS`. laws: name of a
-    criterion, law, source, doubt, what the end of life is. solved: what was solved for it.
+    criterion, law, source, doubt, what the end of life is. groups: sentences on groups of axles. solved: what was
+    solved for it.
     """
 
     label: str
@@ -31,6 +32,7 @@ class LifeReport:
     rows: tuple[tuple[str, ...], ...]
     pictures: tuple[Picture, ...]
     laws: tuple[tuple[str, str, str, str, str], ...]
+    groups: tuple[str, ...]
     solved: str
 
 
@@ -48,6 +50,7 @@ def life_report(label: str, data: xr.Dataset) -> LifeReport:
         rows,
         tuple(_pictures(data)),
         tuple(zip(names, laws, sources, doubts, ends, strict=True)),
+        tuple(json.loads(data.attrs.get("groups", "[]"))),
         _solved(data),
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,6 +13,7 @@ from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
 from treadload.pavement import Pavement, lift_below
 from treadload.study.doubts import traffic_doubts
+from treadload.study.groups import group_factors, in_words
 from treadload.study.passages import Progress, solve_passages
 from treadload.tire import Tire
 
@@ -31,9 +33,9 @@ def design_life(
     """How many years a road lasts, by every criterion.
 
     Arguments as in `solve_passages`: what each law reads as every class of axle passes in every season; then
-    Miner's sum after wander, see `miner`. stats of the result: contacts and responses solved, combinations that
-    they serve, the largest relative error of readings interpolated over the climate, how far wheels were moved onto
-    the common cells (m), seconds.
+    Miner's sum after wander, see `miner`, and what the axles of a group do to each other, see `study.groups`.
+    stats of the result: contacts and responses solved, combinations that they serve, the largest relative error of
+    readings interpolated over the climate, how far wheels were moved onto the common cells (m), seconds.
     Raises InputError, and ConvergenceError of a contact.
     """
     start = time.perf_counter()
@@ -51,9 +53,15 @@ def design_life(
     )
     depths = ("criterion", [criterion.depth(road) for criterion in criteria], variables.attributes("read_depth"))
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))
+    factors, axles = group_factors(road, life, passages)
+    names = (tuple(row.name for row in traffic.classes), tuple(criterion.name for criterion in criteria))
+    about = {"groups": json.dumps(in_words(*names, factors, axles), ensure_ascii=False)}
+    fields = {"group_factor": (("criterion", "axle_class"), factors), "axles": (("axle_class",), axles)}
+    told = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
+    life = replace(life, dataset=life.dataset.assign(told).assign_attrs(about))
     stats = {
         "contacts": passages.contacts,
-        "responses": passages.responses,
+        "responses": passages.responses + int((axles > 1).sum()),
         "combinations": passages.combinations,
         "interpolation_error": passages.interpolation_error,
         "wheels_moved": passages.moved,

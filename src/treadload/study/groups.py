@@ -1,0 +1,71 @@
+"""What the axles of a group do to each other: the harm of one of them over that of the same axle alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from treadload.damage.french import GROUP_FACTORS
+from treadload.damage.miner import Life
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.study.passages import Passages, Wheels, passage, warmed
+
+
+def group_factors(road: Pavement, life: Life, passages: Passages) -> tuple[Array, Array]:
+    """K of every criterion and class, and the number of axles of every class.
+
+    K = D(group) / (axles × D(one of its axles alone)), by the sum that the life takes, both at their own worst place,
+    in the season in which the class does most of the damage. NaN for single axles and where no harm is done.
+    life: by the readings of the passages. Returns K (criterion, axle_class) and axles (axle_class).
+    One response is solved for each class with several axles.
+    """
+    readings = life.readings.to_numpy()
+    y = life.readings["y"].to_numpy()
+    shares = life.dataset["damage_share"].to_numpy()
+    factors = np.full(shares.shape[:2], np.nan)
+    axles = np.array([len(one.x) for one in passages.wheels])
+    for number, wheels in enumerate(passages.wheels):
+        if axles[number] == 1:
+            continue
+        season = int(shares[:, number].sum(axis=0).argmax())
+        warm = warmed(road, life.criteria, life.climate.seasons[season])
+        alone = passage(_one_axle(wheels), warm, y, 1)[:, :1]
+        group = readings[:, number, season]
+        for k, law in enumerate(row[season] for row in life.laws):
+            together, single = (_harm(law.allowable_passes(values)).max() for values in (group[k], alone[k]))
+            if single > 0:
+                factors[k, number] = together / (axles[number] * single)
+    return factors, axles
+
+
+def in_words(names: tuple[str, ...], criteria: tuple[str, ...], factors: Array, axles: Array) -> tuple[str, ...]:
+    """A sentence for each class with several axles. names: of the classes; criteria: their names."""
+    said = []
+    for name, count, column in zip(names, axles, factors.T, strict=True):
+        if count == 1:
+            continue
+        known = zip(criteria, column, strict=True)
+        own = ", ".join(f"{value:.2f} ({one})" for one, value in known if np.isfinite(value)) or "unknown"
+        french = " and ".join(
+            f"{row[int(count)]:g} for {kind} layers" for kind, row in GROUP_FACTORS.items() if int(count) in row
+        )
+        beside = f"; the French method takes {french}" if french else ""
+        said.append(f"{name}: each of {count} axles does K = {own} of what it would do alone{beside}")
+    return tuple(said)
+
+
+def _one_axle(wheels: Wheels) -> Wheels:
+    """The rear axle of a group, where it stands."""
+    first = wheels.x[0]
+    half = 0.5 * (first[1] - first[0])
+    loads = tuple(load for load in wheels.loads if abs(load.grid.x[0] - first[0]) < half)
+    return replace(wheels, loads=loads, x=wheels.x[:1])
+
+
+def _harm(passes: Array) -> Array:
+    """Σ 1/N(peak) - Σ 1/N(valley) (ny,) of the passes (turn, ny) that readings allow."""
+    sign = np.where(np.arange(len(passes)) % 2, -1.0, 1.0)[:, None]
+    harm: Array = np.maximum((sign / np.asarray(passes)).sum(axis=0), 0.0)
+    return harm
