@@ -239,7 +239,8 @@ def _check_commas(table: Table) -> None:
     cells = [cell for row in table.rows for cell in row]
     behind = {len(cell) for row in table.rows for cell in row[1::2]}
     even = len(table.rows[0]) % 2 == 0 and len(behind) == 1
-    if even and all(cell.isascii() and cell.isdigit() for cell in cells):
+    # Nothing but zeros is zero either way.
+    if even and all(cell.isascii() and cell.isdigit() for cell in cells) and set(cells) != {"0"}:
         shown = ",".join(table.rows[0][:2])
         raise InputError(
             f"{table.path}: {shown!r} in line {table.lines[0]} may be two whole numbers or one with a decimal comma; "

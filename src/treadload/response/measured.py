@@ -335,8 +335,9 @@ def _evenly(name: str, values: Array, single: object) -> tuple[float, int, float
         raise InputError(
             f"the spacing along {name} cannot be read from {values.size} coordinate(s); give a GridLoad with its Grid"
         )
-    spacing = float(values[-1] - values[0]) / (len(values) - 1)
-    uneven = float(np.abs(np.diff(values) - spacing).max())
+    with np.errstate(over="ignore", invalid="ignore"):
+        spacing = float(values[-1] - values[0]) / (len(values) - 1)
+        uneven = float(np.abs(np.diff(values) - spacing).max())
     if not (spacing > 0 and uneven <= _EXACT * spacing):
         raise InputError(
             f"{name} must rise in even steps: the mean step is {spacing:g} m, the worst differs by {uneven:g} m; "

@@ -90,7 +90,10 @@ class HeightMapSurface:
             raise GeometryError(
                 f"all {gap.size} values of the height map are NaN; at least one must be a length in m"
             )
-        gap -= np.nanmin(gap)
+        with np.errstate(over="ignore"):
+            gap -= np.nanmin(gap)
+        if np.isinf(gap).any():
+            raise InputError("the heights of the map differ by more than the largest number, 1.8e308")
         # NaN has many bit patterns; one of them, so that equal maps have equal digests.
         gap[np.isnan(gap)] = np.nan
         gap += 0.0
@@ -278,6 +281,10 @@ def of_variable(
     """
     about = where or "the array"
     bare = None if strict else "m"
+    if variable.ndim != 2 or not variable.size:
+        raise InputError(
+            f"a height map must be a 2-D array (ny, nx) with at least one value, got shape {variable.shape} in {about!r}"
+        )
     factors = {"gap": _factor("gap", variable, units, about, bare)}
     if {"x", "y"} <= set(variable.dims):
         variable = variable.transpose("y", "x")
@@ -293,7 +300,8 @@ def of_variable(
     variable = variable.sortby(["y", "x"])
     steps: dict[str, tuple[float, float]] = {}
     for k, name in enumerate(("x", "y")):
-        places = factors[name] * variable[name].to_numpy().astype(np.float64)
+        with np.errstate(over="ignore"):
+            places = factors[name] * variable[name].to_numpy().astype(np.float64)
         steps[name] = _even_steps(places, name, about, None if spacing is None else spacing[k])
     with np.errstate(over="ignore"):
         gap = factors["gap"] * real_array(variable.to_numpy(), about)
@@ -324,8 +332,9 @@ def _even_steps(values: Array, name: str, file: str, given: float | None) -> tup
         if given is None:
             raise InputError(f"coordinate {name} of {file!r} has one value and gives no spacing; give spacing in m")
         return float(values[0]), given
-    step = float(values[-1] - values[0]) / (len(values) - 1)
-    error = float(np.abs(np.diff(values) - step).max())
+    with np.errstate(over="ignore", invalid="ignore"):
+        step = float(values[-1] - values[0]) / (len(values) - 1)
+        error = float(np.abs(np.diff(values) - step).max())
     if not (step > 0 and error <= 1e-3 * step):
         raise InputError(
             f"coordinate {name} of {file!r} is not evenly spaced: "
