@@ -421,3 +421,22 @@ def test_which_treads_are_their_own_mirror_image():
     assert Tire.from_height_map(gap, 3e-3).is_symmetric
     gap[0] = np.nan
     assert not Tire.from_height_map(gap, 3e-3).is_symmetric
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (labelled().initial_gap[:0], r"got shape \(0, 9\)"),
+        (labelled().initial_gap.expand_dims("time"), r"got shape \(1, 7, 9\)"),
+        (labelled().initial_gap.assign_coords(x=np.r_[0.0, 1e308, -1e308, np.zeros(6)]), "not evenly spaced"),
+    ],
+)
+def test_odd_arrays_with_coordinates_are_refused(data, message):
+    with pytest.raises(InputError, match=message):
+        Tire.from_height_map(data)
+
+
+def test_a_flat_map_of_zeros_may_be_whole_numbers(tmp_path):
+    path = tmp_path / "flat.csv"
+    path.write_text("0,0,0,0\n0,0,0,0\n")
+    assert Tire.from_height_map(path, 3e-3).surface.gap.shape == (2, 4)

@@ -283,7 +283,7 @@ def of_variable(
     bare = None if strict else "m"
     if variable.ndim != 2 or not variable.size:
         raise InputError(
-            f"a height map must be a 2-D array (ny, nx) with at least one value, got shape {variable.shape} in {about!r}"
+            f"a height map must be a 2-D array (ny, nx) of one value or more, got shape {variable.shape} of {about!r}"
         )
     factors = {"gap": _factor("gap", variable, units, about, bare)}
     if {"x", "y"} <= set(variable.dims):
