@@ -335,7 +335,7 @@ def _even_steps(values: Array, name: str, file: str, given: float | None) -> tup
     with np.errstate(over="ignore", invalid="ignore"):
         step = float(values[-1] - values[0]) / (len(values) - 1)
         error = float(np.abs(np.diff(values) - step).max())
-    if not (step > 0 and error <= 1e-3 * step):
+    if not (math.isfinite(step) and step > 0 and error <= 1e-3 * step):
         raise InputError(
             f"coordinate {name} of {file!r} is not evenly spaced: "
             f"steps differ by up to {error:.3g} m from {step:.3g} m"
