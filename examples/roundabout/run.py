@@ -164,7 +164,8 @@ def check(wheels: dict[str, tl.Contact], tables: list[xr.Dataset]) -> None:
         f"roundabout: the work of sliding peaks {distance * 1e3:.0f} mm from a rib's edge, {ratio:.1f} x the median"
     )
     assert ratio > 1.5
-    assert distance < 6.1e-3
+    # Within the rounded shoulder. The outermost coarse cell hangs half over the edge, the next one peaks then.
+    assert distance < max(6.1e-3, 1.6 * wheels["roundabout"].dataset.attrs["dx"])
     for numbers in tables:
         of = {str(name): numbers.sel(maneuver=name) for name in numbers.maneuver.values}
         # A force along the road opens cracks across it, a side force hardly any.

@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -117,6 +118,7 @@ def strain_profiles(
         handles.append(Line2D([], [], color=colour, lw=1.8, label=f"{name}: {at}"))
     for ax, component in zip(panels, strains, strict=True):
         frame_profile(ax, down)
+        ax.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
         draw_interfaces(ax, layers, float(down[-1]))
         if component in _WORST:
             _draw_line(ax, epsilon_6)

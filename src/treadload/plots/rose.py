@@ -108,7 +108,7 @@ def orientation_shares(
                 )  # fmt: skip
             start += share
         if start == 0:
-            ax.text(0.01, row, "nothing extends beyond the threshold", va="center", color=MUTED, fontsize=8.5)
+            ax.text(0.01, row, "no crack beyond the threshold", va="center", color=MUTED, fontsize=8.5)
         if notes is not None:
             ax.text(1.015, row, plain(notes[row]), va="center", fontsize=8.5, clip_on=False)
     ax.set_yticks(range(len(cases)), [plain(name) for name in names])
@@ -176,7 +176,7 @@ def _circles(largest: float) -> Array:
 def _aside(case: xr.Dataset) -> str:
     shares = _by_word(case)
     if sum(shares.values()) == 0:
-        return "nothing extends that far"
+        return "no crack that far"
     flat = shares.get(ORIENTATIONS[HORIZONTAL], 0.0)
     return f"and {100 * flat:.0f} % horizontal, without a trace" if flat >= 0.005 else " "
 
