@@ -51,6 +51,16 @@ def test_a_plan_finds_what_a_run_would_refuse():
         plan_case(tl.Case.from_text(COARSE_CASE, changes=["spacing=200 mm"]))
 
 
+def test_a_plan_tells_numbers_that_no_tire_has():
+    plan = plan_case(tl.Case.from_text(COARSE_CASE, changes=["rolling.speed=90", "tire.inflation_pressure=20 kPa"]))
+    assert (
+        'warning: the speed is 90 m/s, 324 km/h; vehicles usually roll at 1.1 to 137 km/h: did you mean "90 km/h"?'
+        in (plan)
+    )
+    assert "warning: the inflation pressure is 20000 Pa" in plan
+    assert "warning" not in plan_case(tl.Case.from_text(COARSE_CASE))
+
+
 def test_the_plan_of_a_design_counts_its_solves():
     design = """
 spacing = "12 mm"

@@ -9,13 +9,16 @@ import numpy as np
 import scipy.fft
 
 from treadload.case import Case, LifeCase
+from treadload.contact import cautions
 from treadload.contact.influence import Influence
 from treadload.contact.solve import place
 from treadload.contact.viscoelastic import combined
 from treadload.grid import Grid
 from treadload.pavement import Pavement
 from treadload.response import GridLoad
+from treadload.response.doubts import question_doubts, road_doubts
 from treadload.results import road_in_rows
+from treadload.study.doubts import traffic_doubts
 from treadload.study.passages import state, warmed
 from treadload.study.run import map_grid, slice_depths
 
@@ -27,11 +30,14 @@ def plan_case(case: Case) -> str:
     forces that friction cannot carry.
     """
     road, asked = case.pavement.build(), case.response
-    lines = []
+    lines: list[str] = []
+    said: list[str] = []
     if case.footprint is None:
         grid = _contact_grid(case, road)
         wheel = GridLoad(grid, np.zeros(grid.shape))
-        lines += [f"tire      {case.build_tire()}", f"rolling   {case.build_rolling()}"]
+        tire, rolling = case.build_tire(), case.build_rolling()
+        said += cautions.of_numbers(tire, rolling, grid)
+        lines += [f"tire      {tire}", f"rolling   {rolling}"]
         lines.append(f"contact   {grid}, {_count(grid.nx * grid.ny)} cells")
     else:
         wheel = case.footprint.build(case.folder)
@@ -56,7 +62,11 @@ def plan_case(case: Case) -> str:
     seconds = _seconds(road, solved, mapped, (cells.nx + cells.ny) * sliced)
     shown = f"{seconds:.1g} s" if seconds < 10 else f"{seconds:.2g} s" if seconds < 100 else f"{seconds / 60:.2g} min"
     lines.append(f"estimate  about {shown} on this machine, within a factor of three or so")
-    return "\n".join([*lines, "", road_in_rows(road, case)])
+    said += [
+        *question_doubts(np.array(asked.depths), case.speed if road.is_viscoelastic else None),
+        *road_doubts(road),
+    ]
+    return "\n".join([*lines, "", road_in_rows(road, case), *(f"warning: {text}" for text in said)])
 
 
 def plan_design(case: LifeCase) -> str:
@@ -76,7 +86,8 @@ def plan_design(case: LifeCase) -> str:
         "climate; the sensitivities take about as many again",
     ]
     lines += [f"criterion {one.name}: {one.law_at(15.0)} at {one.depth(road) * 1e3:g} mm" for one in criteria]
-    return "\n".join(lines)
+    said = [*traffic_doubts(tire, traffic, case.build_climate()), *road_doubts(warm[0].road)]
+    return "\n".join([*lines, *(f"warning: {text}" for text in said)])
 
 
 def _contact_grid(case: Case, road: Pavement) -> Grid:
