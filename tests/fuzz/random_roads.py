@@ -436,11 +436,16 @@ def _halved(road: tl.Pavement, number: int) -> tl.Pavement:
     return tl.Pavement(layers, rigid_base=road.rigid_base)
 
 
-def checks(case: Case, whole: bool) -> Iterator[tuple[str, Callable[[], Found]]]:
-    """What a road is asked: waves, on every fourth one check of fields, drawn, on others a disc; or everything."""
-    number = case.seed[1]
+def checks(case: Case, every: int) -> Iterator[tuple[str, Callable[[], Found]]]:
+    """What a road is asked: waves; one check of fields, drawn, on so many roads once, and as often discs.
+
+    every: 1 for all checks of every road, 0 for waves alone.
+    """
+    number, whole = case.seed[1], every == 1
     yield "waves", lambda: waves(case)
-    if whole or number % 4 == 0:
+    if not every:
+        return
+    if number % every == 0:
         drawn = range(len(FIELDS)) if whole else [int(np.random.default_rng([*case.seed, 3]).integers(len(FIELDS)))]
         kept: list[xr.Dataset] = []
 
@@ -451,15 +456,15 @@ def checks(case: Case, whole: bool) -> Iterator[tuple[str, Callable[[], Found]]]
         yield "fields", base
         for one in drawn:
             yield FIELDS[one].__name__, lambda one=FIELDS[one]: one(case, kept[0]) if kept else iter(())
-    if whole or number % 4 == 2:
+    if number % every == every // 2:
         yield "disc", lambda: under_a_disc(case)
 
 
-def check(case: Case, tally: Tally, whole: bool = False) -> None:
+def check(case: Case, tally: Tally, every: int = 4) -> None:
     """The checks of one road into the tally."""
     began = time.perf_counter()
     number = case.seed[1]
-    for part, found in checks(case, whole):
+    for part, found in checks(case, every):
         try:
             for name, error, bound in found():
                 tally.checks[name] += 1
@@ -481,11 +486,11 @@ def check(case: Case, tally: Tally, whole: bool = False) -> None:
     tally.slowest = max(tally.slowest, (seconds, number))
 
 
-def run(seed: int, numbers: range, whole: bool = False, progress: Callable[[Tally], None] | None = None) -> Tally:
-    """Check the roads of these numbers. whole: every road by every check. progress: called at every hundredth."""
+def run(seed: int, numbers: range, every: int = 4, progress: Callable[[Tally], None] | None = None) -> Tally:
+    """Check the roads of these numbers. every: see `checks`. progress: called at every hundredth."""
     tally = Tally()
     for number in numbers:
-        check(random_case(seed, number), tally, whole)
+        check(random_case(seed, number), tally, every)
         if progress is not None and tally.roads % 100 == 0:
             progress(tally)
     return tally
@@ -497,14 +502,14 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--count", type=int, default=1000, help="roads")
     parser.add_argument("--start", type=int, default=0, help="first road")
-    parser.add_argument("--whole", action="store_true", help="every road by every check: ten times as long")
+    parser.add_argument("--every", type=int, default=4, help="roads to one whose fields are checked; 1: all, whole")
     parser.add_argument("--only", type=int, help="the one road to repeat, by every check")
     asked = parser.parse_args()
-    numbers, whole = range(asked.start, asked.start + asked.count), asked.whole
+    numbers, every = range(asked.start, asked.start + asked.count), asked.every
     if asked.only is not None:
-        numbers, whole = range(asked.only, asked.only + 1), True
+        numbers, every = range(asked.only, asked.only + 1), 1
         print("\n".join(map(str, random_case(asked.seed, asked.only).road.layers)))
-    tally = run(asked.seed, numbers, whole, lambda one: print(one, "\n", flush=True))
+    tally = run(asked.seed, numbers, every, lambda one: print(one, "\n", flush=True))
     print(tally)
     return 1 if tally.failures else 0
 

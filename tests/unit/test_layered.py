@@ -100,8 +100,7 @@ def test_the_longest_waves_on_a_rigid_base_keep_their_digits(poisson):
     # As k goes to 0 shear is Σ h/G and the base carries the load; corrections are (k H)² times the contrast.
     np.testing.assert_allclose(result.plane[0, 0, 0] / k, 0.1 / 1e9 + 0.5 / 1e8, rtol=2e-5)
     np.testing.assert_allclose(result.plane[:, 2, 0], 1, atol=1e-5)
-    # The last digits of a pressure that a layer hardly yields to: 1e-4, in waves that weigh (k H)² = 1e-6.
-    np.testing.assert_allclose(result.plane[:, 3, 1], 1, atol=1e-3)
+    np.testing.assert_allclose(result.plane[:, 3, 1], 1, atol=1e-5)
     yielding = [(1 - 2 * nu) / (2 * g * (1 - nu)) for g, nu in zip(stack.shear, poisson, strict=True)]
     settled = np.dot(yielding, stack.thickness)
     assert np.abs(result.plane[0, 1, 1] / k - settled).max() <= 2e-5 * 0.5 / 1e8
