@@ -86,5 +86,5 @@ def test_a_loose_course_over_an_incompressible_one_on_rock(top):
     for name in ("stress_zz", "stress_xx"):
         a, b = found[name].to_numpy(), near[name].to_numpy()
         size = np.abs(b).max(axis=(1, 2))
-        # 1e-5 of Poisson's ratio, which horizontal stress feels ten times over. Waves that lose digits are wrong by 16.
+        # 1e-5 of Poisson's ratio, which horizontal stress feels ten times over; waves that lose digits err by 16.
         assert (np.abs(a - b).max(axis=(1, 2)) <= 3e-4 * size).all(), name

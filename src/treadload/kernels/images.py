@@ -40,7 +40,7 @@ _LIMIT = 10.0
 # Compliance below this part of the top layer's is fitted to that part of the top layer's: stiffer layers below a
 # soft one are seen by wide contacts, a rigid base lets no field reach them.
 _FLOOR, _FLOOR_ON_ROCK = 1e-3, 1e-2
-# Longest wave on a rigid base, times that length: longer ones feel the limit alone, and samples there take images away
+# Longest wave on a rigid base, times that length: longer ones feel the limit alone, and their samples take images
 # from where they are needed; a tenth of it fits worse.
 _LONGEST_ON_ROCK = 0.03
 # Coefficients are kept for whole multiples of these many cells, which neighbouring shapes share.
