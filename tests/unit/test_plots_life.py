@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
 from treadload.damage import AxleClass, Climate, DesignCriterion, FatigueLine, FrenchSubgrade, Traffic, Wander, miner
 from treadload.errors import InputError
@@ -48,6 +49,8 @@ def test_the_damage_is_that_of_the_design_life():
     lines = life_damage(life).axes[0].get_lines()
     peaks = [np.nanmax(line.get_ydata()) for line in lines if len(line.get_xdata()) > 2]
     assert peaks == pytest.approx(life.dataset["design_damage"].to_numpy(), rel=1e-9)
+    words = [text.get_text() for text in life_damage(life).findobj(Text)]
+    assert any("normal wander of 200 mm, but for laws that hold it" in text for text in words)
 
 
 def test_the_map_holds_the_shares():

@@ -83,7 +83,8 @@ def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
 
 @styled
 def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
-    """Damage across the wheel path by every criterion, after wander, at the end of the design life or of a year.
+    """Damage across the wheel path by every criterion, after wander where it counts, at the end of the design life or
+    of a year.
 
     life: a Life or its dataset. Returns the figure. Raises InputError if variables are missing.
     """
@@ -116,7 +117,11 @@ def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
     ax.grid(True)
     ax.set_xlabel("y, right of the middle of the wheel path (mm)")
     ax.set_ylabel(f"damage {when}")
-    headline(ax, "Damage across the wheel path", f"{data.attrs.get('wander', '')}; full: surface, dashed: below")
+    wander = str(data.attrs.get("wander", ""))
+    wide = "life_years_with_wander"
+    if wide in data and bool((data["life_years"] != data[wide]).any()):
+        wander += ", but for laws that hold it"
+    headline(ax, "Damage across the wheel path", f"{wander}; full: surface, dashed: below")
     legend_below(ax, handles, columns=min(3, len(handles)))
     return figure
 
