@@ -36,7 +36,10 @@ def test_example_dimensions(example):
     assert quality.facet_sag == pytest.approx(0.7e-3, abs=0.2e-3)
     assert quality.units == "m"
     assert quality.watertight
-    assert not quality.revolved
+    # Facets that cut 0.6 mm raise the peak pressure by 8 %, and the ribs are the same all round.
+    assert quality.revolved
+    assert quality.noise < 0.01e-3
+    assert quality.outliers == ()
     assert quality.coverage > 0.999
     assert [g.width for g in quality.grooves] == pytest.approx([0.017, 0.025, 0.017], abs=2e-3)
     assert [g.centre for g in quality.grooves] == pytest.approx([-0.070, 0, 0.070], abs=1e-3)
@@ -62,7 +65,8 @@ def test_other_meshes(path, radius, grooves):
     assert quality.crown_radius == pytest.approx(radius, abs=1e-3)
     assert len(quality.grooves) == grooves
     assert not quality.watertight
-    assert quality.revolved == (path == CITY)
+    assert quality.revolved
+    assert quality.outliers == ()
     if path == CITY:
         assert quality.facet_sag == pytest.approx(2.5e-3, abs=0.2e-3)
         assert any("facets cut 2.5 mm" in text for text in quality.warnings)

@@ -5,56 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
+from tire_meshes import RIB_TREAD, pose, tire_mesh, write
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
-from treadload.tire import Tire, TreadProfile, equal_ribs, example_mesh
+from treadload.tire import Tire, example_mesh
 from treadload.tire.axis import fit_axis, sample_surface
 
 trimesh = pytest.importorskip("trimesh")
 
-RIB_TREAD = TreadProfile(0.538, 2.0, 0.282, 0.010, equal_ribs(0.282, 4, 0.012, 0.015, math.radians(8)))
 CONTACT = Grid.centred(0.21, 0.3, 3e-3)
-
-
-def tire_mesh(profile=RIB_TREAD, *, around=360, across=90, arc=2 * math.pi, noise=0.0, flipped=0.0, seed=1):
-    """Revolved tread with short sidewalls, in the frame of the wheel: vertices (n, 3) in m, faces (m, 3)."""
-    random = np.random.default_rng(seed)
-    half = 0.5 * profile.width
-    # Walls of grooves need a pair of points each, or they lean over the distance between two.
-    edges = [
-        g.centre + side * (0.5 * g.width - inward) + nudge
-        for g in profile.grooves
-        for side in (-1, 1)
-        for inward in (0.0, g.depth * math.tan(g.wall_angle))
-        for nudge in (-1e-4, 1e-4)
-    ]
-    y = np.union1d(np.linspace(-half + 1e-4, half - 1e-4, across), edges)
-    r = profile.rolling_radius - profile.drop(y)
-    down = np.linspace(0.05, 1, 20)
-    y = np.concatenate([y[0] - 0.02 * np.sin(np.pi * down[::-1]), y, y[-1] + 0.02 * np.sin(np.pi * down)])
-    r = np.concatenate([r[0] - 0.2 * down[::-1], r, r[-1] - 0.2 * down])
-    closed = arc > 2 * math.pi - 1e-6
-    n = round(around * arc / (2 * math.pi))
-    theta = np.linspace(-0.5 * arc, 0.5 * arc, n, endpoint=not closed)
-    vertices = np.stack([np.outer(r, np.sin(theta)), np.tile(y[:, None], n), np.outer(r, np.cos(theta))], axis=-1)
-    vertices = vertices.reshape(-1, 3) + random.normal(scale=noise, size=(len(y) * n, 3))
-    row, column = (a.ravel() for a in np.meshgrid(np.arange(len(y) - 1), np.arange(n if closed else n - 1)))
-    a, b = row * n + column, row * n + (column + 1) % n
-    faces = np.concatenate([np.stack([a, b, a + n], axis=1), np.stack([b, b + n, a + n], axis=1)])
-    turned = random.random(len(faces)) < flipped
-    faces[turned] = faces[turned][:, ::-1]
-    return vertices, faces
-
-
-def write(path, vertices, faces):
-    trimesh.Trimesh(vertices, faces, process=False).export(path)
-    return path
-
-
-def pose(seed):
-    return Rotation.random(random_state=seed).as_matrix(), np.random.default_rng(seed).normal(size=3)
 
 
 def axis_error(axis, turn, shift):

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from pydantic import model_validator
 
-from treadload.case.fields import Angle, Length, Part, Pressure
+from treadload.case.fields import Angle, Length, Number, Part, Pressure
 from treadload.case.materials import TireMaterial
 from treadload.tire import Tire, TreadProfile, example_mesh
 
@@ -32,6 +32,9 @@ class TirePart(Part):
     camber: Angle = 0.0
     revolve: bool | Literal["auto"] = "auto"
     fill_holes: bool | Literal["auto"] = "auto"
+    smooth: Literal[False, "auto"] | Length = False
+    outliers: Literal["remove", "refuse", "keep"] = "remove"
+    roundness: Number = 0.02
     cell: Length | None = None
     inflation_pressure: Pressure | None = None
     material: TireMaterial | None = None
@@ -51,7 +54,10 @@ class TirePart(Part):
             raise ValueError('a scan has one unit of length: write units = "mm"')
         if self.decimal is not None and self.height_map is None:
             raise ValueError(f"decimal belongs to a height_map; this tire is a {given[0]}")
-        only_scan = {"nominal_diameter", "rotation", "camber", "revolve", "fill_holes"}
+        only_scan = {
+            *("nominal_diameter", "rotation", "camber", "revolve", "fill_holes"),
+            *("smooth", "outliers", "roundness"),
+        }
         stray = sorted(only_scan & self.model_fields_set) if self.scan is None else []
         if stray:
             raise ValueError(f"{stray[0]} belongs to a scan; this tire is a {given[0]}")
@@ -78,6 +84,9 @@ class TirePart(Part):
                 camber=self.camber,
                 revolve=self.revolve,
                 fill_holes=self.fill_holes,
+                smooth=self.smooth,
+                outliers=self.outliers,
+                roundness=self.roundness,
                 **body,
             )
         if self.height_map is not None:

@@ -192,6 +192,10 @@ def scan(
     nominal_diameter: Annotated[str | None, typer.Option(help='Outer diameter, e.g. "1076 mm".')] = None,
     rotation: Annotated[str, typer.Option(help="Angle of the wheel about its axle.")] = "0 deg",
     camber: Annotated[str, typer.Option(help="Lean to the right.")] = "0 deg",
+    revolve: Annotated[str, typer.Option(help="Revolve the meridian, not the facets: yes, no or auto.")] = "auto",
+    smooth: Annotated[str, typer.Option(help='Length to smooth noise over, e.g. "6 mm"; no or auto.')] = "no",
+    outliers: Annotated[str, typer.Option(help="Points that stick out: remove, refuse or keep.")] = "remove",
+    roundness: Annotated[float, typer.Option(help="Share of the radius by which it may vary.")] = 0.02,
     spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
     quiet: _Quiet = False,
 ) -> None:
@@ -199,6 +203,7 @@ def scan(
     from treadload.exports import check_output, write
     from treadload.results import height_map
     from treadload.tire import Tire
+    from treadload.tire.scan_options import revolve_choice, smooth_choice
     from treadload.units import quantity
 
     if output is not None:
@@ -211,6 +216,10 @@ def scan(
             nominal_diameter=None if nominal_diameter is None else quantity(nominal_diameter, "m"),
             rotation=quantity(rotation, "rad"),
             camber=quantity(camber, "rad"),
+            revolve=revolve_choice(revolve),
+            smooth=smooth_choice(smooth),
+            outliers=outliers,  # type: ignore[arg-type]  # checked where it is used
+            roundness=roundness,
         )
         if output is not None:
             tell("casting rays")

@@ -12,6 +12,7 @@ from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.plausible import doubt, load_doubt
 from treadload.tire import Tire
+from treadload.tire.modulus import modulus_doubt
 from treadload.tire.surface import HeightMapSurface
 
 # NaN by design: no material, or nothing that rolls.
@@ -19,7 +20,7 @@ _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip
 
 
 def of_tire(tire: Tire) -> list[str]:
-    """What is known of the tire's surface."""
+    """What is known of the tire's surface, and where its modulus comes from when nobody gave it."""
     said = [] if tire.quality is None else list(tire.quality.warnings)
     surface = tire.surface
     if isinstance(surface, HeightMapSurface) and surface.is_steep:
@@ -28,6 +29,10 @@ def of_tire(tire: Tire) -> list[str]:
             f"the heights of the tread differ by {surface.relief:.4g} m on a map of {length:.3g} x {width:.3g} m; if "
             'they are in mm, give units={"gap": "mm"}'
         )
+    if tire.material is None and tire.inflation_pressure is not None:
+        radius = tire.outer_radius
+        told = modulus_doubt(tire.inflation_pressure, None if radius is None else 2 * radius)
+        said += [] if told is None else [told]
     return said
 
 

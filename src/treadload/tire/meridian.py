@@ -2,22 +2,37 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire.quality import GrooveMeasure
 
 TOP_BAND = 0.003  # heights this near to the highest at a place across belong to the blocks, not to the voids, m
 SHALLOWEST = 0.002
 NARROWEST = 0.002
 WIDEST = 0.045
+STEADY = 0.3e-3  # what the fit of the axle and a drawn tread may be off, m
+CHANGING = 0.005
+STEEPEST = 1.5  # what rises more is a wall and not the rounded end of a tread
 
 
 def median_meridian(unrolled: Array) -> Array:
     """(ny,) median over the angle of an unrolled tread (ny, nt), m; NaN where there is none."""
     return _row_quantile(unrolled, 0.5)
+
+
+def high_meridian(unrolled: Array, part: float) -> Array:
+    """(ny,) quantile over the angle of an unrolled tread, m: low only where that part of the turn is low."""
+    return _row_quantile(unrolled, part)
+
+
+def beside(vertices: Array, y: Array, meridian: Array) -> Array:
+    """(n,) radius of a meridian at y (ny,) beside vertices (n, 3) in the frame of the wheel, m; NaN off it."""
+    return np.asarray(np.interp(vertices[:, 1], y, meridian, left=np.nan, right=np.nan), dtype=np.float64)
 
 
 def top_meridian(unrolled: Array) -> Array:
@@ -48,23 +63,53 @@ def crown(top: Array, facet_sag: float) -> float:
     return float(smooth.max()) + 0.75 * facet_sag
 
 
-def facet_sag(vertices: Array, faces: NDArray[np.int64], outer: float, floor: float) -> float:
+def facet_sag(vertices: Array, faces: NDArray[np.int64], envelope: Array) -> float:
     """How far the facets of the tread cut under the circle through their corners, m.
 
-    vertices: (n, 3), m, in the frame of the wheel. outer, floor: radii between which the tread lies, m.
+    vertices: (n, 3), m, in the frame of the wheel. envelope: (n,) radius of the tops of ribs and lugs beside them,
+    m, NaN off the tread: facets of voids and of sidewalls meet no road.
     """
+    r = np.hypot(vertices[:, 0], vertices[:, 2])
+    with np.errstate(invalid="ignore"):
+        high = r > envelope - TOP_BAND
     edge = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    edge = edge[high[edge].all(axis=1)]
     a, b = vertices[edge[:, 0]][:, [0, 2]], vertices[edge[:, 1]][:, [0, 2]]
-    ra, rb = np.linalg.norm(a, axis=1), np.linalg.norm(b, axis=1)
-    tread = (np.minimum(ra, rb) > floor) & (np.maximum(ra, rb) <= outer)
-    sag = 0.5 * (ra + rb) - np.linalg.norm(0.5 * (a + b), axis=1)
+    sag = 0.5 * (r[edge[:, 0]] + r[edge[:, 1]]) - np.linalg.norm(0.5 * (a + b), axis=1)
     # Weighted by length: a tread modelled in detail may have many short edges beside its long facets.
-    length = np.linalg.norm(a - b, axis=1)[tread]
+    length = np.linalg.norm(a - b, axis=1)
     if not length.sum() > 0:
         return 0.0
-    order = np.argsort(sag[tread])
+    order = np.argsort(sag)
     total = np.cumsum(length[order])
-    return float(sag[tread][order][np.searchsorted(total, 0.95 * total[-1])])
+    return float(sag[order][np.searchsorted(total, 0.95 * total[-1])])
+
+
+def is_steady(unrolled: Array, meridian: Array, rows: BoolArray, sag: float, noise: float) -> bool:
+    """True when an unrolled tread (ny, nt) does not depend on the angle, so that its meridian says it all.
+
+    rows: (ny,) True on the tread. Beside walls of grooves, 99.5 % of it must lie within 0.3 mm, the facets' sag and
+    four standard deviations of the noise (m) of the median: grooves across the tread, blocks and lugs do not.
+    """
+    over = scatter(unrolled, meridian)[rows]
+    over = np.abs(over[np.isfinite(over)])
+    allowed = STEADY + 1.5 * sag + (4 * noise if np.isfinite(noise) else 0.0)
+    return over.size > 0 and float((over > allowed).mean()) < CHANGING
+
+
+def between_walls(y: Array, top: Array, margin: float) -> Array:
+    """(ny,) radius of ribs and lugs carried on by a margin, m, over the walls beside them; top as it is elsewhere."""
+    cells = 2 * math.ceil(margin / float(y[1] - y[0])) + 1
+    height = np.where(np.isfinite(top), top, np.nanmin(top))
+    return np.where(is_level(y, top, margin, STEEPEST), height, ndimage.maximum_filter1d(height, cells))
+
+
+def is_level(y: Array, top: Array, margin: float, steepest: float) -> BoolArray:
+    """(ny,) True where an envelope (ny,), m, at y, m, rises less than `steepest`, walls kept off by a margin, m."""
+    step = float(y[1] - y[0])
+    slope = np.abs(np.gradient(top, step))
+    steep = ~(slope <= steepest)
+    return np.asarray(~ndimage.maximum_filter1d(steep, 2 * math.ceil(margin / step) + 1), dtype=bool)
 
 
 def scatter(unrolled: Array, meridian: Array) -> Array:

@@ -14,6 +14,8 @@ from treadload.kernels.arrays import Array
 
 FORMATS = (".obj", ".ply", ".stl", ".glb", ".off")
 FEWEST_FACES = 100
+SMALLEST, LARGEST = 1e-9, 1e12  # size of a scan in its own unit
+HORIZON = 1e4  # over the size of the scan: no point is taken to lie further off
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,13 +62,11 @@ def read_mesh(path: str | Path) -> Mesh:
         loaded = trimesh.load_scene(path, process=False, skip_materials=True).to_mesh()
         vertices = np.array(loaded.vertices, dtype=np.float64)
         faces = np.array(loaded.faces, dtype=np.int64)
-    except MemoryError:
-        raise
     except Exception as error:  # trimesh raises whatever its parsers stumble on
         if _is_cloud(trimesh, path):
             raise GeometryError(_no_faces(path)) from error
         raise InputError(
-            f"scan file {path.name!r} could not be read as {suffix[1:].upper()} ({type(error).__name__}: {error}); "
+            f"scan file {path.name!r} could not be read as {suffix[1:].upper()} ({_said(error)}); "
             "it may be truncated, export or copy it again"
         ) from error
     if len(faces) == 0:
@@ -86,12 +86,23 @@ def read_mesh(path: str | Path) -> Mesh:
 
 
 def _clean(trimesh: ModuleType, path: Path, vertices: Array, faces: NDArray[np.int64]) -> Mesh:
-    middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
-    size = float(np.abs(vertices - middle).max())
-    if not size > 0:
-        raise GeometryError(f"all {len(vertices)} vertices of {path.name!r} are one point; it holds no surface")
+    # A few points may lie at the end of the world: the size is that of nine tenths, and they end on its horizon.
+    used = vertices[np.unique(faces)]
+    middle = np.median(used, axis=0)
+    with np.errstate(over="ignore", invalid="ignore"):
+        away = np.abs(used - middle).max(axis=1)
+        size = 2 * float(np.quantile(away, 0.9)) or float(away.max())
+        if not SMALLEST < size < LARGEST:
+            raise GeometryError(
+                f"all {len(vertices)} vertices of {path.name!r} are one point; it holds no surface"
+                if size == 0
+                else f"{path.name!r} is {size:.3g} wide, which no unit makes a tire; export it again"
+            )
+        scaled = np.clip(
+            np.nan_to_num((vertices - middle) / size, posinf=HORIZON, neginf=-HORIZON), -HORIZON, HORIZON
+        )
     # The merge tolerance of trimesh is absolute, so it gets a mesh of size 1.
-    unit = trimesh.Trimesh((vertices - middle) / size, faces, process=False)
+    unit = trimesh.Trimesh(scaled, faces, process=False)
     unit.merge_vertices(merge_tex=True, merge_norm=True)
     merged, faces = np.array(unit.vertices, dtype=np.float64), np.array(unit.faces, dtype=np.int64)
     corner = merged[faces]
@@ -107,15 +118,20 @@ def _clean(trimesh: ModuleType, path: Path, vertices: Array, faces: NDArray[np.i
     used, faces = np.unique(faces, return_inverse=True)
     faces = faces.reshape(-1, 3)
     merged = merged[used]
-    if np.linalg.svd(merged - merged.mean(axis=0), compute_uv=False, full_matrices=False)[2] < 1e-3 * np.sqrt(
-        len(merged)
-    ):
+    near = merged[np.abs(merged).max(axis=1) <= 2]
+    if len(near) < 4 or np.linalg.svd(near - near.mean(axis=0), compute_uv=False)[2] < 0.5e-3 * np.sqrt(len(near)):
         raise GeometryError(
             f"the {len(merged)} points of {path.name!r} lie on a plane; a tire needs three dimensions"
         )
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     shared = np.bincount(np.unique(edges[:, 0] * len(merged) + edges[:, 1], return_inverse=True)[1])
     return Mesh(merged * size + middle, faces, bool((shared == 2).all()), dropped)
+
+
+def _said(error: Exception) -> str:
+    """An error of the parser in one short line."""
+    words = " ".join(str(error).split())
+    return f"{type(error).__name__}: {words if len(words) < 120 else words[:117] + '...'}"
 
 
 def _is_cloud(trimesh: ModuleType, path: Path) -> bool:

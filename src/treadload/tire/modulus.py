@@ -8,6 +8,9 @@ from treadload.errors import InputError
 
 LOWEST_PRESSURE = 10e3
 HIGHEST_PRESSURE = 3e6
+# Equation 15 was fitted to one 315/80R22.5: 1.076 m, 8.2 bar. Tires of heavy trucks and buses are near it.
+TRUCK_DIAMETERS = (0.9, 1.2)
+TRUCK_PRESSURES = (500e3, 1000e3)
 
 
 def check_inflation_pressure(inflation_pressure: float) -> float:
@@ -47,3 +50,23 @@ def modulus_from_inflation(inflation_pressure: float) -> float:
     Source: Materials 2021, 14, 2117, equation 15.
     """
     return 2.7 * check_inflation_pressure(inflation_pressure) + 0.7e6
+
+
+def modulus_doubt(inflation_pressure: float, diameter: float | None) -> str | None:
+    """A sentence when a tire is not of the kind that `modulus_from_inflation` was fitted to; else None.
+
+    inflation_pressure: Pa. diameter: outer, m; None where it is not known.
+    """
+    off = []
+    if diameter is not None and not TRUCK_DIAMETERS[0] <= diameter <= TRUCK_DIAMETERS[1]:
+        off.append(f"an outer diameter of {diameter:.2g} m (not {TRUCK_DIAMETERS[0]:g} to {TRUCK_DIAMETERS[1]:g} m)")
+    if not TRUCK_PRESSURES[0] <= inflation_pressure <= TRUCK_PRESSURES[1]:
+        low, high = (value / 1e3 for value in TRUCK_PRESSURES)
+        off.append(f"{inflation_pressure / 1e3:.3g} kPa (not {low:g} to {high:g} kPa)")
+    if not off:
+        return None
+    return (
+        f"the tire's modulus of {modulus_from_inflation(inflation_pressure) / 1e6:.3g} MPa comes from its inflation "
+        f"pressure by a line that was fitted to one truck tire (315/80R22.5 at 820 kPa), and this one has "
+        f"{' and '.join(off)}: give its material, fitted to a measured deflection or footprint"
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 
@@ -20,6 +21,25 @@ class GrooveMeasure:
 
 
 @dataclass(frozen=True)
+class Outlier:
+    """One place where a scan sticks out of the tire.
+
+    points: number of vertices. height: over the tread, m. angle: rad ahead of the place over the road.
+    y: place across, m, to the right of the middle of the tread.
+    """
+
+    points: int
+    height: float
+    angle: float
+    y: float
+
+    def __str__(self) -> str:
+        angle = round(math.degrees(self.angle))
+        turn = f"{abs(angle)}° {'ahead of' if angle >= 0 else 'behind'} the road"
+        return f"{self.height * 1e3:.3g} mm high at y = {self.y * 1e3:.0f} mm, {turn}"
+
+
+@dataclass(frozen=True)
 class ScanQuality:
     """How a scan was understood and how good it is.
 
@@ -32,7 +52,9 @@ class ScanQuality:
     coverage: fraction of the tread over the road (the extent of the tire, 3 mm cells) that vertical rays met.
     holes: number of connected regions that they did not meet. hole_fraction: 1 - coverage. watertight: of the mesh.
     revolved: True when the meridian was revolved in place of the facets. grooves: from left to right.
-    warnings: one sentence each.
+    warnings: one sentence each. noise: standard deviation of the error of single points along the radius, m, as
+    scanned; NaN when too few points tell. smoothing: standard deviation of the window that took it out, m, or 0.
+    outliers: places that stuck out of the tread, the highest first.
     """
 
     n_points: int
@@ -51,6 +73,9 @@ class ScanQuality:
     revolved: bool
     grooves: tuple[GrooveMeasure, ...] = ()
     warnings: tuple[str, ...] = ()
+    noise: float = math.nan
+    smoothing: float = 0.0
+    outliers: tuple[Outlier, ...] = ()
 
     def __str__(self) -> str:
         lines = [
@@ -58,6 +83,9 @@ class ScanQuality:
             f"1 unit of the file = {self.scale:g} m ({self.units})",
             f"crown radius {self.crown_radius * 1e3:.1f} mm, width {self.width * 1e3:.1f} mm, "
             f"facet sag {self.facet_sag * 1e3:.2f} mm, axis residual {self.axis_residual * 1e3:.2f} mm",
+            ("noise unknown" if math.isnan(self.noise) else f"noise {self.noise * 1e3:.2f} mm")
+            + (f", smoothed over {self.smoothing * 1e3:.1f} mm" if self.smoothing else "")
+            + f", points that stick out {sum(one.points for one in self.outliers)}",
             f"coverage {self.coverage:.1%}, holes {self.holes}"
             + (", revolved from its meridian" if self.revolved else ""),
         ]

@@ -23,6 +23,7 @@ from treadload.tire.tread import EXTENT_HEIGHT, EXTENT_MARGIN
 Choice = bool | Literal["auto"]
 
 DEEPEST = 0.045  # a hit further below the crown went through a hole, m
+VOID_MARGIN = 0.005
 EXTENT_DROP = 0.030  # where the shoulder has fallen this far the tread ends, m
 CONTACT_GAP = 0.020  # a loaded tire flattens about this much, m
 RIB_BAND = 0.003
@@ -39,7 +40,8 @@ class ScanSurface:
 
     vertices: (n, 3), m: x along travel, y along the axle to the right, z down, origin on the axle amid the tread,
     already turned by the chosen rotation. faces: (m, 3). camber: rad, positive when the top leans to the right.
-    across: (k,) places across the tread, m; meridian: (k,) median radius there, m, NaN where unknown.
+    across: (k,) places across the tread, m; meridian: (k,) median radius there and envelope: (k,) radius of the tops
+    of ribs and lugs there, m, NaN where unknown.
     report: what was found. fill_holes: True, False or "auto" (only when they are at most 2 % of the tread).
     """
 
@@ -48,13 +50,16 @@ class ScanSurface:
     camber: float
     across: Array
     meridian: Array
+    envelope: Array
     report: ScanQuality
     fill_holes: Choice = "auto"
     source: str = ""
 
     @cached_property
     def _digest(self) -> str:
-        return fingerprint(self.vertices, self.faces, self.camber, self.meridian, self.report, self.fill_holes)
+        return fingerprint(
+            self.vertices, self.faces, self.camber, self.meridian, self.envelope, self.report, self.fill_holes
+        )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, ScanSurface):
@@ -88,12 +93,18 @@ class ScanSurface:
         return self.report
 
     @property
+    def outer_radius(self) -> float:
+        """Radius of the crown, m."""
+        return self.report.crown_radius
+
+    @property
     def extent(self) -> tuple[float, float]:
         """(length, width), m: where the tread is within 60 mm of the road, and its width with a margin."""
         radius = self.report.crown_radius
         height = min(EXTENT_HEIGHT, 0.2 * radius)
+        # Lugs may cover less than half of the turn: their tops carry, not the median.
         with np.errstate(invalid="ignore"):
-            tread = self.across[self.meridian > radius - EXTENT_DROP]
+            tread = self.across[self.envelope > radius - EXTENT_DROP]
         width = 2 * float(np.abs(tread).max()) + 2 * EXTENT_MARGIN
         return 2 * math.sqrt(height * (2 * radius - height)), width
 
@@ -159,7 +170,12 @@ class ScanSurface:
 
     @cached_property
     def _floor(self) -> float:
-        return self.report.crown_radius - DEEPEST
+        """Radius below which a hit went through a hole, m; voids of a lugged tread may be deeper than grooves."""
+        radius = self.report.crown_radius
+        with np.errstate(invalid="ignore"):
+            tread = (self.envelope > radius - EXTENT_DROP) & (self.meridian > 0)
+        low = float(self.meridian[tread].min()) if tread.any() else radius
+        return min(radius - DEEPEST, low - VOID_MARGIN)
 
     @cached_property
     def _caster(self) -> Caster:

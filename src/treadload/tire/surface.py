@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 _NAMES = ("gap", "x", "y")
 # A groove on a small piece of tread is this deep, m.
 _DEEP = 0.05
+FLATTEST = 5.0  # a map that bends less is no wheel, m
 
 
 @runtime_checkable
@@ -145,6 +146,18 @@ class HeightMapSurface:
     def quality(self) -> ScanQuality | None:
         """None: a height map is taken as it is."""
         return None
+
+    @property
+    def outer_radius(self) -> float | None:
+        """Radius, m, of the parabola through the lowest point of every column; None when it does not bend up."""
+        known = np.isfinite(self.gap).any(axis=0)
+        if known.sum() < 5:
+            return None
+        x = self.grid.x[known]
+        low = np.nanmin(self.gap[:, known], axis=0)
+        # In cells, so that the fit is well conditioned at any scale.
+        bend = float(np.polyfit((x - x.mean()) / self.grid.dx, low, 2)[0]) / self.grid.dx**2
+        return 0.5 / bend if bend > 0.5 / FLATTEST else None
 
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap, m. Raises InputError for any grid but the map's own (there is no interpolation)."""

@@ -131,6 +131,9 @@ class Tire:
         camber: float = 0.0,
         revolve: bool | Literal["auto"] = "auto",
         fill_holes: bool | Literal["auto"] = "auto",
+        smooth: Literal[False, "auto"] | float = False,
+        outliers: Literal["remove", "refuse", "keep"] = "remove",
+        roundness: float = 0.02,
         material: Elastic | Prony | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
@@ -140,22 +143,31 @@ class Tire:
         path: OBJ, PLY, STL, GLB or OFF. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter: outer, m;
         without either, the unit is the one that gives a diameter between 0.4 and 1.6 m. rotation: rad, brings the
         tread that much ahead down to the road. camber: rad, positive when the top leans to the right.
-        revolve: replace the facets by their revolved meridian; "auto": when they are coarse and the tread does
-        not depend on the angle. fill_holes: by the median round the tire; "auto": when they are at most 2 %.
+        revolve: replace the facets by their revolved meridian; "auto": when they cut deeper than 0.1 mm under the
+        circle and the tread does not depend on the angle, so that ribs are revolved and lugs and blocks are not.
+        fill_holes: by the median round the tire; "auto": when they are at most 2 %.
+        smooth: length, m, over which noise is smoothed (standard deviation of the window); "auto": as far as the
+        noise asks, when it is above 0.05 mm. outliers: points that stick out of the tread further than noise takes
+        them are put back ("remove"), end in an error ("refuse") or stay ("keep").
+        roundness: share of the radius by which it may vary round the tire.
         Raises InputError (file, units, trimesh missing) and GeometryError (no tire in it).
         """
         # Reading a scan needs trimesh, which is an extra.
         from treadload.tire.scan import read_scan
+        from treadload.tire.scan_options import ScanOptions
 
-        surface = read_scan(
-            Path(path),
+        options = ScanOptions(
             units=units,
             nominal_diameter=nominal_diameter,
             rotation=rotation,
             camber=camber,
             revolve=revolve,
             fill_holes=fill_holes,
+            smooth=smooth,
+            outliers=outliers,
+            roundness=roundness,
         )
+        surface = read_scan(Path(path), options)
         return cls(surface, material, inflation_pressure, name or Path(path).stem)
 
     @property
@@ -200,6 +212,12 @@ class Tire:
     def camber(self) -> float:
         """Lean of the wheel, rad, positive when the top leans to the right; 0 for a tread given as it lies."""
         return float(getattr(self.surface, "camber", 0.0))
+
+    @property
+    def outer_radius(self) -> float | None:
+        """Radius of the unloaded crown, m, of a height map by its curvature along travel; None where it has none."""
+        radius = getattr(self.surface, "outer_radius", None)
+        return None if radius is None else float(radius)
 
     @property
     def camber_spin(self) -> float:

@@ -251,6 +251,11 @@ class ProfileSurface:
         """None: no scan."""
         return None
 
+    @property
+    def outer_radius(self) -> float:
+        """Radius of the unloaded crown, m."""
+        return self.profile.rolling_radius
+
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap at the cell centres, m; NaN beside the tread. Raises GeometryError if no cell meets it."""
         gap = self.profile.gap(grid.x, grid.y)

@@ -1,0 +1,211 @@
+"""Points of a scan that stick out of the tire: found, named, and put back on to the surface beside them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
+
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.tire.mesh_file import Mesh
+from treadload.tire.quality import Outlier
+
+Indices = NDArray[np.int64]
+
+FAR = 4.0  # over the distance from the middle within which nine tenths of the points lie
+NEEDLE = 1.5  # a point this many times further off than the ring of its neighbours is wide
+LOWEST = 0.5e-3  # height over the tread that counts, m
+DEVIATIONS = 6.0  # of the noise: one point in 500 million of a normal distribution
+LARGEST = 0.04  # what is longer belongs to the tire, m
+STEEPEST = 1.5  # of the envelope where heights over it can be told
+BESIDE = 0.002  # walls of grooves may lie this far from where they are drawn, m
+MOST = 30
+
+
+@dataclass(frozen=True, eq=False)
+class Moved:
+    """Points of a mesh that were brought back: their indices (k,), and where they had been, (k, 3)."""
+
+    points: Indices
+    where: Array
+
+    def undone(self, vertices: Array) -> Array:
+        """The vertices with these points where they had been."""
+        vertices = vertices.copy()
+        vertices[self.points] = self.where
+        return vertices
+
+
+def without_needles(mesh: Mesh) -> tuple[Mesh, Moved]:
+    """The mesh with points far off all others brought back to their neighbours, and which they are.
+
+    For what would spoil the search for the axle. At most a thousandth of the points; else the mesh as it is.
+    Points without neighbours to go back to end in the middle, without triangles.
+    """
+    points = mesh.vertices
+    away = np.linalg.norm(points - np.median(points, axis=0), axis=1)
+    wild = away > FAR * np.quantile(away, 0.9)
+    wild |= _needles(mesh, wild)
+    if not wild.any() or wild.sum() > max(MOST, len(points) // 1000):
+        return mesh, Moved(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
+    moved, known = put_back(points, _links(mesh), wild)
+    moved[~known] = np.median(points, axis=0)
+    keep = known[mesh.faces].all(axis=1)
+    chosen = np.flatnonzero(wild)
+    return replace(mesh, vertices=moved, faces=mesh.faces[keep]), Moved(chosen, points[chosen])
+
+
+def _links(mesh: Mesh) -> csr_array:
+    """Matrix (n, n) with a 1 where two vertices share an edge."""
+    edge = mesh.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    both = np.concatenate([edge, edge[:, ::-1]])
+    n = len(mesh.vertices)
+    links = csr_array((np.ones(len(both)), (both[:, 0], both[:, 1])), shape=(n, n))
+    links.data[:] = 1.0
+    return links
+
+
+def _needles(mesh: Mesh, ignore: BoolArray) -> BoolArray:
+    """(n,) True for tips of needles: far from the closed ring of their neighbours, as measured by its width."""
+    n = len(mesh.vertices)
+    corner = mesh.vertices[mesh.faces]
+    near, wide = np.full(n, np.inf), np.zeros(n)
+    fan = np.bincount(mesh.faces.ravel(), minlength=n)
+    for k in range(3):
+        tip, a, b = mesh.faces[:, k], corner[:, (k + 1) % 3], corner[:, (k + 2) % 3]
+        legs = np.minimum(np.linalg.norm(a - corner[:, k], axis=1), np.linalg.norm(b - corner[:, k], axis=1))
+        np.minimum.at(near, tip, legs)
+        # A ring is at most half as wide as it is long; one that holds its point is no nearer to it than that.
+        np.add.at(wide, tip, 0.5 * np.linalg.norm(a - b, axis=1))
+    maybe = (near > NEEDLE * wide) & (fan >= 3) & ~ignore
+    if not maybe.any():
+        return np.asarray(maybe, dtype=bool)
+    closed = np.diff(_links(mesh).indptr) == fan
+    return np.asarray(maybe & closed, dtype=bool)
+
+
+def put_back(points: Array, links: csr_array, wild: BoolArray) -> tuple[Array, BoolArray]:
+    """Points (n, k) with the wild ones at the median of their neighbours, from outside in; and which are known."""
+    points, known = points.copy(), ~wild
+    left = list(np.flatnonzero(wild))
+    while left:
+        beside = {k: links.indices[links.indptr[k] : links.indptr[k + 1]] for k in left}
+        now = [k for k in left if known[beside[k]].any()]
+        if not now:
+            break
+        found = [np.median(points[beside[k][known[beside[k]]]], axis=0) for k in now]
+        points[now] = found
+        known[now] = True
+        left = [k for k in left if k not in set(now)]
+    return points, known
+
+
+def find_outliers(mesh: Mesh, reference: Array, high: float) -> list[Indices]:
+    """Groups of neighbouring points that stick out of the tread, and over the points beside them, by a height.
+
+    mesh: in the frame of the wheel, m. reference: (n,) outer radius of the tread beside each vertex, m; NaN where
+    there is no tread. high: m. Groups longer than 40 mm belong to the tire.
+    """
+    r = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2])
+    with np.errstate(invalid="ignore"):
+        where = np.flatnonzero(r > reference + high)
+    if len(where) == 0:
+        return []
+    links = _links(mesh)
+    count, group = connected_components(links[where][:, where], directed=False)
+    found = []
+    # A cloud of them is no work for a rule: the first hundreds are enough to refuse it.
+    for k in range(min(count, 10 * MOST)):
+        members = where[group == k]
+        if np.linalg.norm(np.ptp(_footprint(mesh.vertices[members]), axis=0)) > LARGEST:
+            continue
+        beside = np.setdiff1d(links[members].indices, members)
+        if len(beside) == 0 or r[members].max() > r[beside].max() + high:
+            found.append(members)
+    return found
+
+
+def _footprint(points: Array) -> Array:
+    """(n, 2) of place across and length along the turn, m, at the smallest radius among the points."""
+    turn = np.arctan2(points[:, 0], points[:, 2])
+    turn = np.angle(np.exp(1j * (turn - turn[0])))
+    return np.stack([points[:, 1], turn * np.hypot(points[:, 0], points[:, 2]).min()], axis=1)
+
+
+def without_outliers(mesh: Mesh, groups: list[Indices]) -> Mesh:
+    """The mesh in the frame of the wheel with groups of points brought back to the radius beside them.
+
+    Groups without points beside them float: they are dropped.
+    """
+    wild = np.zeros(len(mesh.vertices), dtype=bool)
+    wild[np.concatenate(groups)] = True
+    r = np.maximum(np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2]), 1e-9)
+    polar = np.stack([mesh.vertices[:, 0] / r, mesh.vertices[:, 1], mesh.vertices[:, 2] / r, r], axis=1)
+    moved, known = put_back(polar, _links(mesh), wild)
+    x, z = moved[wild, 0], moved[wild, 2]
+    at = moved[wild, 3] / np.maximum(np.hypot(x, z), 1e-12)
+    vertices = mesh.vertices.copy()
+    vertices[wild] = np.stack([x * at, moved[wild, 1], z * at], axis=1)
+    vertices[~known] = np.median(vertices, axis=0)
+    return replace(mesh, vertices=vertices, faces=mesh.faces[known[mesh.faces].all(axis=1)])
+
+
+def named(mesh: Mesh, reference: Array, groups: list[Indices], far: Moved, middle: float) -> list[Outlier]:
+    """Height and place of groups of points and of points that were brought back before, the highest first.
+
+    mesh, reference: as in find_outliers. middle: place of the middle of the tread along the axle, m.
+    """
+    r = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2])
+    found = []
+    for members in groups:
+        tip = members[np.argmax(r[members] - reference[members])]
+        x, y, z = mesh.vertices[tip]
+        found.append(Outlier(len(members), float((r - reference)[tip]), math.atan2(x, z), float(y) - middle))
+    for index, where in zip(far.points, far.where, strict=True):
+        # Named by where it went back to: far off, the smallest tilt of the axle moves it sideways.
+        x, y, z = mesh.vertices[index]
+        height = float(np.linalg.norm(where - mesh.vertices[index]))
+        found.append(Outlier(1, height, math.atan2(x, z), float(y) - middle))
+    return sorted(found, key=lambda one: -one.height)
+
+
+def told(found: list[Outlier], kept: bool) -> str:
+    """One sentence on what sticks out and was put back, or left."""
+    points = sum(one.points for one in found)
+    places = "one place" if len(found) == 1 else f"{len(found)} places"
+    which = f"({found[0]})" if len(found) == 1 else f"(the highest {found[0]})"
+    if kept:
+        return f"the scan sticks out of the tire in {places} {which}, left in it as asked: its tip will carry load"
+    return (
+        f"the scan stuck out of the tire in {places} {which}: {points} point{'s were' if points > 1 else ' was'} put "
+        'back to the surface beside; outliers="keep" leaves such points, "refuse" stops at them'
+    )
+
+
+def tread_reference(vertices: Array, y: Array, top: Array, turn: Array, theta: Array, floor: float) -> Array:
+    """(n,) outer radius of the tread beside each vertex, m, out-of-roundness included; NaN off the tread.
+
+    y: (ny,) even steps; top: (ny,) tops of the blocks there, m. turn: (ny, nt) radius, m, at the angles theta,
+    even steps round the turn. floor: radius down to which the tread reaches, m.
+    """
+    step = float(y[1] - y[0])
+    cells = 2 * math.ceil(BESIDE / step) + 1
+    known = np.isfinite(top) & (top > floor)
+    height = ndimage.maximum_filter1d(np.where(known, top, -np.inf), cells)
+    slope = np.gradient(np.where(np.isfinite(height), height, 0.0), step)
+    usable = np.isfinite(height) & (np.abs(slope) < STEEPEST)
+    over = np.where(known[:, None], turn - top[:, None], np.nan)
+    seen = np.isfinite(over).any(axis=0)
+    high = np.zeros(len(theta))
+    high[seen] = np.nanquantile(over[:, seen], 0.9, axis=0)
+    # Over 45°, the higher part: the turn itself where lugs leave gaps.
+    window = max(3, round(len(theta) / 8))
+    run = ndimage.percentile_filter(high, 75, size=window, mode="wrap")
+    across = np.interp(vertices[:, 1], y, np.where(usable, height, np.nan), left=np.nan, right=np.nan)
+    angle = np.arctan2(vertices[:, 0], vertices[:, 2]) % (2 * np.pi)
+    return np.asarray(across + np.interp(angle, theta, run, period=2 * np.pi), dtype=np.float64)

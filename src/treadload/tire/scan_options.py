@@ -1,0 +1,83 @@
+"""How a scan is to be understood."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from treadload.errors import InputError
+from treadload.tire.scan_surface import Choice
+from treadload.tire.scan_units import POSSIBLE_DIAMETERS, unit_name
+from treadload.units import quantity
+
+Smooth = Literal[False, "auto"] | float
+Outliers = Literal["remove", "refuse", "keep"]
+
+ROUNDNESS = 0.02
+SMOOTHING = (0.5e-3, 0.05)
+
+
+@dataclass(frozen=True)
+class ScanOptions:
+    """How a scan is to be understood; the words are those of `Tire.from_scan`. Raises InputError."""
+
+    units: str | None = None
+    nominal_diameter: float | None = None
+    rotation: float = 0.0
+    camber: float = 0.0
+    revolve: Choice = "auto"
+    fill_holes: Choice = "auto"
+    smooth: Smooth = False
+    outliers: Outliers = "remove"
+    roundness: float = ROUNDNESS
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "units", unit_name(self.units))
+        diameter = self.nominal_diameter
+        if diameter is not None and not POSSIBLE_DIAMETERS[0] <= diameter <= POSSIBLE_DIAMETERS[1]:
+            raise InputError(
+                f"nominal_diameter must lie between {POSSIBLE_DIAMETERS[0]} and {POSSIBLE_DIAMETERS[1]} m, "
+                f"got {diameter:g}; give it in m, a 315/80R22.5 has 1.076"
+            )
+        if not math.isfinite(self.rotation):
+            raise InputError(f"rotation must be a finite angle in rad, got {self.rotation}")
+        if not abs(self.camber) <= math.radians(15):
+            raise InputError(f"camber must lie within ±0.262 rad (15°), got {self.camber}; give it in rad")
+        for name in ("revolve", "fill_holes"):
+            if getattr(self, name) not in (True, False, "auto"):
+                raise InputError(f'{name} must be True, False or "auto", got {getattr(self, name)!r}')
+        if self.outliers not in ("remove", "refuse", "keep"):
+            raise InputError(f'outliers must be "remove", "refuse" or "keep", got {self.outliers!r}')
+        low, high = SMOOTHING
+        if self.smooth is not False and self.smooth != "auto" and not _is_between(self.smooth, low, high):
+            raise InputError(
+                f'smooth must be False, "auto" or a length between {low:g} and {high:g} m, got {self.smooth!r}'
+            )
+        if not _is_between(self.roundness, 0, 1):
+            raise InputError(
+                f"roundness must lie between 0 and 1, got {self.roundness!r}: the share of the radius by which it "
+                f"may vary round the tire, {ROUNDNESS} if left out"
+            )
+
+
+def _is_between(value: object, low: float, high: float) -> bool:
+    return not isinstance(value, bool) and isinstance(value, int | float | np.floating) and bool(low <= value <= high)
+
+
+def revolve_choice(word: str) -> Choice:
+    """What a word says about revolving: yes, no or auto. Raises InputError."""
+    known: dict[str, Choice] = {"yes": True, "true": True, "no": False, "false": False, "auto": "auto"}
+    if word.strip().lower() not in known:
+        raise InputError(f"revolve must be yes, no or auto, got {word!r}")
+    return known[word.strip().lower()]
+
+
+def smooth_choice(word: str) -> Smooth:
+    """What a word says about smoothing: no, auto or a length with its unit. Raises InputError."""
+    plain = word.strip().lower()
+    if plain in ("no", "false"):
+        return False
+    return "auto" if plain == "auto" else quantity(word, "m")

@@ -1,0 +1,71 @@
+"""The unit of a scan: given, from a known diameter, or the only one that makes a tire."""
+
+from __future__ import annotations
+
+from treadload.errors import InputError
+
+UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "inch": 0.0254}
+_UNIT_NAMES = {
+    **{name: name for name in UNITS},
+    **{"metre": "m", "meter": "m", "metres": "m", "meters": "m", "millimetre": "mm", "millimeter": "mm"},
+    **{
+        "millimetres": "mm",
+        "millimeters": "mm",
+        "centimetre": "cm",
+        "centimeter": "cm",
+        "in": "inch",
+        "inches": "inch",
+    },
+}
+GUESSED_DIAMETERS = (0.4, 1.6)
+POSSIBLE_DIAMETERS = (0.2, 4.5)
+POSSIBLE_PROPORTIONS = (0.1, 0.8)  # width over outer diameter
+UNIT_MATCH = 0.03
+
+
+def unit_name(units: str | None) -> str | None:
+    """The unit's own name, of any usual spelling. Raises InputError for another."""
+    if units is None:
+        return None
+    name = _UNIT_NAMES.get(str(units).strip().lower())
+    if name is None:
+        raise InputError(f"unknown units {units!r} of a scan; use one of {', '.join(UNITS)}")
+    return name
+
+
+def scale_of(diameter: float, unit: str | None, nominal: float | None, name: str) -> tuple[str, float, list[str]]:
+    """Unit, metres per unit of the file and warnings. diameter: outer, in the unit of the file. nominal: m."""
+    warnings = []
+    if unit is not None:
+        scale = UNITS[unit]
+        if nominal is not None and abs(diameter * scale / nominal - 1) > UNIT_MATCH:
+            warnings.append(
+                f"the outer diameter is {diameter * scale:.4g} m in {unit} and not the nominal {nominal:.4g} m"
+            )
+    elif nominal is not None:
+        off = {key: abs(diameter * value / nominal - 1) for key, value in UNITS.items()}
+        unit = min(off, key=lambda key: off[key])
+        scale = UNITS[unit]
+        if off[unit] > UNIT_MATCH:
+            unit, scale = "scaled", nominal / diameter
+            warnings.append(
+                f"no unit makes {diameter:.4g} in the file the nominal diameter; scaled by {scale:.6g} m per unit"
+            )
+    else:
+        low, high = GUESSED_DIAMETERS
+        fits = [key for key, value in UNITS.items() if low <= diameter * value <= high]
+        if len(fits) != 1:
+            found = ", ".join(f"{diameter * value:.3g} m in {key}" for key, value in UNITS.items())
+            raise InputError(
+                f"the units of {name!r} cannot be told: its outer diameter of {diameter:.4g} would be {found}, and "
+                f"{'none' if not fits else 'more than one'} lies between {low} and {high} m; give units= or "
+                "nominal_diameter="
+            )
+        unit, scale = fits[0], UNITS[fits[0]]
+    low, high = POSSIBLE_DIAMETERS
+    if not low <= diameter * scale <= high:
+        raise InputError(
+            f"in {unit} the tire of {name!r} would have an outer diameter of {diameter * scale:.3g} m, outside "
+            f"{low} to {high} m; give other units= or nominal_diameter="
+        )
+    return unit, scale, warnings
