@@ -200,7 +200,7 @@ def test_a_mesh_in_wrong_units_is_refused():
 
 
 def test_a_height_map_that_cuts_the_contact_is_refused(case, tmp_path):
-    (tmp_path / "flat.csv").write_text("\n".join(",".join("0" for _ in range(20)) for _ in range(20)))
+    (tmp_path / "flat.csv").write_text("\n".join(",".join("0.0" for _ in range(20)) for _ in range(20)))
     text = COARSE_CASE.replace('spacing = "12 mm"', "").replace(
         'profile = "315/80R22.5"', 'height_map = "flat.csv"\ncell = "5 mm"'
     )
