@@ -47,7 +47,8 @@ def test_the_disc_is_boussinesqs(driving):
     assert found["largest_vertical_compression"].item() == pytest.approx(exact, rel=1e-2)
 
 
-def test_only_loads_with_shear_shear_the_surface(compared):
+def test_only_loads_with_shear_shear_the_surface(driving):
+    compared = compare_uniform(driving, ROAD, depths=[0.0], mean_over=None)
     shear = compared.dataset["largest_vertical_shear"].isel(depth=0)
     assert shear.sel(load=DISC).item() == pytest.approx(0, abs=1e-12)
     # γ = |q| / G of the evenly spread shear.
@@ -56,10 +57,22 @@ def test_only_loads_with_shear_shear_the_surface(compared):
     assert shear.sel(load=COMPUTED).item() > 1.5 * shear.sel(load=RECTANGLE).item()
 
 
-def test_a_driving_tire_stretches_the_surface_more_than_the_disc_of_design(compared):
-    assert compared.ratio("largest_extension").isel(depth=0).item() > 1.5
+def test_a_driving_tire_stretches_the_surface_more_than_the_disc_of_design(compared, driving):
+    points = compare_uniform(driving, ROAD, depths=[0.0], mean_over=None)
+    assert points.ratio("largest_extension").isel(depth=0).item() > 1.5
+    assert compared.ratio("largest_extension").isel(depth=0).item() > 1.2
     # Where the layers meet, only the force counts.
     assert compared.ratio("largest_in_plane_extension").isel(depth=-1).item() == pytest.approx(1, abs=0.15)
+
+
+def test_near_the_surface_means_are_read(compared, driving):
+    points = compare_uniform(driving, ROAD, depths=[0.0, 0.02, 0.21], mean_over=None)
+    assert "means over 10 mm" in compared.summary()
+    assert "at points" in points.summary()
+    ratio = compared.dataset["largest_extension"] / points.dataset["largest_extension"]
+    assert float(ratio.sel(load=COMPUTED).isel(depth=0)) < 0.9
+    # From two lengths down the points are read.
+    assert float(abs(ratio.isel(depth=slice(1, None)) - 1).max()) < 1e-12
 
 
 def test_the_summary_and_the_figure_hold_every_load(compared):

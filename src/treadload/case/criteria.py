@@ -26,6 +26,7 @@ from treadload.damage import (
 from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Mix, Unbound
 from treadload.pavement import Pavement, bituminous_thickness
+from treadload.response import MATERIAL_LENGTH
 
 
 class CriterionPart(Part):
@@ -33,8 +34,9 @@ class CriterionPart(Part):
 
     layer: its name, or its number from the surface, 1 the top one; left out, the last one for laws of the subgrade
     and the top one for top-down cracking. place: "top" or "bottom"; left out, "top" for both of these, else "bottom".
-    strain: "principal" or "in-plane". The rest are parameters of the law, see `LAWS`; those left out are taken from
-    the layer where it is one of the catalogue: ε₆, slope, SN, k_c and E(θ) of a mix, A and b of a platform.
+    strain: "principal" or "in-plane". mean_over: side of the cube of road that an extension near the surface is a
+    mean over; 10 mm if left out. The rest are parameters of the law, see `LAWS`; those left out are taken from the
+    layer where it is one of the catalogue: ε₆, slope, SN, k_c and E(θ) of a mix, A and b of a platform.
     thickness: of all asphalt; left out, that of the bituminous layers around the criterion's, added up.
     binder_volume: of the effective binder, a share of the mix's volume.
     """
@@ -44,6 +46,7 @@ class CriterionPart(Part):
     layer: int | str | None = None
     place: Literal["top", "bottom"] | None = None
     strain: Literal["principal", "in-plane"] = "in-plane"
+    mean_over: Length = MATERIAL_LENGTH
     epsilon_6: Strain | None = None
     sigma_6: Modulus | None = None
     slope: Number | None = None
@@ -74,7 +77,7 @@ class CriterionPart(Part):
 
     def _given(self) -> dict[str, Any]:
         """Parameters of the law that the table gives."""
-        own = {"name", "law", "layer", "place", "strain"}
+        own = {"name", "law", "layer", "place", "strain", "mean_over"}
         return {name: value for name, value in dict(self).items() if name not in own and value is not None}
 
     def build(self, road: Pavement) -> DesignCriterion:
@@ -83,7 +86,7 @@ class CriterionPart(Part):
         number = self._number(road, kind.layer)
         law = kind.build(self.name, road, number, self._given())
         place = self.place or kind.place
-        return DesignCriterion(self.name, law, number, place, self.strain)
+        return DesignCriterion(self.name, law, number, place, self.strain, self.mean_over)
 
     def _number(self, road: Pavement, usual: int | None) -> int:
         """Number of the layer from 0 at the surface."""

@@ -13,13 +13,16 @@ import xarray as xr
 
 from treadload import variables
 from treadload.damage.design import Criterion
-from treadload.damage.direction import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
+from treadload.damage.direction import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.fatigue import FatigueLaw, in_words, warnings_of
 from treadload.damage.french import growth_factor
 from treadload.damage.traffic import Climate, Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+
+# Damage across flat planes above this share of a criterion's is worth a sentence.
+_MOSTLY = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,6 +201,7 @@ def miner(
         for k, name in enumerate(names)
         if wanders[k] != traffic.wander
     ]
+    said += _flat(dataset)
     dims = ("criterion", "axle_class", "season", "turn", "y")
     places = {name: coordinates[name] for name in ("criterion", "axle_class", "season")}
     kept = xr.DataArray(values, dims=dims, coords={**places, "y": at})
@@ -275,6 +279,20 @@ def _cracks(
         "first_crack_dip": (("criterion",), first[1]),
         "orientation_damage": (("criterion", "orientation"), shares),
     }
+
+
+def _flat(data: xr.Dataset) -> list[str]:
+    """Sentences on criteria whose damage parts the road parallel to its surface."""
+    if "orientation_damage" not in data:
+        return []
+    shares = data["orientation_damage"].sel(orientation=ORIENTATIONS[HORIZONTAL]).to_numpy()
+    return [
+        f"{name}: {100 * share:.0f} % of its damage is read across planes nearer to the horizontal than 45°, which "
+        "part the road parallel to its surface: no crack from the surface down, nor from the bottom up; read "
+        'strain = "in-plane" for those'
+        for name, share in zip(data["criterion"].to_numpy(), shares, strict=True)
+        if share > _MOSTLY
+    ]
 
 
 def _warnings(laws: Sequence[FatigueLaw], values: Array, shares: Array) -> list[str]:

@@ -25,7 +25,7 @@ MATERIAL_LENGTH = 0.010
 # From this many lengths down points are read: they differ by a few per cent over the cube, and not with the cells.
 _DEEP = 2.0
 # A load's cells are at most this part of the length, so that the mean over it is one over several.
-_FINE = 0.5
+_FINE = 0.35
 # Cells of a disc in a length, and samples across each that tell how much of it is covered.
 _DISC_CELLS, _SAMPLES = 4, 16
 # Two points of Gauss stand for the mean over depth: 0.3 % of the strain under a rib's edge, measured against six.
@@ -97,7 +97,8 @@ def spread_over(load: SurfaceLoad, length: float) -> GridLoad:
 
 
 def _weights(cells: float) -> Array:
-    """Weights of the mean over a number of cells, at least one, around the middle of a cell."""
+    """Weights of the mean over a number of cells around the middle of a cell; less than one is that cell."""
+    cells = max(cells, 1.0)
     inner = int((cells - 1) // 2)
     edge = 0.5 * (cells - 1) - inner
     return np.array([edge, *([1.0] * (2 * inner + 1)), edge]) / cells

@@ -17,8 +17,9 @@ from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
-from treadload.response import GridLoad, UniformDisc, UniformRectangle, place, solve_response
+from treadload.response import MATERIAL_LENGTH, GridLoad, UniformDisc, UniformRectangle, place, solve_response
 from treadload.response.fields import COMPONENTS
+from treadload.response.material import check_length
 
 COMPUTED, DISC, RECTANGLE = "computed contact", "uniform disc", "uniform rectangle"
 
@@ -52,9 +53,11 @@ class UniformComparison:
         """A table: extension and vertical shear at every depth, computed and uniform."""
         data = self.dataset
         names = [str(name) for name in data["load"].to_numpy()]
+        length = data.attrs.get("mean_over")
+        reading = "at points" if length is None else f"near the surface means over {1e3 * length:g} mm"
         lines = [
             "what uniform loads of the same force do not see: largest extension / in the plane / vertical shear "
-            "(microstrain)",
+            f"(microstrain), {reading}",
             "depth (mm)  " + "  ".join(f"{name:>24}" for name in names),
         ]
         for depth in data["depth"].to_numpy():
@@ -83,6 +86,7 @@ def compare_uniform(
     pressure: float | None = None,
     slenderness: float = 1.0,
     wheels: Sequence[tuple[float, float]] = ((0.0, 0.0),),
+    mean_over: float | None = MATERIAL_LENGTH,
 ) -> UniformComparison:
     """The same wheel as conventional design loads the road: uniform pressure on a disc, or on a rectangle.
 
@@ -90,6 +94,8 @@ def compare_uniform(
     surface, some down to 160 mm and the bottoms of the layers. pressure: of the uniform loads, Pa; left out, the
     tire's inflation pressure, as design methods take it. slenderness: length along travel over width of the
     rectangle. wheels: (x, y) of the wheels that act together, m.
+    mean_over: side of the cube of road whose means are read near the surface, m, see `solve_response`; None for
+    points, which under the computed contact read more the finer its cells are.
     The disc carries the normal load alone; the rectangle also the net shear, spread evenly.
     Returns the largest readings at each depth, over the plane.
     Raises InputError without a pressure.
@@ -113,12 +119,14 @@ def compare_uniform(
         DISC: UniformDisc(math.sqrt(area / math.pi), uniform),
         RECTANGLE: UniformRectangle(length, area / length, uniform, traction_x=sheared[0], traction_y=sheared[1]),
     }
+    if mean_over is not None:
+        check_length(mean_over)
     at = _depths(road, load.grid.dx) if depths is None else np.unique(np.atleast_1d(np.asarray(depths, dtype=float)))
     values = {name: np.empty((len(loads), len(at))) for name in _READINGS}
     for number, one in enumerate(loads.values()):
         placed = [place(one, x=x, y=y) for x, y in wheels]
         for row, depth in enumerate(at):
-            for name, value in _largest(placed, road, float(depth), load, wheels).items():
+            for name, value in _largest(placed, road, float(depth), load, wheels, mean_over).items():
                 values[name][number, row] = value
     dataset = variables.dataset(
         {
@@ -129,6 +137,7 @@ def compare_uniform(
         {"load": list(loads), "depth": at},
         slenderness=slenderness,
         wheels=len(wheels),
+        **({} if mean_over is None else {"mean_over": mean_over}),
         normal_load=force,
     )
     return UniformComparison(dataset)
@@ -146,6 +155,7 @@ def _largest(
     depth: float,
     cells: GridLoad,
     wheels: Sequence[tuple[float, float]],
+    mean_over: float | None,
 ) -> dict[str, float]:
     """Largest readings at one depth, on the contact's cells near the surface and on points a quarter depth apart."""
     grid = cells.grid
@@ -158,7 +168,7 @@ def _largest(
 
     x = points(grid.x, grid.dx, sorted({x for x, _ in wheels}))
     y = points(grid.y, grid.dy, sorted({y for _, y in wheels}))
-    data = solve_response(loads, road, depths=[depth], x=x, y=y).dataset.isel(depth=0)
+    data = solve_response(loads, road, depths=[depth], x=x, y=y, mean_over=mean_over).dataset.isel(depth=0)
     stress, strain = (
         np.stack([data[f"{kind}_{name}"].to_numpy() for name in COMPONENTS]) for kind in ("stress", "strain")
     )
