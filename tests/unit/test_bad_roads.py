@@ -88,3 +88,16 @@ def test_a_loose_course_over_an_incompressible_one_on_rock(top):
         size = np.abs(b).max(axis=(1, 2))
         # 1e-5 of Poisson's ratio, which horizontal stress feels ten times over; waves that lose digits err by 16.
         assert (np.abs(a - b).max(axis=(1, 2)) <= 3e-4 * size).all(), name
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_what_is_no_number_is_never_returned(monkeypatch, value):
+    def broken(loads, road, depths, x, y, **more):
+        stress = np.zeros((6, len(depths), len(y), len(x)))
+        strain = stress.copy()
+        strain[2, 1] = value
+        return stress, strain, stress[:3], "layered"
+
+    monkeypatch.setattr("treadload.response.solve.layered_response", broken)
+    with pytest.raises(tl.ConvergenceError, match=r"strain at 0\.02 m is no number: .* check their units"):
+        solve(depths=[0.0, 0.02])

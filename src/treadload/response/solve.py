@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from treadload import variables
-from treadload.errors import InputError
+from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.depths import snapped
 from treadload.kernels.points import Points
@@ -68,7 +68,8 @@ def solve_response(
     Where layers are viscoelastic `dissipated_energy` (depth, y), or (depth, point), is the energy that one
     passage dissipates, NaN at the surface; it has no mean.
     Raises InputError for a wrong value, a speed that is missing or negative, a layer that needs a temperature or
-    is a fluid, depths below a rigid base and depths that need too many wavenumbers.
+    is a fluid, depths below a rigid base and depths that need too many wavenumbers; ConvergenceError where stress or
+    strain would be no number.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`; on
     layers the same with the top layer's material, plus wavenumbers, see `kernels.layered`; under moving
     loads see `kernels.moving`.
@@ -188,14 +189,22 @@ def _solve(
 ) -> MovingFields:
     if road.is_viscoelastic:
         assert speed is not None
-        return moving_response(loads, road, speed, depths, x, y, below=below, at=at)
-    if road.is_homogeneous:
-        stress, strain, displacement, method = half_space_response(
-            loads, road.surface_material, depths, x, y, at, tell
-        )
+        found = moving_response(loads, road, speed, depths, x, y, below=below, at=at)
     else:
-        stress, strain, displacement, method = layered_response(loads, road, depths, x, y, below=below, at=at)
-    return MovingFields(stress, strain, displacement, np.zeros((len(depths), len(y))), method)
+        solved = (
+            half_space_response(loads, road.surface_material, depths, x, y, at, tell)
+            if road.is_homogeneous
+            else layered_response(loads, road, depths, x, y, below=below, at=at)
+        )
+        found = MovingFields(*solved[:3], np.zeros((len(depths), len(y))), solved[3])
+    for part in (found.stress, found.strain):
+        wrong = ~np.isfinite(part).all(axis=(0, *range(2, part.ndim)))
+        if wrong.any():
+            raise ConvergenceError(
+                f"stress or strain at {depths[wrong][0]:g} m is no number: loads, moduli and thicknesses lie too far "
+                "apart for double precision; check their units"
+            )
+    return found
 
 
 def _mean(solved: Sequence[MovingFields]) -> MovingFields:
