@@ -55,6 +55,17 @@ def test_traction_is_continuous_and_the_spring_follows_its_law():
     assert np.abs(result.transverse[2, 1]).max() == 0
 
 
+@pytest.mark.parametrize("poisson", [0.0, 0.25])
+def test_a_loose_sheet_keeps_its_digits_in_long_waves(poisson):
+    """Its slide under a pressure is a difference of third order in k h: the same for one sheet and two halves."""
+    rest = [6.8e8], [0.5], [9.9]
+    k = np.geomspace(1e-4, 1, 9)
+    whole = Stack([2.1e7, *rest[0]], [poisson, *rest[1]], [0.012, *rest[2]], [0.0], True)
+    halves = Stack([2.1e7] * 2 + rest[0], [poisson] * 2 + rest[1], [0.01, 0.002] + rest[2], [math.inf, 0.0], True)
+    one, two = (transfer(k, stack, [0.012], [False]).plane[0, :2] for stack in (whole, halves))
+    assert (np.abs(one - two) <= 1e-9 * np.abs(one)).all()
+
+
 def test_reciprocity_with_slip():
     surface = transfer(K, SPRUNG, [0.0], [False]).plane[0, :2]
     # Betti: what a shear does to the settlement, a pressure does to the slide.

@@ -197,13 +197,19 @@ class _Slab:
         soft, stiff = 0.25 * part / shear, part * shear
         half, rise, turn = 0.5 * more * part * e, 2 * a * two, more * (1 + ee)
         tilt, pull = 2 * a * (1 + ee), squeeze * two
+        # What couples both directions vanishes at ν = 0, or 0.25, but for cubes of a: written out where a is small.
+        lean, bend = tilt - pull, cross - chi * squeeze * square
+        if len(short):
+            few = a < _SHORT
+            lean = np.where(few, 4 * poisson * two + 2 * a * np.expm1(-a) ** 2 - 2 * odd, lean)
+            bend = np.where(few, (1 - squeeze) * more * square - 2 * odd * (two + 2 * aa), bend)
         tanh = two / (1 + ee)
         return cls(
             bottom,
             (
                 soft * more * (chi * four + 4 * aa * e),
                 soft * more * (squeeze * four + double),
-                soft * (cross - chi * squeeze * square),
+                soft * bend,
                 soft / shear * (pull + odd) * (chi * two + 2 * aa),
             ),
             (
@@ -215,7 +221,7 @@ class _Slab:
             (
                 half * (turn - rise),
                 -half * (pull + tilt),
-                half * (tilt - pull),
+                half * lean,
                 half * (turn + rise),
                 part * ee * (more * more),
             ),
