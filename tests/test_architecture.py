@@ -12,7 +12,18 @@ import treadload
 ROOT = Path(treadload.__file__).parent
 
 # May be imported by all; import nothing but each other.
-LEAVES = ("errors", "variables", "units", "labels", "tables", "plausible", "files", "describing", "_version")
+LEAVES = (
+    "errors",
+    "variables",
+    "schema",
+    "units",
+    "labels",
+    "tables",
+    "plausible",
+    "files",
+    "describing",
+    "_version",
+)
 # From left to right: a package imports those before it. Packages of one step do not know each other.
 ORDER = (
     ("kernels",),

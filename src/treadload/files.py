@@ -16,6 +16,8 @@ from treadload.errors import InputError, one_line
 if TYPE_CHECKING:
     import xarray as xr
 
+# Tables in tables that a file may hold.
+_DEEPEST = 60
 # Suffixes, and what a file of that name holds.
 NETCDF = {".nc": "NetCDF", ".nc4": "NetCDF", ".h5": "NetCDF"}
 TABLE = {".csv": "tables"}
@@ -68,7 +70,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 def parse_toml(text: str, name: str) -> dict[str, Any]:
     """The tables of a TOML text. name: of the file, for the error. Raises InputError."""
     try:
-        return tomllib.loads(text)
+        table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{name} is not valid TOML: {error}") from error
     except ValueError as error:
@@ -77,6 +79,14 @@ def parse_toml(text: str, name: str) -> dict[str, Any]:
         raise InputError(f"{name} holds a whole number of more than {most} digits") from error
     except RecursionError as error:
         raise InputError(f"{name} holds lists or tables too deep in each other to be read") from error
+    layer: list[Any] = [table]
+    for _ in range(_DEEPEST):
+        inner = [one.values() if isinstance(one, dict) else one for one in layer]
+        layer = [value for values in inner for value in values if isinstance(value, dict | list)]
+    # Dotted keys go as deep as they are long, and what copies or writes tables calls itself once a level.
+    if layer:
+        raise InputError(f"{name} holds lists or tables too deep in each other to be read")
+    return table
 
 
 def read_tree(path: Path, kind: str) -> xr.DataTree:
@@ -89,7 +99,8 @@ def read_tree(path: Path, kind: str) -> xr.DataTree:
         # Of a file whose root cannot be read h5netcdf makes half an object, whose end prints a traceback.
         with h5py.File(path, "r") as probe:
             probe.attrs.get("_nc3_strict")
-        with xr.open_datatree(path, engine="h5netcdf") as tree:
+        # Units are read by who needs them: none of them is a date.
+        with xr.open_datatree(path, engine="h5netcdf", decode_times=False) as tree:
             loaded: xr.DataTree = tree.load()
     except Exception as error:
         raise InputError(f"cannot read {path} as {kind}: {one_line(str(error))}") from error

@@ -27,6 +27,7 @@ from treadload.grid import Grid
 from treadload.materials import HuetSayegh, Model2S2P1D, Prony
 from treadload.pavement import BONDED, HALF_BONDED, LayerRow, Pavement, layer_rows
 from treadload.response import GridLoad, Response
+from treadload.schema import check_tree
 from treadload.tire import Tire
 from treadload.variables import dataset
 
@@ -249,13 +250,14 @@ def save(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> Pat
 
 
 def load(path: str | os.PathLike[str]) -> xr.DataTree:
-    """Read a tree of results into memory. Raises InputError if the file is none of ours."""
+    """Read a tree of results into memory. Raises InputError if the file is none of ours, or broken."""
     path = Path(path)
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise InputError(f"there is no result file {path}; `treadload run case.toml -o {path}` makes one")
     loaded = read_tree(path, "a result in NetCDF-4")
     if "treadload_version" not in loaded.attrs:
         raise InputError(f"{path} is a NetCDF file, but no result of treadload: it lacks treadload_version")
+    check_tree(loaded, str(path))
     return loaded
 
 

@@ -29,6 +29,8 @@ _POWER = "(?:[eE][+-]?[0-9]+)?"
 _NUMBER = re.compile(rf"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+){_POWER}")
 _COMMA_NUMBER = re.compile(rf"[+-]?[0-9]*,[0-9]+{_POWER}")
 _LOST_MARK = re.compile(rf"[+-]?0[0-9]+{_POWER}")
+_WHOLE = re.compile("[+-]?[0-9]+")
+_PART = re.compile(f"[0-9]+{_POWER}")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}")
 _QUOTED = re.compile(r'"[^"]*"')
 # What a spreadsheet writes for an error; no comment, though it starts like one.
@@ -236,11 +238,17 @@ def _check_dropped(table: Table, comments: Sequence[_Line], numbered: Sequence[_
 
 def _check_commas(table: Table) -> None:
     """Refuse pairs of whole numbers that may be decimal numbers."""
-    cells = [cell for row in table.rows for cell in row]
-    behind = {len(cell) for row in table.rows for cell in row[1::2]}
-    even = len(table.rows[0]) % 2 == 0 and len(behind) == 1
+    before = [cell for row in table.rows for cell in row[::2]]
+    behind = [cell for row in table.rows for cell in row[1::2]]
+    if len(table.rows[0]) % 2 or not all(_WHOLE.fullmatch(cell) for cell in before):
+        return
+    if not all(_PART.fullmatch(cell) for cell in behind):
+        return
+    # As many digits behind each comma, or as a rule more than before any: whole numbers next to each other are alike.
+    digits = sorted(len(cell.lower().partition("e")[0]) for cell in behind)
+    alike = digits[0] == digits[-1] or digits[len(digits) // 2] > max(len(cell) for cell in before)
     # Nothing but zeros is zero either way.
-    if even and all(cell.isascii() and cell.isdigit() for cell in cells) and set(cells) != {"0"}:
+    if alike and {*before, *behind} != {"0"}:
         shown = ",".join(table.rows[0][:2])
         raise InputError(
             f"{table.path}: {shown!r} in line {table.lines[0]} may be two whole numbers or one with a decimal comma; "

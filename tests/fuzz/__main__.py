@@ -19,7 +19,10 @@ _BATCH = 200
 
 def attack_of(kind: str) -> Attack:
     """The attack of a kind."""
-    made: Attack = importlib.import_module(f"fuzz.{kind}").attack
+    module = importlib.import_module(f"fuzz.{kind}")
+    if hasattr(module, "prepare"):
+        module.prepare()
+    made: Attack = module.attack
     return made
 
 

@@ -68,6 +68,7 @@ def test_a_range_from_python_is_two_numbers():
     [
         ("title = " + "9" * 5000, "a whole number of more than 4300 digits"),
         ("a = " + "[" * 3000 + "]" * 3000, "too deep in each other"),
+        (".".join("a" * 1000) + " = 1", "too deep in each other"),
         ("title = 'a", "not valid TOML"),
     ],
 )
@@ -76,6 +77,14 @@ def test_texts_that_the_reader_of_toml_cannot_take(text, words, tmp_path):
     (tmp_path / "tread.toml").write_text(text)
     with pytest.raises(tl.InputError, match=words):
         TreadProfile.from_toml(tmp_path / "tread.toml")
+
+
+@pytest.mark.parametrize("name", ["a" * 5000 + ".csv", "a\0b.csv"])
+def test_a_name_that_no_file_can_have_is_no_file(name):
+    with pytest.raises(tl.InputError, match="no file"):
+        tl.Tire.from_height_map(name, 5e-3)
+    with pytest.raises(tl.InputError, match="no scan file"):
+        tl.Tire.from_scan(name)
 
 
 def test_the_folder_is_no_key():

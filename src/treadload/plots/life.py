@@ -92,6 +92,8 @@ def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
     factor, when = _factor(data)
     y = 1e3 * data["y"].to_numpy()
     damage = factor * data["damage_per_year"].to_numpy()
+    if not _LEAST * float(damage.max()) > 0:
+        raise InputError("no criterion has any damage to draw")
     figure, ax = figure_and_axes(ax, 9.6, 3.6)
     depths = data["read_depth"].to_numpy() if "read_depth" in data else np.full(len(damage), np.nan)
     top = max(float(damage.max()), 1.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import textwrap
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -198,9 +199,9 @@ def thousands(value: float) -> str:
 
 
 def power_of_ten(value: float) -> str:
-    """A positive number as 1.2×10⁵, in characters that need no mathematics."""
-    if value == float("inf"):
-        return "∞"
+    """A positive number as 1.2×10⁵, in characters that need no mathematics; a dash for none."""
+    if not math.isfinite(value):
+        return "∞" if value > 0 else "–"
     mantissa, exponent = f"{value:.1e}".split("e")
     raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
     return f"{mantissa}×10{raised}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import functools
 from collections.abc import Iterable, Mapping
 from importlib import resources
 from os import PathLike
@@ -68,6 +69,7 @@ def _title(cases: list[ReportCase]) -> str:
     return cases[0].title or cases[0].label if len(cases) == 1 else _TITLE
 
 
+@functools.cache
 def _template() -> jinja2.Template:
     text = resources.files("treadload.reporting").joinpath("template.html.j2").read_text(encoding="utf-8")
     environment = jinja2.Environment(

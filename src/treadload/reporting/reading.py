@@ -19,6 +19,7 @@ from treadload.plots.plan import MICRO, MM, Plan, peak_of, plane
 from treadload.plots.style import power_of_ten, signed
 from treadload.reporting.life import exhausted, sentence
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
+from treadload.schema import check_tree
 
 GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
 # A number such as 1.2e+05 in a sentence.
@@ -46,7 +47,8 @@ class ReportCase:
 
     @classmethod
     def of(cls, label: str, tree: xr.DataTree) -> ReportCase:
-        """The case in a tree; InputError if the tree has none of the groups."""
+        """The case in a tree; InputError if the tree has none of the groups, or one that cannot be read."""
+        check_tree(tree, label)
         groups = {
             _ALSO.get(name, name): node.to_dataset()
             for name, node in tree.children.items()

@@ -94,7 +94,7 @@ def read_netcdf(path: str | os.PathLike[str], units: Mapping[str, str] | None = 
     Raises InputError for what cannot be read.
     """
     path = Path(path)
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise InputError(f"there is no file {path}")
     loaded = read_tree(path, "NetCDF-4")
     if "contact" in loaded.children:

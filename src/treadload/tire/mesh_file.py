@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -47,7 +48,7 @@ def read_mesh(path: str | Path) -> Mesh:
     Raises InputError for a missing, unknown or unreadable file, GeometryError for one without usable triangles.
     """
     path = Path(path)
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise InputError(f"no scan file {str(path)!r}; give the path of an OBJ, PLY, STL, GLB or OFF mesh")
     suffix = path.suffix.lower()
     if suffix not in FORMATS:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -190,7 +191,7 @@ def read_height_map(
     Raises InputError when it is missing, unreadable, without spacing or unit, or steeper than a tread can be.
     """
     path = Path(path)
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise InputError(f"no file {str(path)!r}: give the path of a NetCDF, CSV, text, NPY or NPZ height map")
     suffix = path.suffix.lower()
     asked = asked_units(units)

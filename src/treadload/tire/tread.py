@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import MISSING, asdict, dataclass, fields
 from functools import cached_property
@@ -99,7 +100,7 @@ class TreadProfile:
     def from_toml(cls, path: str | Path) -> TreadProfile:
         """Profile of a TOML file: the keys are the arguments of the class; m and rad, or texts with their unit."""
         path = Path(path)
-        if not path.is_file():
+        if not os.path.isfile(path):
             raise InputError(f"no tread profile file {str(path)!r}; library profiles: {', '.join(library_names())}")
         try:
             text = path.read_text(encoding="utf-8")

@@ -1,0 +1,122 @@
+"""Broken results are refused in one sentence that names the group and what of it is wrong."""
+
+import gc
+import json
+import sys
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import treadload as tl
+from treadload.reporting import write_report
+from treadload.results import load, save
+from treadload.schema import check_tree
+
+
+@pytest.fixture(scope="module")
+def tree(coarse_result):
+    return coarse_result.to_tree()
+
+
+def with_group(tree, name, data):
+    groups = {f"/{key}": node.to_dataset() for key, node in tree.children.items()}
+    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=tree.attrs), **groups, f"/{name}": data})
+
+
+def refusal(tree, tmp_path):
+    """What a report says, which is what the file of the same says."""
+    with pytest.raises(tl.InputError) as caught:
+        write_report({"odd": tree}, tmp_path / "report.html")
+    said = str(caught.value)
+    assert len(said.splitlines()) == 1
+    assert not (tmp_path / "report.html").exists()
+    return said
+
+
+def test_results_as_they_are_pass(tree):
+    check_tree(tree, "result")
+
+
+BREAKS = {
+    "without pressure": ("contact", lambda d: d.drop_vars("pressure"), "lacks 'pressure'"),
+    "in kPa": (
+        "contact",
+        lambda d: d.assign(pressure=d.pressure.assign_attrs(units="kPa")),
+        "pressure is in kPa, results are in Pa",
+    ),
+    "of words": ("contact", lambda d: d.assign(pressure=d.pressure.astype(str)), "not numbers"),
+    "of an infinite pressure": ("contact", lambda d: d.assign(pressure=d.pressure * np.inf), "NaN or infinite"),
+    "of one row": ("contact", lambda d: d.assign(pressure=d.pressure.isel(y=0)), "pressure is over x, not x, y"),
+    "empty": ("contact", lambda d: d.isel(x=slice(0, 0)), "it has no x"),
+    "backwards": ("contact", lambda d: d.isel(x=slice(None, None, -1)), "x does not rise"),
+    "nowhere": ("contact", lambda d: d.drop_vars("x"), "does not say where"),
+    "of a fourth state": ("contact", lambda d: d.assign(state=d.state + 3), "values other than 0 to 2"),
+    "with a force of NaN": (
+        "contact",
+        lambda d: d.assign(normal_load=d.normal_load * np.nan),
+        "normal_load has 1 of 1",
+    ),
+    "without directions": (
+        "response",
+        lambda d: d.drop_vars("principal_direction_1"),
+        "lacks 'principal_direction_1'",
+    ),
+    "of a plane": ("response", lambda d: d.isel(component=slice(0, 2)), "2 components"),
+    "without a worst point": ("damage", lambda d: d.drop_vars("worst_strain"), "lacks 'worst_strain'"),
+    "with words for ε₆": ("damage", lambda d: d.assign_attrs(epsilon_6="a"), "epsilon_6 must be a finite number"),
+    "with torn names": ("response", lambda d: d.assign_attrs(layer_names="["), "layer_names must be a list as JSON"),
+}
+
+
+@pytest.mark.parametrize("name", BREAKS)
+def test_a_broken_group(tree, tmp_path, name):
+    group, change, words = BREAKS[name]
+    said = refusal(with_group(tree, group, change(tree[group].to_dataset())), tmp_path)
+    assert said.startswith(f"odd: the group /{group}")
+    assert words in said
+
+
+@pytest.mark.parametrize(
+    ("attrs", "words"),
+    [
+        ({"layers": json.dumps([{"name": "a"}])}, "layer 1 of the attribute layers has no modulus"),
+        ({"layers": "[1]"}, "layer 1"),
+        ({"layers": "3"}, "layers must be a list as JSON"),
+        ({"case": 3}, "the attribute case must be a text"),
+        ({"case": "a = " + "9" * 5000}, "more than 4300 digits"),
+    ],
+)
+def test_a_broken_root(tree, tmp_path, attrs, words):
+    odd = tree.copy()
+    odd.attrs = {**tree.attrs, **attrs}
+    assert words in refusal(odd, tmp_path)
+
+
+def test_the_file_of_a_broken_result_is_refused_too(tree, tmp_path):
+    data = tree["contact"].to_dataset().drop_vars("pressure")
+    path = save(with_group(tree, "contact", data), tmp_path / "odd.nc")
+    with pytest.raises(tl.InputError, match=r"odd\.nc: the group /contact lacks 'pressure'"):
+        load(path)
+
+
+def test_units_of_a_file_are_no_dates(tree, tmp_path):
+    data = tree["contact"].to_dataset()
+    data["pressure"].attrs["units"] = "days since 2000-01-01"
+    with pytest.raises(tl.InputError, match="pressure is in days since 2000-01-01"):
+        load(save(with_group(tree, "contact", data), tmp_path / "odd.nc"))
+
+
+def test_a_torn_file_leaves_no_traceback_behind(tree, tmp_path, monkeypatch):
+    """h5netcdf printed "Exception ignored in" as Python threw away what it could not open."""
+    path = save(tree, tmp_path / "torn.nc")
+    content = path.read_bytes()
+    ignored = []
+    monkeypatch.setattr(sys, "unraisablehook", ignored.append)
+    for kept in (0, 100, len(content) // 2):
+        path.write_bytes(content[:kept])
+        with pytest.raises(tl.InputError) as caught:
+            load(path)
+        assert len(str(caught.value).splitlines()) == 1
+    gc.collect()
+    assert not ignored
