@@ -87,7 +87,7 @@ def leading_number(text: str) -> tuple[float, str]:
     assert found is not None
     whole, part, rest = re.sub(_GAP, "", found["whole"]), found["part"], bare[found.end() :]
     if not (whole or part):
-        raise InputError(f"{text!r} does not start with a number")
+        raise InputError(f"cannot read {text!r}: it does not start with a number")
     if re.match(r"[.,]", rest):
         raise InputError(_several_marks(bare))
     if found["mark"] == "," and len(part) == 3 and not found["gap"] and re.fullmatch("[1-9][0-9]{0,2}", whole):

@@ -14,8 +14,8 @@ STRUCTURE = "6 BBSG3 / 15 GB3 / PF3"
 
 @pytest.mark.slow
 def test_roundabout(tmp_path, capsys):
-    found = runpy.run_path(str(FOLDER / "run.py"))["main"](tmp_path, spacing=6e-3)
-    # 10 mm deep cells of 2 mm give these microstrain; 6 mm, more than half the depth, are allowed 8 %.
+    found = runpy.run_path(str(FOLDER / "run.py"))["main"](tmp_path, spacing=4e-3)
+    # 10 mm deep cells of 2 mm give these microstrain; 4 mm, almost half the depth, are allowed 8 %.
     fine = {
         "the paper's asphalt": {
             "straight": 56,
@@ -30,7 +30,10 @@ def test_roundabout(tmp_path, capsys):
         for name, strain in strains.items():
             assert float(found[road].deep.sel(maneuver=name)) * 1e6 == pytest.approx(strain, rel=0.08), (road, name)
     # The structure bends: under a wheel that rolls straight its surface is pressed together in the plane.
-    assert float(found[STRUCTURE].in_plane.sel(maneuver="straight")) < 0 < float(found[STRUCTURE].surface.min())
+    straight = found[STRUCTURE].sel(maneuver="straight")
+    assert float(straight.in_plane) < 0 < float(straight.deep)
+    assert float(straight["read"]) == 0
+    assert math.isinf(float(straight.passes))
     assert "outer wheel" in capsys.readouterr().out
     for name in ("tearing_half_space", "tearing_structure", "tearing_parking", "strain", "rose_structure"):
         assert (tmp_path / f"{name}.png").stat().st_size > 10_000

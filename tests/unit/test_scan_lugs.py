@@ -64,8 +64,8 @@ def test_the_map_of_lugs_is_that_of_the_lugs(tmp_path):
         order = np.argsort(-x[at][down])
         low = np.interp(grid.x, -x[at][down][order], -z[at][down][order])
         close.append(np.abs((0.35 - low) - gap[row]))
-    # Walls of lugs fall 25 mm over 2 mm, and rows lie up to 1.5 mm apart: nine tenths of the map is off them.
-    assert np.quantile(np.array(close), 0.85) < 0.5e-3
+    # Walls of lugs fall 25 mm over 2 mm, and rows of the mesh lie 4 mm apart: four fifths of the map are off them.
+    assert np.quantile(np.array(close), 0.8) < 0.3e-3
 
 
 def test_a_truck_tire_with_lugs_carries_5_kn(tmp_path):

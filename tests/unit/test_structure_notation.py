@@ -87,7 +87,7 @@ def test_what_is_written_comes_back(courses, base, short, unit, mark):
     [
         ("6 BBSG3 / 15 GB9 / PF3", "no mix 'GB9'; did you mean 'EB-GB[1-4]'"),
         ("6 BBSG3 / 15 GB3", "'15 GB3', has a thickness"),
-        ("BBSG3 / 15 GB3 / PF3", "'BBSG3' does not start with a number"),
+        ("BBSG3 / 15 GB3 / PF3", "cannot read 'BBSG3': it does not start with a number"),
         ("6 BBSG3 / / PF3", "nothing between"),
         ("6 / 15 GB3 / PF3", "'6' names no mix"),
         ("0 BBSG3 / PF3", "must be > 0"),

@@ -12,6 +12,7 @@ from treadload.case.file import FilePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
 from treadload.case.traffic import ClimatePart, TrafficPart
+from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage import Climate, DesignCriterion, Traffic
 from treadload.pavement import Pavement
 from treadload.tire import Tire
@@ -31,14 +32,15 @@ class DesignRoadPart(PavementPart):
 class LifeCase(FilePart):
     """Everything that the life of a road depends on, checked.
 
-    Numbers are SI; in a TOML file a quoted number carries its unit. spacing: of the contact's cells. tolerance: of
+    Numbers are SI; in a TOML file a quoted number carries its unit. spacing: of the contact's cells, 3 mm if left
+    out: surface lives move by less than 5 % on finer ones, and by half on cells of 6 mm. tolerance: of
     readings interpolated over the climate.
     """
 
     own_tables: ClassVar = ("traffic", "climate", "criteria")
     how_to_run: ClassVar = "a case of design: use `treadload life {name}`, in Python LifeCase"
 
-    spacing: Length = 6e-3
+    spacing: Length = DEFAULT_SPACING
     tolerance: Number = 5e-3
     tire: TirePart
     pavement: DesignRoadPart

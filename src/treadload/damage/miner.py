@@ -14,7 +14,7 @@ import xarray as xr
 from treadload import variables
 from treadload.damage.design import Criterion
 from treadload.damage.direction import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
-from treadload.damage.fatigue import FatigueLaw, in_words, warnings_of
+from treadload.damage.fatigue import UTILISATION, FatigueLaw, in_words, warnings_of
 from treadload.damage.french import growth_factor
 from treadload.damage.traffic import Climate, Traffic, Wander
 from treadload.describing import first_line
@@ -71,7 +71,7 @@ class Life:
             lines.append(
                 f"  {criterion.name}: {_years(float(row['life_years']))}, {float(row['life_passes']):.3g} passes; "
                 f"largest {criterion.quantity} {in_words(law, float(row['largest_reading']))} at "
-                f"y = {float(row['worst_y']) * 1e3:.0f} mm; most by {data['axle_class'].to_numpy()[worst[0]]}, "
+                f"y = {float(row['worst_y']) * 1e3:z.0f} mm; most by {data['axle_class'].to_numpy()[worst[0]]}, "
                 f"{data['season'].to_numpy()[worst[1]]} ({100 * share[worst]:.0f} %); "
                 f"damage 1 means {law.end_of_life}"
             )
@@ -201,7 +201,7 @@ def miner(
         for k, name in enumerate(names)
         if wanders[k] != traffic.wander
     ]
-    said += _flat(dataset)
+    said += _flat(dataset, criteria)
     dims = ("criterion", "axle_class", "season", "turn", "y")
     places = {name: coordinates[name] for name in ("criterion", "axle_class", "season")}
     kept = xr.DataArray(values, dims=dims, coords={**places, "y": at})
@@ -281,8 +281,8 @@ def _cracks(
     }
 
 
-def _flat(data: xr.Dataset) -> list[str]:
-    """Sentences on criteria whose damage parts the road parallel to its surface."""
+def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
+    """Sentences on criteria of extension whose damage parts the road parallel to its surface."""
     if "orientation_damage" not in data:
         return []
     shares = data["orientation_damage"].sel(orientation=ORIENTATIONS[HORIZONTAL]).to_numpy()
@@ -290,8 +290,8 @@ def _flat(data: xr.Dataset) -> list[str]:
         f"{name}: {100 * share:.0f} % of its damage is read across planes nearer to the horizontal than 45°, which "
         "part the road parallel to its surface: no crack from the surface down, nor from the bottom up; read "
         'strain = "in-plane" for those'
-        for name, share in zip(data["criterion"].to_numpy(), shares, strict=True)
-        if share > _MOSTLY
+        for name, share, one in zip(data["criterion"].to_numpy(), shares, criteria, strict=True)
+        if share > _MOSTLY and one.quantity != UTILISATION
     ]
 
 

@@ -193,7 +193,7 @@ def assess(
     if opens and unread > _NOTABLE * float(near.value[at]):
         said.append(
             f"the largest extension, {unread * 1e6:.1f} microstrain, lies where no principal stress is tensile: no "
-            "crack opens there, and it is not read"
+            f"crack opens there, and it is not read; it would allow {float(line.allowable_passes(unread)):.2g} passes"
         )
     dataset = variables.dataset(
         fields,

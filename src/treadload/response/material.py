@@ -82,7 +82,7 @@ def spread_over(load: SurfaceLoad, length: float) -> GridLoad:
     """The mean of a load over a square of road around each point: what the mean of its response belongs to.
 
     load: a disc is laid on cells first. length: side of the square, m. The force is kept.
-    Exact at the cells' centres for loads uniform on cells.
+    The sum of moved copies of the load with the force, the centre and the second moments of the exact mean.
     """
     cells = _laid(load, length / _DISC_CELLS) if isinstance(load, UniformDisc) else load
     cells = _divided(cells, _FINE * length)
@@ -97,11 +97,13 @@ def spread_over(load: SurfaceLoad, length: float) -> GridLoad:
 
 
 def _weights(cells: float) -> Array:
-    """Weights of the mean over a number of cells around the middle of a cell; less than one is that cell."""
-    cells = max(cells, 1.0)
-    inner = int((cells - 1) // 2)
-    edge = 0.5 * (cells - 1) - inner
-    return np.array([edge, *([1.0] * (2 * inner + 1)), edge]) / cells
+    """Weights of the mean over a number of cells around the middle of one: its sum and its second moment, n²/12."""
+    inner = max(int((cells - 1) // 2), 0)
+    places = np.arange(1, inner + 1)
+    # Weights a on 2 m + 1 cells, e on the two beside them: (2 m + 1) a + 2 e = 1, 2 Σ i² a + 2 (m + 1)² e = n²/12.
+    moments = [[2 * inner + 1, 2], [2 * (places**2).sum(), 2 * (inner + 1) ** 2]]
+    equal, edge = np.linalg.solve(moments, [1.0, cells**2 / 12])
+    return np.array([edge, *([equal] * (2 * inner + 1)), edge])
 
 
 def _divided(load: GridLoad, most: float) -> GridLoad:

@@ -12,6 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from treadload import variables
+from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.design import Criterion
 from treadload.damage.fatigue import in_words
 from treadload.damage.interface import (
@@ -138,7 +139,7 @@ def compare_bonds(
     *,
     interface: int | None = None,
     bond: Bond | HalfBonded = FRICTIONLESS,
-    spacing: float = 6e-3,
+    spacing: float = DEFAULT_SPACING,
     tolerance: float = 3e-3,
     workers: int | None = None,
     progress: Progress | None = None,

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from treadload import variables
+from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.design import Criterion, DesignCriterion
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
@@ -25,7 +26,7 @@ def design_life(
     climate: Climate,
     criteria: Sequence[Criterion],
     *,
-    spacing: float = 6e-3,
+    spacing: float = DEFAULT_SPACING,
     tolerance: float = 5e-3,
     workers: int | None = None,
     progress: Progress | None = None,

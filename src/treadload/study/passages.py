@@ -15,6 +15,7 @@ import xarray as xr
 from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
 
 from treadload.contact import Contact, solve_contact
+from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.design import Criterion, Side
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic
 from treadload.errors import InputError
@@ -103,7 +104,7 @@ def solve_passages(
     climate: Climate,
     criteria: Sequence[Criterion],
     *,
-    spacing: float = 6e-3,
+    spacing: float = DEFAULT_SPACING,
     tolerance: float = 5e-3,
     workers: int | None = None,
     progress: Progress | None = None,

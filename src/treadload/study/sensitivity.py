@@ -14,6 +14,7 @@ import xarray as xr
 
 from treadload import variables
 from treadload.contact import Coulomb
+from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.design import Criterion
 from treadload.damage.miner import Life, damage_of, wander_of
 from treadload.damage.traffic import Climate, Season, Traffic, Wander
@@ -82,7 +83,7 @@ def life_sensitivity(
     life: Life,
     *,
     coverage: float = 0.8,
-    spacing: float = 6e-3,
+    spacing: float = DEFAULT_SPACING,
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> Sensitivity:
