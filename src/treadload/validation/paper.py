@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from treadload.contact import Rolling, solve_contact
+from treadload.grid import Grid
 from treadload.pavement import Pavement
 from treadload.response import solve_response
 from treadload.tire import Tire, TreadProfile, equal_ribs
@@ -39,8 +40,12 @@ def footprint_checks() -> Iterator[Check]:
 
 
 def strain_checks() -> Iterator[Check]:
-    """Largest extension at the surface at 32.5 kN: free, and driving with 10 kN."""
-    tire = Tire.from_profile(trial_profile(), material=RUBBER)
+    """Largest extension at points of the surface at 32.5 kN: free, and driving with 10 kN.
+
+    On the cells of the trial, which meet its tread between two of them: such readings belong to the cells.
+    """
+    cells = Grid.centred(111 * 3e-3, 98 * 3e-3, 3e-3)
+    tire = Tire.from_height_map(trial_profile().gap(cells.x, cells.y), 3e-3, material=RUBBER)
     road = Pavement.half_space(ASPHALT)
 
     def extension(force: float) -> tuple[float, float]:
