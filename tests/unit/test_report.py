@@ -105,8 +105,8 @@ def test_report_holds_the_numbers_of_every_case(page, results):
             f"{100 * result.contact.slip_fraction:.1f}",
             f"{float(result.response.dataset.principal_strain_1.isel(depth=0).max()) * 1e6:.1f}",
             f"{float(result.response.dataset.in_plane_strain_1.isel(depth=0).max()) * 1e6:.1f}",
-            f"{float(verdict.worst_strain) * 1e6:.1f} microstrain at depth {float(verdict.worst_depth) * 1e3:g} mm",
-            "in the horizontal plane, mean over 10 mm",
+            f"{float(verdict.worst_strain) * 1e6:.1f} microstrain",
+            f"read in the horizontal plane, mean over 10 mm, at depth {float(verdict.worst_depth) * 1e3:g} mm",
             power_of_ten(float(verdict.worst_passes)),
             result.verdict.orientation,
         ):

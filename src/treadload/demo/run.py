@@ -107,11 +107,11 @@ def comparison(results: list[Result]) -> list[tuple[str, ...]]:
     if all(verdict is not None for verdict in verdicts):
         data = [verdict.dataset for verdict in verdicts if verdict is not None]
         add(
-            "extension, three-dimensional",
+            "extension in space, mean over 10 mm",
             [f"{d.attrs['largest_principal_strain'] * 1e6:.0f} microstrain" for d in data],
         )
         add(
-            "extension, horizontal plane",
+            "extension in the plane, mean over 10 mm",
             [f"{d.attrs['largest_in_plane_strain'] * 1e6:.0f} microstrain" for d in data],
         )
         add("allowable passes", [f"{float(d.worst_passes):.2g}" for d in data])

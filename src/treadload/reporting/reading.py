@@ -199,12 +199,17 @@ class ReportCase:
 
     @property
     def worst_read(self) -> str:
-        """The largest extension that the verdict reads, with its depth; empty without one."""
+        """The largest extension that the verdict reads; empty without one."""
         data = self.group("damage")
         if data is None or not float(data["worst_strain"]) > 0:
             return ""
-        depth = float(data["worst_depth"]) * MM
-        return f"{float(data['worst_strain']) * MICRO:.1f} microstrain at depth {depth:g} mm"
+        return f"{float(data['worst_strain']) * MICRO:.1f} microstrain"
+
+    @property
+    def worst_depth(self) -> str:
+        """The depth at which that is; empty without a verdict."""
+        data = self.group("damage")
+        return "" if data is None else f"at depth {float(data['worst_depth']) * MM:g} mm"
 
     @property
     def orientation(self) -> str:
