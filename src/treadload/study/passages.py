@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 import xarray as xr
-from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
+from scipy.interpolate import Akima1DInterpolator, CubicSpline
 
 from treadload.contact import Contact, solve_contact
 from treadload.contact.solve import DEFAULT_SPACING
@@ -20,10 +20,10 @@ from treadload.damage.design import Criterion, Side
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, solve_response
 from treadload.response.doubts import overlapping, road_doubts
+from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.tire import Tire
 
 Found = TypeVar("Found")
@@ -157,14 +157,14 @@ def solve_passages(
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
         others = [row for row in range(len(classes)) if row != heaviest]
         pilot = solve_all([heaviest], distinct)[0]
-        warmth = _warmth(seasons, distinct)
-        kept, error = _nodes(warmth, pilot[:, :, :turns], tolerance)
+        warmth = warmth_of(seasons, [one.road for one in distinct])
+        kept, error = nodes(warmth, pilot[:, :, :turns], tolerance)
         count.total = len(states) + len(distinct) + len(others) * len(kept)
         values = np.empty((len(classes), *pilot.shape))
         values[heaviest] = pilot
         if others:
             rest = solve_all(others, [distinct[k] for k in kept])
-            values[others] = rest if len(kept) == len(distinct) else _over(warmth, kept, rest, turns)
+            values[others] = rest if len(kept) == len(distinct) else over_the_climate(warmth, kept, rest, turns)
     where = [distinct.index(one) for one in warm]
     # (criterion, axle_class, season, turn, y), with the crack behind the turns.
     everything = values[:, where].transpose(2, 0, 1, 3, 4)
@@ -400,55 +400,3 @@ def _vertex(read: Array, at: Any) -> Array:
     rise = (after - before) ** 2 / (8 * np.where(good, bend, 1.0))
     own: Array = np.take_along_axis(read, at[:, None], axis=1)[:, 0]
     return np.where(good, own + rise, own)
-
-
-def _warmth(seasons: Sequence[Season], distinct: Sequence[Warm]) -> Array | None:
-    """One number that orders the roads of a climate: the mean of the layers' ln E, of which strains are smoother
-    functions than of temperature. None where a single number does not tell the roads apart.
-    """
-    if any(isinstance(season.temperature, tuple) for season in seasons):
-        return None
-    materials = [[layer.resolved for layer in one.road.layers] for one in distinct]
-    moduli = [[one.modulus for one in row if isinstance(one, Elastic)] for row in materials]
-    if any(len(elastic) < len(row) for elastic, row in zip(moduli, materials, strict=True)):
-        return None
-    found: Array = np.log(moduli).mean(axis=1)
-    return found if len(np.unique(found)) == len(found) else None
-
-
-def _nodes(warmth: Array | None, pilot: Array, tolerance: float) -> tuple[list[int], float]:
-    """Roads to solve for the other classes, in the order of warmth, and the error of the rest on the pilot.
-
-    pilot: (road, criterion, turn, y). The error is that of the readings over the largest r₁ of each criterion and
-    road, and counts (r/r₁)² where r is read: no law raises harm by less than the third power, so that more than
-    this never shows in the damage.
-    """
-    everything = list(range(len(pilot)))
-    if warmth is None or tolerance == 0 or len(pilot) < 4:
-        return everything, 0.0
-    order = np.argsort(warmth)
-    kept = [int(order[0]), int(order[-1])]
-    largest = np.abs(pilot).max(axis=(2, 3), keepdims=True)
-    largest[largest == 0] = 1.0
-    while True:
-        kept.sort(key=lambda k: warmth[k])
-        apart = np.abs(_spline(warmth[kept], pilot[kept], 0)(warmth) - pilot) / largest
-        errors = (apart * (pilot / largest) ** 2).max(axis=(1, 2, 3))
-        if errors.max() <= tolerance:
-            return kept, float(errors.max())
-        if len(kept) + 1 == len(pilot):
-            return everything, 0.0
-        kept.append(int(errors.argmax()))
-
-
-def _over(warmth: Array | None, kept: list[int], rest: Array, turns: int) -> Array:
-    """All roads (class, road, ...) from the kept ones: readings by splines, cracks from the nearest."""
-    assert warmth is not None
-    nearest = np.abs(warmth[:, None] - warmth[kept]).argmin(axis=1)
-    found = rest[:, nearest]
-    found[:, :, :, :turns] = np.maximum(_spline(warmth[kept], rest[:, :, :, :turns], 1)(warmth), 0.0)
-    return found
-
-
-def _spline(warmth: Array, values: Array, axis: int) -> PchipInterpolator:
-    return PchipInterpolator(warmth, values, axis=axis)
