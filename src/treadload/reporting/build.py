@@ -49,7 +49,8 @@ def write_report(cases: Mapping[str, xr.DataTree], path: str | PathLike[str], ti
     read = [ReportCase.of(label, tree) for label, tree in cases.items()]
     html = _template().render(_content(read, title or _title(read)))
     with replacing(path) as temporary:
-        temporary.write_text(html, encoding="utf-8")
+        # Half a character of a torn file is no text.
+        temporary.write_text(html, encoding="utf-8", errors="replace")
     return Path(path)
 
 
