@@ -103,12 +103,13 @@ class Verdict:
         about = self.dataset.attrs
         if "coarse_strain" not in about:
             return []
-        read, cells = float(self.dataset["worst_strain"]), 1e3 * float(about["spacing"])
+        read = float(self.dataset["worst_strain"])
+        cells, wide = (1e3 * float(about[name]) for name in ("spacing", "coarse_spacing"))
         coarse = float(about["coarse_strain"])
         error = abs(coarse - read)
         fewest, most = (self.line.allowable_passes(read + part) for part in (error, -error))
         return [
-            f"error estimate: {coarse * 1e6:.1f} microstrain on cells of {2 * cells:g} mm; {read * 1e6:.1f} on cells "
+            f"error estimate: {coarse * 1e6:.1f} microstrain on cells of {wide:g} mm; {read * 1e6:.1f} on cells "
             f"of {cells:g} mm holds within {100 * error / read:.2g} %, {fewest:.2g} to {most:.2g} passes"
         ]
 

@@ -57,5 +57,9 @@ def check_two_grids(tire: Tire | None) -> None:
 
 def with_error(verdict: Verdict, coarse: Verdict, spacing: float) -> Verdict:
     """A verdict on cells of `spacing`, m, that tells what it read on coarser ones."""
-    about = {"spacing": spacing, "coarse_strain": float(coarse.dataset["worst_strain"])}
+    about = {
+        "spacing": spacing,
+        "coarse_spacing": COARSER * spacing,
+        "coarse_strain": float(coarse.dataset["worst_strain"]),
+    }
     return replace(verdict, dataset=verdict.dataset.assign_attrs(about))
