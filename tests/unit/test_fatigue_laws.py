@@ -213,6 +213,8 @@ def test_laws_of_catalogued_materials():
         (lambda: ShellFatigue(math.nan), "modulus must be a positive number of Pa, got nan"),
         (lambda: equivalent_axles(-1, 20, 0.8), "vehicles_per_day must be a positive number, got -1"),
         (lambda: equivalent_axles(1, 20, 0.8, growth=-2), "growth must be above -1 a year, got -2"),
+        (lambda: equivalent_axles(1, 20, 0.8, growth=math.inf, kind="arithmetic"), "at most 10 a year, got inf"),
+        (lambda: equivalent_axles(1, 2e21, 0.8, growth=0.02), "over 2e.21 years makes more passes than a number"),
         (lambda: equivalent_axles(1, 20, 0.8, growth=-0.5, kind="arithmetic"), "leaves no traffic over 20 years"),
         (lambda: equivalent_axles(1, 20, 0.8, kind="weekly"), '"geometric" or "arithmetic", got \'weekly\''),
         (lambda: french.aggressiveness([], vehicles=1, power=5), "axles is empty"),

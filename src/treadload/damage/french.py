@@ -38,6 +38,8 @@ _PLATFORM = ((50e6, 1 / 1.2), (80e6, 1 / 1.1), (120e6, 1 / 1.065))
 _DAYS = 365
 # Growth a year that no sum of years feels; far below it the quotient loses its digits.
 NO_GROWTH = 1e-15
+# Eleven times as many passes in each next year: no traffic does.
+_MOST_GROWTH = 10.0
 
 _CLASSES = ("T5", "T4", "T3", "T2", "T1", "T0", "TS", "TEX")
 RISK: Mapping[str, Mapping[str, float]] = {
@@ -377,8 +379,16 @@ def growth_factor(years: float, growth: float, kind: Literal["geometric", "arith
     """
     if not growth > -1:
         raise InputError(f"growth must be above -1 a year, got {growth}; 2 % a year is 0.02")
+    if growth > _MOST_GROWTH:
+        raise InputError(f"growth must be at most {_MOST_GROWTH:g} a year, got {growth:g}; 2 % a year is 0.02")
     if kind == "geometric":
-        total = math.expm1(years * math.log1p(growth)) / growth if abs(growth) > NO_GROWTH else years
+        try:
+            total = math.expm1(years * math.log1p(growth)) / growth if abs(growth) > NO_GROWTH else years
+        except OverflowError as error:
+            raise InputError(
+                f"a growth of {growth:g} a year over {years:g} years makes more passes than a number can hold; give "
+                'fewer years, less growth, or kind="arithmetic"'
+            ) from error
     elif kind == "arithmetic":
         total = years * (1 + (years - 1) * growth / 2)
     else:

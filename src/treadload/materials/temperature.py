@@ -29,6 +29,10 @@ _GAS = 8.31446261815324  # J/(mol K), exact since 2019.
 _DECADE = math.log(10)
 # Factors that a float can hold, in decades.
 _DECADES = 300.0
+# Where no road and no rubber holds together, °C.
+_HOTTEST = 1000.0
+# Temperatures of a table that no thermometer tells apart, K.
+_NEXT = 1e-6
 
 
 class ShiftLaw(Protocol):
@@ -100,7 +104,8 @@ class WLF:
                 f"WLF holds above {self.reference - self.c2:g} °C (its reference less C₂), "
                 f"got {rise.min() + self.reference:g} °C"
             )
-        return _power(-self.c1 * rise / (self.c2 + rise))
+        with np.errstate(over="ignore"):
+            return _power(-self.c1 * rise / (self.c2 + rise))
 
     def __str__(self) -> str:
         return f"WLF, C₁ = {self.c1:.4g}, C₂ = {self.c2:.4g} K from {self.reference:g} °C"
@@ -172,10 +177,12 @@ class QuadraticShift:
         """AT at temperatures, °C. Raises InputError where the parabola has turned and times would grow again."""
         t = _celsius(temperature)
         self._check(t)
-        return _power((self.a1 * (t - self.reference) + self.a2 * (t**2 - self.reference**2)) / _DECADE)
+        with np.errstate(over="ignore", invalid="ignore"):
+            return _power((self.a1 * (t - self.reference) + self.a2 * (t**2 - self.reference**2)) / _DECADE)
 
     def _check(self, t: Array) -> None:
-        turned = t[self.a1 + 2 * self.a2 * t >= 0]
+        with np.errstate(over="ignore", invalid="ignore"):
+            turned = t[self.a1 + 2 * self.a2 * t >= 0]
         if turned.size:
             where = f"{-self.a1 / (2 * self.a2):g} °C" if self.a2 else "all temperatures"
             raise InputError(
@@ -202,10 +209,17 @@ class TabulatedShift:
 
     def __post_init__(self) -> None:
         t, y = _measured(self.temperatures, self.log_factors, 2)
+        _check_decades(y)
         order = np.argsort(t)
         t, y = t[order], y[order]
         if not (np.diff(t) > 0).all():
             raise InputError("a table of shift factors needs each temperature once")
+        if np.diff(t).min() < _NEXT:
+            near = int(np.argmin(np.diff(t)))
+            raise InputError(
+                f"temperatures of a table of shift factors must differ by {_NEXT:g} K or more, got {t[near]:.9g} and "
+                f"{t[near + 1]:.9g} °C; leave one out"
+            )
         if not (np.diff(y) < 0).all():
             worst = int(np.argmax(np.diff(y)))
             raise InputError(
@@ -307,16 +321,23 @@ def _celsius(temperature: ArrayLike, name: str = "a temperature") -> Array:
     bad = t[~(np.isfinite(t) & (t > -_KELVIN))]
     if bad.size:
         raise InputError(f"{name} must be in °C, above absolute zero at -273.15, got {bad.flat[0]:g}")
+    if t.size and t.max() > _HOTTEST:
+        raise InputError(f"{name} must be in °C, at most {_HOTTEST:g}, got {t.max():g}")
     return t
 
 
 def _power(log: Array) -> Array:
-    if (np.abs(log) > _DECADES).any():
+    _check_decades(log)
+    return np.asarray(10.0**log)
+
+
+def _check_decades(log: Array) -> None:
+    # What is no number is refused, too.
+    if not (np.abs(log) <= _DECADES).all():
         raise InputError(
-            f"the shift reaches {np.abs(log).max():.0f} decades of time, more than {_DECADES:.0f}; "
+            f"the shift reaches {np.abs(log).max():.4g} decades of time, more than {_DECADES:.0f}; "
             "check its constants and the temperature"
         )
-    return np.asarray(10.0**log)
 
 
 def _measured(temperatures: Sequence[float], log_factors: Sequence[float], least: int) -> tuple[Array, Array]:
