@@ -11,6 +11,7 @@ import os
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import groupby, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,6 +31,7 @@ _NUMBER = re.compile(rf"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+){_POWER}")
 _COMMA_NUMBER = re.compile(rf"[+-]?[0-9]*,[0-9]+{_POWER}")
 _LOST_MARK = re.compile(rf"[+-]?0[0-9]+{_POWER}")
 _WHOLE = re.compile("[+-]?[0-9]+")
+_WITHOUT_MARK = re.compile(f"[+-]?[0-9]+{_POWER}")
 _PART = re.compile(f"[0-9]+{_POWER}")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}")
 _QUOTED = re.compile(r'"[^"]*"')
@@ -237,23 +239,79 @@ def _check_dropped(table: Table, comments: Sequence[_Line], numbered: Sequence[_
 
 
 def _check_commas(table: Table) -> None:
-    """Refuse pairs of whole numbers that may be decimal numbers."""
-    before = [cell for row in table.rows for cell in row[::2]]
-    behind = [cell for row in table.rows for cell in row[1::2]]
-    if len(table.rows[0]) % 2 or not all(_WHOLE.fullmatch(cell) for cell in before):
+    """Refuse whole numbers that may be decimal numbers: neighbours that look like what one writer leaves of them."""
+    rows = [[None if cell.casefold() in _NO_DATA else cell for cell in row] for row in table.rows]
+    if any(cell is not None and not _WITHOUT_MARK.fullmatch(cell) for row in rows for cell in row):
         return
-    if not all(_PART.fullmatch(cell) for cell in behind):
-        return
-    # As many digits behind each comma, or as a rule more than before any: whole numbers next to each other are alike.
-    digits = sorted(len(cell.lower().partition("e")[0]) for cell in behind)
-    alike = digits[0] == digits[-1] or digits[len(digits) // 2] > max(len(cell) for cell in before)
-    # Nothing but zeros is zero either way.
-    if alike and {*before, *behind} != {"0"}:
-        shown = ",".join(table.rows[0][:2])
+    if _are_fixed(rows) or _are_trimmed(rows):
+        pairs = ((at, pair) for at, row in enumerate(rows) for pair in pairwise(row) if _may_join(*pair))
+        at, (before, behind) = next(pairs)
         raise InputError(
-            f"{table.path}: {shown!r} in line {table.lines[0]} may be two whole numbers or one with a decimal comma; "
-            'give decimal="." for the first, or write semicolons between cells'
+            f"{table.path}: '{before},{behind}' in line {table.lines[at]} may be two whole numbers or one with a "
+            'decimal comma; give decimal="." for the first, or write semicolons between cells'
         )
+
+
+def _may_join(before: str | None, behind: str | None) -> bool:
+    return bool(before and behind and _WHOLE.fullmatch(before) and _PART.fullmatch(behind))
+
+
+def _mantissa(cell: str) -> str:
+    return cell.lower().partition("e")[0].lstrip("+-")
+
+
+def _are_fixed(rows: Sequence[Sequence[str | None]]) -> bool:
+    """True if all numbers are pairs with as many digits behind each comma, or as a rule more than before any."""
+    if len({row.count(None) for row in rows}) > 1:
+        return False
+    pairs: list[tuple[str | None, str | None]] = []
+    for row in rows:
+        for missing, run in groupby(row, key=lambda cell: cell is None):
+            cells = [] if missing else list(run)
+            if len(cells) % 2:
+                return False
+            pairs += zip(cells[::2], cells[1::2], strict=True)
+    if not pairs or not all(_may_join(*pair) for pair in pairs):
+        return False
+    # Whole numbers next to each other are alike. Nothing but zeros is zero either way.
+    digits = sorted(len(_mantissa(behind or "")) for _, behind in pairs)
+    alike = digits[0] == digits[-1] or digits[len(digits) // 2] > max(len(before or "") for before, _ in pairs)
+    return alike and any(cell != "0" for pair in pairs for cell in pair)
+
+
+def _are_trimmed(rows: Sequence[Sequence[str | None]]) -> bool:
+    """True if pairs, as many in each line, leave numbers of N digits but for zeros cut off at the end.
+
+    One in ten numbers of N digits ends in a zero, one in a hundred in two; whole numbers lack more of them.
+    """
+    numbers = sum(cell is not None for row in rows for cell in row)
+    lengths = [[len(_mantissa(cell or "").lstrip("0")) for cell in row] for row in rows]
+    # Cells that join with the one before: nothing is cut off of a fraction that ends in a zero.
+    joins = [
+        [False, *(_may_join(*pair) and not _mantissa(pair[1] or "").endswith("0") for pair in pairwise(row))]
+        for row in rows
+    ]
+    total, longest = sum(map(sum, lengths)), max(map(max, lengths))
+    if not total or not all(map(any, joins)):
+        return False
+    # Half as many numbers as cells at least, so more digits cannot be filled.
+    for digits in range(longest, int(2 * total / numbers + 0.5 + 2 / numbers) + 1):
+        pairs = min(_most_pairs(*row, digits) for row in zip(lengths, joins, strict=True))
+        left = numbers - pairs * len(rows)
+        if pairs and digits * left - total <= left / 2 + 1:
+            return True
+    return False
+
+
+def _most_pairs(lengths: Sequence[int], joins: Sequence[bool], digits: int) -> int:
+    """The most neighbours in a row that join to numbers of no more than so many digits."""
+    found, free = 0, True
+    for at in range(1, len(lengths)):
+        if free and joins[at] and lengths[at - 1] + lengths[at] <= digits:
+            found, free = found + 1, False
+        else:
+            free = True
+    return found
 
 
 def _shortened(cell: str) -> str:

@@ -188,6 +188,8 @@ def _text(rng: random.Random, cells: list[list[str]], heading: list[str]) -> tup
     separator = rng.choice((";", ",", "\t", " "))
     decimal = rng.choice((".", ","))
     holes = any(cell in _HOLES for row in cells for cell in row)
+    # Whole numbers between commas may be decimal ones.
+    whole = separator == "," and not any("." in cell for row in cells for cell in row)
     if separator == " ":
         cells = [[cell or "NaN" for cell in row] for row in cells]
     rows = [
@@ -199,7 +201,7 @@ def _text(rng: random.Random, cells: list[list[str]], heading: list[str]) -> tup
     if rng.random() < 0.2:
         lines.append("")
     text = rng.choice(("\n", "\r\n")).join(lines) + rng.choice(("", "\n"))
-    return rng.choice(("", "", "\ufeff")) + text, decimal == "." and not holes
+    return rng.choice(("", "", "\ufeff")) + text, decimal == "." and not holes and (bool(heading) or not whole)
 
 
 def _write(rng: random.Random, path: Path, text: str) -> bool:
