@@ -105,10 +105,10 @@ def test_the_verdict_is_the_worst_of_all_depths_and_says_which(driving, response
     assert f"depth {float(data.worst_depth) * 1e3:g} mm" in verdict.summary()
     assert float(data.worst_depth) == float(data.depth[int(data.extension_by_depth.values.argmax())])
     assert float(data.worst_strain) >= float(data.extension_by_depth.max())
-    # Between the cells: beside the map's largest, by no more than a cell.
+    # Between the cells: beside the map's largest, by no more than a cell and a step of the first search.
     row, column = np.unravel_index(int(data.allowable_passes.values.argmin()), data.allowable_passes.shape)
-    assert abs(float(data.worst_x) - float(data.x[column])) <= 6e-3
-    assert abs(float(data.worst_y) - float(data.y[row])) <= 6e-3
+    assert abs(float(data.worst_x) - float(data.x[column])) <= 6.5e-3
+    assert abs(float(data.worst_y) - float(data.y[row])) <= 6.5e-3
     again = solve_response(
         driving, HALF, depths=[0.0], x=[float(data.worst_x)], y=[float(data.worst_y)], mean_over=0.01
     ).dataset
@@ -241,3 +241,20 @@ def test_a_life_says_that_it_reads_planes_parallel_to_the_surface():
 def test_the_default_is_written_down():
     assert MATERIAL_LENGTH == 0.010
     assert tl.Case.from_text(__import__("cases").COARSE_CASE).damage.mean_over == MATERIAL_LENGTH
+
+
+def test_the_reading_is_the_largest_between_the_points_of_the_map():
+    """Where the line at which tension ends cuts the reading off, the map's own points are off by a twentieth."""
+    block = tl.Tire.from_profile(tl.TreadProfile(0.3, 1.0, 0.05, 0.0), inflation_pressure=820e3)
+    contact = tl.solve_contact(block, HALF, tl.Rolling(normal_load=3e3, tractive_force=1e3, friction=0.7))
+    data = assess(solve_response(contact, HALF, depths=[0.0]), LINE).dataset
+    x, y = (float(data[name]) + np.linspace(-5e-4, 5e-4, 41) for name in ("worst_x", "worst_y"))
+    fine = solve_response(contact, HALF, depths=[0.0], x=x, y=y, mean_over=0.01).dataset
+    xx, yy, zz, xy, xz, yz = (fine[f"stress_{name}"].to_numpy() for name in COMPONENTS)
+    stress = np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), (0, 1), (-2, -1))
+    tensile = np.linalg.eigvalsh(stress)[..., -1] > 0
+    assert 0.2 < tensile.mean() < 0.9  # the line runs through
+    largest = float(np.where(tensile, fine.in_plane_strain_1, 0.0).max())
+    # Lines of steps of 1/16 mm, along which the reading changes by 1 % a millimetre and more.
+    assert float(data.worst_strain) == pytest.approx(largest, rel=3e-3)
+    assert largest > 1.02 * float(data.extension_by_depth.max())

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 import xarray as xr
+from scipy.ndimage import maximum_filter
 
 from treadload.damage.direction import HasDataset, Reading, crack_plane, extension, gridded, in_tension
 from treadload.damage.fatigue import BOTTOM_EXTENSION, EXTENSION, SURFACE_EXTENSION, PowerLaw
@@ -16,8 +17,12 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.depths import on_interface, same_depth
 from treadload.response import Response, solve_response
 
-# Points around the worst of a map, in a material length.
+# Points around the worst of a map, in a material length; and again around the worst of those.
 _STEPS = 20
+_FINER = 8
+# Maxima of a map this near to its largest may be larger between its points; so many are looked at.
+_RIVAL = 0.97
+_RIVALS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +31,11 @@ class Field:
 
     data: xr.Dataset
     strain: Reading
+
+    @property
+    def length(self) -> float:
+        """Edge of the cube over which the points are means, m."""
+        return float(self.data.attrs["mean_over"])
 
     @cached_property
     def extension(self) -> Array:
@@ -96,21 +106,52 @@ def mean_field(response: HasDataset, line: PowerLaw, length: float) -> tuple[xr.
     return _solved(response, depths, length, **at), said
 
 
-def closer(response: HasDataset, data: xr.Dataset, worst: tuple[int, int, int]) -> xr.Dataset | None:
-    """Means on points close to each other around a point of their map; None where the road cannot be asked again.
+def closer(response: HasDataset, field: Field) -> Field | None:
+    """The field on points close to each other around its worst point; None where the road cannot be asked again.
 
-    data: means over (depth, y, x). worst: index of the point. The map's points lie as far apart as its cells, and the
-    largest reading between them.
+    field: means over (depth, y, x). The map's points lie as far apart as its cells, and the largest reading lies
+    between them: by round maxima a little higher, by the line where tension ends, which cuts the reading off at once,
+    by up to a twentieth. So the neighbourhood is searched twice, and that of every maximum near the largest.
     """
     if not isinstance(response, Response) or response.road is None:
         return None
-    length = float(data.attrs["mean_over"])
-    row, *place = worst
-    around = [_around(data[name].to_numpy(), k, length) for name, k in zip(("y", "x"), place, strict=True)]
-    if any(at is None for at in around):
+    found = [near for at in _rivals(field) if (near := _nearer(response, field, at)) is not None]
+    if not found:
         return None
-    y, x = (np.asarray(at) for at in around)
-    return _solved(response, data["depth"].to_numpy()[row : row + 1], length, x=x, y=y)
+    best = max(found, key=lambda near: float(near.value[near.worst]))
+    finer = {
+        name: _between(best.data[name].to_numpy(), k) for name, k in zip(("y", "x"), best.worst[1:], strict=True)
+    }
+    finest = replace(best, data=_solved(response, best.data["depth"].to_numpy(), best.length, **finer))
+    return max(best, finest, key=lambda near: float(near.value[near.worst]))
+
+
+def _rivals(field: Field) -> list[tuple[int, int, int]]:
+    """Maxima of a map that may be the largest between its points, the largest first."""
+    value = np.where(np.isnan(field.value), -np.inf, field.value)
+    top = (value == maximum_filter(value, (1, 3, 3), mode="nearest")) & (value >= _RIVAL * value[field.worst])
+    places = sorted(map(tuple, np.argwhere(top)), key=lambda at: -value[at])
+    return [(int(row), int(j), int(i)) for row, j, i in places[:_RIVALS]]
+
+
+def _nearer(response: Response, field: Field, at: tuple[int, int, int]) -> Field | None:
+    """The field up to the neighbours of a point of its map; None where they are too far."""
+    row, *place = at
+    plane = (field.data[name].to_numpy() for name in ("y", "x"))
+    around = [_around(one, k, field.length) for one, k in zip(plane, place, strict=True)]
+    if any(one is None for one in around):
+        return None
+    y, x = (np.asarray(one) for one in around)
+    depth = field.data["depth"].to_numpy()[row : row + 1]
+    return replace(field, data=_solved(response, depth, field.length, x=x, y=y))
+
+
+def _between(at: Array, k: int) -> Array:
+    """Coordinates between a point and its neighbours; it alone where there are none."""
+    if len(at) == 1:
+        return at
+    fine: Array = at[k] + (at[1] - at[0]) / _FINER * np.arange(1 - _FINER, _FINER)
+    return fine
 
 
 def _solved(response: Response, depths: Array, length: float, *, x: Array, y: Array) -> xr.Dataset:

@@ -161,9 +161,10 @@ def assess(
         reading = "local, depends on the cells" if depth < _FELT else "local"
     field = Field(data, strain)
     row = field.worst[0]
-    fine = closer(response, data, field.worst) if depth is None and field.value[field.worst] > 0 else None
-    near = Field(data if fine is None else fine, strain)
+    near = (closer(response, field) if depth is None and field.value[field.worst] > 0 else None) or field
     at = near.worst
+    if near is not field:
+        row = int(np.flatnonzero(data["depth"] == near.data["depth"][0])[0])
     opens = bool(near.value[at] > 0)
     angle, dip = (part[row] for part in field.crack)
     worst_angle, worst_dip = (float(part[at]) for part in near.crack)
