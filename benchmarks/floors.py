@@ -3,7 +3,7 @@
 import numpy as np
 from timing import best_of
 
-from treadload.contact.influence import Influence
+from treadload.contact.bodies.influence import Influence
 
 
 def normal_product(influence: Influence) -> float:

@@ -10,8 +10,8 @@ from timing import best_of, print_table
 
 import treadload as tl
 from treadload.grid import Grid
-from treadload.kernels import synthesis, wavenumbers
-from treadload.kernels.displacement import fields_on_grid
+from treadload.kernels.half_space.displacement import fields_on_grid
+from treadload.kernels.layers import synthesis, wavenumbers
 from treadload.response import GridLoad, layered
 
 ROAD = tl.Pavement(

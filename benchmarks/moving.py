@@ -9,7 +9,7 @@ from timing import best_of, print_table
 
 import treadload as tl
 from treadload.grid import Grid
-from treadload.kernels import wavenumbers
+from treadload.kernels.layers import wavenumbers
 from treadload.response import GridLoad, moving
 
 BINDER = tl.Prony(12e9, ((0.3, 0.002), (0.3, 0.02), (0.2, 0.2), (0.1, 2.0)), 0.35)

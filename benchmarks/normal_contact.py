@@ -7,9 +7,9 @@ from a cold start: operators and the coarser grids that start the solve are incl
 from floors import normal_product
 from timing import best_of, print_table
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import solve_normal
+from treadload.contact.bodies.influence import Influence
 from treadload.contact.solve import combine
+from treadload.contact.solvers.normal import solve_normal
 from treadload.grid import Grid
 from treadload.tire import Tire
 from treadload.validation.pressing import ASPHALT, RUBBER

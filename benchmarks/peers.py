@@ -7,9 +7,9 @@ the pressures lie from a much tighter solution stands beside the times. Needs `p
 import numpy as np
 from timing import best_of, print_table
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import solve_normal
+from treadload.contact.bodies.influence import Influence
 from treadload.contact.solve import combine
+from treadload.contact.solvers.normal import solve_normal
 from treadload.grid import Grid
 from treadload.tire import Tire
 from treadload.validation.pressing import ASPHALT, RUBBER

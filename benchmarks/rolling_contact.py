@@ -11,13 +11,13 @@ import numpy as np
 from floors import rolling_product
 from timing import best_of, print_table
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import solve_normal
-from treadload.contact.rolling import rigid_slip, solve_rolling
-from treadload.contact.shift import solve_shift
+from treadload.contact.bodies.influence import Influence
 from treadload.contact.solve import combine
+from treadload.contact.solvers.normal import solve_normal
+from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
+from treadload.contact.solvers.shift import solve_shift
 from treadload.grid import Grid
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.tire import LateralGrooves, Tire, TreadProfile
 from treadload.validation.pressing import ASPHALT, RUBBER
 

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 import treadload as tl
 from treadload.contact.turning import TurnResult, turn_on_the_spot
 from treadload.plots import new_figure, save
-from treadload.plots.style import CASES, INK, MUTED, headline, open_axes, styled
+from treadload.plots.kit.style import CASES, INK, MUTED, headline, open_axes, styled
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 STANDING = tl.Rolling(normal_load=32.5e3, friction=0.7)

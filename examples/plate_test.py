@@ -17,7 +17,7 @@ import numpy as np
 
 import treadload as tl
 from treadload.plots import new_figure, save
-from treadload.plots.style import CASES, MUTED, headline, open_axes, styled
+from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
 
 POISSON = 0.35
 STEEL = tl.Elastic(210e9, 0.3)

@@ -16,7 +16,7 @@ import numpy as np
 
 import treadload as tl
 from treadload.plots import new_figure, save
-from treadload.plots.style import CASES, MUTED, headline, open_axes, styled, travel_arrow
+from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled, travel_arrow
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 LONG_TERM, INSTANTANEOUS, POISSON = 3e6, 3.6e6, 0.5

@@ -17,7 +17,17 @@ from matplotlib.figure import Figure
 import treadload as tl
 from treadload.contact.transient import TransientResult, solve_transient
 from treadload.plots import new_figure, save
-from treadload.plots.style import CASES, MUTED, RULE, headline, open_axes, sequential, signed, styled, travel_arrow
+from treadload.plots.kit.style import (
+    CASES,
+    MUTED,
+    RULE,
+    headline,
+    open_axes,
+    sequential,
+    signed,
+    styled,
+    travel_arrow,
+)
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 DRIVING = tl.Rolling(normal_load=32.5e3, friction=0.7, creepage_x=-0.03)

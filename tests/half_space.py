@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from treadload.kernels.interior import stress_on_grid
+from treadload.kernels.half_space.interior import stress_on_grid
 
 
 def stress_on_cells(load, dx, dy, depths, poisson):

@@ -15,7 +15,6 @@ ROOT = Path(treadload.__file__).parent
 LEAVES = (
     "errors",
     "variables",
-    "schema",
     "units",
     "labels",
     "tables",
@@ -26,7 +25,7 @@ LEAVES = (
 )
 # From left to right: a package imports those before it. Packages of one step do not know each other.
 ORDER = (
-    ("kernels",),
+    ("kernels", "catalogue"),
     ("materials", "grid"),
     ("tire", "pavement"),
     ("contact",),
@@ -35,7 +34,6 @@ ORDER = (
     ("footprint",),
     ("case",),
     ("results",),
-    ("exports",),
     ("study",),
     ("validation",),
     ("plots",),
@@ -60,7 +58,7 @@ ONLY_IN = {
     "trimesh": ("tire",),
     "embreex": ("tire",),
     "pint": ("units",),
-    "openpyxl": ("exports",),
+    "openpyxl": ("results",),
     "typer": ("cli",),
     "rich": ("cli",),
     "jinja2": ("reporting",),

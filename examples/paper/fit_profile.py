@@ -85,7 +85,7 @@ def main() -> None:
     print(f"{'area':20s} {area * 1e6:8.0f} mm²  (paper {AREA * 1e6:.0f}, {area / AREA - 1:+.1%})")
     print(f"{'peak pressure':20s} {peak / 1e3:8.0f} kPa  (paper {PEAK / 1e3:.0f}, {peak / PEAK - 1:+.1%})")
     if arguments.write:
-        path = Path(treadload.tire.__file__).parent / "library" / "315_80R22.5.toml"
+        path = Path(treadload.__file__).parent / "catalogue" / "data" / "treads" / "315_80R22.5.toml"
         path.write_text(fitted.to_toml(), encoding="utf-8")
         print(f"written to {path}")
 

@@ -65,7 +65,6 @@ if TYPE_CHECKING:
         thermal_stress,
     )
     from treadload.errors import ConvergenceError, GeometryError, InputError, TreadloadError
-    from treadload.exports import write_csv, write_excel
     from treadload.grid import Grid
     from treadload.materials import (
         WLF,
@@ -128,6 +127,7 @@ if TYPE_CHECKING:
         tandem,
     )
     from treadload.results import life_tree, load, save, to_tree
+    from treadload.results.exports import write_csv, write_excel
     from treadload.study import (
         BondComparison,
         DesignResult,
@@ -278,8 +278,8 @@ _HOME = {
     "thermal_stress": "damage",
     "to_tree": "results",
     "turn_on_the_spot": "contact",
-    "write_csv": "exports",
-    "write_excel": "exports",
+    "write_csv": "results.exports",
+    "write_excel": "results.exports",
 }
 
 __all__ = [

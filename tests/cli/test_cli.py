@@ -208,7 +208,7 @@ def test_a_height_map_that_cuts_the_contact_is_refused(case, tmp_path):
 
 
 def test_a_solver_that_fails_ends_with_code_1(case, monkeypatch):
-    from treadload.contact import coupling
+    from treadload.contact.solvers import coupling
 
     monkeypatch.setattr(coupling, "_MOST_ROUNDS", 1)
     refused(call("run", case), 1, "did not settle")

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from treadload.kernels import gridded, precorrected
-from treadload.kernels.displacement import fields_on_grid
+from treadload.kernels.gridding import gridded, precorrected
+from treadload.kernels.half_space.displacement import fields_on_grid
 
 
 def test_twelfth_order_in_the_distance_to_the_nearest_cell_interpolated(monkeypatch):

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from treadload.contact.shift import solve_shift
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.solvers.shift import solve_shift
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.closed_forms import carter_shear, cattaneo_shift, hertz
 from treadload.validation.patches import LONG, cylinder, paraboloid
 

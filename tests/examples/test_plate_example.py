@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from punch import flat_punch_stiffness
-from treadload.kernels.images import surface_compliance
-from treadload.kernels.layered import Stack
+from treadload.kernels.layers.images import surface_compliance
+from treadload.kernels.layers.layered import Stack
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "plate_test.py"
 

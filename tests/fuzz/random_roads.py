@@ -23,7 +23,7 @@ import xarray as xr
 import treadload as tl
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.kernels.layered import Stack, Transfer, transfer
+from treadload.kernels.layers.layered import Stack, Transfer, transfer
 from treadload.pavement.stack import stack_of
 from treadload.response import GridLoad
 
@@ -145,7 +145,7 @@ Found = Iterator[tuple[str, float, float]]
 
 
 def waves(case: Case) -> Found:
-    """Checks of `kernels.layered.transfer`."""
+    """Checks of `kernels.layers.layered.transfer`."""
     rng = np.random.default_rng([*case.seed, 1])
     stack = stack_of(case.road.bond_limits[-1])
     ends = stack.interfaces

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
-from treadload.damage.criteria import CRITERIA
+from treadload.damage.criteria.fields import CRITERIA
 from treadload.kernels import tensors
 
 ORDER = ([0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2])

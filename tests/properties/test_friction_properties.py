@@ -15,11 +15,11 @@ from treadload.contact import (
     PressureDependent,
     Rational,
 )
-from treadload.contact.friction import Interface
-from treadload.contact.influence import Influence
-from treadload.contact.rolling import rigid_slip
-from treadload.contact.slipping import solve_slipping
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.friction.laws import Interface
+from treadload.contact.solvers.rolling import rigid_slip
+from treadload.contact.solvers.slipping import solve_slipping
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 some = settings(derandomize=True, deadline=None, max_examples=30)
 DX, SPEED, TOLERANCE = 2e-3, 10.0, 1e-7

@@ -6,11 +6,11 @@ import numpy as np
 from hypothesis import Phase, assume, given, settings
 from hypothesis import strategies as st
 
-from treadload.contact.layered import LayeredInfluence, images_of
-from treadload.contact.normal import solve_normal
-from treadload.kernels.images import fit_images
-from treadload.kernels.layered import Stack
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.layers import LayeredInfluence, images_of
+from treadload.contact.solvers.normal import solve_normal
+from treadload.kernels.half_space.rectangle import CombinedElasticity
+from treadload.kernels.layers.images import fit_images
+from treadload.kernels.layers.layered import Stack
 
 # Shrinking a failing stack takes minutes and tells little.
 few = settings(derandomize=True, deadline=None, max_examples=20, phases=[Phase.explicit, Phase.generate])

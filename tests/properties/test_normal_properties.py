@@ -5,10 +5,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import solve_normal
-from treadload.kernels.convolution import Convolution, Padding
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.normal import solve_normal
+from treadload.kernels.gridding.convolution import Convolution, Padding
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 quick = settings(derandomize=True, deadline=None, max_examples=40)
 few = settings(derandomize=True, deadline=None, max_examples=15)

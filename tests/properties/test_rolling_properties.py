@@ -6,9 +6,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from treadload.contact import Rolling, solve_contact
-from treadload.contact.influence import Influence
-from treadload.contact.rolling import rigid_slip, solve_rolling
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.tire import Tire

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from treadload.contact.influence import Influence
-from treadload.contact.rolling import rigid_slip, solve_rolling
-from treadload.contact.shift import solve_shift
-from treadload.contact.tangential import _problem
-from treadload.kernels import coulomb_newton
-from treadload.kernels.coulomb_splitting import split
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
+from treadload.contact.solvers.shift import solve_shift
+from treadload.contact.solvers.tangential import _problem
+from treadload.kernels.complementarity import coulomb_newton
+from treadload.kernels.complementarity.coulomb_splitting import split
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 some = settings(max_examples=15, deadline=None, derandomize=True)
 SHAPE, DX = (9, 11), 2e-3

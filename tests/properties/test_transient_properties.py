@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from treadload.contact.influence import Influence
-from treadload.contact.marching import Stage, roll_transient
-from treadload.contact.normal import solve_normal
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.marching import Stage, roll_transient
+from treadload.contact.solvers.normal import solve_normal
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.histories import arm_of
 from treadload.validation.patches import centres
 

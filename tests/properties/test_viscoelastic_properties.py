@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import treadload as tl
-from treadload.contact.influence import Influence
-from treadload.contact.viscoelastic import ViscoelasticInfluence, combined
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.viscoelastic import ViscoelasticInfluence, combined
 from treadload.errors import InputError
 from treadload.validation.viscoelastic import smooth_tire
 

@@ -9,13 +9,13 @@ from scipy import special
 
 import treadload as tl
 from punch import compliance_of_bonded_layer, flat_punch_stiffness, sphere
-from treadload.contact.influence import Influence
-from treadload.contact.layered import LayeredInfluence, images_of, road_share
-from treadload.contact.normal import solve_normal
-from treadload.kernels import rectangle
-from treadload.kernels.images import surface_compliance
-from treadload.kernels.layered import Stack
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.layers import LayeredInfluence, images_of, road_share
+from treadload.contact.solvers.normal import solve_normal
+from treadload.kernels.half_space import rectangle
+from treadload.kernels.half_space.rectangle import CombinedElasticity
+from treadload.kernels.layers.images import surface_compliance
+from treadload.kernels.layers.layered import Stack
 from treadload.pavement.stack import stack_of
 
 MPA = 1e6

@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.damage.american import (
+from treadload.damage.criteria.design import DesignCriterion
+from treadload.damage.criteria.fields import compute_criteria
+from treadload.damage.laws.american import (
     AsphaltInstitute,
     AsphaltInstituteSubgrade,
     MepdgBottomUp,
@@ -20,9 +22,7 @@ from treadload.damage.american import (
     bottom_up_cracking,
     top_down_cracking,
 )
-from treadload.damage.criteria import compute_criteria
-from treadload.damage.design import DesignCriterion
-from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.kernels import tensors
 from treadload.response.fields import response_dataset
 

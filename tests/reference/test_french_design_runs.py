@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import treadload as tl
-from treadload.damage.design import DesignCriterion
+from treadload.damage.criteria.design import DesignCriterion
 
 TABLES = json.loads((Path(__file__).parents[1] / "data" / "layered" / "nf_p98_086_table_I5.json").read_text())
 TWIN = [tl.UniformDisc(0.125, 0.662e6, y=side * 0.1875) for side in (-1, 1)]

@@ -17,12 +17,12 @@ from treadload.contact import (
     PressureDependent,
     Rational,
 )
-from treadload.contact.flash import flash_temperature
-from treadload.contact.friction import Interface
-from treadload.contact.rolling import rigid_slip
-from treadload.contact.shift import solve_shift
-from treadload.contact.slipping import solve_slipping
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.friction.heat import flash_temperature
+from treadload.contact.friction.laws import Interface
+from treadload.contact.solvers.rolling import rigid_slip
+from treadload.contact.solvers.shift import solve_shift
+from treadload.contact.solvers.slipping import solve_slipping
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.patches import paraboloid
 
 DX = 2e-3

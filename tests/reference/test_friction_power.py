@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.dissimilar import rubber_on_asphalt
 from treadload.validation.patches import paraboloid
 

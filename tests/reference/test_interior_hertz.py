@@ -7,7 +7,7 @@ import pytest
 from scipy.special import roots_legendre
 
 from half_space import stress_at_points
-from treadload.kernels.interior import rectangle_stress
+from treadload.kernels.half_space.interior import rectangle_stress
 from treadload.kernels.tensors import mean, principal, von_mises
 
 RADIUS = 0.1

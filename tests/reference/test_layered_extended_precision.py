@@ -7,7 +7,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.layers.layered import Stack, transfer
 
 
 def propagator(k, shear, poisson, thickness):

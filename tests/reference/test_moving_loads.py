@@ -135,8 +135,8 @@ def test_panels_have_converged(monkeypatch):
     points = {"depths": [0.0, 0.05, 0.15], "x": [-2.0, -0.1, 0.0], "y": [0.0, 0.2]}
     load = tl.UniformRectangle(0.2, 0.12, 8e5, traction_x=1e5)
     coarse = tl.solve_response(load, road, speed=20.0, **points).dataset
-    monkeypatch.setattr("treadload.kernels.wavenumbers._PHASE", 3.5)
-    monkeypatch.setattr("treadload.kernels.wavenumbers._RATIO", math.sqrt(3))
+    monkeypatch.setattr("treadload.kernels.layers.wavenumbers._PHASE", 3.5)
+    monkeypatch.setattr("treadload.kernels.layers.wavenumbers._RATIO", math.sqrt(3))
     monkeypatch.setattr(moving, "_FALL", 40.0)
     fine = tl.solve_response(load, road, speed=20.0, **points).dataset
     for name in KINDS:

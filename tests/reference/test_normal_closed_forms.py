@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import solve_normal
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.normal import solve_normal
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.closed_forms import hertz, hertz_of_axes
 from treadload.validation.patches import LONG, centres, cylinder, paraboloid
 

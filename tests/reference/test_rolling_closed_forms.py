@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from treadload.contact.shift import solve_shift
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.solvers.shift import solve_shift
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation import dissimilar
 from treadload.validation.closed_forms import carter_shear, carter_stick, cattaneo_shear, cattaneo_shift, hertz
 from treadload.validation.patches import LONG, cylinder, paraboloid

@@ -10,7 +10,7 @@ MOST = 1.5e9  # bytes, the house's bound at 1024²
 
 RUN = """
 import resource
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.patches import paraboloid
 
 bodies, cells = CombinedElasticity(1.0, 0.25, 0.0), 1024

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.dissimilar import aluminium_on_steel, rubber_on_asphalt
 from treadload.validation.patches import paraboloid
 from treadload.validation.shearing import creep_curve

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import solve_normal
-from treadload.contact.rolling import rigid_slip, solve_rolling
+from treadload.contact.bodies.influence import Influence
 from treadload.contact.solve import combine
+from treadload.contact.solvers.normal import solve_normal
+from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.grid import Grid
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.materials import Elastic
 from treadload.tire import LateralGrooves, Tire, TreadProfile
 from treadload.validation.patches import paraboloid

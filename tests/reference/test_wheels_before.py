@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.damage.criteria import compute_criteria
+from treadload.damage.criteria.fields import compute_criteria
 from treadload.damage.history import residual_after
 
 MIX = tl.Prony(2e10, ((0.3, 1e-3), (0.3, 1e-2), (0.2, 0.1), (0.15, 1.0)), 0.35)

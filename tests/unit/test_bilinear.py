@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from treadload.kernels import bilinear
-from treadload.kernels.bilinear import bilinear_on_grid, bilinear_spectrum
-from treadload.kernels.displacement import displacement_on_grid
-from treadload.kernels.interior import stress_on_grid
+from treadload.kernels.half_space import bilinear
+from treadload.kernels.half_space.bilinear import bilinear_on_grid, bilinear_spectrum
+from treadload.kernels.half_space.displacement import displacement_on_grid
+from treadload.kernels.half_space.interior import stress_on_grid
 
 DX, DY, SHEAR, NU = 0.003, 0.004, 2e9, 0.35
 LOAD = np.random.default_rng(5).random((3, 4, 5)) * 1e6

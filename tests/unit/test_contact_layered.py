@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.contact import layered
-from treadload.contact.layered import LayeredInfluence, images_of
-from treadload.kernels.layered import Stack
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies import layers as layered
+from treadload.contact.bodies.layers import LayeredInfluence, images_of
+from treadload.kernels.half_space.rectangle import CombinedElasticity
+from treadload.kernels.layers.layered import Stack
 from treadload.materials import mix
 
 STACK = Stack([2.5e9, 1e8, 4e7], [0.35, 0.3, 0.45], [0.04, 0.1, math.inf], [1e9, math.inf])

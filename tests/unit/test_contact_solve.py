@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from treadload.contact import Contact, Rolling, coupling, solve_contact, solve_transient, turn_on_the_spot
+from treadload.contact import Contact, Rolling, solve_contact, solve_transient, turn_on_the_spot
 from treadload.contact import solve as solving
+from treadload.contact.solvers import coupling
 from treadload.errors import ConvergenceError, GeometryError, InputError
 from treadload.grid import Grid
 from treadload.materials import Elastic

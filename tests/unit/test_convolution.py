@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from treadload.kernels.convolution import Convolution, Padding
+from treadload.kernels.gridding.convolution import Convolution, Padding
 
 SHAPES = [((1, 1), (1, 1)), ((1, 7), (1, 7)), ((5, 8), (5, 8)), ((4, 6), (7, 3)), ((6, 3), (2, 9))]
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from treadload.contact.influence import Influence
-from treadload.kernels import coulomb_newton
-from treadload.kernels.coulomb import CoulombProblem, project_disc
-from treadload.kernels.coulomb_splitting import split
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.kernels.complementarity import coulomb_newton
+from treadload.kernels.complementarity.coulomb import CoulombProblem, project_disc
+from treadload.kernels.complementarity.coulomb_splitting import split
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 BODIES = CombinedElasticity(1.0, 0.3, 0.0)
 SHAPE = (8, 10)

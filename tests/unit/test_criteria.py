@@ -8,8 +8,8 @@ import pytest
 
 import treadload as tl
 from treadload import variables
-from treadload.damage.criteria import NAMES, NEAR_SURFACE, compute_criteria, peak, tension_behind
-from treadload.damage.energy_ratio import EnergyRatio
+from treadload.damage.criteria.energy_ratio import EnergyRatio
+from treadload.damage.criteria.fields import NAMES, NEAR_SURFACE, compute_criteria, peak, tension_behind
 from treadload.errors import InputError
 from treadload.response.fields import response_dataset
 

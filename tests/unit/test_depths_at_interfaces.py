@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.kernels.depths import SAME_DEPTH, layers_at, on_interface, snapped
-from treadload.plots.layers import Layers
+from treadload.kernels.layers.depths import SAME_DEPTH, layers_at, on_interface, snapped
+from treadload.plots.kit.layers import Layers
 
 STIFF, SOFT = tl.Elastic(5e9, 0.35), tl.Elastic(1e8, 0.35)
 DISC = tl.UniformDisc(0.125, 6.62e5)

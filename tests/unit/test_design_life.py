@@ -18,8 +18,8 @@ from treadload.damage import (
     ShearFatigue,
     miner,
 )
-from treadload.damage.design import DesignCriterion
-from treadload.damage.direction import in_tension
+from treadload.damage.cracks import in_tension
+from treadload.damage.criteria.design import DesignCriterion
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic

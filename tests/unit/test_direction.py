@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import treadload as tl
 from treadload import variables
 from treadload.damage import FatigueLine, assess, crack_rose, envelope
-from treadload.damage.direction import ORIENTATIONS
+from treadload.damage.cracks import ORIENTATIONS
 from treadload.errors import InputError
 from treadload.response.fields import response_dataset
 

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import treadload as tl
-from treadload import exports
+from treadload.results import exports
 from treadload.variables import dataset
 
 

@@ -8,16 +8,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import treadload as tl
-from treadload.damage import american, french
-from treadload.damage.american import (
+from treadload.damage.laws import american, equivalence, french
+from treadload.damage.laws.american import (
     AsphaltInstitute,
     AsphaltInstituteSubgrade,
     MepdgBottomUp,
     MepdgTopDown,
     ShellFatigue,
 )
-from treadload.damage.fatigue import FatigueLine, warnings_of
-from treadload.damage.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade, equivalent_axles
+from treadload.damage.laws.equivalence import equivalent_axles
+from treadload.damage.laws.fatigue import FatigueLine, warnings_of
+from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.errors import InputError
 
 GB3 = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3, 11880 / 9000, 120e6)
@@ -152,9 +153,9 @@ def test_equivalent_axles_are_the_sum_of_the_years():
 def test_aggressiveness_of_a_vehicle():
     single, tandem = (130e3, 1, 1), (65e3, 2, 0.75)
     # (1 + 2 · 0.75 / 2⁵) axles a vehicle.
-    assert french.aggressiveness([single, tandem], vehicles=1, power=5) == pytest.approx(1 + 1.5 / 32, rel=1e-14)
-    assert french.aggressiveness([single], vehicles=4, power=12) == 0.25
-    assert french.aggressiveness_of("hydraulic", "motorway") == 1.3
+    assert equivalence.aggressiveness([single, tandem], vehicles=1, power=5) == pytest.approx(1 + 1.5 / 32, rel=1e-14)
+    assert equivalence.aggressiveness([single], vehicles=4, power=12) == 0.25
+    assert equivalence.aggressiveness_of("hydraulic", "motorway") == 1.3
     assert french.risk_of("bituminous", "T1") == 0.05
 
 
@@ -217,10 +218,10 @@ def test_laws_of_catalogued_materials():
         (lambda: equivalent_axles(1, 2e21, 0.8, growth=0.02), "over 2e.21 years makes more passes than a number"),
         (lambda: equivalent_axles(1, 20, 0.8, growth=-0.5, kind="arithmetic"), "leaves no traffic over 20 years"),
         (lambda: equivalent_axles(1, 20, 0.8, kind="weekly"), '"geometric" or "arithmetic", got \'weekly\''),
-        (lambda: french.aggressiveness([], vehicles=1, power=5), "axles is empty"),
-        (lambda: french.aggressiveness([(-1, 1, 1)], vehicles=1, power=5), "load > 0 N"),
+        (lambda: equivalence.aggressiveness([], vehicles=1, power=5), "axles is empty"),
+        (lambda: equivalence.aggressiveness([(-1, 1, 1)], vehicles=1, power=5), "load > 0 N"),
         (lambda: french.risk_of("concrete", "T1"), "bituminous, hydraulic, got 'concrete'"),
-        (lambda: french.aggressiveness_of("bituminous", "T9"), "got 'T9'"),
+        (lambda: equivalence.aggressiveness_of("bituminous", "T9"), "got 'T9'"),
         (lambda: american.top_down_cracking(-0.1), "damage must be ≥ 0, got -0.1"),
     ],
 )

@@ -20,8 +20,8 @@ from treadload.contact import (
     Rolling,
     solve_contact,
 )
-from treadload.contact.flash import flash_temperature, strip_kernel
-from treadload.contact.friction import Interface
+from treadload.contact.friction.heat import flash_temperature, strip_kernel
+from treadload.contact.friction.laws import Interface
 from treadload.errors import ConvergenceError, InputError
 from treadload.materials import Elastic
 from treadload.pavement import Pavement

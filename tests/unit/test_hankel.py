@@ -6,12 +6,12 @@ import numpy as np
 from scipy.integrate import simpson
 from scipy.special import j0, j1
 
-from treadload.kernels import hankel
-from treadload.kernels.disc import disc_fields
-from treadload.kernels.hankel import AxialPlanes, Disc, integrals, interpolated, panels, synthesise_discs
-from treadload.kernels.layered import Stack, transfer
-from treadload.kernels.moving import Body, Level, Path, moving_fields
-from treadload.kernels.wavenumbers import disc_spectrum, quadrature
+from treadload.kernels.half_space.disc import disc_fields
+from treadload.kernels.layers import hankel
+from treadload.kernels.layers.hankel import AxialPlanes, Disc, integrals, interpolated, panels, synthesise_discs
+from treadload.kernels.layers.layered import Stack, transfer
+from treadload.kernels.layers.moving import Body, Level, Path, moving_fields
+from treadload.kernels.layers.wavenumbers import disc_spectrum, quadrature
 
 INF = math.inf
 LAYERS = Stack([3e9, 1e8, 2e7], [0.35, 0.4, 0.5], [0.08, 0.3], [1e9, INF])

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from treadload.kernels.images import Images, coefficients, fit_images, surface_compliance
-from treadload.kernels.layered import Stack
+from treadload.kernels.layers.images import Images, coefficients, fit_images, surface_compliance
+from treadload.kernels.layers.layered import Stack
 
 INF = math.inf
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from treadload.contact.influence import Influence, stiffness_symbol
-from treadload.kernels import rectangle
-from treadload.kernels.convolution import Convolution
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence, stiffness_symbol
+from treadload.kernels.gridding.convolution import Convolution
+from treadload.kernels.half_space import rectangle
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 BODIES = CombinedElasticity(2.0, 0.3, 0.07)
 SHAPE, DX, DY = (4, 6), 0.7, 1.3

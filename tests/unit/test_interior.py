@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from half_space import stress_at_points, stress_on_cells
-from treadload.kernels.convolution import Padding
-from treadload.kernels.interior import rectangle_stress, stress_on_grid
+from treadload.kernels.gridding.convolution import Padding
+from treadload.kernels.half_space.interior import rectangle_stress, stress_on_grid
 
 DX, DY = 0.003, 0.004
 DEPTHS = np.array([0.0, 1e-4, 0.003, 0.05])

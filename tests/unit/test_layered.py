@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.layers.layered import Stack, transfer
 
 K = np.geomspace(1e-5, 2e3, 40)
 

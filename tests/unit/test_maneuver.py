@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import treadload as tl
-from treadload.contact.friction import Anisotropic
+from treadload.contact.friction.laws import Anisotropic
 from treadload.contact.maneuver import GRAVITY
 
 SPACING, LOAD, MU = 0.012, 3000.0, 0.7

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadload.damage import FatigueLine, FrenchBituminous, FrenchSubgrade
-from treadload.damage.design import DesignCriterion
+from treadload.damage.criteria.design import DesignCriterion
 from treadload.damage.miner import miner
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.errors import InputError

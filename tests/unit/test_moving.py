@@ -9,9 +9,9 @@ from scipy.integrate import quad
 
 import treadload as tl
 from treadload.grid import Grid
-from treadload.kernels import moving as kernels
-from treadload.kernels.wake import Cells, delayed_fields
-from treadload.kernels.wavenumbers import cells_spectrum, quadrature
+from treadload.kernels.half_space.wake import Cells, delayed_fields
+from treadload.kernels.layers import moving as kernels
+from treadload.kernels.layers.wavenumbers import cells_spectrum, quadrature
 from treadload.materials import Prony
 from treadload.response import GridLoad
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import solve_normal
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.normal import solve_normal
 from treadload.errors import ConvergenceError, GeometryError
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 BODIES = CombinedElasticity(1e6, 0.4, 0.0)
 N, DX = 40, 2e-3

@@ -28,9 +28,9 @@ from treadload.plots import (
     png,
     save,
 )
-from treadload.plots.plan import Plan, borders, contact_mask, edges, limits, round_up
-from treadload.plots.strokes import choose
-from treadload.plots.style import power_of_ten, signed
+from treadload.plots.kit.plan import Plan, borders, contact_mask, edges, limits, round_up
+from treadload.plots.kit.strokes import choose
+from treadload.plots.kit.style import power_of_ten, signed
 from treadload.response import Response, solve_response
 from treadload.tire import Tire
 

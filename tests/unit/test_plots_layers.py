@@ -16,7 +16,7 @@ from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import FRICTIONLESS, Layer, Pavement
 from treadload.plots import ResponsePlots, both_sides, places_under, png
-from treadload.plots.layers import Layers, _apart
+from treadload.plots.kit.layers import Layers, _apart
 from treadload.response import Response, UniformDisc, solve_response
 from treadload.results import load, save, to_tree
 

@@ -11,7 +11,7 @@ from matplotlib.patches import Rectangle
 import treadload as tl
 from treadload.damage import crack_rose, envelope
 from treadload.plots import orientation_shares, png, tearing, trace_rose
-from treadload.plots.style import ORIENTATION_COLOURS
+from treadload.plots.kit.style import ORIENTATION_COLOURS
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 

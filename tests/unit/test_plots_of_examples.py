@@ -15,8 +15,8 @@ import xarray as xr
 import treadload as tl
 from treadload.errors import InputError
 from treadload.plots import ResponsePlots, creep_curves, png
+from treadload.plots.kit.style import house_style
 from treadload.plots.panels import strain_panels, way_of
-from treadload.plots.style import house_style
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").rglob("*.py"))
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))

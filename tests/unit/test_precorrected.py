@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from treadload.kernels import gridded, precorrected
-from treadload.kernels.bilinear import bilinear_on_grid
-from treadload.kernels.displacement import fields_on_grid
+from treadload.kernels.gridding import gridded, precorrected
+from treadload.kernels.half_space.bilinear import bilinear_on_grid
+from treadload.kernels.half_space.displacement import fields_on_grid
 
 DX = 0.003
 WAYS = {"constant": fields_on_grid, "bilinear": bilinear_on_grid}

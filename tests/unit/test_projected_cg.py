@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from treadload.kernels import projected_cg
+from treadload.kernels.complementarity import projected_cg
 
 RNG_SEEDS = range(6)
 

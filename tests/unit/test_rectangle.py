@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from treadload.kernels import rectangle
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space import rectangle
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 DX, DY = 0.7, 1.3
 BODIES = CombinedElasticity(2.0, 0.3, 0.07)

@@ -12,7 +12,7 @@ import xarray as xr
 
 from treadload.case import Case
 from treadload.errors import InputError
-from treadload.plots.style import power_of_ten
+from treadload.plots.kit.style import power_of_ten
 from treadload.reporting import report, write_report
 from treadload.study import Result, run_case
 

@@ -6,7 +6,7 @@ import xarray as xr
 
 import treadload as tl
 from treadload.grid import Grid
-from treadload.kernels.points import Points
+from treadload.kernels.gridding.points import Points
 from treadload.materials import Prony
 from treadload.response import GridLoad, UniformDisc, solve_response
 from treadload.results import load as load_results

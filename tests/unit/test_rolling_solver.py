@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from treadload.contact import tangential
-from treadload.contact.influence import Influence
-from treadload.contact.rolling import rigid_slip, solve_rolling
-from treadload.contact.shift import solve_shift
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers import tangential
+from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
+from treadload.contact.solvers.shift import solve_shift
 from treadload.errors import ConvergenceError
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.patches import paraboloid
 
 BODIES = CombinedElasticity(1e6, 0.4, 0.0)

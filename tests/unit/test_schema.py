@@ -11,7 +11,7 @@ import xarray as xr
 import treadload as tl
 from treadload.reporting import write_report
 from treadload.results import load, save
-from treadload.schema import check_tree
+from treadload.results.schema import check_tree
 
 
 @pytest.fixture(scope="module")

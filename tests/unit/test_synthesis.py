@@ -5,14 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from treadload.kernels import synthesis
-from treadload.kernels.bilinear import bilinear_on_grid
-from treadload.kernels.displacement import displacement_on_grid
-from treadload.kernels.interior import stress_on_grid
-from treadload.kernels.layered import Stack, transfer
-from treadload.kernels.moving import Body, Level, Path, moving_fields
-from treadload.kernels.synthesis import Cells, ElasticPlane, rule, synthesise_cells
-from treadload.kernels.wavenumbers import cells_spectrum, quadrature
+from treadload.kernels.half_space.bilinear import bilinear_on_grid
+from treadload.kernels.half_space.displacement import displacement_on_grid
+from treadload.kernels.half_space.interior import stress_on_grid
+from treadload.kernels.layers import synthesis
+from treadload.kernels.layers.layered import Stack, transfer
+from treadload.kernels.layers.moving import Body, Level, Path, moving_fields
+from treadload.kernels.layers.synthesis import Cells, ElasticPlane, rule, synthesise_cells
+from treadload.kernels.layers.wavenumbers import cells_spectrum, quadrature
 
 ALONE = Stack([2e9], [0.35], [], [])
 LAYERS = Stack([3e9, 1e8, 2e7], [0.35, 0.5, 0.4], [0.08, 0.3], [1e9, math.inf])

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from treadload.contact.ahead import Ahead
-from treadload.contact.influence import Influence
-from treadload.contact.marching import Stage, march, roll_transient
-from treadload.contact.shift import solve_shift
-from treadload.contact.sliding import sliding_pole, sliding_shear, sliding_torque
+from treadload.contact.bodies.ahead import Ahead
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.marching import Stage, march, roll_transient
+from treadload.contact.solvers.shift import solve_shift
+from treadload.contact.solvers.sliding import sliding_pole, sliding_shear, sliding_torque
 from treadload.errors import InputError
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.patches import centres, paraboloid
 
 RNG = np.random.default_rng(7)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.contact.friction import Anisotropic, Exponential, PressureDependent
+from treadload.contact.friction.laws import Anisotropic, Exponential, PressureDependent
 from treadload.contact.transient import solve_transient
 from treadload.contact.turning import turn_on_the_spot
 from treadload.errors import GeometryError, InputError

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from treadload import variables
 from treadload.damage import FatigueLine, FrenchBituminous, FrenchSubgrade, assess
-from treadload.damage.direction import ORIENTATIONS, crack_plane
-from treadload.damage.fatigue import warnings_of
+from treadload.damage.cracks import ORIENTATIONS, crack_plane
+from treadload.damage.laws.fatigue import warnings_of
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.materials import Elastic

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from treadload.kernels import active_set, rectangle_ahead
-from treadload.kernels.memory import fading
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.complementarity import active_set
+from treadload.kernels.half_space import rectangle_ahead
+from treadload.kernels.half_space.memory import fading
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 BODY = CombinedElasticity(1.0, 0.3, 0.2)
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from treadload.kernels.disc import disc_fields
-from treadload.kernels.displacement import displacement_on_grid
-from treadload.kernels.interior import stress_on_grid
-from treadload.kernels.moving import Body, Level, Path, moving_fields
+from treadload.kernels.half_space.disc import disc_fields
+from treadload.kernels.half_space.displacement import displacement_on_grid
+from treadload.kernels.half_space.interior import stress_on_grid
+from treadload.kernels.layers.moving import Body, Level, Path, moving_fields
+from treadload.kernels.layers.wavenumbers import cells_spectrum, disc_spectrum, quadrature, tabulated
 from treadload.kernels.tensors import strain_from_stress
-from treadload.kernels.wavenumbers import cells_spectrum, disc_spectrum, quadrature, tabulated
 
 SHEAR, POISSON = 2e9, 0.35
 X, Y = np.array([-0.1, 0.0, 0.13]), np.array([-0.07, 0.02])

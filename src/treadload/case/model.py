@@ -13,11 +13,11 @@ from treadload.case.response import ResponsePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
 from treadload.contact import Rolling
+from treadload.contact.bodies.viscoelastic import check_rolling
 from treadload.contact.solve import RoadCompliance
-from treadload.contact.viscoelastic import check_rolling
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
-from treadload.kernels.depths import same_depth
+from treadload.kernels.layers.depths import same_depth
 from treadload.pavement import Pavement
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.material import check_length

@@ -103,8 +103,8 @@ def run(
 ) -> None:
     """Compute a case and write its result."""
     from treadload.case import Case
-    from treadload.exports import check_output, write
     from treadload.files import check_writable
+    from treadload.results.exports import check_output, write
     from treadload.study import plan_case, run_case
 
     path = output or case.with_suffix(".nc")
@@ -135,8 +135,8 @@ def life(
 ) -> None:
     """Compute the life of a road under a traffic and a climate, and write it."""
     from treadload.case import LifeCase
-    from treadload.exports import check_output, write
     from treadload.files import check_writable
+    from treadload.results.exports import check_output, write
     from treadload.study import plan_design, run_design
 
     path = output or design.with_suffix(".nc")
@@ -200,8 +200,8 @@ def scan(
     quiet: _Quiet = False,
 ) -> None:
     """Read a tire mesh, tell how good it is, and write its height map."""
-    from treadload.exports import check_output, write
     from treadload.results import height_map
+    from treadload.results.exports import check_output, write
     from treadload.tire import Tire
     from treadload.tire.scan_options import revolve_choice, smooth_choice
     from treadload.units import quantity

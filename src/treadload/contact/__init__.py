@@ -1,8 +1,8 @@
 """Contact of tire and road: pressure, shear, stick and slip."""
 
 from treadload.contact.curve import CreepCurve, creep_curve
-from treadload.contact.flash import FlashHeating, Heat
-from treadload.contact.friction import (
+from treadload.contact.friction.heat import FlashHeating, Heat
+from treadload.contact.friction.laws import (
     Anisotropic,
     Coulomb,
     Exponential,
@@ -11,14 +11,14 @@ from treadload.contact.friction import (
     PressureDependent,
     Rational,
 )
-from treadload.contact.friction_map import FrictionMap
+from treadload.contact.friction.map import FrictionMap
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.contact.resistance import RollingResistance, rolling_resistance
+from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
 from treadload.contact.transient import TransientResult, solve_transient
 from treadload.contact.turning import TurnResult, turn_on_the_spot
-from treadload.contact.wheel import Rolling
 
 __all__ = [
     "STRAIGHT",

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from treadload.contact.wheel import Rolling
+from treadload.contact.rolling_state import Rolling
 from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.plausible import doubt, load_doubt

@@ -9,10 +9,10 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from treadload.contact.coupling import Progress
+from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
-from treadload.contact.wheel import Rolling
+from treadload.contact.solvers.coupling import Progress
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.pavement import Pavement

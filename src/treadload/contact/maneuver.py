@@ -10,8 +10,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from treadload.contact.friction import FrictionLaw
-from treadload.contact.wheel import Rolling
+from treadload.contact.friction.laws import FrictionLaw
+from treadload.contact.rolling_state import Rolling
 from treadload.describing import as_call
 from treadload.errors import InputError
 

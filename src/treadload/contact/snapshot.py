@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from treadload.contact import cautions
-from treadload.contact.influence import Influence
-from treadload.contact.marching import State
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
-from treadload.contact.wheel import Rolling
+from treadload.contact.solvers.marching import State
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 from treadload.variables import dataset

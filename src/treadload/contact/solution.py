@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.contact.wheel import Rolling
+from treadload.contact.rolling_state import Rolling
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 

@@ -12,19 +12,19 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from treadload.contact import cautions
-from treadload.contact.coupling import Coupled, Progress, Start, solve_coupled
-from treadload.contact.friction import Coulomb
-from treadload.contact.influence import Influence
-from treadload.contact.layered import LayeredInfluence, RoadShare, images_of, road_share
-from treadload.contact.normal import solve_normal
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.layers import LayeredInfluence, RoadShare, images_of, road_share
+from treadload.contact.bodies.viscoelastic import ViscoelasticInfluence, check_rolling, combined, elastic
+from treadload.contact.friction.laws import Coulomb
+from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
-from treadload.contact.tangential import TangentialSolution
-from treadload.contact.viscoelastic import ViscoelasticInfluence, check_rolling, combined, elastic
-from treadload.contact.wheel import Rolling
+from treadload.contact.solvers.coupling import Coupled, Progress, Start, solve_coupled
+from treadload.contact.solvers.normal import solve_normal
+from treadload.contact.solvers.tangential import TangentialSolution
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.materials import Elastic, Prony
 from treadload.pavement import Pavement
 from treadload.pavement.stack import stack_of
@@ -78,7 +78,8 @@ def solve_contact(
     Returns the fields on a grid that holds the whole contact patch.
     Raises InputError for forces beyond friction and for friction above a frictionless interface, GeometryError if
     the contact is larger than the surface, ConvergenceError with the residual reached.
-    Method: Kalker (1990) on half-spaces; dissimilar materials by `contact.coupling`, layers by `kernels.images`.
+    Method: Kalker (1990) on half-spaces; dissimilar materials by `contact.solvers.coupling`, layers by
+    `kernels.layers.images`.
     """
     began = time.perf_counter()
     tell = progress or (lambda text: None)

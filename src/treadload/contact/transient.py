@@ -16,16 +16,16 @@ import numpy as np
 import xarray as xr
 
 from treadload.contact import cautions
-from treadload.contact.coupling import Progress
-from treadload.contact.friction import Interface
-from treadload.contact.influence import Influence
-from treadload.contact.marching import Stage, State, march
-from treadload.contact.rolling import rigid_slip
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.friction.laws import Interface
+from treadload.contact.rolling_state import Rolling
 from treadload.contact.snapshot import Scene, contact_of, scalars_of
 from treadload.contact.solution import Contact
 from treadload.contact.solve import check_border, combine, place
-from treadload.contact.tangential import Forces
-from treadload.contact.wheel import Rolling
+from treadload.contact.solvers.coupling import Progress
+from treadload.contact.solvers.marching import Stage, State, march
+from treadload.contact.solvers.rolling import rigid_slip
+from treadload.contact.solvers.tangential import Forces
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array

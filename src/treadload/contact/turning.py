@@ -16,13 +16,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.contact.coupling import Progress
-from treadload.contact.marching import State
-from treadload.contact.sliding import sliding_pole, sliding_torque
+from treadload.contact.rolling_state import Rolling
 from treadload.contact.snapshot import Scene, contact_of, scalars_of
 from treadload.contact.solution import Contact
+from treadload.contact.solvers.coupling import Progress
+from treadload.contact.solvers.marching import State
+from treadload.contact.solvers.sliding import sliding_pole, sliding_torque
 from treadload.contact.transient import run, set_scene, stage_of, standing
-from treadload.contact.wheel import Rolling
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from treadload import variables
-from treadload.damage.criteria import STRESS, field
-from treadload.damage.direction import HasDataset, gridded
+from treadload.damage.cracks import HasDataset, gridded
+from treadload.damage.criteria.fields import STRESS, field
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array

@@ -13,14 +13,14 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.damage.bond import InterfaceStrength, ShearFatigue
-from treadload.damage.design import Side
-from treadload.damage.direction import HasDataset, gridded
-from treadload.damage.fatigue import warnings_of
+from treadload.damage.cracks import HasDataset, gridded
+from treadload.damage.criteria.design import Side
+from treadload.damage.laws.bond import InterfaceStrength, ShearFatigue
+from treadload.damage.laws.fatigue import warnings_of
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.kernels.depths import same_depth
+from treadload.kernels.layers.depths import same_depth
 from treadload.pavement import FRICTIONLESS, Bond, HalfBonded, Pavement
 
 _DIMS = ("interface", "y", "x")

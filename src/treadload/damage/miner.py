@@ -12,10 +12,10 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.damage.design import Criterion
-from treadload.damage.direction import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
-from treadload.damage.fatigue import UTILISATION, FatigueLaw, in_words, warnings_of
-from treadload.damage.french import growth_factor
+from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
+from treadload.damage.criteria.design import Criterion
+from treadload.damage.laws.equivalence import growth_factor
+from treadload.damage.laws.fatigue import UTILISATION, FatigueLaw, in_words, warnings_of
 from treadload.damage.traffic import Climate, Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError

@@ -10,11 +10,11 @@ import numpy as np
 import xarray as xr
 from scipy.ndimage import maximum_filter
 
-from treadload.damage.direction import HasDataset, Reading, crack_plane, extension, gridded, in_tension
-from treadload.damage.fatigue import BOTTOM_EXTENSION, EXTENSION, SURFACE_EXTENSION, PowerLaw
+from treadload.damage.cracks import HasDataset, Reading, crack_plane, extension, gridded, in_tension
+from treadload.damage.laws.fatigue import BOTTOM_EXTENSION, EXTENSION, SURFACE_EXTENSION, PowerLaw
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.kernels.depths import on_interface, same_depth
+from treadload.kernels.layers.depths import on_interface, same_depth
 from treadload.response import Response, solve_response
 
 # Points around the worst of a map, in a material length; and again around the worst of those.

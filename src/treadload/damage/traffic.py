@@ -10,9 +10,9 @@ from typing import Literal
 import numpy as np
 from scipy.special import ndtr
 
-from treadload.contact.friction import FrictionLaw
+from treadload.contact.friction.laws import FrictionLaw
 from treadload.contact.maneuver import STRAIGHT, Maneuver
-from treadload.damage.french import NO_GROWTH, growth_factor
+from treadload.damage.laws.equivalence import NO_GROWTH, growth_factor
 from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array

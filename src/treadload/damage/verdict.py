@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.damage.direction import (
+from treadload.damage.cracks import (
     HORIZONTAL,
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
@@ -23,7 +23,7 @@ from treadload.damage.direction import (
     check_tolerance,
     orientation,
 )
-from treadload.damage.fatigue import FatigueLine, PowerLaw, warnings_of
+from treadload.damage.laws.fatigue import FatigueLine, PowerLaw, warnings_of
 from treadload.damage.reading import Field, check_law, closer, local_field, mean_field
 from treadload.describing import first_line
 from treadload.response import MATERIAL_LENGTH

@@ -13,8 +13,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from treadload.catalogue.named import Catalogue, data, only, read_tables
 from treadload.errors import InputError
-from treadload.materials.catalogue import Catalogue, only, read_tables
 from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
 from treadload.materials.kinds import TemperatureDependent, Viscoelastic
 from treadload.materials.power_law import PowerLawCreep
@@ -54,7 +54,7 @@ def published_materials() -> dict[str, PublishedMaterial]:
 
 
 def read_published(path: str | os.PathLike[str]) -> list[PublishedMaterial]:
-    """Materials of a TOML file, a table each: law, its numbers, source; see the file beside this module.
+    """Materials of a TOML file, a table each: law, its numbers, source; see `catalogue/data/viscoelastic`.
 
     law: HuetSayegh or Model2S2P1D with tau (s), or log_tau (A₀, A₁, A₂ of ln τ over °C); PowerLawCreep; Prony with
     shares and times (s). temperature: °C, at which the numbers hold. Raises InputError that names file and table.
@@ -103,7 +103,7 @@ def _built(law: str, own: dict[str, Any]) -> Viscoelastic | TemperatureDependent
 
 @cache
 def _own() -> tuple[PublishedMaterial, ...]:
-    return tuple(read_published(Path(__file__).with_suffix(".toml")))
+    return tuple(item for file in data("viscoelastic") for item in read_published(file))
 
 
 def _catalogue() -> Catalogue[PublishedMaterial]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from treadload.errors import InputError
-from treadload.kernels.layered import Stack
+from treadload.kernels.layers.layered import Stack
 from treadload.pavement.bonds import HalfBonded
 from treadload.pavement.structure import Pavement
 

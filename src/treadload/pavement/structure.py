@@ -14,7 +14,7 @@ import numpy as np
 from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.kernels.depths import SAME_DEPTH, layers_at
+from treadload.kernels.layers.depths import SAME_DEPTH, layers_at
 from treadload.materials import Elastic, Material, TemperatureDependent
 from treadload.materials.celsius import check_celsius
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded

@@ -5,13 +5,13 @@ from treadload.plots.bowl import deflection_bowl
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.energy import dissipated_energy
-from treadload.plots.figure import new_figure
-from treadload.plots.files import png, save
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
-from treadload.plots.layers import both_sides
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.files import png, save
+from treadload.plots.kit.layers import both_sides
+from treadload.plots.kit.places import places_under
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
-from treadload.plots.places import places_under
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.tearing import tearing

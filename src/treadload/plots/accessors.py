@@ -14,7 +14,7 @@ from treadload.plots import profile as profiles
 from treadload.plots import response as response_figures
 from treadload.plots import rose as roses
 from treadload.plots import verdict as verdict_figures
-from treadload.plots.plan import Source
+from treadload.plots.kit.plan import Source
 from treadload.plots.response import Strain
 
 

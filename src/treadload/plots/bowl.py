@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.plots.figure import new_figure
-from treadload.plots.places import load_centre
-from treadload.plots.plan import MM, X_LABEL, Source, fields_of
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.places import load_centre
+from treadload.plots.kit.plan import MM, X_LABEL, Source, fields_of
+from treadload.plots.kit.style import CASES, INK, MUTED, headline, measure, plain, signed, styled, travel_arrow
 from treadload.plots.profile import nearest
-from treadload.plots.style import CASES, INK, MUTED, headline, measure, plain, signed, styled, travel_arrow
 
 # Deflections below so many mm are told in µm.
 _FINE = 0.1

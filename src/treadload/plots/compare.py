@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.plots.contact import pressure_in_numbers
-from treadload.plots.figure import new_figure
-from treadload.plots.plan import (
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import (
     KPA,
     MICRO,
     Limits,
@@ -28,8 +28,8 @@ from treadload.plots.plan import (
     peak_of,
     plane,
 )
+from treadload.plots.kit.style import MUTED, headline, measure, sequential, styled, travel_arrow
 from treadload.plots.response import NAMES, Strain, draw_strain, place_in_words, strain_in_numbers, strain_plane
-from treadload.plots.style import MUTED, headline, measure, sequential, styled, travel_arrow
 
 _MOST_COLUMNS = 3
 # Width of a panel, inches.

@@ -12,8 +12,8 @@ from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.plots.figure import figure_and_axes, new_figure
-from treadload.plots.plan import (
+from treadload.plots.kit.figure import figure_and_axes, new_figure
+from treadload.plots.kit.plan import (
     KPA,
     MM,
     X_LABEL,
@@ -31,8 +31,8 @@ from treadload.plots.plan import (
     peak_of,
     plane,
 )
-from treadload.plots.strokes import choose
-from treadload.plots.style import (
+from treadload.plots.kit.strokes import choose
+from treadload.plots.kit.style import (
     INK,
     MUTED,
     SLIP,

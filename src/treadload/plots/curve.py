@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from treadload.errors import InputError
-from treadload.plots.figure import new_figure
-from treadload.plots.plan import Source, fields_of
-from treadload.plots.style import CASES, MUTED, headline, open_axes, styled
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import Source, fields_of
+from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
 
 _FORCE = {"x": ("tractive_force", "tractive force over μP (–)"), "y": ("lateral_force", "lateral force over μP (–)")}
 

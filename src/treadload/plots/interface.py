@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from treadload.damage.interface import interface_in_words
 from treadload.errors import InputError
-from treadload.plots.figure import new_figure
-from treadload.plots.plan import (
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import (
     MM,
     Limits,
     Plan,
@@ -29,8 +29,8 @@ from treadload.plots.plan import (
     peak_of,
     plane,
 )
-from treadload.plots.strokes import choose
-from treadload.plots.style import (
+from treadload.plots.kit.strokes import choose
+from treadload.plots.kit.style import (
     CASES,
     INK,
     MUTED,

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from treadload.errors import InputError
-from treadload.plots.figure import figure_and_axes, new_figure
-from treadload.plots.plan import Source, fields_of
-from treadload.plots.style import (
+from treadload.plots.kit.figure import figure_and_axes, new_figure
+from treadload.plots.kit.plan import Source, fields_of
+from treadload.plots.kit.style import (
     CASES,
     INK,
     PAPER,

@@ -21,8 +21,8 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.materials import FrequencySweep, MasterCurve, RelaxationTest, Viscoelastic
 from treadload.materials.temperature import ShiftLaw
-from treadload.plots.figure import figure_and_axes, new_figure
-from treadload.plots.style import CASES, INK, MUTED, RULE, figure_of, headline, plain, styled
+from treadload.plots.kit.figure import figure_and_axes, new_figure
+from treadload.plots.kit.style import CASES, INK, MUTED, RULE, figure_of, headline, plain, styled
 
 Shown = Viscoelastic | FrequencySweep | RelaxationTest | MasterCurve
 """What can be drawn: a model, a test at one temperature, or isotherms shifted to one."""

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from treadload.damage.direction import OBLIQUE_TOLERANCE
+from treadload.damage.cracks import OBLIQUE_TOLERANCE
 from treadload.kernels.arrays import Array
-from treadload.plots.figure import new_figure
-from treadload.plots.plan import (
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import (
     MICRO,
     X_LABEL,
     Y_LABEL,
@@ -27,6 +27,8 @@ from treadload.plots.plan import (
     peak_of,
     plane,
 )
+from treadload.plots.kit.strokes import draw_strokes, strokes
+from treadload.plots.kit.style import headline, legend_below, measure, sequential, styled, travel_arrow
 from treadload.plots.response import (
     NAMES,
     VARIABLE,
@@ -37,8 +39,6 @@ from treadload.plots.response import (
     strain_in_numbers,
     strain_plane,
 )
-from treadload.plots.strokes import draw_strokes, strokes
-from treadload.plots.style import headline, legend_below, measure, sequential, styled, travel_arrow
 
 # Inches of a panel along travel, and of what stands beside and around it.
 _MAP, _BESIDE, _AROUND = 4.6, 1.7, 1.3

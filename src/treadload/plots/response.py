@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.plots.figure import figure_and_axes
-from treadload.plots.layers import name_layers
-from treadload.plots.plan import (
+from treadload.plots.kit.figure import figure_and_axes
+from treadload.plots.kit.layers import name_layers
+from treadload.plots.kit.plan import (
     MICRO,
     MM,
     Limits,
@@ -32,9 +32,9 @@ from treadload.plots.plan import (
     peak_of,
     plane,
 )
-from treadload.plots.section import Section, draw_section
-from treadload.plots.strokes import draw_strokes, strokes
-from treadload.plots.style import (
+from treadload.plots.kit.section import Section, draw_section
+from treadload.plots.kit.strokes import draw_strokes, strokes
+from treadload.plots.kit.style import (
     MUTED,
     headline,
     measure,

@@ -16,13 +16,13 @@ from matplotlib.lines import Line2D
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.plots.figure import new_figure
-from treadload.plots.layers import Layers, draw_interfaces, name_layers
-from treadload.plots.places import load_centre
-from treadload.plots.plan import MICRO, MM, Limits, Source, colour_bar, fields_of, limits
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.layers import Layers, draw_interfaces, name_layers
+from treadload.plots.kit.places import load_centre
+from treadload.plots.kit.plan import MICRO, MM, Limits, Source, colour_bar, fields_of, limits
+from treadload.plots.kit.section import Section, draw_section
+from treadload.plots.kit.style import CASES, INK, headline, measure, plain, signed, styled
 from treadload.plots.profile import COMPONENTS, Component, draw_profile, frame_profile, nearest
-from treadload.plots.section import Section, draw_section
-from treadload.plots.style import CASES, INK, headline, measure, plain, signed, styled
 
 # Width of a section's panel, by the panels in a row, and of the profile's, inches; letters of a line over a panel.
 _PANEL = {1: 5.5, 2: 3.7, 3: 3.0}

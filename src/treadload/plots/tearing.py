@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.contact import draw_stick_slip, shear_in_numbers
-from treadload.plots.figure import new_figure
-from treadload.plots.plan import KPA, MICRO, Plan, Source, colour_bar, fields_of, limits, plane
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import KPA, MICRO, Plan, Source, colour_bar, fields_of, limits, plane
+from treadload.plots.kit.style import INK, RULE, SLIP, headline, plain, styled
 from treadload.plots.response import VARIABLE, Strain, draw_strain, place_in_words, strain_in_numbers, strain_plane
-from treadload.plots.style import INK, RULE, SLIP, headline, plain, styled
 
 # Inches of a map along travel. Place and width of the curve beside it, in widths of the map.
 _MAP = 3.6

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from treadload.plots.figure import new_figure
-from treadload.plots.plan import Source, fields_of
-from treadload.plots.style import CASES, headline, styled
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import Source, fields_of
+from treadload.plots.kit.style import CASES, headline, styled
 
 _PANELS = {
     "largest_extension": "Largest extension",

@@ -12,11 +12,11 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from treadload.damage.direction import ORIENTATIONS
-from treadload.damage.fatigue import FatigueLine
+from treadload.damage.cracks import ORIENTATIONS
+from treadload.damage.laws.fatigue import FatigueLine
 from treadload.errors import InputError
-from treadload.plots.figure import figure_and_axes
-from treadload.plots.plan import (
+from treadload.plots.kit.figure import figure_and_axes
+from treadload.plots.kit.plan import (
     MICRO,
     Limits,
     Plan,
@@ -30,8 +30,8 @@ from treadload.plots.plan import (
     mark_peak,
     plane,
 )
-from treadload.plots.strokes import draw_strokes, strokes
-from treadload.plots.style import (
+from treadload.plots.kit.strokes import draw_strokes, strokes
+from treadload.plots.kit.style import (
     CASES,
     INK,
     MUTED,

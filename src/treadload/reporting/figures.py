@@ -17,7 +17,7 @@ from treadload.plots import (
     dissipated_energy,
     fatigue_line,
 )
-from treadload.plots.plan import at_depth
+from treadload.plots.kit.plan import at_depth
 from treadload.plots.response import NAMES, Strain
 from treadload.reporting.pictures import Picture, picture
 from treadload.reporting.reading import ReportCase

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years
-from treadload.plots.style import measure, power_of_ten, signed
 from treadload.reporting.pictures import Picture, picture
 
 COLUMNS = (

@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.damage.direction import ORIENTATIONS
+from treadload.damage.cracks import ORIENTATIONS
 from treadload.errors import InputError
-from treadload.plots.plan import MICRO, MM, Plan, peak_of, plane
-from treadload.plots.style import power_of_ten, signed
+from treadload.plots.kit.plan import MICRO, MM, Plan, peak_of, plane
+from treadload.plots.kit.style import power_of_ten, signed
 from treadload.reporting.life import exhausted, sentence
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
-from treadload.schema import check_tree
+from treadload.results.schema import check_tree
 
 GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
 # A number such as 1.2e+05 in a sentence.

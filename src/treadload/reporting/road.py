@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from treadload.plots.style import measure
+from treadload.plots.kit.style import measure
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import MISSING
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.plots.plan import KPA, MICRO, Plan, plane
-from treadload.plots.style import measure, power_of_ten, signed, thousands
+from treadload.plots.kit.plan import KPA, MICRO, Plan, plane
+from treadload.plots.kit.style import measure, power_of_ten, signed, thousands
 from treadload.reporting.reading import ReportCase
 
 MISSING = "–"

@@ -9,7 +9,7 @@ from functools import cache
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 from treadload.case.fields import Part, Unit
-from treadload.plots.style import power_of_ten, thousands
+from treadload.plots.kit.style import power_of_ten, thousands
 
 PURE = "–"
 _MINUS = "\u2212"

@@ -12,7 +12,7 @@ import xarray as xr
 from treadload import variables
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
-from treadload.kernels.depths import on_interface, same_depth
+from treadload.kernels.layers.depths import on_interface, same_depth
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _DIMS = ("depth", "y", "x")

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.kernels.bilinear import bilinear_on_grid
-from treadload.kernels.disc import disc_fields
-from treadload.kernels.displacement import fields_on_grid
-from treadload.kernels.points import Points
+from treadload.kernels.gridding.points import Points
+from treadload.kernels.half_space.bilinear import bilinear_on_grid
+from treadload.kernels.half_space.disc import disc_fields
+from treadload.kernels.half_space.displacement import fields_on_grid
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.response.loads import SurfaceLoad, UniformDisc
@@ -34,8 +34,8 @@ def half_space_response(
     at: of the grid of x and y only these points, line by line or summed directly. tell: called with a line of text
     at every load of several.
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
-    `kernels.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where x and y
-    lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
+    `kernels.half_space.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where
+    x and y lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
     "precorrected" elsewhere, "direct" for few points, "disc" for discs.
     Exact for loads uniform on each cell or bilinear between cells; near the surface the first leaves an error
     O(dx), see the kernels.

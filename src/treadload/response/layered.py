@@ -9,11 +9,11 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.kernels.gridded import grid_cost
-from treadload.kernels.hankel import AxialPlanes, Disc, synthesise_discs
-from treadload.kernels.layered import Stack, transfer
-from treadload.kernels.points import Points
-from treadload.kernels.synthesis import Cells, ElasticPlane, rule, synthesise_cells
+from treadload.kernels.gridding.gridded import grid_cost
+from treadload.kernels.gridding.points import Points
+from treadload.kernels.layers.hankel import AxialPlanes, Disc, synthesise_discs
+from treadload.kernels.layers.layered import Stack, transfer
+from treadload.kernels.layers.synthesis import Cells, ElasticPlane, rule, synthesise_cells
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.pavement import Pavement

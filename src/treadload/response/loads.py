@@ -19,8 +19,8 @@ from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.kernels.bilinear import bilinear_spectrum
-from treadload.kernels.wavenumbers import Spectrum, cells_spectrum
+from treadload.kernels.half_space.bilinear import bilinear_spectrum
+from treadload.kernels.layers.wavenumbers import Spectrum, cells_spectrum
 from treadload.response import measured
 from treadload.tables import real_array
 
@@ -174,7 +174,7 @@ class GridLoad:
 
     @property
     def spectrum(self) -> Spectrum:
-        """Its Fourier transform, exact for its interpolation, see `kernels.wavenumbers.cells_spectrum`."""
+        """Its Fourier transform, exact for its interpolation, see `kernels.layers.wavenumbers.cells_spectrum`."""
         transform = bilinear_spectrum if self.interpolation == "bilinear" else cells_spectrum
         return transform(self.array, self.grid.dx, self.grid.dy, self.grid.x0, self.grid.y0)
 

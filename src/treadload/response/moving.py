@@ -10,12 +10,12 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
-from treadload.kernels.layered import Stack
-from treadload.kernels.moving import Body, Level, Path, dissipated_energy, moving_fields
-from treadload.kernels.points import Points
+from treadload.kernels.gridding.points import Points
+from treadload.kernels.half_space.wake import Cells, Term, delayed_fields
+from treadload.kernels.layers.layered import Stack
+from treadload.kernels.layers.moving import Body, Level, Path, dissipated_energy, moving_fields
+from treadload.kernels.layers.wavenumbers import Spectrum, disc_spectrum, quadrature
 from treadload.kernels.tensors import strain_from_stress
-from treadload.kernels.wake import Cells, Term, delayed_fields
-from treadload.kernels.wavenumbers import Spectrum, disc_spectrum, quadrature
 from treadload.materials import Elastic, Material, Prony, Viscoelastic, as_prony
 from treadload.pavement import Layer, Pavement
 from treadload.response.half_space import half_space_response
@@ -96,7 +96,8 @@ def moving_response(
     these points; the energy has its distinct y. Inertia is left out.
     Energy: dissipated per volume by one passage, the integral of σ:dε over time; NaN where it needs too many
     wavenumbers. Near the surface a half-space of the top layer carries the steps of the load in closed form, its
-    strain and displacement that of the load and its wake, see `kernels.wake`; the rest are waves, `kernels.moving`.
+    strain and displacement that of the load and its wake, see `kernels.half_space.wake`; the rest are waves, see
+    `kernels.layers.moving`.
     Raises InputError where waves decay too slowly for the distance of the points.
     """
     problem = _Problem.of(loads, road, speed, depths, x, y, below)

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 from treadload import variables
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
-from treadload.kernels.depths import snapped
-from treadload.kernels.points import Points
+from treadload.kernels.gridding.points import Points
+from treadload.kernels.layers.depths import snapped
 from treadload.pavement import Pavement
 from treadload.response.doubts import overlapping, question_doubts, road_doubts
 from treadload.response.fields import response_dataset
@@ -70,9 +70,9 @@ def solve_response(
     Raises InputError for a wrong value, a speed that is missing or negative, a layer that needs a temperature or
     is a fluid, depths below a rigid base and depths that need too many wavenumbers; ConvergenceError where stress or
     strain would be no number.
-    Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.interior`; on
-    layers the same with the top layer's material, plus wavenumbers, see `kernels.layered`; under moving
-    loads see `kernels.moving`.
+    Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.half_space.interior`;
+    on layers the same with the top layer's material, plus wavenumbers, see `kernels.layers.layered`; under
+    moving loads see `kernels.layers.moving`.
     """
     start = time.perf_counter()
     if side not in ("above", "below"):

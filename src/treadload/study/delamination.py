@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike
 
 from treadload import variables
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.design import Criterion
-from treadload.damage.fatigue import in_words
+from treadload.damage.criteria.design import Criterion
 from treadload.damage.interface import (
     BondCriterion,
     delaminate,
@@ -22,6 +21,7 @@ from treadload.damage.interface import (
     interface_in_words,
     interface_number,
 )
+from treadload.damage.laws.fatigue import in_words
 from treadload.damage.miner import Life, passes_in_two_phases
 from treadload.damage.traffic import Climate, Traffic
 from treadload.describing import first_line

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from treadload.contact.friction import law_of
+from treadload.contact.friction.laws import law_of
 from treadload.damage.traffic import Climate, Traffic
 from treadload.plausible import doubt, load_doubt
 from treadload.tire import Tire

@@ -6,11 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from treadload.damage.french import GROUP_FACTORS
+from treadload.damage.laws.equivalence import GROUP_FACTORS
 from treadload.damage.miner import Life
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
-from treadload.study.passages import Passages, Wheels, passage, warmed
+from treadload.study.passage import passage
+from treadload.study.passages import Passages
+from treadload.study.seasons import warmed
+from treadload.study.wheels import Wheels
 
 
 def group_factors(road: Pavement, life: Life, passages: Passages) -> tuple[Array, Array]:

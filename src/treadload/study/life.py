@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from treadload import variables
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.design import Criterion, DesignCriterion
+from treadload.damage.criteria.design import Criterion, DesignCriterion
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
 from treadload.pavement import Pavement, lift_below

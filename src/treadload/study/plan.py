@@ -6,21 +6,22 @@ import math
 import time
 
 import numpy as np
-import scipy.fft
 
 from treadload.case import Case, LifeCase
 from treadload.contact import cautions
-from treadload.contact.influence import Influence
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.viscoelastic import combined
 from treadload.contact.solve import place
-from treadload.contact.viscoelastic import combined
 from treadload.grid import Grid
+from treadload.kernels import fft
 from treadload.pavement import Pavement
 from treadload.response import GridLoad
 from treadload.response.doubts import question_doubts, road_doubts
 from treadload.results import road_in_rows
 from treadload.study.doubts import traffic_doubts
-from treadload.study.passages import state, warmed
 from treadload.study.run import map_grid, slice_depths
+from treadload.study.seasons import warmed
+from treadload.study.wheels import state
 
 
 def plan_case(case: Case) -> str:
@@ -121,7 +122,7 @@ def _transform() -> float:
     best = math.inf
     for _ in range(5):
         start = time.perf_counter()
-        scipy.fft.rfft2(field)
+        fft.rfft2(field)
         best = min(best, time.perf_counter() - start)
     return best
 

@@ -15,7 +15,7 @@ import xarray as xr
 from treadload import variables
 from treadload.contact import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.design import Criterion
+from treadload.damage.criteria.design import Criterion
 from treadload.damage.miner import Life, damage_of, wander_of
 from treadload.damage.traffic import Climate, Season, Traffic, Wander
 from treadload.describing import first_line
@@ -23,17 +23,10 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Mix
 from treadload.pavement import Pavement
-from treadload.study.passages import (
-    Counter,
-    Progress,
-    across,
-    contact_of,
-    layer_temperatures,
-    passage,
-    states_of,
-    warmed,
-    wheels_of,
-)
+from treadload.study.passage import passage
+from treadload.study.passages import Counter, Progress
+from treadload.study.seasons import layer_temperatures, warmed
+from treadload.study.wheels import across, contact_of, states_of, wheels_of
 from treadload.tire import Tire
 
 TEMPERATURE = "temperature (per °C)"

@@ -9,7 +9,7 @@ from typing import Any
 from treadload.contact import Rolling, solve_contact
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage import Verdict, assess
-from treadload.damage.fatigue import PowerLaw
+from treadload.damage.laws.fatigue import PowerLaw
 from treadload.errors import InputError
 from treadload.pavement import Pavement
 from treadload.response import solve_response

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from treadload.catalogue.named import data
 from treadload.describing import as_call
 from treadload.errors import GeometryError, InputError
 from treadload.files import parse_toml
@@ -22,7 +23,6 @@ from treadload.tire.grooves import EDGE, Groove, LateralGrooves, check_finite, r
 from treadload.tire.quality import ScanQuality
 from treadload.units import quantity
 
-LIBRARY = Path(__file__).parent / "library"
 EXTENT_HEIGHT = 0.060  # a contact never climbs this far up the tread, m
 EXTENT_MARGIN = 0.012  # bare road beside the tread, m
 
@@ -89,7 +89,7 @@ class TreadProfile:
         """
         known = library_names()
         wanted = _plain(name)
-        for path in LIBRARY.glob("*.toml"):
+        for path in data("treads"):
             if _plain(path.stem) == wanted:
                 return cls.from_toml(path)
         close = difflib.get_close_matches(wanted, [_plain(k) for k in known], n=1, cutoff=0.4)
@@ -270,12 +270,12 @@ class ProfileSurface:
 
 def library_names() -> list[str]:
     """Names of the tread profiles that come with treadload."""
-    return sorted(path.stem.replace("_", "/") for path in LIBRARY.glob("*.toml"))
+    return sorted(path.stem.replace("_", "/") for path in data("treads"))
 
 
 def example_mesh() -> Path:
     """Path of the truck tire mesh that comes with treadload (335/65R22.5, metres, BSD-3-Clause licence beside it)."""
-    return LIBRARY / "feda_tire_fine.obj"
+    return data("tires", "feda_tire_fine.obj")[0]
 
 
 def _checked(owner: Any, table: Any, where: str) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """Closed forms of contact mechanics that the solvers are held against.
 
 E* is the contact modulus, G the combined shear modulus and ν the combined Poisson's ratio of
-`kernels.rectangle.CombinedElasticity`. Gaps are x²/2R_x + y²/2R_y.
+`kernels.half_space.rectangle.CombinedElasticity`. Gaps are x²/2R_x + y²/2R_y.
 """
 
 from __future__ import annotations

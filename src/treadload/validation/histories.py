@@ -8,10 +8,10 @@ from functools import cache
 import numpy as np
 from scipy.integrate import quad
 
-from treadload.contact.influence import Influence
-from treadload.contact.marching import Stage, TransientSolution, roll_transient
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.marching import Stage, TransientSolution, roll_transient
 from treadload.kernels.arrays import Array
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.check import Check, absolute, relative
 from treadload.validation.closed_forms import hertz
 from treadload.validation.patches import Patch, centres, paraboloid

@@ -16,7 +16,7 @@ from treadload.damage import (
     MepdgBottomUp,
     MepdgTopDown,
 )
-from treadload.damage.american import bottom_up_cracking, top_down_cracking
+from treadload.damage.laws.american import bottom_up_cracking, top_down_cracking
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import UniformDisc, dual_wheels, solve_response

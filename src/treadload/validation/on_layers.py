@@ -9,12 +9,12 @@ from typing import Literal
 import numpy as np
 
 from treadload.contact import Contact, Rolling, solve_contact
-from treadload.contact.influence import Influence
-from treadload.contact.layered import LayeredInfluence, images_of
-from treadload.contact.normal import NormalSolution, solve_normal
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.layers import LayeredInfluence, images_of
+from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.kernels.arrays import Array
-from treadload.kernels.layered import Stack
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
+from treadload.kernels.layers.layered import Stack
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.pavement.stack import stack_of

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import NormalSolution, solve_normal
-from treadload.contact.rolling import rigid_slip, solve_rolling
-from treadload.contact.tangential import TangentialSolution
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.normal import NormalSolution, solve_normal
+from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
+from treadload.contact.solvers.tangential import TangentialSolution
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 # Cells this many half-widths long make a strip: the ends change the field by the square of 1/LONG.
 LONG = 1e4

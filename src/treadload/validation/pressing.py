@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from treadload.contact.influence import Influence
-from treadload.contact.normal import NormalSolution, solve_normal
+from treadload.contact.bodies.influence import Influence
 from treadload.contact.solve import combine
+from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.grid import Grid
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.materials import Elastic
 from treadload.tire import Tire
 from treadload.validation.check import Check, absolute, relative

@@ -18,8 +18,8 @@ from collections.abc import Callable
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.kernels.images import surface_compliance
-from treadload.kernels.layered import Stack
+from treadload.kernels.layers.images import surface_compliance
+from treadload.kernels.layers.layered import Stack
 
 _NODES = 48
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from treadload.contact.influence import Influence
-from treadload.contact.rolling import rigid_slip, solve_rolling
-from treadload.contact.shift import solve_shift
-from treadload.kernels.rectangle import CombinedElasticity
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
+from treadload.contact.solvers.shift import solve_shift
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.check import Check, absolute, relative
 from treadload.validation.closed_forms import (
     carter_shear,

@@ -8,7 +8,7 @@ import numpy as np
 
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.kernels.interior import stress_on_grid
+from treadload.kernels.half_space.interior import stress_on_grid
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, solve_response

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from treadload.damage.criteria import CRITERIA
+from treadload.damage.criteria.fields import CRITERIA
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.validation.check import Check, absolute

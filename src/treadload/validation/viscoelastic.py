@@ -11,9 +11,9 @@ from scipy.optimize import brentq
 from scipy.special import i0e, i1e, k0e, k1e
 
 from treadload.contact import Contact, Rolling, solve_contact
-from treadload.contact.normal import solve_normal
-from treadload.contact.rolling import rigid_slip, solve_rolling
-from treadload.contact.viscoelastic import Material, ViscoelasticInfluence
+from treadload.contact.bodies.viscoelastic import Material, ViscoelasticInfluence
+from treadload.contact.solvers.normal import solve_normal
+from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Prony
 from treadload.pavement import Pavement

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from treadload.kernels.layered import Stack, transfer
+from treadload.kernels.layers.layered import Stack, transfer
 from treadload.validation.check import Check, absolute
 
 _INF = math.inf

@@ -1,0 +1,1 @@
+"""What bounds the shear: laws of friction, where on the road they hold, and the heat that they make."""

@@ -1,0 +1,118 @@
+"""The rolling state of the wheel."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from treadload.contact.friction.laws import Coulomb, FrictionLaw, largest_force, law_of
+from treadload.describing import as_call
+from treadload.errors import InputError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rolling:
+    """What the wheel does on the road: give forces, or creepages, or one of each.
+
+    normal_load: N, > 0; or approach: m, of the tire towards the road, > 0.
+    friction: coefficient μ ≥ 0 of Coulomb's law, or a friction law (`contact.friction.laws`).
+    tractive_force: force of the road on the tire along travel, N: positive when driving, negative when
+    braking; or creepage_x = (V - ωR)/V: negative when driving. Neither given: a tractive force of zero.
+    lateral_force: force of the road on the tire to the right, N; or creepage_y. Neither: no lateral force.
+    spin: rad/m, turn slip 1/R_path plus `Tire.camber_spin`, about z (down). speed: m/s: friction that falls with slip
+    or heat needs it, and so does power in W.
+    """
+
+    normal_load: float | None = None
+    friction: float | FrictionLaw
+    approach: float | None = None
+    tractive_force: float | None = None
+    creepage_x: float | None = None
+    lateral_force: float | None = None
+    creepage_y: float | None = None
+    spin: float = 0.0
+    speed: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if value is not None and name != "friction" and not math.isfinite(value):
+                raise InputError(f"{name} must be a finite number, got {value}")
+        if (self.normal_load is None) == (self.approach is None):
+            raise InputError("give either normal_load (N) or approach (m), not both and not neither")
+        for name, unit in (("normal_load", "N"), ("approach", "m"), ("speed", "m/s")):
+            value = getattr(self, name)
+            if value is not None and value <= 0:
+                raise InputError(f"{name} must be > 0 {unit}, got {value:g} {unit}")
+        if self.law.needs_speed and self.speed is None:
+            raise InputError(f"friction {self.law} depends on the slip speed: give the rolling speed (m/s) too")
+        for force, creepage in (("tractive_force", "creepage_x"), ("lateral_force", "creepage_y")):
+            if getattr(self, force) is not None and getattr(self, creepage) is not None:
+                raise InputError(f"give either {force} or {creepage}, not both")
+            value = getattr(self, creepage)
+            if value is not None and abs(value) > 1:
+                raise InputError(
+                    f"{creepage} must lie in [-1, 1], got {value:g}; a locked wheel has a longitudinal creepage of "
+                    "1, and long before that all of the contact slides"
+                )
+
+    @property
+    def forces(self) -> tuple[float | None, float | None]:
+        """Prescribed forces of the road on the tire along x and y, N; None where the creepage is given."""
+        along = None if self.creepage_x is not None else (self.tractive_force or 0.0)
+        across = None if self.creepage_y is not None else (self.lateral_force or 0.0)
+        return along, across
+
+    @property
+    def creepages(self) -> tuple[float, float]:
+        """Prescribed creepages along x and y; zero where the force is given."""
+        return self.creepage_x or 0.0, self.creepage_y or 0.0
+
+    @cached_property
+    def law(self) -> FrictionLaw:
+        """The friction law; a number is Coulomb's."""
+        return law_of(self.friction)
+
+    @property
+    def coefficient(self) -> float:
+        """Coulomb's coefficient μ. Raises InputError for any other law."""
+        if isinstance(self.law, Coulomb):
+            return float(self.law.number)
+        raise InputError(
+            f"this problem knows Coulomb's friction only, got {self.law}; give a coefficient such as 0.7"
+        )
+
+    def check_friction_limit(self, normal_load: float, total: float | None = None) -> None:
+        """Refuse forces that friction cannot carry.
+
+        normal_load: N. total: Σ μp dA at rest, N; left out, what the law's largest coefficient would carry.
+        """
+        largest = self.law.largest
+        demand, limit = largest_force(self.law.axes, self.forces, largest * normal_load if total is None else total)
+        if demand == 0 or demand < limit * (1 - 1e-9):
+            return
+        if isinstance(self.law, Coulomb):
+            why = f"the largest possible is μP = {largest:g} x {normal_load:.6g} N ="
+        else:
+            why = (
+                f"the largest possible in its direction, with friction {self.law} and {normal_load:.6g} N of load, is"
+            )
+        raise InputError(
+            f"gross sliding: a force of {demand:.6g} N along the road needs more than friction can carry; "
+            f"{why} {limit:.6g} N. Lower the force, raise friction or the load, or prescribe the creepage instead"
+        )
+
+    def __str__(self) -> str:
+        load = (
+            f"P = {self.normal_load / 1e3:g} kN"
+            if self.normal_load
+            else f"approach = {(self.approach or 0) * 1e3:g} mm"
+        )
+        parts = [load, f"μ = {self.law}"]
+        for symbol, force, creepage in zip("xy", self.forces, self.creepages, strict=True):
+            parts.append(f"creepage_{symbol} = {creepage:g}" if force is None else f"Q_{symbol} = {force / 1e3:g} kN")
+        if self.spin:
+            parts.append(f"spin = {self.spin:g} rad/m")
+        return ", ".join(parts)
+
+    __repr__ = as_call

@@ -1,0 +1,1 @@
+"""Pressure and shear of bodies whose influence is known."""

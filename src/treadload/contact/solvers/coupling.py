@@ -1,0 +1,151 @@
+"""Pressure and shear that fit each other: dissimilar bodies couple them both ways.
+
+Shear opens or closes the gap, pressure makes the surfaces slip. The unknown is the gap that shear makes; a round
+solves normal contact with it, then rolling, and asks what gap the new shear makes. Anderson's method mixes the
+last rounds, so that strong coupling settles where plain alternation circles.
+
+Sources: Panagiotopoulos (1975), Ing. Arch. 44, 421-432 (the loop); Anderson (1965), J. ACM 12, 547-560; Walker
+& Ni (2011), SIAM J. Numer. Anal. 49, 1715-1735.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.friction.laws import Interface
+from treadload.contact.rolling_state import Rolling
+from treadload.contact.solvers.normal import NormalSolution, solve_normal
+from treadload.contact.solvers.rolling import rigid_slip
+from treadload.contact.solvers.slipping import SlippingSolution, solve_slipping
+from treadload.contact.solvers.tangential import TangentialSolution
+from treadload.errors import ConvergenceError, InputError
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array
+
+_MOST_ROUNDS = 40
+_MEMORY = 6
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Start:
+    """A contact near the one sought, on the same grid: pressure (ny, nx), Pa, and shear with its creepages."""
+
+    pressure: Array
+    tangential: TangentialSolution
+
+
+@dataclass(frozen=True)
+class Coupled:
+    """Normal and tangential solutions that fit each other.
+
+    rounds: of the loop. change: of the pressure in the last round, relative. normal_iterations, newton, krylov:
+    of all rounds.
+    """
+
+    normal: NormalSolution
+    slipping: SlippingSolution
+    rounds: int
+    change: float
+    normal_iterations: int
+    newton: int
+    krylov: int
+
+
+def solve_coupled(
+    influence: Influence,
+    grid: Grid,
+    gap: Array,
+    rolling: Rolling,
+    *,
+    check: Callable[[Array], None],
+    start: Start | None = None,
+    tolerance: float = 1e-6,
+    tell: Progress = lambda text: None,
+) -> Coupled:
+    """Pressure, shear, slip and creepages of two bodies on a grid.
+
+    gap: initial (ny, nx), m. check: called with the first pressure, to refuse it early, and with the one returned,
+    which shear may have widened. start: a solution near this one. tolerance: of the normal and the tangential
+    conditions, and of the relative change of pressure.
+    Bodies whose Dundurs' β is below the tolerance count as alike. Raises InputError where nothing touches or
+    friction cannot carry the forces, ConvergenceError with the residual reached.
+    """
+    coupled = abs(influence.dundurs) > tolerance
+    offset: Array = np.zeros(grid.shape)
+    if coupled and start is not None:
+        offset = influence.gap_by_shear(start.tangential.shear)
+
+    def press(by_shear: Array, near: Array | None) -> NormalSolution:
+        given = {"load": rolling.normal_load, "approach": rolling.approach}
+        # Shear moves the gap's zero a little, and with it what the tolerance is relative to.
+        share = 0.5 if coupled else 1.0
+        return solve_normal(influence, gap + by_shear, **given, start=near, tolerance=share * tolerance)
+
+    normal = press(offset, None if start is None else start.pressure)
+    check(normal.pressure)
+    at_rest = _at_rest(normal.pressure, grid, rolling)
+    rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
+    last = None if start is None else start.tangential
+    mixing = _Anderson()
+    iterations, newton, krylov, change = normal.iterations, 0, 0, 0.0
+    for rounds in range(1, _MOST_ROUNDS + 1):
+        tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
+        known = rigid + influence.slip_by_pressure(normal.pressure) / grid.dx if coupled else rigid
+        slip = at_rest.slip if last is None else last.slip
+        at = replace(at_rest, pressure=normal.pressure, slip=slip)
+        slipping = solve_slipping(influence, rolling.law, at, known, rolling.forces, start=last, tolerance=tolerance)
+        last = slipping.tangential
+        newton, krylov = newton + slipping.newton, krylov + slipping.krylov
+        if not coupled or not last.shear.any() or (rounds > 1 and change <= tolerance):
+            check(normal.pressure)
+            return Coupled(normal, slipping, rounds, change, iterations, newton, krylov)
+        before = normal.pressure
+        offset = mixing.next(offset, influence.gap_by_shear(last.shear))
+        normal = press(offset, before)
+        iterations += normal.iterations
+        change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
+    raise ConvergenceError(
+        f"normal and tangential contact did not settle in {_MOST_ROUNDS} rounds: the pressure still changes by "
+        f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.dundurs:.3f}); "
+        "lower the friction or raise the tolerance",
+        change,
+    )
+
+
+def _at_rest(pressure: Array, grid: Grid, rolling: Rolling) -> Interface:
+    """The interface before it slips, once it is sure that friction there can carry the forces."""
+    load = float(pressure.sum()) * grid.cell_area
+    if load <= 0:
+        raise InputError(
+            f"an approach of {(rolling.approach or 0) * 1e3:g} mm does not bring tire and road into contact; raise it"
+        )
+    at_rest = Interface(pressure, np.zeros((2, *grid.shape)), grid.x, grid.y, grid.dx, rolling.speed)
+    rolling.check_friction_limit(load, float(rolling.law.bound(at_rest).sum()) * grid.cell_area)
+    return at_rest
+
+
+@dataclass
+class _Anderson:
+    """Anderson's mixing of a fixed-point iteration x ← g(x) over its last rounds."""
+
+    points: list[Array] = field(default_factory=list)
+    residuals: list[Array] = field(default_factory=list)
+
+    def next(self, x: Array, g: Array) -> Array:
+        """The next point, from a point and what the iteration makes of it."""
+        self.points = [*self.points[-_MEMORY:], x]
+        self.residuals = [*self.residuals[-_MEMORY:], g - x]
+        if len(self.points) == 1:
+            return g
+        steps = np.array([b - a for a, b in zip(self.points, self.points[1:], strict=False)])
+        changes = np.array([b - a for a, b in zip(self.residuals, self.residuals[1:], strict=False)])
+        basis = changes.reshape(len(changes), -1).T
+        weights = np.linalg.lstsq(basis, self.residuals[-1].ravel(), rcond=1e-10)[0]
+        mixed: Array = g - np.tensordot(weights, steps + changes, 1)
+        return mixed

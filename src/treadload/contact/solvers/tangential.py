@@ -1,0 +1,210 @@
+"""Shear between two bodies that roll or shift: the cells of the contact, coarse to fine, fast path and safe path."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.levels import halve, interpolate
+from treadload.errors import ConvergenceError
+from treadload.kernels import fft
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.complementarity import coulomb_newton, coulomb_splitting
+from treadload.kernels.complementarity.coulomb import CoulombProblem
+from treadload.kernels.complementarity.coulomb_newton import CoulombSolution
+
+# Below this many cells a side a solve costs nothing and needs no start from a coarser one.
+_COARSEST = 48
+_START_TOLERANCE = 1e-2
+
+Forces = tuple[float | None, float | None]
+Axes = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class TangentialSolution:
+    """Result of a tangential contact problem.
+
+    shear: on body 1 (2, ny, nx), Pa. slip: of body 1 relative to body 2 (2, ny, nx), zero where it sticks: in
+    rolling the velocity over speed, in a shift the distance, m. found: creepages, or the shift in m, that were
+    not known; zero where they were.
+    stick: (ny, nx), True where |q| < bound. residual: natural residual of the inequality.
+    newton, krylov, splitting, products: iterations and products with the slip operator, on this grid.
+    """
+
+    shear: Array
+    slip: Array
+    found: tuple[float, float]
+    stick: BoolArray
+    residual: float
+    newton: int = 0
+    krylov: int = 0
+    splitting: int = 0
+    products: int = 0
+
+
+def solve_tangential(
+    influence: Influence,
+    bound: Array,
+    rigid: Array,
+    forces: Forces,
+    *,
+    rolls: bool,
+    axes: Axes = (1.0, 1.0),
+    start: TangentialSolution | None = None,
+    tolerance: float = 1e-6,
+) -> TangentialSolution:
+    """Shear, slip and unknown rigid slips under a known friction bound.
+
+    bound: μp (ny, nx) ≥ 0, Pa. axes: (d_x, d_y) > 0 of the friction ellipse (q_x/d_x)² + (q_y/d_y)² ≤ bound²,
+    against whose normal the bodies slip; of product 1. rigid: known rigid slip over one step (2, ny, nx), m.
+    forces: on body 1 (Q_x, Q_y), N; None where the rigid slip is known (and in `rigid`).
+    rolls: a step takes particles one cell back, and they slip by w + u(x) - u(x + dx); else by w + u.
+    start: a solution near this one, on the same grid; left out, the solution on half the grid serves.
+    Raises ConvergenceError with the residual reached.
+    """
+    box = _bounding_box(bound > 0)
+    if box is None:
+        # No cell can carry shear: the bodies slide freely at the known rigid slip.
+        return TangentialSolution(np.zeros_like(rigid), rigid.copy(), (0.0, 0.0), np.zeros(bound.shape, bool), 0.0)
+    rows, columns = box
+    g, w = bound[rows, columns], rigid[:, rows, columns]
+    small = replace(influence, shape=g.shape)
+    if start is not None:
+        # A rigid slip that is known now is no unknown, whatever it was in the start.
+        unknown = [force is not None for force in forces]
+        q, xi = start.shear[:, rows, columns], np.where(unknown, start.found, 0.0)
+    elif min(g.shape) >= _COARSEST:
+        q, xi = _start(small, g, w, forces, rolls, axes)
+    else:
+        # Without shear the cells stick, and the first step is that of full adhesion.
+        q, xi = np.zeros_like(w), np.zeros(2)
+    # Stretched by the axes, the ellipse is a disc: q = D q', and S, w and Q become D S D, D w and D⁻¹ Q.
+    stretch = np.array(axes)[:, None, None]
+    problem = _problem(small, g, stretch * w, forces, rolls, axes)
+    solution = _solve(problem, (q / stretch, xi * axes), tolerance)
+    solution = replace(
+        solution, shear=stretch * solution.shear, slip=solution.slip / stretch, found=solution.found / np.array(axes)
+    )
+    return _uncrop(solution, bound, box)
+
+
+def _solve(problem: CoulombProblem, first: tuple[Array, Array], tolerance: float) -> CoulombSolution:
+    solution = coulomb_newton.solve(problem, *first, tolerance=tolerance)
+    if not solution.converged:
+        # The fast path stalled: the slow one always moves on, and the fast one polishes what it finds.
+        q, xi, steps = coulomb_splitting.split(problem, solution.shear, solution.found, tolerance=0.1 * tolerance)
+        polished = coulomb_newton.solve(problem, q, xi, tolerance=tolerance)
+        solution = replace(polished, splitting=polished.splitting + solution.splitting + steps)
+    if not solution.converged:
+        what, unknown = ("rolling contact", "creepage") if problem.rolls else ("the shift", "shift")
+        raise ConvergenceError(
+            f"{what} stopped with a residual of {solution.residual:.2e}, above the tolerance of {tolerance:.2e}; "
+            f"near gross sliding prescribe the {unknown} instead of the force",
+            solution.residual,
+        )
+    return solution
+
+
+def _problem(
+    influence: Influence, bound: Array, rigid: Array, forces: Forces, rolls: bool, axes: Axes
+) -> CoulombProblem:
+    """The problem on the disc; rigid is stretched already, forces are those of the bodies."""
+    cell = influence.dx * influence.dy
+    padding = influence.rolling_padding if rolls else influence.padding
+    along, across = (None if force is None else force / (cell * d) for force, d in zip(forces, axes, strict=True))
+    return CoulombProblem(
+        padding=padding,
+        compliance=influence.tangential(padding) * _stretches(axes),
+        rolls=rolls,
+        self_influence=influence.self_influence(rolls=rolls),
+        bound=bound,
+        rigid=rigid,
+        travel=influence.dx if rolls else 1.0,
+        totals=(along, across),
+        precondition=_Preconditioner(influence, rolls, axes),
+    )
+
+
+def _stretches(axes: Axes) -> Array:
+    """Factors (3, 1, 1) that stretch the symbols xx, yy and xy of a compliance."""
+    d_x, d_y = axes
+    return np.array([d_x * d_x, d_y * d_y, d_x * d_y])[:, None, None]
+
+
+class _Preconditioner:
+    """Approximate inverse of the slip operator on the cells of a mask, in single precision.
+
+    In a shift: the inverse compliance in Fourier space, on the unpadded grid, a quarter of the work. In
+    rolling, shear summed up from increments at the leading edge turns the slip operator into the compliance:
+    the same, then a cumulative sum. Source: Vollebregt (2010).
+    """
+
+    def __init__(self, influence: Influence, rolls: bool, axes: Axes) -> None:
+        symbols = influence.tangential_stiffness / _stretches(axes)
+        self.symbols = symbols.astype(np.complex64 if np.iscomplexobj(symbols) else np.float32)
+        self.shape = influence.shape
+        self.rolls = rolls
+
+    def __call__(self, slip: Array, mask: BoolArray) -> Array:
+        xx, yy, xy = self.symbols
+        x, y = fft.rfft2(slip)
+        shear: Array = fft.irfft2(np.stack([xx * x + xy * y, xy * x + yy * y]), s=self.shape)
+        shear *= mask
+        if self.rolls:
+            shear = np.cumsum(shear[:, :, ::-1], axis=2)[:, :, ::-1] * mask
+        return shear
+
+
+def _start(
+    influence: Influence, bound: Array, rigid: Array, forces: Forces, rolls: bool, axes: Axes
+) -> tuple[Array, Array]:
+    """Shear and rigid slips of the solution on half the grid."""
+    coarse_bound = np.nan_to_num(halve(bound))
+    # The border cells of an odd grid keep their share of the friction force, not their mean.
+    coarse_bound *= bound.sum() / (4 * coarse_bound.sum())
+    coarse = replace(influence, shape=coarse_bound.shape, dx=2 * influence.dx, dy=2 * influence.dy)
+    step = 2 if rolls else 1
+    rough = solve_tangential(
+        coarse,
+        coarse_bound,
+        step * np.nan_to_num(halve(rigid)),
+        forces,
+        rolls=rolls,
+        axes=axes,
+        tolerance=_START_TOLERANCE,
+    )
+    # The share of friction that is used varies smoothly; shear itself jumps at every edge.
+    known = coarse_bound > 0
+    share = rough.shear / np.where(known, coarse_bound, 1.0)
+    return interpolate(share, known, bound.shape) * bound, np.asarray(rough.found)
+
+
+def _bounding_box(mask: BoolArray) -> tuple[slice, slice] | None:
+    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
+    if rows.size == 0:
+        return None
+    return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
+
+
+def _uncrop(solution: CoulombSolution, bound: Array, box: tuple[slice, slice]) -> TangentialSolution:
+    rows, columns = box
+    shear, slip = np.zeros((2, *bound.shape)), np.zeros((2, *bound.shape))
+    stick = np.zeros(bound.shape, bool)
+    shear[:, rows, columns] = solution.shear
+    stick[rows, columns] = solution.stick
+    # Slip is zero by definition where the patch sticks, and means nothing outside of it.
+    slip[:, rows, columns] = np.where((bound[rows, columns] > 0) & ~solution.stick, solution.slip, 0.0)
+    return TangentialSolution(
+        shear,
+        slip,
+        (float(solution.found[0]), float(solution.found[1])),
+        stick,
+        solution.residual,
+        solution.newton,
+        solution.krylov,
+        solution.splitting,
+        solution.products,
+    )

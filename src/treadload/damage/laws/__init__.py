@@ -1,0 +1,1 @@
+"""How many passes a strain, a stress or a bond bears."""

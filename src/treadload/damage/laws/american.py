@@ -1,0 +1,278 @@
+"""Laws of the United States and of Shell: regressions in psi and inches, converted at their edge.
+
+NCHRP 1-37A with its sums of cracking, the Asphalt Institute, Shell.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from treadload.damage.laws.fatigue import (
+    BOTTOM_EXTENSION,
+    SUBGRADE,
+    SURFACE_EXTENSION,
+    PowerLaw,
+    check_positive,
+)
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+
+_PSI = 6894.757293168361
+_INCH = 0.0254
+_MILE, _FOOT = 1609.344, 0.3048
+_MEPDG = (
+    "NCHRP 1-37A (2004), part 3 chapter 3 and appendix II eq. 27, as coded in the public program ProductOneME "
+    "(MartinScavone, commit c89fe2b), a secondary source"
+)
+
+
+@dataclass(frozen=True)
+class _Regression(PowerLaw):
+    """N = k ε^(1/b) E^-m with E in psi."""
+
+    modulus: float
+
+    def __post_init__(self) -> None:
+        check_positive("modulus", self.modulus, "number of Pa", "asphalt is near 5.4e9")
+        if self.modulus < 1e6:
+            raise InputError(f"modulus must be in Pa, got {self.modulus}; 5400 MPa is 5.4e9")
+
+    def _at_a_million(self, constant: float, power: float) -> float:
+        """Strain of a million passes from k = constant and m = power."""
+        return float((1e6 / (constant * (self.modulus / _PSI) ** -power)) ** self.exponent)
+
+
+@dataclass(frozen=True)
+class _Mepdg(_Regression):
+    thickness: float
+    air_voids: float
+    binder_volume: float
+    calibration: float = 1.0
+
+    source: ClassVar[str] = _MEPDG
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_positive("thickness", self.thickness, "number of metres", "6 inches are 0.1524")
+        check_positive("calibration", self.calibration, "number", "1 is the law as published")
+        _check_volumes(self.air_voids, self.binder_volume)
+
+    @property
+    @abstractmethod
+    def thickness_factor(self) -> float:
+        """k₁."""
+
+    @property
+    def at_a_million(self) -> float:
+        """Strain that allows a million passes."""
+        constant = 0.00432 * mix_factor(self.air_voids, self.binder_volume) * self.thickness_factor
+        return self._at_a_million(constant * self.calibration, 1.281)
+
+    @property
+    def exponent(self) -> float:
+        """-1 / 3.9492."""
+        return -1 / 3.9492
+
+
+@dataclass(frozen=True)
+class MepdgBottomUp(_Mepdg):
+    """Passes to bottom-up cracking, N = 0.00432 C k₁ ε^-3.9492 E^-1.281 (E in psi).
+
+    modulus: dynamic modulus of the asphalt, Pa. thickness: h of all asphalt layers together, m, see
+    `bituminous_thickness`. air_voids, binder_volume: Va and Vb, shares of the mix's volume in (0, 1): 7 % is 0.07;
+    Vb is the effective binder, without what the stones absorb. calibration: local factor on the passes.
+    C = 10^(4.84 (Vb/(Va+Vb) - 0.69)); k₁ = 1/(0.000398 + 0.003602/(1 + exp(11.02 - 3.49 h))), h in inches.
+    Source: NCHRP 1-37A (2004) as coded in ProductOneME.
+    """
+
+    quantity: ClassVar[str] = BOTTOM_EXTENSION
+    end_of_life: ClassVar[str] = "half of the lane's area is cracked, see `bottom_up_cracking`"
+
+    @property
+    def thickness_factor(self) -> float:
+        """k₁."""
+        return float(1 / (0.000398 + 0.003602 * _sigmoid(3.49 * self.thickness / _INCH - 11.02)))
+
+    def __str__(self) -> str:
+        return f"MEPDG bottom-up, E = {self.modulus / 1e6:g} MPa, {self.thickness * 1e3:g} mm of asphalt"
+
+
+@dataclass(frozen=True)
+class MepdgTopDown(_Mepdg):
+    """Passes to top-down cracking, N = 0.00432 C k₁ ε^-3.9492 E^-1.281 (E in psi), ε at the surface.
+
+    Arguments and C as in `MepdgBottomUp`; k₁ = 1/(0.01 + 12/(1 + exp(15.676 - 2.8186 h))), h in inches.
+    Source: NCHRP 1-37A (2004), appendix II eq. 27, as coded in ProductOneME: part 3 of the guide misprints k₁.
+    """
+
+    quantity: ClassVar[str] = SURFACE_EXTENSION
+    end_of_life: ClassVar[str] = "a metre of crack along each metre of lane, see `top_down_cracking`"
+
+    @property
+    def thickness_factor(self) -> float:
+        """k₁."""
+        return float(1 / (0.01 + 12.0 * _sigmoid(2.8186 * self.thickness / _INCH - 15.676)))
+
+    def __str__(self) -> str:
+        return f"MEPDG top-down, E = {self.modulus / 1e6:g} MPa, {self.thickness * 1e3:g} mm of asphalt"
+
+
+@dataclass(frozen=True)
+class AsphaltInstitute(_Regression):
+    """Passes to fatigue of a fifth of the lane, N = 0.0796 C ε^-3.291 E^-0.854 (E in psi).
+
+    modulus: of the asphalt, Pa. air_voids, binder_volume: Va and Vb (the effective binder), shares of the mix's
+    volume in (0, 1), both or none: C = 10^(4.84 (Vb/(Va+Vb) - 0.69)), 1 if left out.
+    Not verified: the exponents and C stand in U.S. Army CRREL Special Report 96-21 (1996); the constant 0.0796 is
+    recalled, public programs agree on it. The manual itself, Asphalt Institute MS-1 (1982), was not at hand.
+    """
+
+    air_voids: float | None = None
+    binder_volume: float | None = None
+
+    quantity: ClassVar[str] = BOTTOM_EXTENSION
+    source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1; exponents in CRREL Special Report 96-21"
+    end_of_life: ClassVar[str] = "a fifth of the lane is cracked by fatigue"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.air_voids is None) != (self.binder_volume is None):
+            raise InputError(
+                f"give both air_voids and binder_volume or none, got {self.air_voids} and {self.binder_volume}"
+            )
+        if self.air_voids is not None and self.binder_volume is not None:
+            _check_volumes(self.air_voids, self.binder_volume)
+
+    @property
+    def doubt(self) -> str:
+        """The constant."""
+        return "the constant 0.0796 is recalled and was not found in a document; public programs agree on it"
+
+    @property
+    def at_a_million(self) -> float:
+        """Strain that allows a million passes."""
+        if self.air_voids is None or self.binder_volume is None:
+            return self._at_a_million(0.0796, 0.854)
+        return self._at_a_million(0.0796 * mix_factor(self.air_voids, self.binder_volume), 0.854)
+
+    @property
+    def exponent(self) -> float:
+        """-1 / 3.291."""
+        return -1 / 3.291
+
+    def __str__(self) -> str:
+        return f"Asphalt Institute, fatigue, E = {self.modulus / 1e6:g} MPa"
+
+
+@dataclass(frozen=True)
+class AsphaltInstituteSubgrade(PowerLaw):
+    """Passes to a rut of 12.7 mm, N = 1.365e-9 ε_z^-4.477; compression counts positive.
+
+    Not verified: recalled; public programs agree on it.
+    """
+
+    quantity: ClassVar[str] = SUBGRADE
+    source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1"
+    end_of_life: ClassVar[str] = "a rut of 12.7 mm"
+
+    @property
+    def doubt(self) -> str:
+        """All of it."""
+        return "its numbers are recalled and were not found in a document; public programs agree on them"
+
+    @property
+    def at_a_million(self) -> float:
+        """Strain that allows a million passes."""
+        return float((1e6 / 1.365e-9) ** self.exponent)
+
+    @property
+    def exponent(self) -> float:
+        """-1 / 4.477."""
+        return -1 / 4.477
+
+    def __str__(self) -> str:
+        return "Asphalt Institute, subgrade"
+
+
+@dataclass(frozen=True)
+class ShellFatigue(_Regression):
+    """Passes to fatigue, N = 0.0685 ε^-5.671 E^-2.363 (E in psi).
+
+    modulus: of the asphalt, Pa. Not verified: recalled, and found in no source.
+    """
+
+    quantity: ClassVar[str] = BOTTOM_EXTENSION
+    source: ClassVar[str] = "Shell Pavement Design Manual (1978), in the form that textbooks give"
+    end_of_life: ClassVar[str] = "fatigue of the asphalt; how much of it cracks was found in no source"
+
+    @property
+    def doubt(self) -> str:
+        """All of it."""
+        return "its numbers are recalled and were not found in a source"
+
+    @property
+    def at_a_million(self) -> float:
+        """Strain that allows a million passes."""
+        return self._at_a_million(0.0685, 2.363)
+
+    @property
+    def exponent(self) -> float:
+        """-1 / 5.671."""
+        return -1 / 5.671
+
+    def __str__(self) -> str:
+        return f"Shell, fatigue, E = {self.modulus / 1e6:g} MPa"
+
+
+def mix_factor(air_voids: float, binder_volume: float) -> float:
+    """C = 10^(4.84 (Vb/(Va+Vb) - 0.69)) of the volumes of air and effective binder, shares of the mix."""
+    return float(10 ** (4.84 * (binder_volume / (air_voids + binder_volume) - 0.69)))
+
+
+def bottom_up_cracking(damage: float | Array, thickness: float) -> Array:
+    """Share of the lane's area that is cracked from below, in [0, 1], after NCHRP 1-37A.
+
+    FC = 1/(1 + exp(C₂ (log₁₀(100 D) - 2))), C₂ = -2.40874 - 39.748 (1 + h)^-2.856, h in inches.
+    damage: D, Miner's sum, ≥ 0, any shape. thickness: of the asphalt, m. Raises InputError.
+    Source: NCHRP 1-37A (2004); constants agree in two public programs.
+    """
+    check_positive("thickness", thickness, "number of metres", "6 inches are 0.1524")
+    slope = -2.40874 - 39.748 * (1 + thickness / _INCH) ** -2.856
+    return _sigmoid(-slope * _decades(damage))
+
+
+def top_down_cracking(damage: float | Array) -> Array:
+    """Length of longitudinal cracks from the surface per length of lane, m/m, at most 2, after NCHRP 1-37A.
+
+    FC = 10560/(1 + exp(7 - 3.5 log₁₀(100 D))) feet per mile. damage: D, Miner's sum, ≥ 0, any shape.
+    Not verified: the constants are recalled. Raises InputError.
+    """
+    return 10560 * _FOOT / _MILE * _sigmoid(3.5 * _decades(damage))
+
+
+def _decades(damage: float | Array) -> Array:
+    """log₁₀ D = log₁₀(100 D) - 2, -∞ where there is no damage."""
+    given = np.asarray(damage, dtype=float)
+    if not (given >= 0).all():
+        raise InputError(f"damage must be ≥ 0, got {given.min():g}; 1 is the end of life")
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.log10(given))
+
+
+def _sigmoid(value: float | Array) -> Array:
+    """1 / (1 + exp(-value)) without overflow."""
+    return np.asarray(0.5 * (1 + np.tanh(0.5 * np.asarray(value))))
+
+
+def _check_volumes(air_voids: float, binder_volume: float) -> None:
+    for name, value, usual in (
+        ("air_voids", air_voids, "7 % is 0.07"),
+        ("binder_volume, of the effective binder,", binder_volume, "11 % is 0.11"),
+    ):
+        if not (math.isfinite(value) and 0 < value < 1):
+            raise InputError(f"{name} must be a share of the volume in (0, 1), got {value}; {usual}")

@@ -1,0 +1,199 @@
+"""What the bond between two layers bears: Coulomb's strength with a tensile limit, and its fatigue in shear."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import ClassVar
+
+import numpy as np
+
+from treadload.damage.laws.fatigue import UTILISATION, PowerLaw
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+
+Strength = float | Callable[[float], float]
+
+LEUTNER_MINIMUM: Mapping[str, float] = MappingProxyType({"wearing": 15e3, "lower": 12e3})
+"""Shear forces, N, that cores of 150 mm must reach in Leutner's test, at 20 °C, as recalled of the German rules.
+
+"wearing": under the wearing course, "lower": between the courses below. No source with these two numbers was read.
+Read were proposals: 16 to 25 kN (Stöckert and Grätz 2001, Forschung Straßenbau 829), and 21 kN under wearing courses
+just built (Swiss project FA 12/94, as its successor VSS 2005/503 reports).
+"""
+_CORE = 0.15
+_RECALLED = "the least force of Leutner's test is recalled, no source was read"
+
+
+@dataclass(frozen=True)
+class InterfaceStrength:
+    """Strength of a bond after Coulomb: τ ≤ c + σ_n tan φ, compression positive, with a tensile limit.
+
+    cohesion: c, Pa, >= 0, or a function that gives it at a temperature, °C. friction_angle: φ, rad, in [0, π/2).
+    tensile_strength: Pa, or a function of °C likewise, at most c / tan φ, where the line ends; left out, the line's
+    own end, and no limit where φ = 0. doubt: which numbers stand on no source that was read.
+    The law tells when a bond that holds would part; friction on a face that has parted is another matter.
+    Raises InputError.
+    """
+
+    cohesion: Strength
+    friction_angle: float = 0.0
+    tensile_strength: Strength | None = None
+    doubt: str = ""
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.friction_angle) and 0 <= self.friction_angle < math.pi / 2):
+            raise InputError(
+                f"friction_angle must lie in [0, π/2) rad, got {self.friction_angle}; 35° is math.radians(35)"
+            )
+        if not callable(self.cohesion) and not (math.isfinite(self.cohesion) and self.cohesion >= 0):
+            raise InputError(f"cohesion must be a number >= 0 Pa, got {self.cohesion}; 0.85 MPa is 0.85e6")
+        tensile = self.tensile_strength
+        if tensile is None or callable(tensile):
+            return
+        if not (math.isfinite(tensile) and tensile >= 0):
+            raise InputError(f"tensile_strength must be a number >= 0 Pa, got {tensile}; leave it out if unknown")
+        if not callable(self.cohesion) and tensile > self._end * (1 + 1e-12):
+            raise InputError(
+                f"tensile_strength {tensile:g} Pa lies beyond the end of Coulomb's line, c / tan φ = {self._end:g} "
+                "Pa; lower it or the friction angle"
+            )
+
+    @classmethod
+    def from_leutner(
+        cls,
+        force: float,
+        diameter: float = _CORE,
+        *,
+        friction_angle: float = 0.0,
+        tensile_strength: Strength | None = None,
+    ) -> InterfaceStrength:
+        """Strength from the largest force of Leutner's shear test, which presses no normal stress: c = F / (π d²/4).
+
+        force: N, > 0, at the temperature of the test. diameter: of the core, m. friction_angle: rad; 0 counts on
+        no help of compression. 15 kN on 150 mm is 0.85 MPa. Raises InputError.
+        """
+        for name, value in (("force", force), ("diameter", diameter)):
+            if not (math.isfinite(value) and value > 0):
+                raise InputError(f"the {name} of a Leutner test must be positive (N, m), got {value}")
+        if diameter > 1:
+            raise InputError(f"the diameter of a core must be in m, got {diameter}; 150 mm is 0.15")
+        return cls(force / (math.pi * diameter**2 / 4), friction_angle, tensile_strength)
+
+    @classmethod
+    def leutner_minimum(cls, place: str) -> InterfaceStrength:
+        """Strength of a core that just passes Leutner's test. place: of `LEUTNER_MINIMUM`, whose doubt it carries."""
+        if place not in LEUTNER_MINIMUM:
+            raise InputError(f"place must be one of {', '.join(LEUTNER_MINIMUM)}, got {place!r}")
+        return replace(cls.from_leutner(LEUTNER_MINIMUM[place]), doubt=_RECALLED)
+
+    @property
+    def depends_on_temperature(self) -> bool:
+        """True if a strength is known only once the temperature is."""
+        return callable(self.cohesion) or callable(self.tensile_strength)
+
+    def at(self, temperature: float) -> InterfaceStrength:
+        """The strength at a temperature of the interface, °C. Raises InputError for one that is none."""
+        if not self.depends_on_temperature:
+            return self
+        cohesion, tensile = (
+            float(value(temperature)) if callable(value) else value
+            for value in (self.cohesion, self.tensile_strength)
+        )
+        assert cohesion is not None
+        try:
+            return replace(self, cohesion=cohesion, tensile_strength=tensile)
+        except InputError as error:
+            raise InputError(f"at {temperature:g} °C: {error}") from error
+
+    @property
+    def tension_limit(self) -> float:
+        """Tension that parts the bond without shear, Pa; infinite where the law says nothing of tension."""
+        return self._end if self.tensile_strength is None else self._number(self.tensile_strength)
+
+    @property
+    def _end(self) -> float:
+        """Where Coulomb's line ends in tension, Pa."""
+        slope = math.tan(self.friction_angle)
+        return self._number(self.cohesion) / slope if slope > 0 else math.inf
+
+    def shear_strength(self, normal: float | Array) -> Array:
+        """Shear that parts the bond, Pa: c + σ_n tan φ, at least 0. normal: σ_n, Pa, compression positive."""
+        resisted = self._number(self.cohesion) + np.asarray(normal, dtype=float) * math.tan(self.friction_angle)
+        return np.maximum(resisted, 0.0)
+
+    def utilisation(self, shear: float | Array, normal: float | Array) -> Array:
+        """How much of the bond is used up: max(τ / (c + σ_n tan φ), -σ_n / f_t); 1 parts it.
+
+        shear: τ, the size of the shear vector, Pa. normal: σ_n, Pa, compression positive. In compression the second
+        part is nothing; in tension the first has less cohesion left. Infinite where nothing resists: without
+        cohesion wherever nothing presses. Raises InputError for a strength that waits for its temperature.
+        """
+        size, pressed = np.broadcast_arrays(np.asarray(shear, dtype=float), np.asarray(normal, dtype=float))
+        return np.maximum(
+            _ratio(size, self.shear_strength(pressed)), _ratio(np.maximum(-pressed, 0.0), self.tension_limit)
+        )
+
+    @staticmethod
+    def _number(value: Strength) -> float:
+        if callable(value):
+            raise InputError("this strength of an interface depends on temperature; choose one with .at(°C) first")
+        return value
+
+    def __str__(self) -> str:
+        angle = f", φ = {math.degrees(self.friction_angle):.3g}°" if self.friction_angle else ""
+        if self.depends_on_temperature:
+            return f"bond with a strength of its temperature{angle}"
+        end = f", {self.tension_limit / 1e6:.3g} MPa in tension" if math.isfinite(self.tension_limit) else ""
+        return f"bond with c = {self._number(self.cohesion) / 1e6:.3g} MPa{angle}{end}"
+
+
+def _ratio(part: Array, whole: float | Array) -> Array:
+    """Part / whole, both >= 0; nothing out of nothing is 0, something out of nothing infinite."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(part == 0, 0.0, part / whole)
+
+
+@dataclass(frozen=True)
+class ShearFatigue(PowerLaw):
+    """Fatigue of a bond: passes N = (u / u₁)^(1/b) that a utilisation u allows.
+
+    slope: b, in (-1, 0), from cyclic shear tests of this bond at this temperature. single_pass: u₁, utilisation that
+    one pass bears; 1 ties the line to the strength itself. doubt: which numbers stand on no source that was read.
+    It reads the largest utilisation, once as each axle passes, though shear turns round under it: take a slope
+    counted likewise. Straight lines in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied
+    Science 8(2); they depend on normal stress and temperature (Isailović, Cannone Falchetto and Wistuba 2017, AAPT).
+    No slope is given here.
+    Raises InputError.
+    """
+
+    slope: float
+    single_pass: float = 1.0
+    doubt: str = ""
+
+    quantity: ClassVar[str] = UTILISATION
+    source: ClassVar[str] = "a power law of the bond's utilisation with the user's numbers"
+    end_of_life: ClassVar[str] = "the bond parts"
+
+    def __post_init__(self) -> None:
+        if not -1 < self.slope < 0:
+            raise InputError(
+                f"the slope of a bond's fatigue must lie in (-1, 0), got {self.slope}; take it from tests of the bond"
+            )
+        if not (math.isfinite(self.single_pass) and self.single_pass > 0):
+            raise InputError(f"single_pass must be a positive utilisation, got {self.single_pass}; 1 is the strength")
+
+    @property
+    def at_a_million(self) -> float:
+        """Utilisation that allows a million passes."""
+        return float(self.single_pass * 1e6**self.slope)
+
+    @property
+    def exponent(self) -> float:
+        """Slope b."""
+        return self.slope
+
+    def __str__(self) -> str:
+        return f"shear fatigue of the bond, slope {self.slope:g}, {self.single_pass:g} in one pass"

@@ -1,0 +1,120 @@
+"""Axles of one kind for all that pass: aggressiveness, growth, and their sum over the design life.
+
+Tables of NF P98-086, as a public program codes them; see `damage.laws.french`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Literal
+
+from treadload.damage.laws.fatigue import check_positive
+from treadload.errors import InputError
+
+_DAYS = 365
+# Growth a year that no sum of years feels; far below it the quotient loses its digits.
+NO_GROWTH = 1e-15
+# Eleven times as many passes in each next year: no traffic does.
+_MOST_GROWTH = 10.0
+
+AGGRESSIVENESS: Mapping[str, Mapping[str, float]] = {
+    "bituminous": {"T5": 0.3, "T4": 0.3, "T3-": 0.4, "T3+": 0.5, "T2": 0.5, "T1": 0.5, "T0": 0.5, "motorway": 0.8},
+    "hydraulic": {"T5": 0.4, "T4": 0.5, "T3-": 0.6, "T3+": 0.6, "T2": 0.8, "T1": 0.8, "T0": 0.8, "motorway": 1.3},
+    "treated soil": {"T5": 0.4, "T4": 0.5, "T3-": 0.7, "T3+": 0.7, "T2": 0.8, "T1": 0.8, "T0": 0.8},
+    "subgrade": {"T5": 0.4, "T4": 0.5, "T3-": 0.6, "T3+": 0.75, "T2": 1.0, "T1": 1.0, "T0": 1.0, "motorway": 1.0},
+}
+"""Mean aggressiveness CAM of a heavy vehicle, in axles of 130 kN, by what it wears and class of traffic."""
+
+GROUP_FACTORS: Mapping[str, Mapping[int, float]] = {
+    "bituminous": {1: 1.0, 2: 0.75, 3: 1.1},
+    "hydraulic": {1: 1.0, 2: 12.0, 3: 113.0},
+}
+"""K of one axle by the number of axles in its group and the kind of layer; recalled, not verified in a source."""
+
+
+def aggressiveness_of(material: str, traffic: str) -> float:
+    """CAM of the method's table; see `AGGRESSIVENESS` for the words. Raises InputError."""
+    return look_up("aggressiveness", AGGRESSIVENESS, material, traffic)
+
+
+def aggressiveness(
+    axles: Sequence[tuple[float, float, float]],
+    *,
+    vehicles: float,
+    power: float,
+    reference: float = 130e3,
+) -> float:
+    """CAM = Σ K n (P / P₀)^α / N: axles of the reference load that do the harm of one heavy vehicle.
+
+    axles: (load P of one axle, N; number n of such axles; K of its group). K is 1 for a single axle; in a tandem
+    0.75 and in a tridem 1.1 for bituminous layers, 12 and 113 for hydraulic ones. vehicles: N, heavy vehicles
+    weighed. power: α, 5 for bituminous layers, 12 for hydraulic ones. reference: P₀, N.
+    α and K are recalled, not verified in a source. Raises InputError.
+    """
+    check_positive("vehicles", vehicles, "number", "count the vehicles that were weighed")
+    check_positive("reference", reference, "number of N", "the French axle has 130e3")
+    if not len(axles):
+        raise InputError("axles is empty; give (load in N, number, K) of at least one kind of axle")
+    for load, number, group in axles:
+        if not (load > 0 and number >= 0 and group > 0):
+            raise InputError(f"an axle needs a load > 0 N, a number >= 0 and K > 0, got {(load, number, group)}")
+    return float(sum(group * number * (load / reference) ** power for load, number, group in axles) / vehicles)
+
+
+def equivalent_axles(
+    vehicles_per_day: float,
+    years: float,
+    aggressiveness: float,
+    *,
+    growth: float = 0.0,
+    kind: Literal["geometric", "arithmetic"] = "geometric",
+) -> float:
+    """NE = 365 MJA C CAM: reference axles over the design life.
+
+    vehicles_per_day: MJA, heavy vehicles a day and direction in the first year. years: n. aggressiveness: CAM.
+    growth: t, a year. kind: C = ((1+t)^n - 1)/t "geometric", or n (1 + (n-1) t/2) "arithmetic". Raises InputError.
+    """
+    for name, value in {
+        "vehicles_per_day": vehicles_per_day,
+        "years": years,
+        "aggressiveness": aggressiveness,
+    }.items():
+        check_positive(name, value, "number", "leave out a traffic that does not run")
+    total = growth_factor(years, growth, kind)
+    return _DAYS * vehicles_per_day * total * aggressiveness
+
+
+def growth_factor(years: float, growth: float, kind: Literal["geometric", "arithmetic"] = "geometric") -> float:
+    """C: passes over years n, > 0, over those of the first year, for a growth t a year.
+
+    kind: ((1+t)^n - 1)/t "geometric", or n (1 + (n-1) t/2) "arithmetic". Raises InputError.
+    """
+    if not growth > -1:
+        raise InputError(f"growth must be above -1 a year, got {growth}; 2 % a year is 0.02")
+    if growth > _MOST_GROWTH:
+        raise InputError(f"growth must be at most {_MOST_GROWTH:g} a year, got {growth:g}; 2 % a year is 0.02")
+    if kind == "geometric":
+        try:
+            total = math.expm1(years * math.log1p(growth)) / growth if abs(growth) > NO_GROWTH else years
+        except OverflowError as error:
+            raise InputError(
+                f"a growth of {growth:g} a year over {years:g} years makes more passes than a number can hold; give "
+                'fewer years, less growth, or kind="arithmetic"'
+            ) from error
+    elif kind == "arithmetic":
+        total = years * (1 + (years - 1) * growth / 2)
+    else:
+        raise InputError(f'kind must be "geometric" or "arithmetic", got {kind!r}')
+    if not total > 0:
+        raise InputError(f"a growth of {growth:g} a year leaves no traffic over {years:g} years")
+    return total
+
+
+def look_up(what: str, table: Mapping[str, Mapping[str, float]], material: str, traffic: str) -> float:
+    """A number of a table by material and class of traffic. Raises InputError that lists what it knows."""
+    if material not in table:
+        raise InputError(f"the table of {what} knows {', '.join(table)}, got {material!r}")
+    if traffic not in table[material]:
+        raise InputError(f"the table of {what} knows the traffic {', '.join(table[material])}, got {traffic!r}")
+    return table[material][traffic]

@@ -1,0 +1,1 @@
+"""Pressure that does not pull and shear that friction bounds: the solvers of both problems."""

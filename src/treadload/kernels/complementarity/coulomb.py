@@ -1,0 +1,78 @@
+"""The tangential problem: shear bounded by a disc, slip opposed to shear that reached the bound.
+
+Find q (2, ny, nx) and the rigid slips ξ whose force is prescribed, so that with  s = S q + w + e ξ
+
+    |q| ≤ g;   s = 0 where |q| < g;   q = -g s/|s| where s ≠ 0;   Σ q_c = Q_c for prescribed forces.
+
+S q is u(x) - u(x + dx) in rolling and u itself in a shift, with u = A q the displacement difference. S is
+monotone, so that a solution exists and is unique. `coulomb_newton` and `coulomb_splitting` are two ways to it.
+
+Source: Kalker (1990), Three-Dimensional Elastic Bodies in Rolling Contact, ch. 4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from treadload.kernels.arrays import Array, BoolArray, ComplexArray
+from treadload.kernels.gridding.convolution import Padding
+
+
+@dataclass(frozen=True)
+class CoulombProblem:
+    """What is given in the tangential problem.
+
+    padding: padded space of the patch; in rolling its field has one column more than the load.
+    compliance: symbols (3, my, mx // 2 + 1) of A: xx, yy, xy; real where A is symmetric.
+    rolls: S q is u(x) - u(x + dx), else u. self_influence: diagonal of S, > 0.
+    bound: g = μp (ny, nx) ≥ 0, zero outside contact.
+    rigid: w (2, ny, nx): rigid slip that is known. travel: e, slip distance per unit of rigid slip ξ.
+    totals: prescribed sums of q_x and q_y over the cells; None where the rigid slip is prescribed instead
+    (it is then part of `rigid`). precondition: of slip (2, ny, nx), zero outside of a mask (ny, nx): an
+    approximate inverse of S on the cells of the mask, in the precision of its argument.
+    """
+
+    padding: Padding
+    compliance: Array | ComplexArray
+    rolls: bool
+    self_influence: float
+    bound: Array
+    rigid: Array
+    travel: float
+    totals: tuple[float | None, float | None]
+    precondition: Callable[[Array, BoolArray], Array]
+
+    @property
+    def forced(self) -> list[int]:
+        """Components whose force is prescribed."""
+        return [c for c in (0, 1) if self.totals[c] is not None]
+
+    def apply(self, q: Array) -> Array:
+        """S q (2, ny, nx), in the precision of q and the compliance."""
+        xx, yy, xy = self.compliance
+        x, y = self.padding.forward(q[0]), self.padding.forward(q[1])
+        spectrum = xx * x
+        spectrum += xy * y
+        u_x = self.padding.inverse(spectrum)
+        np.multiply(xy, x, out=spectrum)
+        y *= yy
+        spectrum += y
+        u = np.stack([u_x, self.padding.inverse(spectrum)])
+        return u[..., :-1] - u[..., 1:] if self.rolls else u
+
+    def slip(self, q: Array, xi: Array) -> Array:
+        """S q + w + e ξ (2, ny, nx), with ξ (2,) the rigid slips found so far."""
+        return self.apply(q) + self.rigid + self.travel * xi[:, None, None]
+
+
+def project_disc(q: Array, bound: Array) -> Array:
+    """Nearest shear (2, …) of size at most bound (…)."""
+    return q * shrink(np.hypot(q[0], q[1]), bound)
+
+
+def shrink(size: Array, bound: Array) -> Array:
+    """Factor that brings a vector of this size back to the bound: 1 inside."""
+    return np.divide(bound, size, out=np.ones_like(size), where=size > bound)

@@ -1,0 +1,130 @@
+"""Linear convolution of gridded loads with influence coefficients by zero-padded FFT (DC-FFT).
+
+The rows that the padding adds are zero on the way in and unwanted on the way out; both are pruned.
+
+Source: Liu, Wang & Liu (2000), Wear 243, 101-111 (discrete convolution and FFT).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from treadload.kernels import fft
+from treadload.kernels.arrays import Array, ComplexArray
+
+
+@dataclass(frozen=True)
+class Padding:
+    """Zero-padded Fourier space in which a product of spectra is a linear convolution.
+
+    load_shape: (ny, nx) of the load. field_shape: (ny, nx) of the result.
+    Where the field lies relative to the load is said by the kernel, sampled at `offsets`.
+    """
+
+    load_shape: tuple[int, int]
+    field_shape: tuple[int, int]
+
+    @classmethod
+    def of(cls, load_shape: tuple[int, int], field_shape: tuple[int, int] | None = None) -> Padding:
+        """Padding for a load and a field of these shapes (ny, nx)."""
+        return cls(load_shape, load_shape if field_shape is None else field_shape)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Padded shape: load + field each way, rounded up to a fast FFT length."""
+        (ny, nx), (my, mx) = self.load_shape, self.field_shape
+        return int(fft.next_fast_len(ny + my)), int(fft.next_fast_len(nx + mx, real=True))
+
+    def offsets(self, dx: float, dy: float, x0: float = 0.0, y0: float = 0.0) -> tuple[Array, Array]:
+        """Distances field cell minus load cell, wrapped: X (1, mx), Y (my, 1), m.
+
+        x0, y0: position of the first field cell minus that of the first load cell, m.
+        Offsets that no pair of cells has are NaN; `spectrum` sets the kernel to zero there.
+        """
+        (my, mx) = self.shape
+        y = _wrapped(self.load_shape[0], self.field_shape[0], my)
+        x = _wrapped(self.load_shape[1], self.field_shape[1], mx)
+        return x0 + dx * x[None, :], y0 + dy * y[:, None]
+
+    @property
+    def quadrant(self) -> tuple[int, int]:
+        """Offsets 0, 1, 2, … both ways (ky, kx) of which `wrap` wants the kernel: as far as they differ."""
+        my, mx = self.shape
+        return my // 2 + 1, mx // 2 + 1
+
+    def wrap(self, quadrant: Array, parity_x: int = 1, parity_y: int = 1) -> Array:
+        """Kernel (my, mx) on the wrapped offsets from its values (ky, kx) on `quadrant`.
+
+        parity_x, parity_y: +1 for a kernel even in that direction, -1 for odd. The wrapped kernel keeps its
+        parity, so that its spectrum is real when it is even in both directions or odd in both, and it has no
+        jump half way round, so that a positive kernel nearly keeps a positive spectrum.
+        """
+        (my, mx) = self.shape
+        jy, sign_y = _mirrored(my, parity_y)
+        jx, sign_x = _mirrored(mx, parity_x)
+        kernel: Array = quadrant[np.ix_(jy, jx)] * sign_y[:, None] * sign_x[None, :]
+        return kernel
+
+    def spectrum(self, kernel: Array) -> ComplexArray:
+        """Spectrum (my, mx // 2 + 1) of a kernel sampled at `offsets`; NaN counts as zero."""
+        spectrum: ComplexArray = fft.rfft2(np.nan_to_num(kernel, copy=True, nan=0.0))
+        return spectrum
+
+    def forward(self, load: Array) -> ComplexArray:
+        """Spectrum (my, mx // 2 + 1) of a load (ny, nx) padded with zeros."""
+        rows = fft.rfft(load, n=self.shape[1], axis=-1)
+        spectrum: ComplexArray = fft.fft(rows, n=self.shape[0], axis=-2, overwrite_x=True)
+        return spectrum
+
+    def inverse(self, spectrum: ComplexArray) -> Array:
+        """Field (ny, nx) of a spectrum: the inverse transform without its padding."""
+        (ny, nx), (_, mx) = self.field_shape, self.shape
+        rows = fft.ifft(spectrum, axis=-2)[..., :ny, :]
+        field: Array = fft.irfft(rows, n=mx, axis=-1)[..., :nx]
+        return field
+
+
+@dataclass(frozen=True)
+class Convolution:
+    """A scalar influence operator: field = Σ kernel(cell - load cell) · load.
+
+    padding: the padded space. spectrum: the kernel in it; real when the kernel is even.
+    """
+
+    padding: Padding
+    spectrum: ComplexArray | Array
+
+    @classmethod
+    def of_kernel(cls, padding: Padding, kernel: Array, *, even: bool = False) -> Convolution:
+        """Operator of a kernel sampled at `padding.offsets`.
+
+        even: the kernel is even in x and in y, so that its spectrum is real and is stored so.
+        """
+        spectrum = padding.spectrum(kernel)
+        return cls(padding, np.ascontiguousarray(spectrum.real) if even else spectrum)
+
+    def __call__(self, load: Array) -> Array:
+        """Field (ny, nx) under a load (ny, nx)."""
+        transformed = self.padding.forward(load)
+        transformed *= self.spectrum
+        return self.padding.inverse(transformed)
+
+
+def _wrapped(n_load: int, n_field: int, n_padded: int) -> Array:
+    """Offsets 0 … n_field - 1, then NaN, then -(n_load - 1) … -1."""
+    offsets = np.full(n_padded, np.nan)
+    offsets[:n_field] = np.arange(n_field)
+    if n_load > 1:
+        offsets[-(n_load - 1) :] = np.arange(-(n_load - 1), 0)
+    return offsets
+
+
+def _mirrored(n_padded: int, parity: int) -> tuple[Array, Array]:
+    """Index into the quadrant and sign, for every wrapped offset."""
+    offset = np.arange(n_padded)
+    offset = np.where(2 * offset > n_padded, offset - n_padded, offset)
+    # Half way round, plus and minus meet: an odd kernel has no value there.
+    sign = np.where(offset < 0, parity, 1) * np.where((2 * offset == n_padded) & (parity < 0), 0, 1)
+    return np.abs(offset), sign

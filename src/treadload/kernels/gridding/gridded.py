@@ -1,0 +1,71 @@
+"""Fields of a gridded load on the grid of any coordinates, by the cheapest way."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from treadload.kernels.arrays import Array
+from treadload.kernels.gridding.lattice import Source, as_lattices, by_lattices, loaded, summed
+from treadload.kernels.gridding.precorrected import FINEST, STENCIL, interpolated, nodes_of, window
+
+# Measured, in pairs of a point and a cell: a padded cell of a lattice, and a cell near a point, corrected.
+_LATTICE_COST, _NEAR_COST = 3.0, 0.5
+
+Method = Literal["auto", "fft", "precorrected", "direct"]
+_Way = tuple[float, str, int]
+
+
+def on_grid(source: Source, depths: Array, x: Array, y: Array, method: Method = "auto") -> tuple[Array, str]:
+    """Fields on the grid of any coordinates x and y.
+
+    depths: (nz,), m. x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order. method: "fft"
+    on the lattices that the coordinates form, "precorrected" by interpolation, see `kernels.gridding.precorrected`,
+    "direct" by summing over cells, or "auto", the cheapest at each depth.
+    Returns (nz, components, my, mx) and the methods used, "none" without load.
+    """
+    fields = np.zeros((len(depths), source.components, len(y), len(x)))
+    part = loaded(source, x, y)
+    if part is None:
+        return fields, "none"
+    ways = [_cheapest(*part, float(depth), method)[1:] for depth in depths]
+    for way in set(ways):
+        rows = [row for row, one in enumerate(ways) if one == way]
+        name, nodes = way
+        if name == "precorrected":
+            fields[rows] = interpolated(part[0], depths[rows], *part[1:], nodes)
+        else:
+            fields[rows] = (by_lattices if name == "fft" else summed)(part[0], depths[rows], *part[1:])
+    return fields, "+".join(sorted({name for name, _ in ways}))
+
+
+def grid_cost(load: Array, dx: float, dy: float, depths: Array, x: Array, y: Array) -> Array:
+    """Pairs of a point and a cell, summed directly, that cost as much as `on_grid` at each depth, (nz,).
+
+    load: (3, ny, nx), whose zeros count. dx, dy: cell, m. The rest as in `on_grid`.
+    """
+    part = loaded(Source(load, dx, dy, lambda *_: iter(()), 0), x, y)
+    if part is None:
+        return np.zeros(len(depths))
+    return np.array([_cheapest(*part, float(depth), "auto")[0] for depth in depths])
+
+
+def _cheapest(source: Source, x: Array, y: Array, depth: float, method: Method) -> _Way:
+    """Cost, way, and nodes in the shorter side of a cell to interpolate from."""
+    _, ny, nx = source.load.shape
+    sides = ((nx, x, source.dx), (ny, y, source.dy))
+    padded = math.prod(sum(cells + count for _, count, _, _ in as_lattices(at, size)) for cells, at, size in sides)
+    ways: list[_Way] = [
+        (_LATTICE_COST * padded, "fft", 0),
+        (len(x) * len(y) * (nx + 1.0) * (ny + 1.0), "direct", 0),
+    ]
+    for nodes in range(1, FINEST + 1):
+        lattices = math.prod(
+            count * (cells + np.ptp(at) / size + 1) + STENCIL
+            for count, (cells, at, size) in zip(nodes_of(source, nodes), sides, strict=True)
+        )
+        near = math.prod(2.0 * (cells + 1) for cells in window(source, depth, nodes))
+        ways.append((_LATTICE_COST * lattices + _NEAR_COST * len(x) * len(y) * near, "precorrected", nodes))
+    return min(way for way in ways if method in ("auto", way[1]))

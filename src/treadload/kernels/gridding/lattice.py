@@ -1,0 +1,174 @@
+"""Fields of a gridded load from the field of one of its cells.
+
+On points that lie a whole number of cells apart the sum over all cells is a convolution, by zero-padded FFT: a
+lattice. Elsewhere it is summed, or interpolated, see `kernels.gridding.precorrected`;
+`kernels.gridding.gridded` chooses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadload.kernels import fft
+from treadload.kernels.arrays import Array, ComplexArray
+
+# Output coordinates whose place within a cell differs by less than this part of a cell share a lattice.
+_SAME_PLACE = 1e-6
+# Points times cells evaluated at once: keeps the temporaries in cache.
+_BLOCK = 17_000
+
+Indices = NDArray[np.integer[Any]]
+Use = tuple[int, int]
+Corner = tuple[Array, tuple[Use, ...]]
+Corners = Callable[[Array, Array, float], Iterator[Corner]]
+"""(x, y, z) from a corner, m → functions, broadcast from x and y, each with the (load, component) pairs it serves."""
+Kernels = Callable[[Array, Array, tuple[int, int], float], Iterator[Corner]]
+"""(x, y, (m, n), z) → fields of one cell, (b, m, a, n), each with the (load, component) pairs it serves.
+
+Offsets from its centre, m: x[a], x[a] + dx, … n of them, and y[b], y[b] + dy, … m of them.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A gridded load and the field of its cells.
+
+    load: (3, ny, nx), Pa. dx, dy: cell, m. kernels: see `Kernels`. components: of the field. half: of the width of
+    the load of one cell, in cells.
+    """
+
+    load: Array
+    dx: float
+    dy: float
+    kernels: Kernels
+    components: int
+    half: float = 0.5
+
+
+def of_corners(corners: Corners, dx: float, dy: float) -> Kernels:
+    """Fields of a uniform cell: the alternating sums of some functions over its four corners."""
+
+    def kernels(x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+        m, n = shape
+        # Neighbouring offsets share their corners: one more corner than offsets each way.
+        corner_x = (x[:, None] + dx * (np.arange(n + 1) - 0.5)).reshape(1, -1)
+        corner_y = (y[:, None] + dy * (np.arange(m + 1) - 0.5)).reshape(-1, 1)
+        for values, uses in corners(corner_x, corner_y, z):
+            ends = values.reshape(len(y), m + 1, len(x), n + 1)
+            lines = ends[..., 1:] - ends[..., :-1]
+            yield lines[:, 1:] - lines[:, :-1], uses
+
+    return kernels
+
+
+def loaded(source: Source, x: Array, y: Array) -> tuple[Source, Array, Array] | None:
+    """The source without unloaded margins, and the coordinates from its first cell; None without load."""
+    load = source.load
+    rows, columns = np.flatnonzero(load.any(axis=(0, 2))), np.flatnonzero(load.any(axis=(0, 1)))
+    if not len(rows):
+        return None
+    # Unloaded rows and columns around the footprint do nothing but cost.
+    part = load[:, rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    return replace(source, load=part), x - source.dx * columns[0], y - source.dy * rows[0]
+
+
+def by_lattices(source: Source, depths: Array, x: Array, y: Array) -> Array:
+    """Fields (nz, components, my, mx) on a grid by a convolution for each lattice that its coordinates form.
+
+    depths: (nz,), m. x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order.
+    """
+    fields = np.zeros((len(depths), source.components, len(y), len(x)))
+    for y0, count_y, at_y, from_y in as_lattices(y, source.dy):
+        for x0, count_x, at_x, from_x in as_lattices(x, source.dx):
+            fields[:, :, at_y[:, None], at_x] = on_lattice(
+                source, depths, (count_y, count_x), x0, y0, (from_y, from_x)
+            )
+    return fields
+
+
+def on_lattice(
+    source: Source,
+    depths: Array,
+    shape: tuple[int, int],
+    x0: float,
+    y0: float,
+    wanted: tuple[Indices | slice, Indices | slice] = (slice(None), slice(None)),
+) -> Array:
+    """Fields on points spaced like the cells, by zero-padded FFT convolution.
+
+    shape: (my, mx) of the lattice. x0, y0: its first point minus the centre of the first cell, m.
+    wanted: its rows and columns to return; all. Returns (nz, components, rows, columns).
+    """
+    load, dx, dy = source.load, source.dx, source.dy
+    _, ny, nx = load.shape
+    my, mx = shape
+    high, wide = ny + my - 1, nx + mx - 1
+    padded = int(fft.next_fast_len(high)), int(fft.next_fast_len(wide, real=True))
+    transformed: dict[int, ComplexArray] = {k: fft.rfft2(load[k], s=padded) for k in range(3) if load[k].any()}
+    first_x, first_y = np.array([x0 - dx * (nx - 1)]), np.array([y0 - dy * (ny - 1)])
+    # The offsets start at the most negative one; what wraps around lies in the rows and columns before.
+    rows, columns = np.arange(ny - 1, high)[wanted[0]], np.arange(nx - 1, wide)[wanted[1]]
+    fields = np.zeros((len(depths), source.components, len(rows), len(columns)))
+    for field, depth in zip(fields, depths, strict=True):
+        spectra: dict[int, ComplexArray] = {}
+        for values, uses in source.kernels(first_x, first_y, (high, wide), float(depth)):
+            served = [(k, component) for k, component in uses if k in transformed]
+            if not served:
+                continue
+            spectrum = fft.rfft2(values[0, :, 0], s=padded)
+            for k, component in served:
+                product = spectrum * transformed[k]
+                if component in spectra:
+                    spectra[component] += product
+                else:
+                    spectra[component] = product
+        for component, spectrum in spectra.items():
+            part = fft.ifft(spectrum, axis=0, overwrite_x=True)[rows]
+            field[component] = fft.irfft(part, n=padded[1], axis=1)[:, columns]
+    return fields
+
+
+def summed(source: Source, depths: Array, x: Array, y: Array) -> Array:
+    """Fields by summing over the cells, arguments as in `by_lattices`; in blocks, to bound memory."""
+    dx, dy = source.dx, source.dy
+    _, ny, nx = source.load.shape
+    # Offsets rise while cells fall.
+    turned = {k: source.load[k, ::-1, ::-1] for k in range(3) if source.load[k].any()}
+    fields = np.zeros((len(depths), source.components, len(y), len(x)))
+    for rows, columns in blocks(len(y), len(x), ny * nx):
+        first_x, first_y = x[columns] - dx * (nx - 1), y[rows] - dy * (ny - 1)
+        for field, depth in zip(fields, depths, strict=True):
+            for values, uses in source.kernels(first_x, first_y, (ny, nx), float(depth)):
+                for k, component in uses:
+                    if k in turned:
+                        field[component, rows, columns] += np.einsum("bman,mn->ba", values, turned[k])
+    return fields
+
+
+def blocks(rows: int, columns: int, each: int) -> Iterator[tuple[slice, slice]]:
+    """Parts of a grid of points whose number times `each` stays in cache."""
+    wide = max(1, min(columns, _BLOCK // each))
+    high = max(1, _BLOCK // (each * wide))
+    for row in range(0, rows, high):
+        for column in range(0, columns, wide):
+            yield slice(row, row + high), slice(column, column + wide)
+
+
+def as_lattices(x: Array, dx: float) -> list[tuple[float, int, Indices, Indices]]:
+    """Coordinates as lattices of spacing dx: first point, number of points, indices into x and into the lattice."""
+    cells = x / dx
+    whole = np.floor(cells + _SAME_PLACE)
+    place = cells - whole
+    order = np.argsort(place, kind="stable")
+    cuts = np.nonzero(np.diff(place[order]) > _SAME_PLACE)[0] + 1
+    lattices: list[tuple[float, int, Indices, Indices]] = []
+    for members in np.split(order, cuts):
+        first, last = whole[members].min(), whole[members].max()
+        start = dx * (first + place[members].mean())
+        lattices.append((float(start), int(last - first) + 1, members, (whole[members] - first).astype(int)))
+    return lattices

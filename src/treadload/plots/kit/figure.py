@@ -1,0 +1,44 @@
+"""New figures, which a notebook shows by themselves."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from treadload.plots.kit.files import png
+from treadload.plots.kit.style import figure_of
+
+# Points per inch of the picture in a notebook, and those of the page it stands on.
+_SHARP, _PAGE = 200.0, 100.0
+
+
+class ShownFigure(Figure):
+    """A matplotlib Figure that a notebook shows where it is the last line of a cell.
+
+    pyplot does not know our figures, so that nothing global changes and none is drawn twice. Without pyplot a
+    notebook has no way of its own to show a Figure; this one brings it. Where `%matplotlib inline` brought another
+    before, that one serves, once.
+    """
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, Any]]:
+        image = png(self, dpi=_SHARP)
+        # Width and height stand at a fixed place of every PNG.
+        pixels = struct.unpack(">II", image[16:24])
+        width, height = (round(side * _PAGE / _SHARP) for side in pixels)
+        return image, {"width": width, "height": height}
+
+
+def new_figure(width: float, height: float, layout: str = "constrained") -> Figure:
+    """An empty figure. width, height: inches. layout: of matplotlib, "constrained" or "compressed"."""
+    return ShownFigure(figsize=(width, height), layout=layout)  # type: ignore[arg-type]
+
+
+def figure_and_axes(ax: Axes | None, width: float, height: float) -> tuple[Figure, Axes]:
+    """The figure (inches) of a new pair of axes, or of the axes given."""
+    if ax is not None:
+        return figure_of(ax), ax
+    figure = new_figure(width, height)
+    return figure, figure.add_subplot()

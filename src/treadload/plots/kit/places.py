@@ -1,0 +1,81 @@
+"""Places under a tire that a reader asks for: its centre, the middle and the edge of a rib."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import BoolArray
+from treadload.plots.kit.plan import Source, edges, fields_of, plane
+
+# Share of the largest pressure below which a cell does not count as touched: transforms leave a little stress.
+_TOUCHED = 5e-3
+# Share of the largest line load that a line across travel needs to stand for the tire: not in a lateral groove.
+_LOADED = 0.7
+
+
+def pressure_of(source: Source) -> xr.Dataset:
+    """Dataset with `pressure` (y, x), Pa, of a contact, or of the surface stress of a response.
+
+    Raises InputError if the source has neither, or nothing presses.
+    """
+    data = fields_of(source)
+    if "pressure" not in data:
+        if "stress_zz" not in data or not np.isclose(float(data["depth"].min()), 0.0):
+            raise InputError("the load is not known: give a contact, or a response that has the depth 0")
+        surface = data["stress_zz"]
+        if "depth" in surface.dims:
+            surface = surface.isel(depth=int(np.argmin(data["depth"].to_numpy())))
+        # A slice has lost one of its coordinates' lengths, not the coordinate.
+        missing = [name for name in ("y", "x") if name not in surface.dims]
+        data = xr.Dataset({"pressure": -surface.expand_dims(missing)})
+    pressure = plane(data, "pressure")
+    if not (pressure > 0).any():
+        raise InputError("nothing presses on this road, so no place under the tire can be told")
+    pressure = np.where(pressure >= _TOUCHED * pressure.max(), pressure, 0.0)
+    points = {name: np.atleast_1d(data[name].to_numpy()) for name in ("y", "x")}
+    return xr.Dataset({"pressure": (("y", "x"), pressure)}, points)
+
+
+def load_centre(source: Source) -> tuple[float, float]:
+    """X and y, m, of the centre of pressure of a contact or of the load on a response's surface."""
+    data = pressure_of(source)
+    x, y = data["x"].to_numpy(), data["y"].to_numpy()
+    load = plane(data, "pressure") * np.outer(np.diff(edges(y)), np.diff(edges(x)))
+    return float((load.sum(axis=0) * x).sum() / load.sum()), float((load.sum(axis=1) * y).sum() / load.sum())
+
+
+def places_under(contact: Source) -> dict[str, tuple[float, float]]:
+    """Telling places under a tire, x and y in m, from its contact pressure.
+
+    contact: with pressure (y, x), Pa, or a response with the stress at the surface. All places lie on one line
+    across travel, the loaded one nearest to the centre of pressure, at centres of cells: "tire's centre";
+    "rib's middle" and "rib's edge" of the rib that carries most beside the one over the centre, the edge in its
+    last cell away from the centre. A smooth tire has the centre and the edge only.
+    Raises InputError if nothing presses.
+    """
+    data = pressure_of(contact)
+    pressure, x, y = plane(data, "pressure"), data["x"].to_numpy(), data["y"].to_numpy()
+    x_centre, y_centre = load_centre(data)
+    line_load = pressure.sum(axis=0)
+    loaded = np.nonzero(line_load >= _LOADED * line_load.max())[0]
+    column = int(loaded[np.argmin(np.abs(x[loaded] - x_centre))])
+    here = float(x[column])
+    line = pressure[:, column]
+    middle = int(np.argmin(np.abs(y - y_centre)))
+    ribs = _runs(line > 0)
+    beside = [rib for rib in ribs if middle not in rib] or ribs
+    rib = max(beside, key=lambda rows: float(line[rows].sum()))
+    outer = rib[-1] if abs(y[rib[-1]] - y_centre) >= abs(y[rib[0]] - y_centre) else rib[0]
+    places = {"tire's centre": (here, float(y[middle]))}
+    if middle not in rib:
+        places["rib's middle"] = (here, float(y[rib[len(rib) // 2]]))
+    places["rib's edge"] = (here, float(y[outer]))
+    return places
+
+
+def _runs(mask: BoolArray) -> list[range]:
+    """Rows of each unbroken run of a mask (n,)."""
+    steps = np.diff(np.concatenate([[0], mask.astype(int), [0]]))
+    return [range(int(a), int(b)) for a, b in zip(np.nonzero(steps == 1)[0], np.nonzero(steps == -1)[0], strict=True)]

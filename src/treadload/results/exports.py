@@ -1,0 +1,265 @@
+"""Results as tables for other programs: CSV and Excel, one row a point, units in the headings.
+
+NetCDF (`results.files`) keeps everything and is read back; tables are for spreadsheets and scripts.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import math
+import os
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+import xarray as xr
+
+from treadload.errors import InputError, how_to_install
+from treadload.files import EXCEL, NETCDF, TABLE, check_suffix, replacing
+from treadload.results.files import save
+
+FORMATS = NETCDF | TABLE | EXCEL
+"""Suffixes that results can be written with, and what they mean."""
+
+# Of a sheet of Excel: rows, characters of a cell, characters of a name.
+_MOST_ROWS, _CELL, _NAME = 1_048_576, 32_000, 31
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+
+
+@runtime_checkable
+class _HasTree(Protocol):
+    def to_tree(self) -> xr.DataTree: ...
+
+
+@runtime_checkable
+class _HasDataset(Protocol):
+    @property
+    def dataset(self) -> xr.Dataset: ...
+
+
+Exportable = xr.DataTree | xr.Dataset | _HasTree | _HasDataset
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A table. name: of the sheet, "" for the one that takes the name of the file. columns: heading → values (n,)."""
+
+    name: str
+    columns: dict[str, Any]
+
+
+def check_output(path: str | os.PathLike[str]) -> None:
+    """Raise InputError now if results could not be written to `path` later: suffix, package, folder."""
+    suffix = check_suffix(path, FORMATS, "results")
+    if suffix in EXCEL:
+        _openpyxl(path)
+
+
+def write(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+    """Write results as the suffix of the path says; the files written. Raises InputError."""
+    suffix = check_suffix(path, FORMATS, "results")
+    if suffix in TABLE:
+        return write_csv(results, path)
+    return (write_excel(results, path) if suffix in EXCEL else save(results, path),)
+
+
+def write_csv(results: Exportable, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+    """Write results as CSV, one table a file, UTF-8, commas between and points in the numbers.
+
+    results: a contact, response, verdict, life, the result of a case, a dataset or a tree. path: of the file. Fields
+    over the same coordinates make a table with one row a point, coordinates first, units in the headings. The main
+    table of a single group takes the path; others stand beside it with their names behind an underscore, so that
+    "r.csv" of a case makes r_contact.csv, r_contact_scalars.csv, r_response.csv, ..., r_about.csv.
+    Returns the files written, the main one first: all of them, or none. Raises InputError.
+    """
+    path = Path(path)
+    check_suffix(path, TABLE, "tables")
+    tables = _tables(results)
+    files = [path.with_name(f"{path.stem}_{one.name}{path.suffix}") if one.name else path for one in tables]
+    with contextlib.ExitStack() as stack:
+        # Every table is written before the first one takes its place.
+        for table, file in zip(tables, files, strict=True):
+            temporary = stack.enter_context(replacing(file))
+            with temporary.open("w", encoding="utf-8", newline="") as stream:
+                writer = csv.writer(stream)
+                writer.writerow(table.columns)
+                writer.writerows(_rows(table))
+    return tuple(files)
+
+
+def write_excel(results: Exportable, path: str | os.PathLike[str]) -> Path:
+    """Write results as an Excel workbook, one sheet a table, see `write_csv`.
+
+    Returns the path; the file appears whole or not at all. Raises InputError, also where openpyxl is not installed
+    and for a table of more rows than a sheet holds.
+    """
+    path = Path(path)
+    check_suffix(path, EXCEL, "a workbook")
+    openpyxl = _openpyxl(path)
+    tables = _tables(results)
+    for table in tables:
+        rows = len(next(iter(table.columns.values())))
+        if rows >= _MOST_ROWS:
+            raise InputError(
+                f"cannot write {path}: the table {table.name or path.stem!r} has {rows} rows and a heading, a sheet "
+                f"holds {_MOST_ROWS}; write .csv or .nc, or ask for fewer depths"
+            )
+    book = openpyxl.Workbook(write_only=True)
+    taken: set[str] = set()
+    for table in tables:
+        sheet = book.create_sheet(_sheet_name(table.name or path.stem, taken))
+        sheet.freeze_panes = "A2"
+        text = openpyxl.cell.WriteOnlyCell
+        sheet.append([_text(text, sheet, heading) for heading in table.columns])
+        for row in _excel_rows(table):
+            sheet.append([_text(text, sheet, value) if isinstance(value, str) else value for value in row])
+    with replacing(path) as temporary:
+        book.save(temporary)
+    return path
+
+
+def _tables(results: Exportable) -> list[Table]:
+    if isinstance(results, _HasTree) and not isinstance(results, xr.DataTree):
+        results = results.to_tree()
+    elif isinstance(results, _HasDataset) and not isinstance(results, xr.DataTree | xr.Dataset):
+        results = results.dataset
+    if isinstance(results, xr.Dataset):
+        found = list(_of_group("", results))
+    elif isinstance(results, xr.DataTree):
+        groups = {str(name): node.to_dataset() for name, node in results.children.items()}
+        groups = {name: data for name, data in groups.items() if data.data_vars}
+        single = len(groups) == 1
+        found = [table for name, data in groups.items() for table in _of_group("" if single else name, data)]
+        found += [_about(results)] if found else []
+    else:
+        raise InputError(f"tables are written of results, got {type(results).__name__}; give a contact or a tree")
+    if not found:
+        raise InputError("there is nothing to write: these results hold no fields")
+    return found
+
+
+def _of_group(group: str, data: xr.Dataset) -> Iterator[Table]:
+    """The tables of a group: fields by their dimensions, the most first, numbers without any last."""
+    by_dims: dict[tuple[str, ...], list[str]] = {}
+    for name, field in data.data_vars.items():
+        by_dims.setdefault(tuple(str(d) for d in field.dims if d != "component"), []).append(str(name))
+    scalars = by_dims.pop((), [])
+    main = max(by_dims, key=lambda dims: len(by_dims[dims]), default=None)
+    for dims in sorted(by_dims, key=lambda dims: dims != main):
+        name = "_".join([group] * bool(group) + ([] if dims == main else list(dims)))
+        yield Table(name, _columns(data, dims, by_dims[dims]))
+    if scalars:
+        rows = [data[name] for name in scalars]
+        columns = {
+            "quantity": scalars,
+            "value": [row.item() for row in rows],
+            "unit": [_unit(row) for row in rows],
+            "meaning": [str(row.attrs.get("long_name", "")) for row in rows],
+        }
+        yield Table("_".join([*([group] if group else []), *(["scalars"] if group or by_dims else [])]), columns)
+
+
+def _columns(data: xr.Dataset, dims: Sequence[str], names: Sequence[str]) -> dict[str, Any]:
+    """Coordinates and fields over these dimensions, flat, the last dimension running fastest."""
+    shape = tuple(data.sizes[dim] for dim in dims)
+    found: dict[str, Any] = {}
+    for number, dim in enumerate(dims):
+        if dim in data.coords:
+            found[_heading(dim, data[dim])] = _flat(data[dim], dims, shape)
+        else:
+            along = np.arange(shape[number]).reshape([-1 if k == number else 1 for k in range(len(dims))])
+            found[dim] = np.broadcast_to(along, shape).ravel()
+    # Along a list of points x and y are coordinates, too.
+    for name in sorted(str(name) for name in data.coords if name not in dims):
+        if data[name].dims and set(data[name].dims) <= set(dims):
+            found[_heading(name, data[name])] = _flat(data[name], dims, shape)
+    for name in names:
+        field = data[name]
+        if "component" in field.dims:
+            for part in (
+                data["component"].to_numpy() if "component" in data.coords else range(field.sizes["component"])
+            ):
+                one = field.sel(component=part) if "component" in data.coords else field.isel(component=part)
+                found[_heading(f"{name}_{part}", field)] = _flat(one, dims, shape)
+        else:
+            found[_heading(name, field)] = _flat(field, dims, shape)
+    return found
+
+
+def _flat(field: xr.DataArray, dims: Sequence[str], shape: tuple[int, ...]) -> Any:
+    """Values of a field, repeated along the dimensions that it lacks."""
+    own = [dim for dim in dims if dim in field.dims]
+    values = field.transpose(*own).to_numpy()
+    wide = values.reshape([size if dim in own else 1 for dim, size in zip(dims, shape, strict=True)])
+    return np.broadcast_to(wide, shape).ravel()
+
+
+def _heading(name: str, field: xr.DataArray) -> str:
+    unit = _unit(field)
+    return f"{name} [{unit}]" if unit else name
+
+
+def _unit(field: xr.DataArray) -> str:
+    return str(field.attrs.get("units", ""))
+
+
+def _about(tree: xr.DataTree) -> Table:
+    """What the tree and its groups say of themselves: title, case, warnings, versions."""
+    nodes = [("", tree), *((str(name), node) for name, node in tree.children.items())]
+    rows = [(group, str(name), str(value)) for group, node in nodes for name, value in node.attrs.items()]
+    group, name, value = zip(*rows, strict=True) if rows else ((), (), ())
+    return Table("about", {"group": list(group), "name": list(name), "value": list(value)})
+
+
+def _rows(table: Table) -> Iterator[tuple[Any, ...]]:
+    """Rows of plain values; NaN is an empty cell."""
+    columns = [
+        values if isinstance(values, list) else np.asarray(values).tolist() for values in table.columns.values()
+    ]
+    return zip(*([None if value != value else value for value in column] for column in columns), strict=True)
+
+
+def _excel_rows(table: Table) -> Iterator[tuple[Any, ...]]:
+    """Rows that fit into cells: infinity as text, long texts in pieces below each other."""
+    for row in _rows(table):
+        fit = [str(value) if isinstance(value, float) and math.isinf(value) else value for value in row]
+        longest = max((len(value) for value in fit if isinstance(value, str)), default=0)
+        if longest <= _CELL:
+            yield tuple(fit)
+            continue
+        for start in range(0, longest, _CELL):
+            yield tuple(value[start : start + _CELL] if isinstance(value, str) else value for value in fit)
+
+
+def _text(cell: Any, sheet: Any, value: str) -> Any:
+    """A cell of text, also where it starts with "=" and would be a formula."""
+    made = cell(sheet, _CONTROL.sub(" ", value))
+    made.data_type = "s"
+    return made
+
+
+def _sheet_name(name: str, taken: set[str]) -> str:
+    """A name that Excel takes, and that no other sheet has."""
+    plain = re.sub(r"[\[\]:*?/\\']", "_", name)[:_NAME] or "results"
+    found, number = plain, 2
+    while found.casefold() in taken:
+        found = f"{plain[: _NAME - 1 - len(str(number))]}_{number}"
+        number += 1
+    taken.add(found.casefold())
+    return found
+
+
+def _openpyxl(path: str | os.PathLike[str]) -> Any:
+    try:
+        import openpyxl
+        import openpyxl.cell
+    except ImportError as error:
+        raise InputError(
+            f"cannot write {path}: Excel needs openpyxl, which is not installed; {how_to_install('excel')}, or write "
+            ".csv"
+        ) from error
+    return openpyxl

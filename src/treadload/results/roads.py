@@ -1,0 +1,43 @@
+"""A road as rows of a table and in words, as results tell it."""
+
+from __future__ import annotations
+
+from treadload.case import Case
+from treadload.pavement import BONDED, LayerRow, Pavement, layer_rows
+
+
+def road_in_rows(road: Pavement, case: Case | None = None) -> str:
+    """The layers of a road as a table in text: thickness, modulus, bond, temperature; the speed of the wheels.
+
+    road: at its temperature. case: that tells the temperatures and the speed.
+    """
+    rows = rows_of(road, case)
+    speed = case.speed if case is not None and road.is_viscoelastic else None
+    lines = ["road from the surface down" + ("" if speed is None else f", wheels at {speed * 3.6:g} km/h")]
+    wide = max(len(row.name) for row in rows)
+    for number, row in enumerate(rows, start=1):
+        thickness = "" if row.thickness is None else f"{row.thickness * 1e3:g} mm"
+        told = [f"E = {row.modulus / 1e6:.5g} MPa", f"ν = {row.poisson:g}"]
+        if row.frequency is not None:
+            told[0] = f"|E*| = {row.modulus / 1e6:.4g} MPa at {row.frequency:g} Hz"
+        told += [f"{row.temperature:g} °C"] if row.temperature is not None else []
+        told += [f"{row.bond}{' to the next' if number < len(rows) else ''}"] if row.bond else []
+        lines.append(f"  {number}  {row.name:{wide}}  {thickness:>8}  " + ", ".join(told))
+    return "\n".join(lines)
+
+
+def rows_of(road: Pavement | None, case: Case | None) -> tuple[LayerRow, ...]:
+    """The layers of a road, at the temperatures that the case tells; none of no road."""
+    if road is None:
+        return ()
+    return layer_rows(road, case.pavement.layer_temperatures() if case is not None else ())
+
+
+def road_in_words(road: Pavement) -> str:
+    """The layers of a road in one line."""
+    layers = []
+    for layer in road.layers:
+        depth = "half-space" if layer.thickness is None else f"{layer.thickness * 1e3:g} mm"
+        bond = "" if layer.bond == BONDED else f", {layer.bond} below"
+        layers.append(f"{layer.name or 'layer'} ({depth}): {layer.material}{bond}")
+    return "; ".join([*layers, "rigid base"] if road.rigid_base else layers)

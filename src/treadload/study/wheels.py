@@ -1,0 +1,118 @@
+"""The wheels of a class of axles: which contacts they need, and where they stand on the common lattice."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from treadload.contact import Contact, solve_contact
+from treadload.damage.traffic import AxleClass
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.response import GridLoad
+from treadload.tire import Tire
+
+# Points beyond the outer edges of the wheels, m: strain there is a few per cent of the largest.
+MARGIN = 0.3
+# Readings are told at least this close to each other across travel, m: a fifth of the mean that they are over.
+_BETWEEN = 2e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Wheels:
+    """The wheels of a class with their contact, on the cells of the common lattice.
+
+    loads: one a wheel. x: of the cells' centres under the axles, m, one row an axle, from the rear to the front.
+    speed: m/s, or None.
+    """
+
+    loads: tuple[GridLoad, ...]
+    x: Array
+    speed: float | None
+    name: str
+
+    @property
+    def cell(self) -> float:
+        """Size of the cells across travel, m."""
+        return self.loads[0].grid.dy
+
+
+def check_speed(row: AxleClass, road: Pavement) -> None:
+    """Raise InputError for a class without speed on a viscoelastic road."""
+    if road.is_viscoelastic and row.speed is None:
+        raise InputError(f"the road is viscoelastic: give the class {row.name!r} a speed in m/s")
+
+
+def state(row: AxleClass) -> tuple[Any, ...]:
+    """What the contact of a class depends on, besides the tire and the road."""
+    return row.wheel_load, row.inflation_pressure, row.maneuver, row.friction, row.speed, row.tire
+
+
+def states_of(row: AxleClass, tire: Tire) -> tuple[tuple[Any, ...], ...]:
+    """The state of a class; and, where wheels are mirrored and their tread is not its own mirror image, that whose
+    mirror image is theirs: with side force and spin turned round.
+    """
+    if not row.mirrored or (row.tire or tire).is_symmetric:
+        return (state(row),)
+    maneuver = replace(row.maneuver, lateral=-row.maneuver.lateral, spin=-row.maneuver.spin)
+    return state(row), state(replace(row, maneuver=maneuver))
+
+
+def contact_of(tire: Tire, road: Pavement, one: tuple[Any, ...], spacing: float) -> Contact:
+    """The contact in a state, see `state`."""
+    load, pressure, maneuver, friction, speed, own = one
+    inflated = replace(own or tire, inflation_pressure=pressure)
+    return solve_contact(inflated, road, maneuver.rolling(load, friction, speed=speed), spacing=spacing)
+
+
+def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
+    """Evenly spaced y, m, on the cells of the first contact and between them, over all wheels and a margin.
+
+    Between cells lie the places of the largest readings, which must not depend on where the cells lie.
+    """
+    first = contacts[0].dataset
+    dy, start = float(first.attrs["dy"]), float(first["y"][0])
+    half = max(
+        float(np.abs(contact.dataset["y"]).max()) + max(abs(y) for _, y in row.wheels)
+        for contact, row in zip(contacts, classes, strict=True)
+    )
+    low, high = np.floor((-half - MARGIN - start) / dy), np.ceil((half + MARGIN - start) / dy)
+    between = math.ceil(dy / _BETWEEN - 1e-9)
+    return start + dy / between * np.arange(between * low, between * high + 1)
+
+
+def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
+    """The wheels of a class, each moved by half a cell at most onto the lattice of y and of its own x.
+
+    contacts: in the states of the class, see `states_of`.
+    """
+    own, other = GridLoad.from_dataset(contacts[0].dataset), GridLoad.from_dataset(contacts[-1].dataset)
+    grid = own.grid
+    dx, dy = grid.dx, grid.dy
+    loads = []
+    for number, (at_x, at_y) in enumerate(row.wheels):
+        one = other.mirrored() if len(contacts) > 1 and number in row.mirrored else own
+        row_y = round((at_y + one.grid.y0 - y[0]) / dy)
+        loads.append(one.moved(x=dx * round(at_x / dx), y=float(y[0]) + dy * row_y - one.grid.y0))
+    centres = sorted({round(at_x / dx) for at_x, _ in row.wheels})
+    return Wheels(
+        tuple(loads),
+        np.array([grid.x + dx * centre for centre in centres]),
+        row.speed,
+        row.name,
+    )
+
+
+def moved(wheels: Wheels, row: AxleClass) -> float:
+    """Largest distance along x or y between where wheels stand and where they should, m."""
+    own = wheels.loads[0].grid
+    shifts = [
+        (one.grid.x0 - own.x0 - (x - row.wheels[0][0]), one.grid.y0 - own.y0 - (y - row.wheels[0][1]))
+        for one, (x, y) in zip(wheels.loads, row.wheels, strict=True)
+    ]
+    return float(np.abs(shifts).max())
