@@ -143,3 +143,17 @@ def test_a_parking_turn_twists_the_road(tire):
 def test_bad_input_is_named(make, words):
     with pytest.raises(tl.InputError, match=words):
         make()
+
+
+@pytest.mark.parametrize(
+    ("radius", "speed", "crossfall", "words"),
+    [
+        (12.0, 1e300, 0.0, "by inf of its weight, which no road with a crossfall of 0 can hold"),
+        # The road falls away at the very angle at which the pull leaves it: once a division by zero.
+        (10.0, math.sqrt(40 * GRAVITY), -0.25, "by 4 of its weight, .* crossfall of -0.25 can hold"),
+        (5e-324, 0.0, 0.0, "radius must be a number of metres"),
+    ],
+)
+def test_a_turn_beyond_all_roads_is_refused(radius, speed, crossfall, words):
+    with pytest.raises(tl.InputError, match=words):
+        tl.Maneuver.turning(radius, speed, crossfall=crossfall)

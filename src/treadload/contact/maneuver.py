@@ -92,7 +92,7 @@ class Maneuver:
         + for the outer wheel, which lies away from the centre. Without them the load is the wheel's in the turn.
         wheel: "outer" or "inner". Raises InputError, also where the vehicle tips.
         """
-        if not (math.isfinite(radius) and radius != 0):
+        if not (math.isfinite(radius) and radius != 0 and math.isfinite(1 / radius)):
             raise InputError(f"radius must be a number of metres other than 0, got {radius}; use STRAIGHT")
         if not (math.isfinite(speed) and speed >= 0):
             raise InputError(f"speed must be >= 0 m/s, got {speed}")
@@ -100,7 +100,12 @@ class Maneuver:
             raise InputError(f"crossfall must lie in (-0.5, 0.5), got {crossfall}; 2.5 % is 0.025")
         if wheel not in ("outer", "inner"):
             raise InputError(f'wheel must be "outer" or "inner", got {wheel!r}')
-        pull = speed**2 / (GRAVITY * abs(radius))
+        pull = speed * speed / (GRAVITY * abs(radius))
+        if not (math.isfinite(pull) and 1 + pull * crossfall > 0):
+            raise InputError(
+                f"{speed:g} m/s on a circle of {abs(radius):g} m pull a wheel aside by {pull:.3g} of its weight, "
+                f"which no road with a crossfall of {crossfall:g} can hold; lower the speed, or take a wider circle"
+            )
         share = (pull - crossfall) / (1 + pull * crossfall)
         ratio = 1.0
         if track is not None or centre_of_gravity is not None:

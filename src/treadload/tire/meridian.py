@@ -17,6 +17,7 @@ NARROWEST = 0.002
 WIDEST = 0.045
 STEADY = 0.3e-3  # what the fit of the axle and a drawn tread may be off, m
 CHANGING = 0.005
+WIDEST_FACET = math.radians(61)  # an edge wider than of a hexagon goes through the tire, to a point that stands wrong
 STEEPEST = 1.5  # what rises more is a wall and not the rounded end of a tread
 
 
@@ -75,9 +76,12 @@ def facet_sag(vertices: Array, faces: NDArray[np.int64], envelope: Array) -> flo
     edge = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     edge = edge[high[edge].all(axis=1)]
     a, b = vertices[edge[:, 0]][:, [0, 2]], vertices[edge[:, 1]][:, [0, 2]]
-    sag = 0.5 * (r[edge[:, 0]] + r[edge[:, 1]]) - np.linalg.norm(0.5 * (a + b), axis=1)
+    outer = 0.5 * (r[edge[:, 0]] + r[edge[:, 1]])
+    sag = outer - np.linalg.norm(0.5 * (a + b), axis=1)
     # Weighted by length: a tread modelled in detail may have many short edges beside its long facets.
     length = np.linalg.norm(a - b, axis=1)
+    facet = length < 2 * outer * math.sin(0.5 * WIDEST_FACET)
+    sag, length = sag[facet], length[facet]
     if not length.sum() > 0:
         return 0.0
     order = np.argsort(sag)

@@ -22,7 +22,7 @@ from treadload.tire.quality import Outlier, ScanQuality
 from treadload.tire.rays import Caster, radial
 from treadload.tire.scan_options import ScanOptions
 from treadload.tire.scan_surface import DEEPEST, EXTENT_DROP, SECTOR, SMALL_HOLES, ScanSurface
-from treadload.tire.scan_units import scale_of
+from treadload.tire.scan_units import check_diameter, scale_of
 
 POSSIBLE_PROPORTIONS = (0.1, 0.8)  # width over outer diameter
 LUG_WINDOW = math.radians(30)  # the next lug is nearer than this
@@ -108,12 +108,15 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
         warnings.append(sticking.told(found, options.outliers == "keep"))
     if found and options.outliers == "remove":
         seen = _Unrolled.of(mesh, scale * axis.radius)
+        _check_seen(seen, name)
         noise, flat, tread = _noise(mesh, seen)
     _check_round(seen, options.roundness, name)
     if label == "scaled" and options.nominal_diameter is not None:
         factor = 0.5 * options.nominal_diameter / seen.crown
         scale, mesh, seen = scale * factor, replace(mesh, vertices=mesh.vertices * factor), seen.scaled(factor)
         noise, flat = noise * factor, flat * factor
+    # The axle was fitted to most of the points; the tread is what rays from around met.
+    check_diameter(2 * seen.crown, label, name)
 
     vertices, y = _amid_tread(mesh.vertices, seen)
     rows = seen.top > seen.crown - EXTENT_DROP
@@ -224,6 +227,12 @@ def _check_seen(seen: _Unrolled, name: str) -> None:
             f"{name!r} has tread on {known.mean() * 360:.0f}° of the turn, at least 30° are needed; "
             "scan more of the tire, or check that the file holds one"
         )
+    with np.errstate(invalid="ignore"):
+        if not (seen.top > seen.crown - EXTENT_DROP).any():
+            raise GeometryError(
+                f"the facets of {name!r} cut {seen.sag * 1e3:.0f} mm under the circle through their corners and "
+                f"hide its tread of {EXTENT_DROP * 1e3:.0f} mm; export the mesh finer"
+            )
 
 
 def _check_round(seen: _Unrolled, roundness: float, name: str) -> None:

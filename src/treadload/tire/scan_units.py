@@ -62,10 +62,15 @@ def scale_of(diameter: float, unit: str | None, nominal: float | None, name: str
                 "nominal_diameter="
             )
         unit, scale = fits[0], UNITS[fits[0]]
+    check_diameter(diameter * scale, unit, name)
+    return unit, scale, warnings
+
+
+def check_diameter(diameter: float, unit: str, name: str) -> None:
+    """Raise InputError for an outer diameter, m, that no tire has. unit: of the file."""
     low, high = POSSIBLE_DIAMETERS
-    if not low <= diameter * scale <= high:
+    if not low <= diameter <= high:
         raise InputError(
-            f"in {unit} the tire of {name!r} would have an outer diameter of {diameter * scale:.3g} m, outside "
+            f"in {unit} the tire of {name!r} would have an outer diameter of {diameter:.3g} m, outside "
             f"{low} to {high} m; give other units= or nominal_diameter="
         )
-    return unit, scale, warnings
