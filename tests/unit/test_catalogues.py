@@ -117,7 +117,7 @@ def test_catalogued_structures_wait_for_their_temperature():
 def test_every_structure_can_be_built(name):
     found = structures()[name]
     road = Pavement.from_catalogue(name, temperature=15)
-    assert found.build().at_temperature(15) == road
+    assert Pavement.from_catalogue(found, temperature=15) == road
     assert not road.is_viscoelastic
     assert "llustrative" in found.source or "secondary source" in found.source
     # The name tells the thicknesses in centimetres.
@@ -194,9 +194,9 @@ def test_bonds_of_structures(file, offer):
     assert [course.bond for course in found.courses] == [Bond(1e10), FRICTIONLESS, BONDED]
     assert str(found) == "test track (two bonds)"
     with pytest.raises(InputError, match="no mix 'AC-11'"):
-        found.build()
+        found.layers()
     offer("treadload.mixes", lab=lambda: read_mixes(file(MIXES)))
-    assert found.build().layers[0] == Layer(mix("AC-11"), 0.04, "AC-11", Bond(1e10))
+    assert found.layers()[0] == Layer(mix("AC-11"), 0.04, "AC-11", Bond(1e10))
 
 
 @pytest.mark.parametrize(

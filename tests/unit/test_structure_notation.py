@@ -19,7 +19,7 @@ def test_the_catalogue_is_what_its_names_say(name):
     written = [(one.name, thickness, bond) for (one, thickness), bond in zip(layers, held, strict=True)]
     assert written == [(one.mix, one.thickness, one.bond) for one in tl.structures()[name].courses]
     assert in_words(layers) == name
-    assert tl.Pavement.from_catalogue(name) == tl.structures()[name].build()
+    assert tl.Pavement.from_catalogue(name) == tl.Pavement.from_catalogue(tl.structures()[name])
 
 
 def test_layers_of_one_mix_stay_two():

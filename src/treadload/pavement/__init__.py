@@ -3,8 +3,9 @@
 from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift_below
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
 from treadload.pavement.catalogue import Structure, read_structures, structures
+from treadload.pavement.layer import Layer
 from treadload.pavement.rows import LayerRow, layer_rows
-from treadload.pavement.structure import Layer, Pavement
+from treadload.pavement.structure import Pavement
 from treadload.pavement.temperature import TemperatureProfile
 
 __all__ = [

@@ -5,7 +5,8 @@ from __future__ import annotations
 from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
 from treadload.pavement.bonds import FRICTIONLESS
-from treadload.pavement.structure import Layer, Pavement
+from treadload.pavement.layer import Layer
+from treadload.pavement.structure import Pavement
 
 # An elastic layer softer than this, Pa, is no asphalt: the stiffest unbound material of the catalogue has 600 MPa,
 # the softest mix at 40 °C 800 MPa.

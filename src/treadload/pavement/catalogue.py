@@ -19,7 +19,7 @@ from treadload.materials.library import mix
 from treadload.materials.mixture import Mix
 from treadload.pavement import notation
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
-from treadload.pavement.structure import Layer, Pavement
+from treadload.pavement.layer import Layer
 
 _BONDS: dict[str, Bond | HalfBonded] = {
     "bonded": BONDED,
@@ -49,8 +49,8 @@ class Structure:
     courses: tuple[Course, ...]
     source: str = ""
 
-    def build(self, *, frequency: float | None = None) -> Pavement:
-        """The road; its bituminous layers wait for their temperature.
+    def layers(self, *, frequency: float | None = None) -> list[Layer]:
+        """The layers of the road, see `Pavement.from_catalogue`; bituminous ones wait for their temperature.
 
         frequency: of loading, Hz, at which they are read; left out, that of their data. Raises InputError for an
         unknown mix.
@@ -61,7 +61,7 @@ class Structure:
             if frequency is not None and isinstance(material, Mix):
                 material = material.with_frequency(frequency)
             layers.append(Layer(material, course.thickness, name=course.mix, bond=course.bond))
-        return Pavement(layers)
+        return layers
 
     def __str__(self) -> str:
         return f"{self.name} ({self.title})"

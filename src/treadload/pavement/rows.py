@@ -10,7 +10,8 @@ import numpy as np
 
 from treadload.materials import Elastic
 from treadload.pavement.bonds import BONDED
-from treadload.pavement.structure import Layer, Pavement
+from treadload.pavement.layer import Layer
+from treadload.pavement.structure import Pavement
 
 # At which the modulus of a viscoelastic layer is told: the usual one of traffic, Hz.
 FREQUENCY = 10.0

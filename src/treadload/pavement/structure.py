@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from numbers import Real
 from typing import Literal
 
 import numpy as np
@@ -17,78 +15,10 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import SAME_DEPTH, layers_at
 from treadload.materials import Elastic, Material, TemperatureDependent
 from treadload.materials.celsius import check_celsius
-from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
+from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED
+from treadload.pavement.catalogue import Structure, find_structure
+from treadload.pavement.layer import Layer
 from treadload.pavement.temperature import TemperatureProfile
-
-_KINDS = "Elastic, a viscoelastic material such as Prony, or one that depends on temperature"
-
-
-@dataclass(frozen=True)
-class Layer:
-    """One layer of a road.
-
-    material: what it is made of: elastic, viscoelastic, or known once its temperature is. thickness: m; None for
-    the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED, FRICTIONLESS or
-    Bond(stiffness=...).
-    """
-
-    material: Material | TemperatureDependent
-    thickness: float | None = None
-    name: str = ""
-    bond: Bond | HalfBonded = BONDED
-
-    def __post_init__(self) -> None:
-        # The protocols themselves would evaluate limits that a fluid has not.
-        if not (
-            isinstance(self.material, Elastic | TemperatureDependent) or hasattr(self.material, "complex_modulus")
-        ):
-            raise InputError(
-                f"layer {self.name!r}: material must be {_KINDS}, got {type(self.material).__name__} "
-                f"{self.material!r}"
-            )
-        if self.thickness is not None and not (
-            isinstance(self.thickness, Real)
-            and not isinstance(self.thickness, bool)
-            and math.isfinite(self.thickness)
-            and self.thickness > 0
-        ):
-            raise InputError(
-                f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness!r}; "
-                "leave it out for the last layer"
-            )
-        if not isinstance(self.bond, Bond | HalfBonded):
-            raise InputError(
-                f"layer {self.name!r}: bond must be BONDED, HALF_BONDED, FRICTIONLESS or Bond(stiffness=...), "
-                f"got {self.bond!r}"
-            )
-
-    @property
-    def elastic(self) -> Elastic:
-        """The material, where it is elastic. Raises InputError for one that needs a speed or a temperature."""
-        material = self.resolved
-        if not isinstance(material, Elastic):
-            raise InputError(
-                f"layer {self.name!r} is viscoelastic ({material}): give the speed of the load (m/s), or solve with "
-                "an elastic limit of the material, .glassy for fast and .rubbery for slow loads"
-            )
-        return material
-
-    @property
-    def resolved(self) -> Material:
-        """The material, elastic or viscoelastic. Raises InputError for one that needs a temperature."""
-        if isinstance(self.material, TemperatureDependent):
-            raise InputError(
-                f"layer {self.name!r} depends on temperature ({self.material}): choose one first with "
-                "Pavement.at_temperature(...)"
-            )
-        return self.material
-
-    @property
-    def depends_on_temperature(self) -> bool:
-        """True if the material is known only once its temperature is."""
-        return isinstance(self.material, TemperatureDependent)
-
-    __repr__ = as_call
 
 
 @dataclass(frozen=True)
@@ -145,7 +75,7 @@ class Pavement:
     @classmethod
     def from_catalogue(
         cls,
-        name: str,
+        name: str | Structure,
         *,
         temperature: float | Sequence[float | None] | TemperatureProfile | None = None,
         frequency: float | None = None,
@@ -154,14 +84,13 @@ class Pavement:
 
         name: "6 BBSG3 / 10 GB3 / 10 GB3 / PF3": thickness in cm (or with its unit, "60 mm BBSG3") and mix, "EB-" left
         out or not, from the surface down; the last without thickness. Layers written so are bonded, and half-bonded
-        between two that are treated with cement, slag or ash.
+        between two that are treated with cement, slag or ash. Or one of `structures()` itself.
         temperature: as for `at_temperature`; left out, the bituminous layers wait for theirs. frequency: of
         loading, Hz, at which their moduli are read; left out, that of their data, 10 Hz for the French ones.
         Raises InputError for an unknown name, which it compares with the known ones, and as `at_temperature` does.
         """
-        from treadload.pavement.catalogue import find_structure
-
-        road = find_structure(name).build(frequency=frequency)
+        found = name if isinstance(name, Structure) else find_structure(name)
+        road = cls(found.layers(frequency=frequency))
         return road if temperature is None else road.at_temperature(temperature)
 
     @property

@@ -1,0 +1,82 @@
+"""A layer of a road: what it is made of, how thick it is, and how it holds to what lies below."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from numbers import Real
+
+from treadload.describing import as_call
+from treadload.errors import InputError
+from treadload.materials import Elastic, Material, TemperatureDependent
+from treadload.pavement.bonds import BONDED, Bond, HalfBonded
+
+_KINDS = "Elastic, a viscoelastic material such as Prony, or one that depends on temperature"
+
+
+@dataclass(frozen=True)
+class Layer:
+    """One layer of a road.
+
+    material: what it is made of: elastic, viscoelastic, or known once its temperature is. thickness: m; None for
+    the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED, FRICTIONLESS or
+    Bond(stiffness=...).
+    """
+
+    material: Material | TemperatureDependent
+    thickness: float | None = None
+    name: str = ""
+    bond: Bond | HalfBonded = BONDED
+
+    def __post_init__(self) -> None:
+        # The protocols themselves would evaluate limits that a fluid has not.
+        if not (
+            isinstance(self.material, Elastic | TemperatureDependent) or hasattr(self.material, "complex_modulus")
+        ):
+            raise InputError(
+                f"layer {self.name!r}: material must be {_KINDS}, got {type(self.material).__name__} "
+                f"{self.material!r}"
+            )
+        if self.thickness is not None and not (
+            isinstance(self.thickness, Real)
+            and not isinstance(self.thickness, bool)
+            and math.isfinite(self.thickness)
+            and self.thickness > 0
+        ):
+            raise InputError(
+                f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness!r}; "
+                "leave it out for the last layer"
+            )
+        if not isinstance(self.bond, Bond | HalfBonded):
+            raise InputError(
+                f"layer {self.name!r}: bond must be BONDED, HALF_BONDED, FRICTIONLESS or Bond(stiffness=...), "
+                f"got {self.bond!r}"
+            )
+
+    @property
+    def elastic(self) -> Elastic:
+        """The material, where it is elastic. Raises InputError for one that needs a speed or a temperature."""
+        material = self.resolved
+        if not isinstance(material, Elastic):
+            raise InputError(
+                f"layer {self.name!r} is viscoelastic ({material}): give the speed of the load (m/s), or solve with "
+                "an elastic limit of the material, .glassy for fast and .rubbery for slow loads"
+            )
+        return material
+
+    @property
+    def resolved(self) -> Material:
+        """The material, elastic or viscoelastic. Raises InputError for one that needs a temperature."""
+        if isinstance(self.material, TemperatureDependent):
+            raise InputError(
+                f"layer {self.name!r} depends on temperature ({self.material}): choose one first with "
+                "Pavement.at_temperature(...)"
+            )
+        return self.material
+
+    @property
+    def depends_on_temperature(self) -> bool:
+        """True if the material is known only once its temperature is."""
+        return isinstance(self.material, TemperatureDependent)
+
+    __repr__ = as_call
