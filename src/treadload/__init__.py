@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from treadload import accessors
 from treadload._version import __version__
 
 if TYPE_CHECKING:
@@ -419,6 +420,10 @@ __all__ = [
     "write_csv",
     "write_excel",
 ]
+
+
+# Results offer figures; the figures are loaded when they are first asked for.
+accessors.found_in("plot", lambda: importlib.import_module("treadload.plots"))
 
 
 def __getattr__(name: str) -> Any:

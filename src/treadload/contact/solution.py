@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.accessors import offered
 from treadload.contact.rolling_state import Rolling
 from treadload.pavement import Pavement
 from treadload.tire import Tire
@@ -87,7 +87,7 @@ class Contact:
     @property
     def plot(self) -> Any:
         """Figures of this contact: see treadload.plots.ContactPlots."""
-        return importlib.import_module("treadload.plots").ContactPlots(self)
+        return offered("plot", self)
 
     def __repr__(self) -> str:
         peak = float(self.dataset.pressure.max()) / 1e3

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import math
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
+from treadload.accessors import offered
 from treadload.damage.cracks import (
     HORIZONTAL,
     OBLIQUE_TOLERANCE,
@@ -51,7 +51,7 @@ class Verdict:
     @property
     def plot(self) -> Any:
         """Figures of this verdict: see treadload.plots.VerdictPlots."""
-        return importlib.import_module("treadload.plots").VerdictPlots(self)
+        return offered("plot", self)
 
     @property
     def orientation(self) -> str:

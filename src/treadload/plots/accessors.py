@@ -8,6 +8,7 @@ from typing import Literal
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from treadload.accessors import offers
 from treadload.plots import contact as contact_figures
 from treadload.plots import panels
 from treadload.plots import profile as profiles
@@ -18,6 +19,7 @@ from treadload.plots.kit.plan import Source
 from treadload.plots.response import Strain
 
 
+@offers("plot", "Contact")
 class ContactPlots:
     """Figures of a contact, or of its dataset. Each returns a matplotlib Figure."""
 
@@ -45,6 +47,7 @@ class ContactPlots:
         return contact_figures.profile(self._contact)
 
 
+@offers("plot", "Response")
 class ResponsePlots:
     """Figures of a response, or of its dataset. Each returns a matplotlib Figure."""
 
@@ -96,6 +99,7 @@ class ResponsePlots:
         return profiles.strain_profiles(self._response, places, strains=strains, contact=contact, epsilon_6=epsilon_6)
 
 
+@offers("plot", "Verdict")
 class VerdictPlots:
     """Figures of a verdict, or of its dataset. Each returns a matplotlib Figure."""
 

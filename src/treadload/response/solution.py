@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -10,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from treadload.accessors import offered
 from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
@@ -40,7 +40,7 @@ class Response:
     @property
     def plot(self) -> Any:
         """Figures of this response: see treadload.plots.ResponsePlots."""
-        return importlib.import_module("treadload.plots").ResponsePlots(self)
+        return offered("plot", self)
 
     def summary(self) -> str:
         """Largest extension at each depth, three-dimensional and in the horizontal plane, with its place."""
