@@ -1,13 +1,17 @@
 """One way through the house: who may import whom, read from the sources."""
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+import xarray as xr
 
 import treadload
+import treadload as tl
 
 ROOT = Path(treadload.__file__).parent
 
@@ -21,6 +25,7 @@ LEAVES = (
     "plausible",
     "files",
     "describing",
+    "accessors",
     "_version",
 )
 # From left to right: a package imports those before it. Packages of one step do not know each other.
@@ -44,12 +49,8 @@ ORDER = (
 )
 STEP = {name: step for step, names in enumerate(ORDER) for name in names}
 
-# (module, package it reaches forward to): why. Each must be lazy: under TYPE_CHECKING or inside a function.
-EXCEPTIONS = {
-    ("contact/solution.py", "plots"): "the accessor contact.plot loads the figures when it is asked for",
-    ("response/solution.py", "plots"): "the accessor response.plot loads the figures when it is asked for",
-    ("damage/verdict.py", "plots"): "the accessor verdict.plot loads the figures when it is asked for",
-}
+# The only module that may import by a name in a text: the public names are loaded when they are first used.
+LAZY = "__init__.py"
 
 # Third-party package: the only places that may import it.
 ONLY_IN = {
@@ -81,37 +82,48 @@ def package_of(path):
 
 
 def imports(path):
-    """(dotted name, True if it runs only when asked for) of every import, importlib's with a literal included."""
+    """Dotted names of all that a module imports, now or when a function runs; of ours the modules that are meant."""
     found = []
-
-    def visit(node, lazy):
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            found.extend((alias.name, lazy) for alias in node.names)
+            found.extend(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{name_of(path)}:{node.lineno} imports relatively; write the whole name"
-            # `from treadload import kernels` names the package in the list.
-            names = [f"treadload.{a.name}" for a in node.names] if node.module == "treadload" else [node.module]
-            found.extend((name, lazy) for name in names)
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
-            found.extend((arg.value, True) for arg in node.args if isinstance(arg, ast.Constant))
-        deferred = isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
-            deferred = True
-        for child in ast.iter_child_nodes(node):
-            visit(child, lazy or deferred)
-
-    visit(ast.parse(path.read_text(encoding="utf-8")), False)
+            for alias in node.names:
+                # `from treadload.kernels import fft` names a module in the list.
+                whole = f"{node.module}.{alias.name}"
+                found.append(whole if whole in PATHS else node.module)
     return found
 
 
 def own_imports(path):
-    return [(name.split(".")[1], lazy) for name, lazy in imports(path) if name.startswith("treadload.")]
+    """Top-level names of ours that a module imports."""
+    return {name.split(".")[1] for name in imports(path) if name.startswith("treadload.")}
 
 
 def third_party(path):
-    return {name.split(".")[0] for name, _ in imports(path)} - {"treadload", "__future__"}
+    return {name.split(".")[0] for name in imports(path)} - {"treadload", "__future__"}
 
 
+def dotted(path):
+    return ".".join(["treadload", *path.relative_to(ROOT).with_suffix("").parts]).removesuffix(".__init__")
+
+
+def circles(arrows):
+    """Sets of nodes of a graph (node → nodes) that all reach each other."""
+    reached = {}
+    for node in arrows:
+        seen, ahead = set(), list(arrows[node])
+        while ahead:
+            one = ahead.pop()
+            if one not in seen:
+                seen.add(one)
+                ahead.extend(arrows.get(one, ()))
+        reached[node] = seen
+    return {frozenset(b for b in reached[a] if a in reached.get(b, ())) for a in arrows if a in reached[a]}
+
+
+PATHS = {dotted(path): path for path in sources()}
 MODULES = [path for path in sources() if package_of(path) != "__init__"]
 
 
@@ -122,25 +134,68 @@ def test_every_module_has_a_place_in_the_order():
 
 @pytest.mark.parametrize("path", MODULES, ids=name_of)
 def test_imports_go_one_way(path):
+    """Imports that wait for a call, or for a type checker, go the same way."""
     package = package_of(path)
-    for other, lazy in own_imports(path):
-        if other == package or other in LEAVES:
-            continue
+    for other in own_imports(path) - {package, *LEAVES}:
         assert package not in LEAVES, f"{name_of(path)} is a leaf and imports {other}"
-        if STEP[other] < STEP[package]:
-            continue
-        assert (name_of(path), other) in EXCEPTIONS, f"{name_of(path)} reaches forward to {other}"
-        assert lazy, f"{name_of(path)} must import {other} inside the function that needs it"
+        assert STEP[other] < STEP[package], f"{name_of(path)} reaches back to {other}"
 
 
-def test_every_exception_is_still_needed():
-    used = {(name_of(path), other) for path in MODULES for other, _ in own_imports(path)}
-    assert set(EXCEPTIONS) <= used
+def test_no_module_imports_what_imports_it():
+    """Not even when a function runs."""
+    arrows = {name: set(imports(path)) & set(PATHS) for name, path in PATHS.items() if name != "treadload"}
+    assert not circles(arrows)
+
+
+def test_a_circle_would_be_seen():
+    assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}, "d": {"d"}}) == {frozenset("bc"), frozenset("d")}
+    assert not circles({"a": {"b", "c"}, "b": {"c"}, "c": set()})
+
+
+@pytest.mark.parametrize("package", ["kernels", "contact", "damage", "plots", "results", "catalogue", "study"])
+def test_inner_rooms_form_no_circle(package):
+    """An inner room, or a module beside the inner rooms, is one node."""
+
+    def room(name):
+        parts = name.split(".")
+        return ".".join(parts[:3])
+
+    arrows = {}
+    for path in MODULES:
+        if package_of(path) == package and dotted(path) != f"treadload.{package}":
+            here = room(dotted(path))
+            others = {room(name) for name in imports(path) if name.startswith(f"treadload.{package}.")}
+            arrows.setdefault(here, set()).update(others - {here})
+    assert not circles(arrows)
+
+
+@pytest.mark.parametrize("path", sources(), ids=name_of)
+def test_no_import_is_hidden_in_a_text(path):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    called = {ast.unparse(node.func).split(".")[-1] for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    taken = {
+        alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("importlib")
+        for alias in node.names
+    }
+    hidden = (called | taken) & {"import_module", "__import__", "exec", "eval", "spec_from_file_location"}
+    assert not hidden or name_of(path) == LAZY, f"{name_of(path)} imports by {hidden}"
+
+
+def test_one_module_holds_the_fft():
+    users = set()
+    for path in MODULES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            text = ast.unparse(node) if isinstance(node, ast.Import | ast.ImportFrom | ast.Attribute) else ""
+            if re.match(r"(from|import)? ?(scipy|numpy|np)(\.fft| import .*\bfft\b)", text):
+                users.add(name_of(path))
+    assert users == {"kernels/fft.py"}
 
 
 @pytest.mark.parametrize("path", [p for p in MODULES if package_of(p) == "kernels"], ids=name_of)
 def test_kernels_know_arrays_only(path):
-    assert {other for other, _ in own_imports(path)} <= {"kernels"}
+    assert own_imports(path) <= {"kernels"}
     assert third_party(path) - set(sys.stdlib_module_names) <= {"numpy", "scipy"}
 
 
@@ -153,7 +208,7 @@ def test_heavy_packages_stay_in_their_room(path):
 @pytest.mark.parametrize("path", [p for p in MODULES if package_of(p) in ("cli", "app")], ids=name_of)
 def test_the_command_line_and_the_app_contain_no_mechanics(path):
     assert not third_party(path) & set(NUMBERS)
-    assert not {other for other, _ in own_imports(path)} & {"kernels"}
+    assert "kernels" not in own_imports(path)
 
 
 def loaded_after(statement):
@@ -181,3 +236,41 @@ def test_no_public_name_hides_a_module():
 
     modules = {path.stem for path in ROOT.iterdir() if path.suffix == ".py" or path.is_dir()}
     assert not modules & set(treadload.__all__)
+
+
+def rooms_of_fields(job, shape):
+    """Folders of ours in which a function takes or returns a field of this shape, or a dataset, while a job runs."""
+    rooms = set()
+
+    def is_field(value):
+        if isinstance(value, tuple | list):
+            return any(is_field(one) for one in value)
+        if isinstance(value, np.ndarray):
+            return value.shape[-2:] == shape
+        return isinstance(value, xr.Dataset | xr.DataArray | tl.Contact)
+
+    def look(frame, event, value):
+        code = frame.f_code
+        if not code.co_filename.startswith(str(ROOT)):
+            return
+        taken = [frame.f_locals.get(name) for name in code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]]
+        if is_field(taken) if event == "call" else is_field(value) if event == "return" else False:
+            rooms.add(Path(code.co_filename).parent.relative_to(ROOT).as_posix())
+
+    sys.setprofile(look)
+    try:
+        job()
+    finally:
+        sys.setprofile(None)
+    return rooms
+
+
+def test_the_walk_of_a_gap_enters_ten_rooms_at_most():
+    """From the height map to the figure of the pressure; docs/explanation/architecture.md tells the same walk."""
+    across = (np.arange(24) - 11.5) * 5e-3
+    tire = tl.Tire.from_height_map(across[None, :] ** 2 + across[:, None] ** 2, 5e-3, material=tl.Elastic(3e6, 0.5))
+    road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    rolling = tl.Rolling(normal_load=300, tractive_force=50, friction=0.7)
+    rooms = rooms_of_fields(lambda: tl.solve_contact(tire, road, rolling).plot.pressure(), (24, 24))
+    assert {"tire", "contact", "contact/bodies", "contact/solvers", "kernels/gridding", "plots"} <= rooms
+    assert len(rooms) <= 10, sorted(rooms)
