@@ -26,6 +26,8 @@ LEAVES = (
     "files",
     "describing",
     "accessors",
+    "registry",
+    "read",
     "_version",
 )
 # From left to right: a package imports those before it. Packages of one step do not know each other.
@@ -59,6 +61,7 @@ ONLY_IN = {
     "trimesh": ("tire",),
     "embreex": ("tire",),
     "pint": ("units",),
+    "pydantic": ("read", "case"),
     "openpyxl": ("results",),
     "typer": ("cli",),
     "rich": ("cli",),

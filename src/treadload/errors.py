@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import re
+from collections.abc import Iterable
 
 # Characters of a word, and of a message, that a reader can still take in.
 _WORD, _MESSAGE = 300, 1200
@@ -44,3 +46,10 @@ class ConvergenceError(TreadloadError, RuntimeError):
 def how_to_install(extra: str) -> str:
     """What to run for a package of an extra, such as "scan"; it works in a clone, which is all there is so far."""
     return f"in the folder of the clone, run  pip install '.[{extra}]'"
+
+
+def nearest(asked: object, known: Iterable[str], otherwise: str = "known are", cutoff: float = 0.6) -> str:
+    """What to say of an unknown name: "did you mean 'x'?", or all that are known. otherwise: words before these."""
+    names = list(known)
+    near = difflib.get_close_matches(str(asked), names, n=1, cutoff=cutoff)
+    return f"did you mean {near[0]!r}?" if near else f"{otherwise} {', '.join(names)}"

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Annotated, Any
 
 from treadload.errors import InputError
 
@@ -34,6 +35,7 @@ _EXAMPLES = {
     "N": '"32.5 kN"',
     "s": '"10 ms"',
     "m/s": '"70 km/h"',
+    "m/s^2": '"3 m/s^2"',
     "rad": '"2 deg"',
     "rad/m": '"0.05 1/m"',
     "K": '"50 K"',
@@ -191,3 +193,78 @@ def _registry() -> Any:
     registry: Any = pint.UnitRegistry()
     registry.define("microstrain = 1e-6 = ustrain = με = µε")
     return registry
+
+
+@dataclass(frozen=True)
+class Unit:
+    """What a number is counted in, as an annotation: `Annotated[float, Unit("Pa")]`.
+
+    si: unit of the number, "" of a pure number, "degC" of a temperature. kind: of quantity, where people count it in
+    a unit of its own, as moduli in MPa and other pressures in kPa.
+    """
+
+    si: str
+    kind: str = ""
+
+    @property
+    def symbol(self) -> str:
+        """What people count it in, for whoever shows it."""
+        return self.kind or self.si
+
+    @property
+    def example(self) -> str:
+        """A value as a case writes it."""
+        return _OF_KINDS.get(self.kind) or _EXAMPLES[self.si]
+
+    # What pydantic asks of an annotation; nothing here needs it.
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        """How a case reads it: `quantity`."""
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_before_validator_function(lambda value: quantity(value, self.si), handler(source))
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        """A number in SI units, or a text with its unit."""
+        if not self.si:
+            return {"type": ["number", "string"], "description": f"A pure number, such as {self.example}."}
+        bare = "°C" if self.si == "degC" else self.si
+        return {"type": ["number", "string"], "description": f"A number in {bare}, or a text such as {self.example}."}
+
+
+_OF_KINDS = {
+    "modulus": '"5400 MPa"',
+    "radius": '"25 m"',
+    "sliding speed": '"2 m/s"',
+    "strain": '"120 microstrain"',
+    "share": '0.25 or "25 %"',
+    "years": "20",
+    "1/year": "1e6",
+}
+
+Length = Annotated[float, Unit("m")]
+Radius = Annotated[float, Unit("m", "radius")]
+Pressure = Annotated[float, Unit("Pa")]
+Modulus = Annotated[float, Unit("Pa", "modulus")]
+Stiffness = Annotated[float, Unit("Pa/m")]
+Force = Annotated[float, Unit("N")]
+Speed = Annotated[float, Unit("m/s")]
+SlidingSpeed = Annotated[float, Unit("m/s", "sliding speed")]
+Acceleration = Annotated[float, Unit("m/s^2")]
+Angle = Annotated[float, Unit("rad")]
+Curvature = Annotated[float, Unit("rad/m")]
+Time = Annotated[float, Unit("s")]
+Frequency = Annotated[float, Unit("Hz")]
+Kelvin = Annotated[float, Unit("K")]
+Celsius = Annotated[float, Unit("degC")]
+PerDegree = Annotated[float, Unit("1/K")]
+PerDegreeSquared = Annotated[float, Unit("1/K^2")]
+Compliance = Annotated[float, Unit("1/Pa")]
+MolarEnergy = Annotated[float, Unit("J/mol")]
+Conductivity = Annotated[float, Unit("W/(m K)")]
+HeatCapacity = Annotated[float, Unit("J/(m^3 K)")]
+Number = Annotated[float, Unit("")]
+Strain = Annotated[float, Unit("", "strain")]
+Share = Annotated[float, Unit("", "share")]
+Years = Annotated[float, Unit("", "years")]
+PerYear = Annotated[float, Unit("", "1/year")]
+"""Numbers of descriptions with their units, for annotations: a type checker sees a float."""

@@ -14,11 +14,14 @@ import xarray as xr
 
 import treadload as tl
 import treadload.case
-from treadload.case.fields import Part, Unit
+from treadload.case import choices
+from treadload.case.criteria import CRITERION
+from treadload.read import Table
 from treadload.reporting import report, write_report
 from treadload.reporting.inputs import input_lists, input_table
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.words import SHOWN, entries, number, part_of, sentence, units_in, worded
+from treadload.units import Unit
 
 LIFE = """
 title = "Mixed traffic"
@@ -80,7 +83,11 @@ def _rows(cases: list[ReportCase]) -> dict[tuple[str, str], tuple[str, tuple[str
     }
 
 
-def _all_parts(base: type[Part] = Part) -> list[type[Part]]:
+def _all_parts(base: type[Table] = Table) -> list[type[Table]]:
+    # A kind becomes a table when it is first asked for.
+    for choice in (CRITERION, *(one for one in vars(choices).values() if isinstance(one, choices.Choice))):
+        for name in choice.names():
+            choice.table(name)
     return [part for one in base.__subclasses__() for part in (one, *_all_parts(one))]
 
 
@@ -91,7 +98,7 @@ def _bare_floats(hint: Any, covered: bool = False) -> int:
         return _bare_floats(inner, covered or any(isinstance(mark, Unit) for mark in marks))
     if hint is float:
         return not covered
-    if isinstance(hint, type) and issubclass(hint, Part):
+    if isinstance(hint, type) and issubclass(hint, Table):
         return 0
     return sum(_bare_floats(one, covered) for one in get_args(hint))
 

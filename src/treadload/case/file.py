@@ -11,13 +11,12 @@ import tomli_w
 from pydantic import Field, ValidationError
 
 from treadload.case.changes import changed
-from treadload.case.fields import Part
-from treadload.case.words import in_words
 from treadload.errors import InputError
 from treadload.files import parse_toml
+from treadload.read import Table, in_words
 
 
-class FilePart(Part):
+class FilePart(Table):
     """What every kind of case has: a title, and the folder that paths in it start from."""
 
     title: str = ""
@@ -37,7 +36,7 @@ class FilePart(Part):
         try:
             return cls.model_validate({**table, "folder": Path(folder)})
         except ValidationError as error:
-            raise InputError(f"{name}: {in_words(error, cls)}") from error
+            raise InputError(f"{name}: {in_words(error)}") from error
 
     @classmethod
     def _check_kind(cls, table: dict[str, Any], name: str) -> None:

@@ -6,16 +6,17 @@ from typing import ClassVar
 
 from pydantic import model_validator
 
-from treadload.case.criteria import CriterionPart
-from treadload.case.fields import Length, Number
+from treadload.case.criteria import Criterion
 from treadload.case.file import FilePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
 from treadload.case.traffic import ClimatePart, TrafficPart
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage import Climate, DesignCriterion, Traffic
+from treadload.damage import Climate, Traffic
+from treadload.damage.criteria.design import Criterion as Judge
 from treadload.pavement import Pavement
 from treadload.tire import Tire
+from treadload.units import Length, Number
 
 
 class DesignRoadPart(PavementPart):
@@ -46,7 +47,7 @@ class LifeCase(FilePart):
     pavement: DesignRoadPart
     traffic: TrafficPart
     climate: ClimatePart
-    criteria: tuple[CriterionPart, ...]
+    criteria: tuple[Criterion, ...]
 
     @model_validator(mode="after")
     def _buildable(self) -> LifeCase:
@@ -89,7 +90,7 @@ class LifeCase(FilePart):
         """The climate."""
         return self.climate.build()
 
-    def build_criteria(self) -> tuple[DesignCriterion, ...]:
+    def build_criteria(self) -> tuple[Judge, ...]:
         """The criteria on this road."""
         road = self.build_road()
-        return tuple(one.build(road) for one in self.criteria)
+        return tuple(one.on(road) for one in self.criteria)

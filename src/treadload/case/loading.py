@@ -3,36 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from treadload.case.fields import Curvature, Force, Length, Number, Part, Pressure, Speed
-from treadload.case.friction import Friction
-from treadload.contact import Rolling
+from treadload.read import As, Table
 from treadload.response import GridLoad
+from treadload.units import Length, Pressure
 
 
-class RollingPart(Part):
-    """`[rolling]`: the load, the friction, and forces or creepages."""
-
-    normal_load: Force | None = None
-    approach: Length | None = None
-    friction: Friction
-    tractive_force: Force | None = None
-    creepage_x: Number | None = None
-    lateral_force: Force | None = None
-    creepage_y: Number | None = None
-    spin: Curvature = 0.0
-    speed: Speed | None = None
-
-    def build(self, folder: Path = Path(".")) -> Rolling:
-        """The rolling state; a friction map is read from the folder."""
-        friction = self.friction if isinstance(self.friction, float) else self.friction.build(folder)
-        return Rolling(**{**dict(self), "friction": friction})
-
-
-class FootprintPart(Part):
+class FootprintPart(Table):
     """`[footprint]`, in place of [tire] and [rolling]: recorded contact stress.
 
     file: a CSV table or matrix, or NetCDF such as a result of this package (.nc). units: { pressure = "kPa" }, of
@@ -43,7 +23,7 @@ class FootprintPart(Part):
 
     file: str
     units: dict[str, str] = Field(default_factory=dict)
-    spacing: Length | tuple[Length, Length] | None = None
+    spacing: Annotated[Any, As(Length | tuple[Length, Length])] = None
     missing: Literal["error", "zero"] = "error"
     noise: Pressure = 0.0
     decimal: Literal[".", ","] | None = None

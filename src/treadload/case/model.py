@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import model_validator
 
-from treadload.case.fields import Length, Number, Part, Strain
+from treadload.case.choices import TIRE_MATERIAL
 from treadload.case.file import FilePart
-from treadload.case.loading import FootprintPart, RollingPart
+from treadload.case.loading import FootprintPart
 from treadload.case.response import ResponsePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
@@ -19,23 +19,14 @@ from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.kernels.layers.depths import same_depth
 from treadload.pavement import Pavement
+from treadload.read import As, Made, Table
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.material import check_length
 from treadload.tire import Tire
+from treadload.units import Length, Number
 
 
-class FatiguePart(Part):
-    """`fatigue = { epsilon_6 = "120 microstrain", slope = -0.2 }`."""
-
-    epsilon_6: Strain
-    slope: Number
-
-    def build(self) -> FatigueLine:
-        """The fatigue line."""
-        return FatigueLine(self.epsilon_6, self.slope)
-
-
-class DamagePart(Part):
+class DamagePart(Table):
     """`[damage]`: the fatigue line, and which strain it reads, where, over how much road.
 
     mean_over: side of the cube of road whose mean strain is read; 10 mm if left out. depth: one of the response's
@@ -43,7 +34,7 @@ class DamagePart(Part):
     the case on cells twice as large too, and tell how much the reading moves. See `treadload.assess`.
     """
 
-    fatigue: FatiguePart
+    fatigue: Annotated[Made, As(FatigueLine)]
     strain: Literal["principal", "in-plane"] = "in-plane"
     mean_over: Length = MATERIAL_LENGTH
     depth: Length | None = None
@@ -72,7 +63,7 @@ class Case(FilePart):
     road_compliance: RoadCompliance = "half_space"
     tire: TirePart | None = None
     pavement: PavementPart
-    rolling: RollingPart | None = None
+    rolling: Annotated[Any, As(Rolling)] = None
     footprint: FootprintPart | None = None
     response: ResponsePart = ResponsePart()
     damage: DamagePart | None = None
@@ -92,7 +83,6 @@ class Case(FilePart):
                 f"{road.interfaces[-1]:g} m"
             )
         if self.damage is not None:
-            self.damage.fatigue.build()
             depth = self.damage.depth
             if depth is not None and not same_depth(self.response.depths, depth).any():
                 raise ValueError(
@@ -114,14 +104,15 @@ class Case(FilePart):
         assert self.rolling is not None
         self.rolling.build(self.folder)
         if self.tire.material is not None:
-            check_rolling(self.tire.material.build(), road.surface_material, self.rolling.speed)
+            check_rolling(TIRE_MATERIAL.build(self.tire.material), road.surface_material, self.rolling.speed)
 
     @property
     def speed(self) -> float | None:
         """Speed of the wheels over the road, m/s: that of the response, else that of rolling; None if neither."""
         if self.response.speed is not None:
             return self.response.speed
-        return None if self.rolling is None else self.rolling.speed
+        speed: float | None = None if self.rolling is None else self.rolling.speed
+        return speed
 
     def build_tire(self) -> Tire:
         """The tire, read from its file if it has one. Raises InputError for a case of a recorded footprint."""
@@ -133,4 +124,5 @@ class Case(FilePart):
         """The rolling state. Raises InputError for a case of a recorded footprint."""
         if self.rolling is None:
             raise InputError("this case has a recorded footprint and no rolling state")
-        return self.rolling.build(self.folder)
+        rolling: Rolling = self.rolling.build(self.folder)
+        return rolling

@@ -7,15 +7,16 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from treadload.case.fields import Length, Part, Speed
+from treadload.read import Table
 from treadload.response import GridLoad, place
+from treadload.units import Length, Speed
 
 # A vertical slice goes this far below the last interface, as a part of its depth, and no deeper than that, m.
 _BELOW, _DEEPEST = 1.25, 0.6
 _SHALLOW = 0.06
 
 
-class WheelPart(Part):
+class WheelPart(Table):
     """`{ x = "0 mm", y = "170 mm", mirror = true }`: where a copy of the wheel stands, to the nearest cell.
 
     mirror: True for its image in the plane y = 0, as the left wheel of an axle is of the right one.
@@ -26,7 +27,7 @@ class WheelPart(Part):
     mirror: bool = False
 
 
-class ResponsePart(Part):
+class ResponsePart(Table):
     """`[response]`: depths of the maps, wheels, speed, and how deep the vertical slices go.
 
     slice_depth: left out, 60 mm, on layers a quarter below the last interface, 600 mm at most. wheels: copies of the

@@ -2,44 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+from pydantic import BeforeValidator, model_validator
 
-from treadload.case.asphalt import RoadMaterial
-from treadload.case.fields import Celsius, Frequency, Length, Part, Stiffness
+from treadload.case.choices import BOND, ROAD_MATERIAL, BondTable, RoadMaterial
 from treadload.materials import Material, Mix, TemperatureDependent, mix
-from treadload.pavement import (
-    BONDED,
-    FRICTIONLESS,
-    HALF_BONDED,
-    Bond,
-    HalfBonded,
-    Layer,
-    Pavement,
-    TemperatureProfile,
-)
-
-BOND_TAGS = ("word", "spring")
-TEMPERATURE_TAGS = ("one", "layers", "depths")
-_BONDS: dict[str, Bond | HalfBonded] = {
-    "bonded": BONDED,
-    "half-bonded": HALF_BONDED,
-    "frictionless": FRICTIONLESS,
-}
-
-
-class BondPart(Part):
-    """`bond = { stiffness = "1000 MPa/m" }`."""
-
-    stiffness: Stiffness
-
-
-def _known_bond(value: Any) -> Any:
-    """A bond in one of our forms. Raises ValueError that says which they are."""
-    if isinstance(value, dict | BondPart) or (isinstance(value, str) and value in _BONDS):
-        return value
-    raise ValueError(f'a bond is {", ".join(map(repr, _BONDS))} or {{ stiffness = "1000 MPa/m" }}, got {value!r}')
+from treadload.pavement import Layer, Pavement, TemperatureProfile
+from treadload.read import As, Table, table_of
+from treadload.units import Celsius, Frequency, Length
 
 
 def _finite(value: Any) -> Any:
@@ -48,7 +19,7 @@ def _finite(value: Any) -> Any:
     return value
 
 
-class LayerPart(Part):
+class LayerPart(Table):
     """`[[pavement.layers]]`, from the surface down; the last one has no thickness unless the base is rigid.
 
     material: a table, or mix: a name of the catalogue of road materials. bond, to the layer below: "bonded",
@@ -59,11 +30,7 @@ class LayerPart(Part):
     mix: str | None = None
     thickness: Annotated[Length | None, BeforeValidator(_finite)] = None
     name: str = ""
-    bond: Annotated[
-        Annotated[Literal["bonded", "half-bonded", "frictionless"], Tag("word")] | Annotated[BondPart, Tag("spring")],
-        Discriminator(lambda v: "word" if isinstance(v, str) else "spring"),
-        BeforeValidator(_known_bond),
-    ] = "bonded"
+    bond: BondTable = "bonded"
 
     @model_validator(mode="after")
     def _one_material(self) -> LayerPart:
@@ -74,44 +41,29 @@ class LayerPart(Part):
 
     def build(self, frequency: float | None = None) -> Layer:
         """The layer; a mix at a frequency of loading, Hz, is read there."""
-        bond = Bond(self.bond.stiffness) if isinstance(self.bond, BondPart) else _BONDS[self.bond]
-        return Layer(self._material(frequency), self.thickness, name=self.name or self.mix or "", bond=bond)
+        return Layer(
+            self._material(frequency), self.thickness, name=self.name or self.mix or "", bond=BOND.build(self.bond)
+        )
 
     def _material(self, frequency: float | None) -> Material | TemperatureDependent:
         if self.material is not None:
-            return self.material.build()
+            made: Material | TemperatureDependent = ROAD_MATERIAL.build(self.material)
+            return made
         assert self.mix is not None
         found = mix(self.mix)
         return found.with_frequency(frequency) if frequency is not None and isinstance(found, Mix) else found
 
 
-class ProfilePart(Part):
+def _profile(depths: tuple[Length, ...], values: tuple[Celsius, ...]) -> TemperatureProfile:
     """`temperature = { depths = ["0 mm", "100 mm"], values = [45, 30] }`: each layer takes that of its middle."""
-
-    depths: tuple[Length, ...]
-    values: tuple[Celsius, ...]
-
-    def build(self) -> TemperatureProfile:
-        """The profile."""
-        return TemperatureProfile(self.depths, self.values)
-
-
-def _kind_of_temperature(value: Any) -> str:
-    if isinstance(value, dict | ProfilePart):
-        return "depths"
-    return "layers" if isinstance(value, list | tuple) else "one"
+    return TemperatureProfile(depths, values)
 
 
 # °C: of the whole road, of each of its layers, or over depth.
-Temperature = Annotated[
-    Annotated[Celsius, Tag("one")]
-    | Annotated[tuple[Celsius, ...], Tag("layers")]
-    | Annotated[ProfilePart, Tag("depths")],
-    Discriminator(_kind_of_temperature),
-]
+TEMPERATURE = As(Celsius | tuple[Celsius, ...] | table_of(_profile))
 
 
-class PavementPart(Part):
+class PavementPart(Table):
     """`[pavement]`: the road's layers, or a structure of the catalogue, and its temperature.
 
     structure: a name, or layers, "6 BBSG3 / 10 GB3 / 10 GB3 / PF3", see `Pavement.from_catalogue`. temperature: °C,
@@ -122,7 +74,7 @@ class PavementPart(Part):
     layers: tuple[LayerPart, ...] | None = None
     structure: str | None = None
     rigid_base: bool = False
-    temperature: Temperature | None = None
+    temperature: Annotated[Any, TEMPERATURE] = None
     frequency: Frequency | None = None
     extrapolate: bool = False
 
@@ -170,5 +122,5 @@ class PavementPart(Part):
         return [value if layer.depends_on_temperature else None for layer, value in pairs]
 
     def _temperature(self) -> float | tuple[float, ...] | TemperatureProfile:
-        assert self.temperature is not None
-        return self.temperature.build() if isinstance(self.temperature, ProfilePart) else self.temperature
+        found: float | tuple[float, ...] | TemperatureProfile = TEMPERATURE.build(self.temperature)
+        return found

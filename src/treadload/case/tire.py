@@ -7,15 +7,16 @@ from typing import Any, Literal
 
 from pydantic import model_validator
 
-from treadload.case.fields import Angle, Length, Number, Part, Pressure
-from treadload.case.materials import TireMaterial
+from treadload.case.choices import TIRE_MATERIAL, TireMaterial
+from treadload.read import Table
 from treadload.tire import Tire, TreadProfile, example_mesh
+from treadload.units import Angle, Length, Number, Pressure
 
 # The word that stands for the tire mesh that ships with the package.
 EXAMPLE = "example"
 
 
-class TirePart(Part):
+class TirePart(Table):
     """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of.
 
     units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names none.
@@ -70,7 +71,7 @@ class TirePart(Part):
     def build(self, folder: Path) -> Tire:
         """The tire; relative paths start from the folder."""
         body: dict[str, Any] = {
-            "material": None if self.material is None else self.material.build(),
+            "material": TIRE_MATERIAL.build(self.material),
             "inflation_pressure": self.inflation_pressure,
         }
         if self.scan is not None:

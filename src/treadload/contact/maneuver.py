@@ -14,6 +14,8 @@ from treadload.contact.friction.laws import FrictionLaw
 from treadload.contact.rolling_state import Rolling
 from treadload.describing import as_call
 from treadload.errors import InputError
+from treadload.registry import MANEUVERS
+from treadload.units import Acceleration, Curvature, Length, Number, Radius, Share, Speed
 
 GRAVITY = 9.81
 """m/s²."""
@@ -49,7 +51,7 @@ class Maneuver:
             )
 
     @classmethod
-    def braking(cls, deceleration: float | None = None) -> Maneuver:
+    def braking(cls, deceleration: Acceleration | None = None) -> Maneuver:
         """A braked wheel; every wheel of the vehicle brakes in proportion to its load.
 
         deceleration: m/s², > 0; None locks the wheel, which takes all of the friction.
@@ -60,7 +62,7 @@ class Maneuver:
         return cls(f"braking at {deceleration:g} m/s²", tractive=-deceleration / GRAVITY)
 
     @classmethod
-    def uphill(cls, grade: float, driven_share: float) -> Maneuver:
+    def uphill(cls, grade: Share, driven_share: Share) -> Maneuver:
         """A driven wheel on a slope at constant speed, without the drag of the air.
 
         grade: rise over run, > 0. driven_share: part of the vehicle's weight on its driven axles, in (0, 1].
@@ -73,12 +75,12 @@ class Maneuver:
     @classmethod
     def turning(
         cls,
-        radius: float,
-        speed: float,
+        radius: Radius,
+        speed: Speed,
         *,
-        crossfall: float = 0.0,
-        track: float | None = None,
-        centre_of_gravity: float | None = None,
+        crossfall: Share = 0.0,
+        track: Length | None = None,
+        centre_of_gravity: Length | None = None,
         wheel: Literal["outer", "inner"] = "outer",
     ) -> Maneuver:
         """A wheel on a circle, such as a roundabout: the side force V²/(gR) and the spin 1/R.
@@ -155,6 +157,41 @@ class Maneuver:
 
 STRAIGHT = Maneuver()
 """A wheel that rolls freely."""
+
+MANEUVERS.makes(Maneuver)
+MANEUVERS.register("uphill")(Maneuver.uphill)
+MANEUVERS.register("turning")(Maneuver.turning)
+
+
+@MANEUVERS.register("straight")
+def _straight() -> Maneuver:
+    """A wheel that rolls freely."""
+    return STRAIGHT
+
+
+@MANEUVERS.register("braking")
+def _braking(deceleration: Acceleration) -> Maneuver:
+    """A braked wheel; every wheel of the vehicle brakes in proportion to its load.
+
+    deceleration: > 0.
+    """
+    return Maneuver.braking(deceleration)
+
+
+@MANEUVERS.register("locked")
+def _locked() -> Maneuver:
+    """A wheel that does not turn: all of the contact slides."""
+    return Maneuver.braking()
+
+
+@MANEUVERS.register("forces")
+def _forces(name: str = "forces", tractive: Number = 0.0, lateral: Number = 0.0, spin: Curvature = 0.0) -> Maneuver:
+    """Forces over the load, and spin.
+
+    name: for tables. tractive, lateral: force of the road on the tire along travel and to the right, over the load.
+    spin: 1/R.
+    """
+    return Maneuver(name, tractive=tractive, lateral=lateral, spin=spin)
 
 
 def _leaning(share: float, track: float | None, height: float | None) -> float:

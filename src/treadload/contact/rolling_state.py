@@ -9,6 +9,7 @@ from functools import cached_property
 from treadload.contact.friction.laws import Coulomb, FrictionLaw, largest_force, law_of
 from treadload.describing import as_call
 from treadload.errors import InputError
+from treadload.units import Curvature, Force, Length, Number, Speed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,15 +25,15 @@ class Rolling:
     or heat needs it, and so does power in W.
     """
 
-    normal_load: float | None = None
+    normal_load: Force | None = None
     friction: float | FrictionLaw
-    approach: float | None = None
-    tractive_force: float | None = None
-    creepage_x: float | None = None
-    lateral_force: float | None = None
-    creepage_y: float | None = None
-    spin: float = 0.0
-    speed: float | None = None
+    approach: Length | None = None
+    tractive_force: Force | None = None
+    creepage_x: Number | None = None
+    lateral_force: Force | None = None
+    creepage_y: Number | None = None
+    spin: Curvature = 0.0
+    speed: Speed | None = None
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():

@@ -15,8 +15,9 @@ from treadload.damage.laws.american import (
 )
 from treadload.damage.laws.bond import LEUTNER_MINIMUM, InterfaceStrength, ShearFatigue
 from treadload.damage.laws.equivalence import equivalent_axles
-from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine
+from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine, PowerLaw
 from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.damage.laws.of_layer import OnLayer
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.damage.verdict import Verdict, assess
@@ -40,6 +41,8 @@ __all__ = [
     "Life",
     "MepdgBottomUp",
     "MepdgTopDown",
+    "OnLayer",
+    "PowerLaw",
     "Season",
     "ShearFatigue",
     "ShellFatigue",

@@ -21,7 +21,7 @@ from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import same_depth
-from treadload.pavement import FRICTIONLESS, Bond, HalfBonded, Pavement
+from treadload.pavement import FRICTIONLESS, BondLaw, Pavement
 
 _DIMS = ("interface", "y", "x")
 # Utilisation of a bond that has parted for certain: finite, so that readings can be interpolated.
@@ -30,7 +30,7 @@ _PARTED = 1e3
 _ROUND_OFF = 1e-6
 
 
-def delaminate(road: Pavement, interface: int, bond: Bond | HalfBonded = FRICTIONLESS) -> Pavement:
+def delaminate(road: Pavement, interface: int, bond: BondLaw = FRICTIONLESS) -> Pavement:
     """The road with another bond at one interface.
 
     interface: counted from the surface, 0 below the top layer, negative from the lowest. bond: what is left,

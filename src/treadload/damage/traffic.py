@@ -17,6 +17,7 @@ from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.tire import Tire
+from treadload.units import Celsius, Length, Share
 
 # Shares that come from a table with few digits.
 _ROUND_OFF = 1e-6
@@ -80,9 +81,9 @@ class Wander:
     Build it with none, normal or measured. Raises InputError.
     """
 
-    deviation: float = 0.0
-    offsets: tuple[float, ...] = ()
-    shares: tuple[float, ...] = ()
+    deviation: Length = 0.0
+    offsets: tuple[Length, ...] = ()
+    shares: tuple[Share, ...] = ()
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.deviation) and self.deviation >= 0):
@@ -224,8 +225,8 @@ class Season:
     """
 
     name: str
-    share: float
-    temperature: float | tuple[float, ...]
+    share: Share
+    temperature: Celsius | tuple[Celsius, ...]
 
     def __post_init__(self) -> None:
         if not 0 <= self.share <= 1:

@@ -7,8 +7,11 @@ from dataclasses import dataclass
 
 from treadload.describing import as_call
 from treadload.errors import InputError
+from treadload.registry import MATERIALS
+from treadload.units import Modulus, Number
 
 
+@MATERIALS.register("elastic")
 @dataclass(frozen=True)
 class Elastic:
     """Isotropic linear elastic material.
@@ -17,8 +20,8 @@ class Elastic:
     poisson: Poisson's ratio, in (-1, 0.5].
     """
 
-    modulus: float
-    poisson: float
+    modulus: Modulus
+    poisson: Number
 
     def __post_init__(self) -> None:
         if isinstance(self.modulus, str) or not (math.isfinite(self.modulus) and self.modulus > 0):

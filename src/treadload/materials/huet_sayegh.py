@@ -11,8 +11,11 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import ComplexArray
 from treadload.materials.elastic import Elastic
 from treadload.materials.operational import Operational, positive
+from treadload.registry import MATERIALS
+from treadload.units import Modulus, Number, Time
 
 
+@MATERIALS.register("huet-sayegh")
 @dataclass(frozen=True)
 class HuetSayegh(Operational):
     """A spring beside a branch of a spring and two parabolic dashpots in a row.
@@ -27,13 +30,13 @@ class HuetSayegh(Operational):
     Design of Asphalt Pavements, Ann Arbor, 743-755.
     """
 
-    glassy_modulus: float
-    static_modulus: float
-    delta: float
-    k: float
-    h: float
-    tau: float
-    poisson: float
+    glassy_modulus: Modulus
+    static_modulus: Modulus
+    delta: Number
+    k: Number
+    h: Number
+    tau: Time
+    poisson: Number
 
     def __post_init__(self) -> None:
         Elastic(self.glassy_modulus, self.poisson)
@@ -79,6 +82,7 @@ class HuetSayegh(Operational):
         return f"Huet-Sayegh, {_summary(self)}"
 
 
+@MATERIALS.register("2s2p1d")
 @dataclass(frozen=True)
 class Model2S2P1D(Operational):
     """Two springs, two parabolic dashpots and one dashpot: Huet-Sayegh's model with viscous flow in its branch.
@@ -91,14 +95,14 @@ class Model2S2P1D(Operational):
     Source: Olard & Di Benedetto (2003), Road Materials and Pavement Design 4, 185-224.
     """
 
-    glassy_modulus: float
-    static_modulus: float
-    delta: float
-    k: float
-    h: float
-    beta: float
-    tau: float
-    poisson: float
+    glassy_modulus: Modulus
+    static_modulus: Modulus
+    delta: Number
+    k: Number
+    h: Number
+    beta: Number
+    tau: Time
+    poisson: Number
 
     def __post_init__(self) -> None:
         _ = self._without_dashpot

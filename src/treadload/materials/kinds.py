@@ -9,6 +9,7 @@ from typing_extensions import Protocol, runtime_checkable
 
 from treadload.kernels.arrays import ComplexArray
 from treadload.materials.elastic import Elastic
+from treadload.registry import MATERIALS
 
 
 @runtime_checkable
@@ -39,5 +40,6 @@ class TemperatureDependent(Protocol):
         """The material at a temperature, °C. Raises InputError outside its data unless told to extrapolate."""
 
 
+MATERIALS.makes(Elastic, Viscoelastic, TemperatureDependent)
 Material = Elastic | Viscoelastic
 """What can be solved with."""

@@ -13,8 +13,11 @@ from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.laplace import carson
 from treadload.materials.elastic import Elastic
 from treadload.materials.operational import Operational, check_times, positive
+from treadload.registry import MATERIALS
+from treadload.units import Compliance, Number, Time
 
 
+@MATERIALS.register("power-law-creep")
 @dataclass(frozen=True)
 class PowerLawCreep(Operational):
     """Solid whose creep compliance is D(t) = D∞ + (D₀ - D∞) / (1 + (t/τ)ⁿ).
@@ -28,11 +31,11 @@ class PowerLawCreep(Operational):
     that of the exact transform, no approximate interconversion.
     """
 
-    instantaneous_compliance: float
-    long_term_compliance: float
-    tau: float
-    exponent: float
-    poisson: float
+    instantaneous_compliance: Compliance
+    long_term_compliance: Compliance
+    tau: Time
+    exponent: Number
+    poisson: Number
 
     def __post_init__(self) -> None:
         if not 0 < self.instantaneous_compliance < self.long_term_compliance < np.inf:

@@ -20,6 +20,7 @@ from treadload.materials.kinds import TemperatureDependent, Viscoelastic
 from treadload.materials.power_law import PowerLawCreep
 from treadload.materials.temperature import QuadraticShift, Thermorheological
 from treadload.materials.viscoelastic import Prony
+from treadload.registry import MATERIALS
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,15 @@ def published_material(name: str) -> PublishedMaterial:
     Raises InputError that names the nearest known one.
     """
     return _catalogue().find(name)
+
+
+@MATERIALS.register("published")
+def _of_a_case(name: str) -> Viscoelastic | TemperatureDependent:
+    """A viscoelastic material of a paper.
+
+    name: in the catalogue, see `treadload catalogue`.
+    """
+    return published_material(name).material
 
 
 def published_materials() -> dict[str, PublishedMaterial]:

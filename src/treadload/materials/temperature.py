@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import least_squares
-from typing_extensions import Protocol
+from typing_extensions import Protocol, runtime_checkable
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -23,6 +23,8 @@ from treadload.materials.celsius import check_celsius
 from treadload.materials.huet_sayegh import HuetSayegh
 from treadload.materials.kinds import Viscoelastic
 from treadload.materials.operational import positive
+from treadload.registry import SHIFTS
+from treadload.units import Celsius, Kelvin, MolarEnergy, Number, PerDegree, PerDegreeSquared
 
 _KELVIN = 273.15
 _GAS = 8.31446261815324  # J/(mol K), exact since 2019.
@@ -35,6 +37,7 @@ _HOTTEST = 1000.0
 _NEXT = 1e-6
 
 
+@runtime_checkable
 class ShiftLaw(Protocol):
     """How the times of a material depend on temperature."""
 
@@ -46,6 +49,9 @@ class ShiftLaw(Protocol):
         """AT at temperatures, °C: all times are this much longer than at the reference."""
 
 
+SHIFTS.makes(ShiftLaw)
+
+
 class Shiftable(Viscoelastic, Protocol):
     """A viscoelastic material all of whose times can be multiplied by a factor."""
 
@@ -53,6 +59,7 @@ class Shiftable(Viscoelastic, Protocol):
         """The same material with its times multiplied by a factor > 0."""
 
 
+@SHIFTS.register("wlf")
 @dataclass(frozen=True)
 class WLF:
     """log aT = -c₁ (T - Tᵣ) / (c₂ + T - Tᵣ), log to base 10.
@@ -64,9 +71,9 @@ class WLF:
     Source: Williams, Landel & Ferry (1955), J. Am. Chem. Soc. 77, 3701-3707.
     """
 
-    c1: float
-    c2: float
-    reference: float
+    c1: Number
+    c2: Kelvin
+    reference: Celsius
 
     def __post_init__(self) -> None:
         positive("c1", self.c1, "mixes are near 15")
@@ -111,6 +118,7 @@ class WLF:
         return f"WLF, C₁ = {self.c1:.4g}, C₂ = {self.c2:.4g} K from {self.reference:g} °C"
 
 
+@SHIFTS.register("arrhenius")
 @dataclass(frozen=True)
 class Arrhenius:
     """ln aT = Eₐ/R (1/T - 1/Tᵣ), with absolute temperatures.
@@ -118,8 +126,8 @@ class Arrhenius:
     activation_energy: Eₐ, J/mol, > 0. reference: Tᵣ, °C. Raises InputError.
     """
 
-    activation_energy: float
-    reference: float
+    activation_energy: MolarEnergy
+    reference: Celsius
 
     def __post_init__(self) -> None:
         positive("activation_energy", self.activation_energy, "in J/mol; mixes are near 2e5")
@@ -144,6 +152,7 @@ class Arrhenius:
         return f"Arrhenius, {self.activation_energy / 1e3:.4g} kJ/mol from {self.reference:g} °C"
 
 
+@SHIFTS.register("quadratic")
 @dataclass(frozen=True)
 class QuadraticShift:
     """ln aT = a₁ (T - Tᵣ) + a₂ (T² - Tᵣ²): the law of Huet and Sayegh, ln τ = A₀ + A₁ T + A₂ T².
@@ -153,9 +162,9 @@ class QuadraticShift:
     Raises InputError.
     """
 
-    a1: float
-    a2: float
-    reference: float = 0.0
+    a1: PerDegree
+    a2: PerDegreeSquared
+    reference: Celsius = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.a1) and math.isfinite(self.a2)):
@@ -194,6 +203,7 @@ class QuadraticShift:
         return f"ln aT = {self.a1:g} T + {self.a2:g} T², from {self.reference:g} °C"
 
 
+@SHIFTS.register("table")
 @dataclass(frozen=True)
 class TabulatedShift:
     """Measured log₁₀ aT, interpolated over temperature by a monotone cubic.
@@ -203,9 +213,9 @@ class TabulatedShift:
     Source: Fritsch & Carlson (1980), SIAM J. Numer. Anal. 17, 238-246 (the interpolant).
     """
 
-    temperatures: tuple[float, ...]
-    log_factors: tuple[float, ...]
-    reference: float
+    temperatures: tuple[Celsius, ...]
+    log_factors: tuple[Number, ...]
+    reference: Celsius
 
     def __post_init__(self) -> None:
         t, y = _measured(self.temperatures, self.log_factors, 2)

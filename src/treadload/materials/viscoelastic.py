@@ -19,6 +19,8 @@ from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.materials.elastic import Elastic
+from treadload.registry import MATERIALS
+from treadload.units import Modulus, Number, Time
 
 Terms = tuple[tuple[float, float], ...]
 
@@ -26,6 +28,7 @@ Terms = tuple[tuple[float, float], ...]
 _ROUND_OFF = 1e-12
 
 
+@MATERIALS.register("prony")
 @dataclass(frozen=True)
 class Prony:
     """Generalised Maxwell solid: springs and dashpots in parallel with a spring.
@@ -40,9 +43,9 @@ class Prony:
     Source: Park & Schapery (1999), Int. J. Solids Struct. 36, 1653-1675 (interconversion).
     """
 
-    modulus: float
-    terms: Terms
-    poisson: float
+    modulus: Modulus
+    terms: tuple[tuple[Number, Time], ...]
+    poisson: Number
 
     def __post_init__(self) -> None:
         Elastic(self.modulus, self.poisson)

@@ -1,7 +1,7 @@
 """The road and its layers."""
 
 from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift_below
-from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
+from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded
 from treadload.pavement.catalogue import Structure, read_structures, structures
 from treadload.pavement.layer import Layer
 from treadload.pavement.rows import LayerRow, layer_rows
@@ -13,6 +13,7 @@ __all__ = [
     "FRICTIONLESS",
     "HALF_BONDED",
     "Bond",
+    "BondLaw",
     "HalfBonded",
     "Layer",
     "LayerRow",

@@ -18,14 +18,9 @@ from treadload.errors import InputError
 from treadload.materials.library import mix
 from treadload.materials.mixture import Mix
 from treadload.pavement import notation
-from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, HalfBonded
+from treadload.pavement.bonds import BONDED, Bond, BondLaw
 from treadload.pavement.layer import Layer
-
-_BONDS: dict[str, Bond | HalfBonded] = {
-    "bonded": BONDED,
-    "half-bonded": HALF_BONDED,
-    "frictionless": FRICTIONLESS,
-}
+from treadload.registry import BONDS
 
 
 @dataclass(frozen=True)
@@ -34,7 +29,7 @@ class Course:
 
     mix: str
     thickness: float | None = None
-    bond: Bond | HalfBonded = BONDED
+    bond: BondLaw = BONDED
 
 
 @dataclass(frozen=True)
@@ -131,9 +126,11 @@ def _structure(table: dict[str, Any], file: Path) -> Structure:
     return Structure(table["name"], table["title"], courses, " ".join(str(table["source"]).split()))
 
 
-def _bond(value: str | float, place: str) -> Bond | HalfBonded:
+def _bond(value: str | float, place: str) -> BondLaw:
     if not isinstance(value, str):
         return Bond(float(value))
-    if value not in _BONDS:
-        raise InputError(f"{place}: bond must be {', '.join(_BONDS)} or a stiffness in Pa/m, got {value!r}")
-    return _BONDS[value]
+    words = [name for name in BONDS.names() if name != BONDS.default]
+    if value not in words:
+        raise InputError(f"{place}: bond must be {', '.join(words)} or a stiffness in Pa/m, got {value!r}")
+    bond: BondLaw = BONDS.find(value).target()
+    return bond

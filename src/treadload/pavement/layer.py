@@ -9,7 +9,7 @@ from numbers import Real
 from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.materials import Elastic, Material, TemperatureDependent
-from treadload.pavement.bonds import BONDED, Bond, HalfBonded
+from treadload.pavement.bonds import BONDED, BondLaw
 
 _KINDS = "Elastic, a viscoelastic material such as Prony, or one that depends on temperature"
 
@@ -26,7 +26,7 @@ class Layer:
     material: Material | TemperatureDependent
     thickness: float | None = None
     name: str = ""
-    bond: Bond | HalfBonded = BONDED
+    bond: BondLaw = BONDED
 
     def __post_init__(self) -> None:
         # The protocols themselves would evaluate limits that a fluid has not.
@@ -47,7 +47,7 @@ class Layer:
                 f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness!r}; "
                 "leave it out for the last layer"
             )
-        if not isinstance(self.bond, Bond | HalfBonded):
+        if not isinstance(self.bond, BondLaw):
             raise InputError(
                 f"layer {self.name!r}: bond must be BONDED, HALF_BONDED, FRICTIONLESS or Bond(stiffness=...), "
                 f"got {self.bond!r}"
@@ -76,7 +76,7 @@ class Layer:
 
     @property
     def depends_on_temperature(self) -> bool:
-        """True if the material is known only once its temperature is."""
-        return isinstance(self.material, TemperatureDependent)
+        """True if the material or the bond is known only once the temperature is."""
+        return isinstance(self.material, TemperatureDependent) or self.bond.depends_on_temperature
 
     __repr__ = as_call

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from treadload.errors import InputError
 from treadload.materials.library import mix
 from treadload.materials.mixture import HydraulicMix, RoadMaterial
-from treadload.pavement.bonds import BONDED, HALF_BONDED, Bond, HalfBonded
+from treadload.pavement.bonds import BONDED, HALF_BONDED, BondLaw
 from treadload.units import leading_number
 
 EXAMPLE = "6 BBSG3 / 10 GB3 / 10 GB3 / PF3"
@@ -36,7 +36,7 @@ def read_layers(text: str) -> list[tuple[RoadMaterial, float | None]]:
     return [*layers, (_material(last), None)]
 
 
-def bonds(materials: Sequence[RoadMaterial]) -> list[Bond | HalfBonded]:
+def bonds(materials: Sequence[RoadMaterial]) -> list[BondLaw]:
     """Bond of each layer to the one below by the French method: half-bonded between two treated with a binder other
     than bitumen, bonded everywhere else.
 

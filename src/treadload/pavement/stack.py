@@ -6,7 +6,6 @@ import math
 
 from treadload.errors import InputError
 from treadload.kernels.layers.layered import Stack
-from treadload.pavement.bonds import HalfBonded
 from treadload.pavement.structure import Pavement
 
 
@@ -19,10 +18,10 @@ def stack_of(road: Pavement) -> Stack:
     materials = [layer.elastic for layer in layers]
     springs = []
     for layer in layers[:-1]:
-        if isinstance(layer.bond, HalfBonded):
+        if len(layer.bond.limits) > 1:
             raise InputError(
-                f"the interface below layer {layer.name!r} is half-bonded, which stands for the mean of two roads; "
-                "solve each of road.bond_limits"
+                f"the interface below layer {layer.name!r} is {layer.bond}, which stands for the mean of "
+                f"{len(layer.bond.limits)} roads; solve each of road.bond_limits"
             )
         springs.append(layer.bond.stiffness)
     return Stack(

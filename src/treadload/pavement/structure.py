@@ -15,7 +15,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import SAME_DEPTH, layers_at
 from treadload.materials import Elastic, Material, TemperatureDependent
 from treadload.materials.celsius import check_celsius
-from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED
+from treadload.pavement.bonds import BONDED
 from treadload.pavement.catalogue import Structure, find_structure
 from treadload.pavement.layer import Layer
 from treadload.pavement.temperature import TemperatureProfile
@@ -172,16 +172,20 @@ class Pavement:
     def bond_limits(self) -> tuple[Pavement, ...]:
         """The roads whose mean response is that of this one: itself, or without its half-bonded interfaces two.
 
-        The first of two has all of them bonded, the second all frictionless.
+        The first of two has all of them bonded, the second all frictionless. Raises InputError for bonds that stand
+        for different numbers of others.
         """
-        if all(layer.bond != HALF_BONDED for layer in self.layers):
+        counts = {len(layer.bond.limits) for layer in self.layers} - {1}
+        if not counts:
             return (self,)
+        if len(counts) > 1:
+            raise InputError(f"bonds that stand for {sorted(counts)} others cannot be in one road; take one of them")
         return tuple(
             Pavement(
-                [replace(layer, bond=bond) if layer.bond == HALF_BONDED else layer for layer in self.layers],
+                [replace(layer, bond=layer.bond.limits[k % len(layer.bond.limits)]) for layer in self.layers],
                 rigid_base=self.rigid_base,
             )
-            for bond in (BONDED, FRICTIONLESS)
+            for k in range(counts.pop())
         )
 
     def at_temperature(
@@ -196,8 +200,8 @@ class Pavement:
         a profile for a semi-infinite layer, which has no middle.
         """
         values = self.layer_temperatures(temperature, extrapolate=extrapolate)
-        found = [self._resolved(layer, value, extrapolate) for layer, value in zip(self.layers, values, strict=True)]
-        return self._with_materials(found)
+        pairs = zip(self.layers, values, strict=True)
+        return Pavement([_at(layer, value, extrapolate) for layer, value in pairs], rigid_base=self.rigid_base)
 
     def layer_temperatures(
         self, temperature: float | Sequence[float | None] | TemperatureProfile, *, extrapolate: bool = False
@@ -232,18 +236,21 @@ class Pavement:
         with _naming(layer):
             return profile.temperature_at(middle, extrapolate=extrapolate)
 
-    @staticmethod
-    def _resolved(layer: Layer, temperature: float | None, extrapolate: bool) -> Material | TemperatureDependent:
-        if temperature is None or not isinstance(layer.material, TemperatureDependent):
-            return layer.material
-        with _naming(layer):
-            return layer.material.at(temperature, extrapolate=extrapolate)
-
     def _with_materials(self, materials: Sequence[Material | TemperatureDependent]) -> Pavement:
         pairs = zip(self.layers, materials, strict=True)
         return Pavement([replace(layer, material=one) for layer, one in pairs], rigid_base=self.rigid_base)
 
     __repr__ = as_call
+
+
+def _at(layer: Layer, temperature: float | None, extrapolate: bool) -> Layer:
+    if temperature is None or not layer.depends_on_temperature:
+        return layer
+    with _naming(layer):
+        material = layer.material
+        if isinstance(material, TemperatureDependent):
+            material = material.at(temperature, extrapolate=extrapolate)
+        return replace(layer, material=material, bond=layer.bond.at(temperature))
 
 
 def _limit(material: Material, which: Literal["glassy", "rubbery"]) -> Elastic:

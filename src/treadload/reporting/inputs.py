@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from treadload.case import Case, LifeCase
-from treadload.case.criteria import LAWS, CriterionPart
+from treadload.case.criteria import CRITERION, STRAIN, CriterionTable, usual_of
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import MISSING, Row, Section
 from treadload.reporting.words import annotation_of, columns, entries, named_tables, part_of, worded
@@ -67,7 +67,7 @@ def input_lists(cases: list[ReportCase]) -> list[NamedTable]:
         of = f": {case.label}" if len(cases) > 1 else ""
         for key, items, part in named_tables(_model(table), table):
             heading = _HEADINGS.get(key, key.capitalize()) + of
-            if part is CriterionPart:
+            if part is not None and issubclass(part, CriterionTable):
                 found.append(NamedTable(heading, _CRITERION, tuple(_criterion(case, item) for item in items)))
             else:
                 found.append(NamedTable(heading, *columns(items, part)))
@@ -121,15 +121,15 @@ def _rows(table: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
 def _criterion(case: ReportCase, table: Mapping[str, Any]) -> tuple[str, ...]:
     """Cells of `_CRITERION`; what the table leaves to the law is filled in."""
     name = str(table.get("name", ""))
-    law = LAWS.get(str(table.get("law", "")))
+    usual_place, usual_layer = usual_of(table)
     rest = {key: value for key, value in table.items() if key not in _OWN}
-    told = [str(entry) for entry in entries(CriterionPart, rest)]
-    place = table.get("place") or (law.place if law is not None else MISSING)
-    strain = table.get("strain") or CriterionPart.model_fields["strain"].default
+    told = [str(entry) for entry in entries(CRITERION.table_for(table), rest)]
+    place = table.get("place") or usual_place or MISSING
+    strain = table.get("strain") or STRAIN
     return (
         name,
         case.laws.get(name) or str(table.get("law", MISSING)).replace("-", " "),
-        _layer(case, table.get("layer"), law.layer if law is not None else None),
+        _layer(case, table.get("layer"), usual_layer),
         str(place),
         worded(strain, None)[0],
         ", ".join(told) or "those of the layer",

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
-from treadload.case.fields import Part, Unit
 from treadload.plots.kit.style import power_of_ten, thousands
+from treadload.read import Choice, Table, arms
+from treadload.units import Unit
 
 PURE = "–"
 _MINUS = "\u2212"
 
-# Unit of a field (`treadload.case.fields.Unit`) → the unit that people use, and the factor to it.
+# Unit of a field (`treadload.units.Unit`) → the unit that people use, and the factor to it.
 SHOWN = {
     "": (PURE, 1.0),
     "strain": ("microstrain", 1e6),
@@ -218,29 +219,31 @@ def annotation_of(model: Any, key: str) -> Any:
 
 def units_in(annotation: Any) -> Iterator[str]:
     """Symbols of the units in a type; the outermost where one stands around another, none inside tables."""
-    if get_origin(annotation) is Annotated:
-        inner, *marks = get_args(annotation)
-        own = [mark.symbol for mark in marks if isinstance(mark, Unit)]
-        if own:
-            yield own[-1]
+    for arm in arms(annotation):
+        if get_origin(arm) is Annotated:
+            inner, *marks = get_args(arm)
+            own = [mark.symbol for mark in marks if isinstance(mark, Unit)]
+            yield from own[-1:] or units_in(inner)
         else:
-            yield from units_in(inner)
-        return
-    for one in get_args(annotation):
-        yield from units_in(one)
+            for one in get_args(arm):
+                yield from units_in(one)
 
 
-def parts_in(annotation: Any) -> Iterator[type[Part]]:
-    """The parts of a case that a type may be."""
-    if isinstance(annotation, type) and issubclass(annotation, Part):
-        yield annotation
-    for one in get_args(annotation):
-        yield from parts_in(one)
+def parts_in(annotation: Any, table: Mapping[str, Any]) -> Iterator[type[Table]]:
+    """The tables of a case that a table of this type may be."""
+    for arm in arms(annotation):
+        if isinstance(arm, type) and issubclass(arm, Table):
+            yield arm
+        for one in get_args(arm):
+            found = one.table_for(table) if isinstance(one, Choice) else None
+            if found is not None:
+                yield found
+            yield from parts_in(one, table)
 
 
-def part_of(annotation: Any, table: Mapping[str, Any]) -> type[Part] | None:
-    """The part that a table is: it knows its keys and its kind, and misses least."""
-    found = [part for part in parts_in(annotation) if _fits(part, table)]
+def part_of(annotation: Any, table: Mapping[str, Any]) -> type[Table] | None:
+    """The table of a case that a table is: it knows its keys and its kind, and misses least."""
+    found = [part for part in parts_in(annotation, table) if _fits(part, table)]
     return min(found, key=lambda part: _missing(part, table), default=None)
 
 
@@ -250,14 +253,14 @@ def is_named(annotation: Any, items: list[Mapping[str, Any]]) -> bool:
     return part is not None and "name" in part.model_fields and part.model_fields["name"].is_required()
 
 
-def _fits(part: type[Part], table: Mapping[str, Any]) -> bool:
+def _fits(part: type[Table], table: Mapping[str, Any]) -> bool:
     literals = {key: get_args(hint) for key, hint in _hints(part).items() if get_origin(hint) is Literal}
     return set(table) <= set(part.model_fields) and all(
         table[key] in words for key, words in literals.items() if key in table
     )
 
 
-def _missing(part: type[Part], table: Mapping[str, Any]) -> int:
+def _missing(part: type[Table], table: Mapping[str, Any]) -> int:
     return sum(field.is_required() and key not in table for key, field in part.model_fields.items())
 
 

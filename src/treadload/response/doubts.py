@@ -9,7 +9,7 @@ import numpy as np
 
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic
-from treadload.pavement import Bond, Pavement
+from treadload.pavement import Pavement
 from treadload.plausible import doubt
 from treadload.response.loads import GridLoad, PlacedLoad, UniformDisc
 
@@ -28,7 +28,7 @@ def road_doubts(road: Pavement) -> tuple[str, ...]:
         if layer.thickness is not None:
             kind = _position(number, len(road.layers), fast.modulus)
             said += doubt(kind, layer.thickness, "" if number == 0 else who)
-        if isinstance(layer.bond, Bond) and 0 < layer.bond.stiffness < math.inf:
+        if len(layer.bond.limits) == 1 and 0 < layer.bond.stiffness < math.inf:
             said += doubt("stiffness of the bond", layer.bond.stiffness, f"the bond below {who}")
     return said
 

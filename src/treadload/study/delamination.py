@@ -26,7 +26,7 @@ from treadload.damage.miner import Life, passes_in_two_phases
 from treadload.damage.traffic import Climate, Traffic
 from treadload.describing import first_line
 from treadload.errors import InputError
-from treadload.pavement import BONDED, FRICTIONLESS, Bond, HalfBonded, Pavement
+from treadload.pavement import BONDED, FRICTIONLESS, BondLaw, Pavement
 from treadload.response import solve_response
 from treadload.response.loads import Load
 from treadload.study.life import design_life
@@ -76,7 +76,7 @@ class BondComparison:
     bonded: Life
     parted: Life
     interface: int
-    bond: Bond | HalfBonded
+    bond: BondLaw
     criterion: str
 
     @property
@@ -138,7 +138,7 @@ def compare_bonds(
     criteria: Sequence[Criterion],
     *,
     interface: int | None = None,
-    bond: Bond | HalfBonded = FRICTIONLESS,
+    bond: BondLaw = FRICTIONLESS,
     spacing: float = DEFAULT_SPACING,
     tolerance: float = 3e-3,
     workers: int | None = None,

@@ -23,6 +23,8 @@ import numpy as np
 from treadload.contact.friction.laws import FrictionLaw, Interface, check_positive
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.registry import FRICTION
+from treadload.units import Conductivity, HeatCapacity, Kelvin, Number
 
 # V dx/κ of a cell above which heat spreads along travel, and to the sides, by less than a cell.
 _LEAST_PECLET = 10.0
@@ -35,8 +37,8 @@ class Heat:
     Rubber is near 0.25 and 2e6, asphalt concrete near 1.2 and 2.1e6.
     """
 
-    conductivity: float
-    heat_capacity: float
+    conductivity: Conductivity
+    heat_capacity: HeatCapacity
 
     def __post_init__(self) -> None:
         check_positive("conductivity", self.conductivity, " W/(m K)")
@@ -53,6 +55,7 @@ class Heat:
         return self.conductivity / self.heat_capacity
 
 
+@FRICTION.register("flash")
 @dataclass(frozen=True)
 class FlashHeating(FrictionLaw):
     """A law whose coefficient falls as sliding heats the interface.
@@ -65,9 +68,9 @@ class FlashHeating(FrictionLaw):
     base: FrictionLaw
     tire: Heat
     road: Heat
-    onset: float
-    span: float
-    hot: float
+    onset: Kelvin
+    span: Kelvin
+    hot: Number
 
     # Heat comes from the whole friction: nothing may multiply it afterwards.
     outermost: ClassVar[bool] = True

@@ -18,6 +18,8 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.registry import FRICTION
+from treadload.units import Number, Pressure, SlidingSpeed
 
 
 @dataclass(frozen=True)
@@ -89,6 +91,9 @@ class FrictionLaw(ABC):
         return None
 
 
+FRICTION.makes(FrictionLaw)
+
+
 @dataclass(frozen=True)
 class Coulomb(FrictionLaw):
     """Coulomb's law: one coefficient μ ≥ 0 for stick and slip, everywhere."""
@@ -111,6 +116,15 @@ class Coulomb(FrictionLaw):
         return f"{self.number:g}"
 
 
+@FRICTION.register("coulomb")
+def _coulomb(coefficient: Number) -> Coulomb:
+    """One coefficient for stick and slip, everywhere: the same as a number in place of the table.
+
+    coefficient: μ >= 0.
+    """
+    return Coulomb(coefficient)
+
+
 @dataclass(frozen=True)
 class _Falling(FrictionLaw):
     """Friction that falls with slip speed from a static to a kinetic value.
@@ -119,9 +133,9 @@ class _Falling(FrictionLaw):
     half of the difference is gone.
     """
 
-    static: float
-    kinetic: float
-    reference_speed: float
+    static: Number
+    kinetic: Number
+    reference_speed: SlidingSpeed
 
     def __post_init__(self) -> None:
         check_coefficient("static friction", self.static)
@@ -156,6 +170,7 @@ class _Falling(FrictionLaw):
         return f"{self.static:g} → {self.kinetic:g} ({type(self).__name__}, half-way at {self.reference_speed:g} m/s)"
 
 
+@FRICTION.register("linear")
 class LinearFalling(_Falling):
     """μ = μ_k + (μ_s - μ_k) max(0, 1 - v/2v_h): on a straight line to the kinetic value at twice v_h."""
 
@@ -164,6 +179,7 @@ class LinearFalling(_Falling):
         return share
 
 
+@FRICTION.register("rational")
 class Rational(_Falling):
     """μ = μ_k + (μ_s - μ_k) / (1 + v/v_h)."""
 
@@ -171,6 +187,7 @@ class Rational(_Falling):
         return 1 / (1 + speed)
 
 
+@FRICTION.register("exponential")
 class Exponential(_Falling):
     """μ = μ_k + (μ_s - μ_k) 2^(-v/v_h)."""
 
@@ -179,6 +196,7 @@ class Exponential(_Falling):
         return share
 
 
+@FRICTION.register("pressure")
 @dataclass(frozen=True)
 class PressureDependent(FrictionLaw):
     """Rubber: μ = μ_ref (p/p_ref)^(-n), and never more than `upper`.
@@ -188,10 +206,10 @@ class PressureDependent(FrictionLaw):
     Source: Schallamach (1952).
     """
 
-    reference: float
-    reference_pressure: float
-    exponent: float
-    upper: float | None = None
+    reference: Number
+    reference_pressure: Pressure
+    exponent: Number
+    upper: Number | None = None
 
     def __post_init__(self) -> None:
         check_coefficient("reference friction", self.reference)
@@ -221,6 +239,7 @@ class PressureDependent(FrictionLaw):
         return f"{self.reference:g} (p/{self.reference_pressure / 1e3:g} kPa)^-{self.exponent:.3g} ≤ {self.largest:g}"
 
 
+@FRICTION.register("anisotropic")
 @dataclass(frozen=True)
 class Anisotropic(FrictionLaw):
     """Friction that differs along travel and across: the ellipse (q_x/μ_x)² + (q_y/μ_y)² ≤ p².
@@ -230,8 +249,8 @@ class Anisotropic(FrictionLaw):
     Source: Michałowski & Mróz (1978), Arch. Mech. 30, 259-276.
     """
 
-    along: float
-    across: float
+    along: Number
+    across: Number
     base: FrictionLaw | None = None
 
     def __post_init__(self) -> None:

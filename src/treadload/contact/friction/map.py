@@ -11,7 +11,9 @@ import numpy as np
 from treadload.contact.friction.laws import FrictionLaw, Interface, check_base
 from treadload.errors import InputError, one_line
 from treadload.kernels.arrays import Array
+from treadload.registry import FRICTION
 from treadload.tables import read_table, real_array
+from treadload.units import Length
 
 _CLEARANCE = 1e-9
 
@@ -165,6 +167,16 @@ class FrictionMap(FrictionLaw):
         low, high = self.values.min(), self.values.max()
         text = f"map {self.values.shape[1]} x {self.values.shape[0]}, {low:g} to {high:g}"
         return text if self.base is None else f"({text}) x {self.base}"
+
+
+@FRICTION.register("map")
+def _of_a_file(file: Path, cell: Length, base: FrictionLaw | None = None) -> FrictionMap:
+    """Friction that differs from place to place.
+
+    file: NPY, or a table of numbers, rows along y from left to right. cell: size of its cells. base: law that it
+    multiplies.
+    """
+    return FrictionMap.from_file(file, cell, base)
 
 
 def _numbers(what: str, given: object, dimensions: int) -> Array:

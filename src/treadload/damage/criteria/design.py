@@ -37,8 +37,22 @@ _PLACES: Mapping[str, tuple[Place, ...]] = {
     SUBGRADE: ("top",),
     TENSION: ("bottom", "top"),
 }
+# Layer that laws speak of by what they read, 0 the top one, -1 the last; others speak of any.
+_LAYERS: Mapping[str, int] = {SURFACE_EXTENSION: 0, SUBGRADE: -1}
 # At which a law that depends on temperature is asked what it reads.
 _ANY_TEMPERATURE = 15.0
+
+
+def usual_place(quantity: str) -> Place:
+    """Place at which a law that reads this speaks of a layer, if nobody says otherwise. Raises InputError."""
+    if quantity not in _PLACES:
+        raise InputError(f"no response tells the {quantity}; take a law of {', '.join(_PLACES)}")
+    return _PLACES[quantity][0]
+
+
+def usual_layer(quantity: str) -> int | None:
+    """Layer of which a law that reads this speaks, 0 the top one, -1 the last; None where it may be any."""
+    return _LAYERS.get(quantity)
 
 
 class Criterion(Protocol):

@@ -21,6 +21,8 @@ from treadload.damage.laws.fatigue import (
 )
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.registry import CRITERIA
+from treadload.units import Length, Modulus, Number, Share
 
 _PSI = 6894.757293168361
 _INCH = 0.0254
@@ -35,7 +37,7 @@ _MEPDG = (
 class _Regression(PowerLaw):
     """N = k ε^(1/b) E^-m with E in psi."""
 
-    modulus: float
+    modulus: Modulus
 
     def __post_init__(self) -> None:
         check_positive("modulus", self.modulus, "number of Pa", "asphalt is near 5.4e9")
@@ -49,10 +51,10 @@ class _Regression(PowerLaw):
 
 @dataclass(frozen=True)
 class _Mepdg(_Regression):
-    thickness: float
-    air_voids: float
-    binder_volume: float
-    calibration: float = 1.0
+    thickness: Length
+    air_voids: Share
+    binder_volume: Share
+    calibration: Number = 1.0
 
     source: ClassVar[str] = _MEPDG
 
@@ -79,6 +81,7 @@ class _Mepdg(_Regression):
         return -1 / 3.9492
 
 
+@CRITERIA.register("mepdg-bottom-up")
 @dataclass(frozen=True)
 class MepdgBottomUp(_Mepdg):
     """Passes to bottom-up cracking, N = 0.00432 C k₁ ε^-3.9492 E^-1.281 (E in psi).
@@ -102,6 +105,7 @@ class MepdgBottomUp(_Mepdg):
         return f"MEPDG bottom-up, E = {self.modulus / 1e6:g} MPa, {self.thickness * 1e3:g} mm of asphalt"
 
 
+@CRITERIA.register("mepdg-top-down")
 @dataclass(frozen=True)
 class MepdgTopDown(_Mepdg):
     """Passes to top-down cracking, N = 0.00432 C k₁ ε^-3.9492 E^-1.281 (E in psi), ε at the surface.
@@ -122,6 +126,7 @@ class MepdgTopDown(_Mepdg):
         return f"MEPDG top-down, E = {self.modulus / 1e6:g} MPa, {self.thickness * 1e3:g} mm of asphalt"
 
 
+@CRITERIA.register("asphalt-institute")
 @dataclass(frozen=True)
 class AsphaltInstitute(_Regression):
     """Passes to fatigue of a fifth of the lane, N = 0.0796 C ε^-3.291 E^-0.854 (E in psi).
@@ -132,8 +137,8 @@ class AsphaltInstitute(_Regression):
     recalled, public programs agree on it. The manual itself, Asphalt Institute MS-1 (1982), was not at hand.
     """
 
-    air_voids: float | None = None
-    binder_volume: float | None = None
+    air_voids: Share | None = None
+    binder_volume: Share | None = None
 
     quantity: ClassVar[str] = BOTTOM_EXTENSION
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1; exponents in CRREL Special Report 96-21"
@@ -169,6 +174,7 @@ class AsphaltInstitute(_Regression):
         return f"Asphalt Institute, fatigue, E = {self.modulus / 1e6:g} MPa"
 
 
+@CRITERIA.register("asphalt-institute-subgrade")
 @dataclass(frozen=True)
 class AsphaltInstituteSubgrade(PowerLaw):
     """Passes to a rut of 12.7 mm, N = 1.365e-9 ε_z^-4.477; compression counts positive.
@@ -199,6 +205,7 @@ class AsphaltInstituteSubgrade(PowerLaw):
         return "Asphalt Institute, subgrade"
 
 
+@CRITERIA.register("shell")
 @dataclass(frozen=True)
 class ShellFatigue(_Regression):
     """Passes to fatigue, N = 0.0685 ε^-5.671 E^-2.363 (E in psi).

@@ -11,6 +11,8 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.registry import CRITERIA
+from treadload.units import Number, Strain
 
 # What a law reads; `damage.criterion` takes it from a response.
 EXTENSION = "extension strain"
@@ -140,6 +142,7 @@ class PowerLaw(ABC):
         return strain if given.ndim else float(strain)
 
 
+@CRITERIA.register("fatigue-line")
 @dataclass(frozen=True)
 class FatigueLine(PowerLaw):
     """Wöhler line ε = ε₆ (N / 10⁶)^b of a material under repeated extension.
@@ -150,8 +153,8 @@ class FatigueLine(PowerLaw):
     scatter are the user's to include in epsilon_6.
     """
 
-    epsilon_6: float
-    slope: float
+    epsilon_6: Strain
+    slope: Number
 
     quantity: ClassVar[str] = EXTENSION
     source: ClassVar[str] = "Wöhler's line with the user's numbers"

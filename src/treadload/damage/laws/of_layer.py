@@ -1,0 +1,177 @@
+"""Laws of fatigue of a layer of a road: what of their numbers the layer gives where nobody else does.
+
+A law of `treadload.registry.CRITERIA` is a class whose arguments are its numbers, and `law_of_layer` looks for those
+that are missing; or a function with a parameter of type OnLayer, which looks itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from treadload.damage.laws.fatigue import FatigueLaw
+from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.errors import InputError
+from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
+from treadload.pavement import Pavement, bituminous_thickness
+from treadload.registry import CRITERIA
+from treadload.units import Length, Modulus, Number, Share, Strain
+
+Law = FatigueLaw | Callable[[float], FatigueLaw]
+
+
+@dataclass(frozen=True)
+class OnLayer:
+    """A layer that a law speaks of. name: of the criterion. road. number: of the layer, 0 at the surface."""
+
+    name: str
+    road: Pavement
+    number: int
+
+    @property
+    def material(self) -> Material | TemperatureDependent:
+        """What the layer is made of."""
+        return self.road.layers[self.number].material
+
+    @property
+    def platform_modulus(self) -> float | None:
+        """Modulus of the unbound layer of the catalogue below, Pa, if there is one."""
+        below = self.road.layers[self.number + 1].material if self.number + 1 < len(self.road.layers) else None
+        return below.modulus if isinstance(below, Unbound) else None
+
+    def asphalt(self) -> float:
+        """Thickness of all asphalt around the layer, m. Raises InputError where it is not known."""
+        try:
+            return bituminous_thickness(self.road, self.number)
+        except InputError as error:
+            raise InputError(f"{self.name!r}: {error}") from error
+
+    def needed(self, given: Mapping[str, Any], *names: str) -> None:
+        """Refuse what neither anybody nor the layer gives. Raises InputError."""
+        missing = [name for name in names if given.get(name) is None]
+        if missing:
+            raise InputError(f"{self.name!r}: {missing[0]} is missing, and the layer does not give it")
+
+    def with_own(self, given: Mapping[str, Any], *names: str) -> dict[str, Any]:
+        """What is given, and of these names the material's own where nothing is."""
+        own = {name: getattr(self.material, name, None) for name in names}
+        return {**own, **{name: value for name, value in given.items() if value is not None}}
+
+
+def law_of_layer(
+    kind: Callable[..., FatigueLaw], at: OnLayer, given: Mapping[str, Any], needed: tuple[str, ...]
+) -> Law:
+    """A law of numbers that are given, or that the layer has under the same names. Raises InputError.
+
+    thickness: left out, that of all asphalt. modulus: left out, that of the layer, which makes the law wait for the
+    temperature where the modulus does. needed: names of numbers without a default.
+    """
+    told = dict(given)
+    rest = [name for name in needed if name != "modulus"]
+    if "thickness" in rest and "thickness" not in told:
+        told["thickness"] = at.asphalt()
+    told = {**at.with_own({}, *(name for name in rest if name not in told)), **told}
+    material = at.material
+    if "modulus" in needed and "modulus" not in told:
+        if isinstance(material, Mix):
+            at.needed(told, *rest)
+            return lambda temperature: kind(**told, modulus=material.modulus(temperature))
+        if isinstance(material, Elastic):
+            told["modulus"] = material.modulus
+    at.needed(told, *needed)
+    return kind(**told)
+
+
+@CRITERIA.register("french-bituminous")
+def _bituminous(
+    at: OnLayer,
+    risk: Share | None = None,
+    epsilon_6: Strain | None = None,
+    slope: Number | None = None,
+    scatter: Number | None = None,
+    calibration: Number | None = None,
+    thickness: Length | None = None,
+    thickness_scatter: Length | None = None,
+    platform_modulus: Modulus | None = None,
+) -> FrenchBituminous | Callable[[float], FrenchBituminous]:
+    """Allowable extension at the bottom of bituminous layers by the French method.
+
+    risk: probability of failure over the design life, in (0, 1). epsilon_6: strain of a million cycles at 10 °C and
+    25 Hz. slope: b, near -0.2. scatter: SN, of the logarithm of the fatigue life. calibration: k_c; left out, these
+    four are those of the layer's mix. thickness: of all asphalt; left out, that of the bituminous layers around this
+    one, added up. thickness_scatter: Sh; left out, by the rule of the method. platform_modulus: of what lies below;
+    left out, that of an unbound layer of the catalogue there.
+    """
+    mix = at.material
+    told = {
+        "risk": risk, "epsilon_6": epsilon_6, "slope": slope, "scatter": scatter, "calibration": calibration,
+        "thickness": thickness, "thickness_scatter": thickness_scatter, "platform_modulus": platform_modulus,
+    }  # fmt: skip
+    if isinstance(mix, Mix):
+        told = {**told, **at.with_own(told, "epsilon_6", "slope", "scatter", "calibration")}
+    if platform_modulus is None:
+        told["platform_modulus"] = at.platform_modulus
+    if thickness is None:
+        # Nothing but Sh depends on it.
+        known = thickness_scatter is not None
+        told["thickness"] = at.road.layers[at.number].thickness if known else at.asphalt()
+    at.needed(told, "risk", "epsilon_6", "slope", "scatter", "thickness", "calibration")
+    own: dict[str, Any] = told
+    if not isinstance(mix, Mix):
+        return FrenchBituminous(**own)
+    return lambda temperature: FrenchBituminous(**own, modulus_ratio=mix.modulus_ratio(temperature))
+
+
+@CRITERIA.register("french-hydraulic")
+def _hydraulic(
+    at: OnLayer,
+    risk: Share | None = None,
+    sigma_6: Modulus | None = None,
+    slope: Number | None = None,
+    scatter: Number | None = None,
+    calibration: Number | None = None,
+    joints: Number | None = None,
+    thickness_scatter: Length | None = None,
+    platform_modulus: Modulus | None = None,
+) -> FrenchHydraulic:
+    """Allowable tension of layers treated with a hydraulic binder by the French method.
+
+    risk: probability of failure over the design life, in (0, 1). sigma_6: stress of a million cycles. slope: b, near
+    -1/15. scatter: SN. calibration: k_c. joints: k_d. thickness_scatter: Sh; left out, these are those of the layer's
+    mix. platform_modulus: of what lies below; left out, that of an unbound layer of the catalogue there.
+    """
+    told = {
+        "risk": risk, "sigma_6": sigma_6, "slope": slope, "scatter": scatter, "calibration": calibration,
+        "joints": joints, "thickness_scatter": thickness_scatter, "platform_modulus": platform_modulus,
+    }  # fmt: skip
+    if isinstance(at.material, HydraulicMix):
+        own = ("sigma_6", "slope", "scatter", "calibration", "joints", "thickness_scatter")
+        told = {**told, **at.with_own(told, *own)}
+    if platform_modulus is None:
+        told["platform_modulus"] = at.platform_modulus
+    at.needed(told, "risk", "sigma_6", "slope", "scatter", "calibration")
+    known: dict[str, Any] = {name: value for name, value in told.items() if value is not None}
+    return FrenchHydraulic(**known)
+
+
+@CRITERIA.register("french-subgrade")
+def _subgrade(
+    at: OnLayer,
+    constant: Number | None = None,
+    slope: Number | None = None,
+    traffic: Literal["heavy", "light", "inverted"] | None = None,
+) -> FrenchSubgrade:
+    """Allowable compression of soil and unbound layers by the French method.
+
+    constant: A, strain of one pass; left out, that of the layer for the traffic. slope: b. traffic: "heavy", which is
+    medium too, "light", or "inverted" for the unbound layer of an inverted structure.
+    """
+    given = {name: value for name, value in (("constant", constant), ("slope", slope)) if value is not None}
+    asked = traffic or "heavy"
+    if isinstance(at.material, Unbound):
+        own = FrenchSubgrade.of(at.material, asked)
+        return FrenchSubgrade(**{"constant": own.constant, "slope": own.slope, **given})
+    if constant is None and asked != "heavy":
+        raise InputError(f"{at.name!r}: give constant for the traffic {asked!r}, or a layer of the catalogue")
+    return FrenchSubgrade(**given)

@@ -1,0 +1,47 @@
+"""What a class or a function takes and makes, by its annotations."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import types
+from collections.abc import Callable
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+from treadload.errors import InputError
+
+
+def parameters(target: Callable[..., Any], hidden: tuple[Any, ...] = ()) -> dict[str, tuple[Any, Any]]:
+    """Annotation and default (... if there is none) of what a class or a function takes, by name.
+
+    hidden: annotations of parameters that are left out. Raises InputError for one without an annotation.
+    """
+    who = getattr(target, "__qualname__", str(target))
+    try:
+        source = target.__init__ if inspect.isclass(target) and not dataclasses.is_dataclass(target) else target
+        hints = get_type_hints(source, include_extras=True)
+        signature = inspect.signature(target)
+    except (NameError, TypeError, ValueError) as error:
+        raise InputError(f"the annotations of {who} cannot be read: {error}") from error
+    found: dict[str, tuple[Any, Any]] = {}
+    for name, one in signature.parameters.items():
+        if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD):
+            continue
+        if name not in hints:
+            raise InputError(f"the parameter {name} of {who} has no annotation; give it one, as Length or Number")
+        if hints[name] not in hidden:
+            found[name] = hints[name], ... if one.default is one.empty else one.default
+    return found
+
+
+def made_by(target: Callable[..., Any]) -> tuple[Any, ...]:
+    """Types that a maker returns: a class itself, those of a function's annotation."""
+    if inspect.isclass(target):
+        return (target,)
+    hint = get_type_hints(target).get("return")
+    return tuple(get_args(hint)) if get_origin(hint) in (Union, types.UnionType) else (hint,)
+
+
+def makes(target: Callable[..., Any], only: tuple[type, ...]) -> bool:
+    """True if a maker returns one of these types."""
+    return any(inspect.isclass(one) and issubclass(one, only) for one in made_by(target))

@@ -1,0 +1,205 @@
+"""A table of TOML, and what is said of a wrong one."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Protocol, Union, get_args, get_origin
+
+from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from treadload.errors import InputError, nearest
+from treadload.registry import OURS, Entry, Registry
+
+# Errors told at once: a reader repairs the first, and the rest may follow from it.
+_TOLD = 4
+HERE = Path(".")
+
+
+class Table(BaseModel):
+    """A table: frozen, and no key that it does not know."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __repr_args__(self) -> Any:
+        """What was given; the rest stands at its default."""
+        return [(name, value) for name, value in super().__repr_args__() if name in self.model_fields_set]
+
+    @classmethod
+    def keys(cls) -> tuple[str, ...]:
+        """Keys that the table knows."""
+        return tuple(name for name, field in cls.model_fields.items() if not field.exclude)
+
+    @classmethod
+    def unknown(cls, key: str) -> str:
+        """What to say of a key that the table does not know."""
+        return nearest(key, cls.keys(), "known here:")
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _told(cls, value: Any, handler: Any) -> Any:
+        """Say of an unknown key which one was meant, while the table is known."""
+        try:
+            return handler(value)
+        except ValidationError as error:
+            details: list[InitErrorDetails] = []
+            for one in error.errors():
+                strange = one["type"] == "extra_forbidden" and len(one["loc"]) == 1
+                said = cls.unknown(str(one["loc"][0])) if strange else one["msg"]
+                kind: Any = PydanticCustomError(one["type"], said.removeprefix("Value error, "))
+                details.append({"type": kind, "loc": one["loc"], "input": one["input"]})
+            raise ValidationError.from_exception_data(cls.__name__, details) from error
+
+
+class Mark:
+    """An annotation that says how a value is read, and what it stands for."""
+
+    def options(self) -> tuple[Any, ...]:
+        """Types that the value may have; none if the annotation itself is the type."""
+        return ()
+
+    def build(self, value: Any, folder: Path = HERE) -> Any:
+        """What a value that was read stands for; files start from the folder."""
+        return value
+
+
+@dataclass(frozen=True)
+class File(Mark):
+    """The path of a file, from the folder of the case."""
+
+    def build(self, value: Any, folder: Path = HERE) -> Any:
+        """The path from here."""
+        return folder / value if isinstance(value, str) else value
+
+
+class Kinds(Protocol):
+    """What a table that is one of several kinds asks of them."""
+
+    @property
+    def registry(self) -> Registry:
+        """What makes them."""
+
+    def knows(self, key: str) -> bool:
+        """True if one of them has this key."""
+
+    def check(self, made: Any, entry: Entry) -> None:
+        """Refuse what is none of them. Raises InputError."""
+
+
+class Made(Table):
+    """The table of what a class or a function makes; see `table_of`."""
+
+    target: ClassVar[Callable[..., Any]]
+    entry: ClassVar[Entry | None] = None
+    hints: ClassVar[Mapping[str, Any]]
+    # Keys that the target does not take, and what makes use of them.
+    besides: ClassVar[tuple[str, ...]] = ()
+    finish: ClassVar[Callable[[Any, Made, Path], Any] | None] = None
+    kinds: ClassVar[Kinds | None] = None
+
+    @classmethod
+    def unknown(cls, key: str) -> str:
+        """Which key was meant; of one that belongs to another kind, what this one takes."""
+        if cls.kinds is not None and cls.entry is not None and cls.kinds.knows(key):
+            listed = ", ".join(name for name in cls.model_fields if name != cls.kinds.registry.key) or "none"
+            return f"{key} is no key of the {cls.kinds.registry.noun} {cls.entry.name!r}, which takes {listed}"
+        return super().unknown(key)
+
+    def given(self, folder: Path = HERE) -> dict[str, Any]:
+        """Arguments of the target that the table gives; files start from the folder."""
+        own = [name for name in self.hints if name in self.model_fields_set and name not in self.besides]
+        return {name: settled(getattr(self, name), self.hints[name], folder) for name in own}
+
+    def build(self, folder: Path = HERE) -> Any:
+        """The object; files start from the folder. Raises InputError and ValueError."""
+        made = guarded(self.entry, self.target, **self.given(folder))
+        if self.kinds is not None and self.entry is not None:
+            self.kinds.check(made, self.entry)
+        finish = type(self).finish
+        return made if finish is None else finish(made, self, folder)
+
+    @property
+    def waits(self) -> bool:
+        """True if it cannot be built as it is read: a file is read for it, or it asks for more than its table."""
+        return any(_reads_file(getattr(self, name), self.hints[name]) for name in self.hints)
+
+    @model_validator(mode="after")
+    def _can_be_built(self) -> Made:
+        # What is cheap to build is built where its key is known.
+        if not self.waits:
+            self.build()
+        return self
+
+
+def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **given: Any) -> Any:
+    """What a target returns; what goes wrong in another package is told as its own failure. Raises InputError."""
+    if entry is None or entry.package == OURS:
+        return target(*args, **given)
+    try:
+        return target(*args, **given)
+    except ValueError:
+        raise
+    except Exception as error:
+        raise InputError(f"{entry.name!r} of {entry.package} fails: {error!r}; repair that package") from error
+
+
+def in_words(error: ValidationError) -> str:
+    """The first errors of a table on one line, each with the path of its key."""
+    found = error.errors()
+    told = [_one_error(item) for item in found[:_TOLD]]
+    return "; ".join([*told, f"and {len(found) - _TOLD} more"] if len(found) > _TOLD else told)
+
+
+def _one_error(item: Any) -> str:
+    place = ".".join(map(str, item["loc"]))
+    message = str(item["msg"]).removeprefix("Value error, ")
+    if item["type"] == "extra_forbidden":
+        return f"unknown key {place!r}; {message}"
+    if item["type"] == "missing":
+        return f"{place!r} is missing"
+    return f"{place}: {message}" if place else message
+
+
+def arms(told: Any) -> list[Any]:
+    """The types that a value may have."""
+    if get_origin(told) in (Union, types.UnionType):
+        return [arm for one in get_args(told) for arm in arms(one)]
+    if get_origin(told) is Annotated:
+        options = [one for mark in get_args(told)[1:] if isinstance(mark, Mark) for one in mark.options()]
+        if options:
+            return [arm for one in options for arm in arms(one)]
+    return [told]
+
+
+def _marks(told: Any) -> list[Mark]:
+    found = (mark for arm in arms(told) if get_origin(arm) is Annotated for mark in get_args(arm)[1:])
+    return [mark for mark in found if isinstance(mark, Mark)]
+
+
+def _members(told: Any, count: int) -> list[Any]:
+    """Types of the members of a list."""
+    within = next((get_args(arm) for arm in arms(told) if get_origin(arm) is tuple), (Any, ...))
+    return [within[0]] * count if within[-1] is ... else list(within)
+
+
+def settled(value: Any, told: Any, folder: Path) -> Any:
+    """The argument that a value of a table stands for."""
+    if isinstance(value, Made):
+        return value.build(folder)
+    if isinstance(value, list | tuple):
+        members = zip(value, _members(told, len(value)), strict=True)
+        return tuple(settled(one, of, folder) for one, of in members)
+    for mark in _marks(told):
+        value = mark.build(value, folder)
+    return value
+
+
+def _reads_file(value: Any, told: Any) -> bool:
+    if isinstance(value, Made):
+        return value.waits
+    if isinstance(value, list | tuple):
+        return any(_reads_file(one, of) for one, of in zip(value, _members(told, len(value)), strict=True))
+    return value is not None and any(isinstance(mark, File) for mark in _marks(told))

@@ -1,0 +1,164 @@
+"""What a case can name, ours and what other packages bring: laws of friction, materials, criteria, readers of meshes.
+
+Ours are registered where they are defined, `@FRICTION.register("coulomb")`. Another package declares an entry point
+of the registry's group, whose name is the name in the case:
+
+    [project.entry-points."treadload.friction"]
+    stribeck = "my_laws:Stribeck"
+
+It is loaded when a case names it, not before: a broken package stops no one who does not ask for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from importlib import metadata
+from typing import Any, TypeVar
+
+from treadload.errors import InputError, nearest
+
+Target = TypeVar("Target", bound=Callable[..., Any])
+
+OURS = "treadload"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A thing by its name. target: a class or function that makes it. package: that brings it, with its version."""
+
+    name: str
+    target: Callable[..., Any]
+    package: str = OURS
+
+
+class Registry:
+    """Makers of one kind of thing by name.
+
+    noun: one of them, in a sentence. group: of entry points. key: that names the thing in a table of a case.
+    default: what a table without this key is. number: what a number stands for. words: True if a name alone will do
+    where the thing needs nothing else. example: of a table.
+    faces: what the makers return, as the annotations of who takes it name it.
+    """
+
+    def __init__(
+        self,
+        noun: str,
+        group: str,
+        *,
+        key: str = "kind",
+        default: str = "",
+        number: str = "",
+        words: bool = False,
+        example: str = "",
+    ) -> None:
+        self.noun, self.group, self.key = noun, group, key
+        self.default, self.number, self.words, self.example = default, number, words, example
+        self.faces: tuple[Any, ...] = ()
+        self._own: dict[str, Entry] = {}
+
+    def makes(self, *faces: Any) -> None:
+        """Say what its makers return: types by which `treadload.read` finds the registry."""
+        self.faces = faces
+
+    def register(self, *names: str) -> Callable[[Target], Target]:
+        """Decorator of a class or function that makes a thing, under one name or several.
+
+        Raises InputError for a name that something else has already.
+        """
+
+        def keep(target: Target) -> Target:
+            for name in names:
+                before = self._own.get(name)
+                # A cell of a notebook that is run again defines the same thing anew.
+                if before is not None and _place(before.target) != _place(target):
+                    raise InputError(
+                        f"the {self.noun} {name!r} is {_place(before.target)} already, so that {_place(target)} "
+                        "cannot be; give it another name"
+                    )
+                self._own[name] = Entry(name, target)
+            return target
+
+        return keep
+
+    def own(self) -> tuple[str, ...]:
+        """Names of what this program brings or the session registered."""
+        return tuple(self._own)
+
+    def names(self) -> tuple[str, ...]:
+        """All names, ours first; nothing is loaded. Raises InputError for a name that two have."""
+        return (*self._own, *sorted(self._points()))
+
+    def find(self, name: str) -> Entry:
+        """What has this name. Raises InputError: unknown, brought twice, or its package cannot be loaded."""
+        points = self._points()
+        if name in self._own:
+            return self._own[name]
+        if name not in points:
+            raise InputError(self.unknown(name, self.names()))
+        return _loaded(points[name], self)
+
+    def unknown(self, name: object, known: Iterable[str]) -> str:
+        """What to say of a name that is none of those known."""
+        what = self.key if self.key != "kind" else self.noun if self.words else f"{self.noun} of the kind"
+        return f"no {what} {name!r}; {nearest(name, known)}"
+
+    def __iter__(self) -> Iterator[Entry]:
+        return (self.find(name) for name in self.names())
+
+    def _points(self) -> dict[str, metadata.EntryPoint]:
+        found: dict[str, metadata.EntryPoint] = {}
+        for point in metadata.entry_points(group=self.group):
+            other = OURS if point.name in self._own else package_of(found[point.name]) if point.name in found else ""
+            # The same distribution may lie on the path twice.
+            if other and not (point.name in found and found[point.name].value == point.value):
+                raise InputError(
+                    f"the {self.noun} {point.name!r} comes from {other} and from {package_of(point)}; rename one of "
+                    "them, or remove a package"
+                )
+            found[point.name] = point
+        return found
+
+
+def package_of(point: metadata.EntryPoint) -> str:
+    """The package that brings an entry point, with its version."""
+    if point.dist is None:
+        return f"the package of {point.value}"
+    return f"the package {point.dist.name} {point.dist.version}"
+
+
+def load_point(point: metadata.EntryPoint) -> Any:
+    """What an entry point names. Raises InputError in a sentence that names the package."""
+    try:
+        return point.load()
+    # Whatever a foreign package raises is told as its own failure.
+    except Exception as error:
+        raise InputError(
+            f"{package_of(point)} brings {point.name!r} for {point.group}, but {point.value} cannot be loaded: "
+            f"{error!r}; repair that package or remove it"
+        ) from error
+
+
+def _loaded(point: metadata.EntryPoint, registry: Registry) -> Entry:
+    target = load_point(point)
+    if not callable(target):
+        raise InputError(
+            f"{package_of(point)} brings the {registry.noun} {point.name!r}, but {point.value} is {target!r}, "
+            "neither a class nor a function"
+        )
+    return Entry(point.name, target, package_of(point))
+
+
+def _place(target: Callable[..., Any]) -> str:
+    return f"{target.__module__}.{getattr(target, '__qualname__', target)}"
+
+
+MATERIALS = Registry("material", "treadload.materials", default="elastic")
+SHIFTS = Registry("shift", "treadload.shifts")
+BONDS = Registry("bond", "treadload.bonds", default="spring", words=True, example='{ stiffness = "1000 MPa/m" }')
+FRICTION = Registry("law of friction", "treadload.friction", key="law", number="coulomb")
+MANEUVERS = Registry("maneuver", "treadload.maneuvers", words=True, example='{ kind = "braking", deceleration = 3 }')
+CRITERIA = Registry("law of fatigue", "treadload.criteria", key="law")
+READERS = Registry("reader of meshes", "treadload.readers")
+BODIES = Registry("body", "treadload.bodies")
+ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, READERS, BODIES)
