@@ -194,6 +194,7 @@ def _made(choice: Choice | None, entry: Entry) -> type[Made]:
     besides: dict[str, Any] = {}
     if choice is not None:
         key, default = choice.registry.key, choice.registry.default
+        fields = dict.fromkeys(choice.needed)
         fields[key] = (Literal[entry.name], entry.name if entry.name == default else ...)
         besides = dict(choice.more(target)) if choice.more is not None else {}
         own = parameters(target, choice.hidden)
