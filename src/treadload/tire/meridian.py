@@ -23,12 +23,12 @@ STEEPEST = 1.5  # what rises more is a wall and not the rounded end of a tread
 
 def median_meridian(unrolled: Array) -> Array:
     """(ny,) median over the angle of an unrolled tread (ny, nt), m; NaN where there is none."""
-    return _row_quantile(unrolled, 0.5)
+    return row_quantile(unrolled, 0.5)
 
 
 def high_meridian(unrolled: Array, part: float) -> Array:
     """(ny,) quantile over the angle of an unrolled tread, m: low only where that part of the turn is low."""
-    return _row_quantile(unrolled, part)
+    return row_quantile(unrolled, part)
 
 
 def beside(vertices: Array, y: Array, meridian: Array) -> Array:
@@ -38,12 +38,12 @@ def beside(vertices: Array, y: Array, meridian: Array) -> Array:
 
 def top_meridian(unrolled: Array) -> Array:
     """(ny,) median over the angle of the tops of the blocks, m: voids do not lower it and noise does not raise it."""
-    high = _row_quantile(unrolled, 0.98)[:, None]
+    high = row_quantile(unrolled, 0.98)[:, None]
     with np.errstate(invalid="ignore"):
-        return _row_quantile(np.where(unrolled > high - TOP_BAND, unrolled, np.nan), 0.5)
+        return row_quantile(np.where(unrolled > high - TOP_BAND, unrolled, np.nan), 0.5)
 
 
-def _row_quantile(values: Array, part: float) -> Array:
+def row_quantile(values: Array, part: float) -> Array:
     """(ny,) quantile of each row of (ny, nt) without its NaN; one sort, as numpy's nanquantile goes row by row."""
     ordered = np.sort(values, axis=1)
     place = part * np.maximum(np.isfinite(values).sum(axis=1) - 1, 0)

@@ -12,6 +12,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.tire.meridian import row_quantile
 from treadload.tire.mesh_file import Mesh
 from treadload.tire.quality import Outlier
 
@@ -202,7 +203,7 @@ def tread_reference(vertices: Array, y: Array, top: Array, turn: Array, theta: A
     over = np.where(known[:, None], turn - top[:, None], np.nan)
     seen = np.isfinite(over).any(axis=0)
     high = np.zeros(len(theta))
-    high[seen] = np.nanquantile(over[:, seen], 0.9, axis=0)
+    high[seen] = row_quantile(over[:, seen].T, 0.9)
     # Over 45°, the higher part: the turn itself where lugs leave gaps.
     window = max(3, round(len(theta) / 8))
     run = ndimage.percentile_filter(high, 75, size=window, mode="wrap")
