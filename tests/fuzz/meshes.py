@@ -87,7 +87,11 @@ def _tire() -> tuple[Any, Any]:
 
 
 def _break(rng: random.Random, vertices: Any, faces: Any) -> tuple[Any, Any]:
-    vertices, faces = vertices.copy(), faces.copy()
+    with np.errstate(all="ignore"):
+        return _broken(rng, vertices.copy(), faces.copy())
+
+
+def _broken(rng: random.Random, vertices: Any, faces: Any) -> tuple[Any, Any]:
     if not len(vertices) or not len(faces):
         return vertices, faces
     size = float(np.nanmax(np.abs(vertices[np.isfinite(vertices)]), initial=1.0))

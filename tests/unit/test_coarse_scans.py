@@ -46,3 +46,15 @@ def test_the_tread_itself_has_a_possible_diameter(tmp_path):
     path = write(tmp_path / "tire.off", vertices, lattice_faces(len(profile), 180, closed=True))
     with pytest.raises(InputError, match=r"an outer diameter of 4.51 m, outside 0.2 to 4.5 m"):
         Tire.from_scan(path, units="m")
+
+
+def test_a_torn_vertex_is_told(tmp_path):
+    """Of two numbers in one line the reader of OBJ makes two for every vertex."""
+    vertices, faces = wheel()
+    lines = write(tmp_path / "whole.obj", vertices, faces).read_text().splitlines()
+    at = next(place for place, line in enumerate(lines) if line.startswith("v "))
+    lines[at] = "v 1 2"
+    path = tmp_path / "tire.obj"
+    path.write_text("\n".join(lines))
+    with pytest.raises(InputError, match=r"'tire\.obj' has 2 numbers a vertex"):
+        Tire.from_scan(path, units="m")

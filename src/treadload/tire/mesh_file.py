@@ -72,6 +72,11 @@ def read_mesh(path: str | Path) -> Mesh:
         ) from error
     if len(faces) == 0:
         raise GeometryError(_no_faces(path))
+    if vertices.shape[1:] != (3,) or faces.shape[1:] != (3,):
+        raise InputError(
+            f"scan file {path.name!r} has {vertices.shape[-1]} numbers a vertex and {faces.shape[-1]} vertices a "
+            "triangle where 3 and 3 belong; it may be truncated, export or copy it again"
+        )
     bad = int((~np.isfinite(vertices)).any(axis=1).sum())
     if bad:
         raise GeometryError(
