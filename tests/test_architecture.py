@@ -243,6 +243,23 @@ def test_no_public_name_hides_a_module():
     assert not modules & set(treadload.__all__)
 
 
+PAGE = Path(__file__).parents[1] / "docs" / "explanation" / "architecture.md"
+
+
+def section(title):
+    return PAGE.read_text(encoding="utf-8").partition(f"## {title}\n")[2].partition("\n## ")[0]
+
+
+def test_the_picture_of_the_house_shows_every_room():
+    picture = section("The rooms").split("```")[1]
+    drawn = set(re.findall(r"[a-z_]+/", picture)) | set(re.findall(r"[a-z_]+", picture))
+    rooms = {f"{path.parent.name}/" for path in MODULES if path.parent != ROOT}
+    beside = {path.stem for path in MODULES if path.parent == ROOT} - {"_version", "__main__"}
+    assert rooms | beside <= drawn
+    # And none that is not there.
+    assert set(re.findall(r"[a-z_]+/", picture)) <= rooms
+
+
 def rooms_of_fields(job, shape):
     """Folders of ours in which a function takes or returns a field of this shape, or a dataset, while a job runs."""
     rooms = set()
@@ -277,10 +294,7 @@ def test_the_walk_of_a_gap_enters_ten_rooms_at_most():
     road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
     rolling = tl.Rolling(normal_load=300, tractive_force=50, friction=0.7)
     rooms = rooms_of_fields(lambda: tl.solve_contact(tire, road, rolling).plot.pressure(), (24, 24))
-    page = (Path(__file__).parents[1] / "docs" / "explanation" / "architecture.md").read_text(encoding="utf-8")
-    told = re.findall(
-        r"^\d+\. .*?`([a-z_/]+)/`", page.partition("## The walk of a gap")[2].partition("\n## ")[0], re.M
-    )
+    told = re.findall(r"^\d+\. .*?`([a-z_/]+)/`", section("The walk of a gap"), re.M)
     assert len(told) == len(set(told)) <= 10
     # Leaves are no rooms; the closed forms of a body are of distances, which have a shape of their own.
     assert rooms - {"."} == set(told) - {"kernels/half_space"}
