@@ -214,7 +214,7 @@ class Unit:
     @property
     def example(self) -> str:
         """A value as a case writes it."""
-        return _OF_KINDS.get(self.kind) or _EXAMPLES[self.si]
+        return _OF_KINDS.get(self.kind or self.si) or _EXAMPLES[self.si]
 
     # What pydantic asks of an annotation; nothing here needs it.
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
@@ -225,13 +225,14 @@ class Unit:
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         """A number in SI units, or a text with its unit."""
-        if not self.si:
-            return {"type": ["number", "string"], "description": f"A pure number, such as {self.example}."}
         bare = "°C" if self.si == "degC" else self.si
-        return {"type": ["number", "string"], "description": f"A number in {bare}, or a text such as {self.example}."}
+        told = f"A number in {bare}, or a text such as {self.example}." if bare else f"A number, {self.example}."
+        return {"type": ["number", "string"], "description": told}
 
 
 _OF_KINDS = {
+    "": "0.7",
+    "degC": '"35 degC"',
     "modulus": '"5400 MPa"',
     "radius": '"25 m"',
     "sliding speed": '"2 m/s"',

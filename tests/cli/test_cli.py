@@ -1,3 +1,4 @@
+import json
 import os
 import signal
 import subprocess
@@ -307,3 +308,28 @@ def test_shells_can_complete():
         env=environment, capture_output=True, text=True,
     )  # fmt: skip
     assert done.stdout.split() == ["catalogue"]
+
+
+@pytest.mark.parametrize("kind", ["run", "life"])
+def test_init_writes_a_case_that_can_be_run_and_spares_what_is_there(kind, tmp_path):
+    path = tmp_path / "my.toml"
+    made = call("init", kind, "-o", path)
+    assert made.exit_code == 0
+    assert f"treadload {kind} {path} --dry-run" in made.output
+    planned = call(kind, path, "--dry-run")
+    assert planned.exit_code == 0, planned.output
+    path.write_text("mine")
+    refused(call("init", kind, "-o", path), 2, "is there already", "--force")
+    assert path.read_text() == "mine"
+    assert call("init", kind, "-o", path, "--force").exit_code == 0
+    assert "title = " in path.read_text()
+
+
+def test_schema_is_printed_or_written(tmp_path):
+    printed = call("schema")
+    assert printed.exit_code == 0
+    assert "rolling" in json.loads(printed.stdout)["properties"]
+    path = tmp_path / "case.schema.json"
+    assert call("schema", "life", "-o", path).exit_code == 0
+    assert "traffic" in json.loads(path.read_text(encoding="utf-8"))["properties"]
+    refused(call("schema", "live"), 2, "did you mean 'life'")

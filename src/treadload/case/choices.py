@@ -18,7 +18,13 @@ def _tested(law: Any, table: Made, folder: Path) -> tuple[Any, tuple[float, floa
     return law, getattr(table, "tested", None)
 
 
-SHIFT = Choice(SHIFTS, "shift", more=lambda _: {"tested": tuple[Celsius, Celsius]}, finish=_tested)
+SHIFT = Choice(
+    SHIFTS,
+    "shift",
+    more=lambda _: {"tested": tuple[Celsius, Celsius]},
+    finish=_tested,
+    about="tested: lowest and highest temperature of the tests behind it.",
+)
 
 
 def _shift_of(target: Callable[..., Any]) -> Mapping[str, Any]:
@@ -36,12 +42,23 @@ def _shifted(material: Any, table: Made, folder: Path) -> Material | Temperature
     return made if shift is None else Thermorheological(material, *SHIFT.build(shift, folder))
 
 
-ROAD_MATERIAL = Choice(MATERIALS, "material of a road", more=_shift_of, finish=_shifted)
+ROAD_MATERIAL = Choice(
+    MATERIALS,
+    "material of a road",
+    more=_shift_of,
+    finish=_shifted,
+    about="shift: how its times depend on temperature; without it the material is the same at all.",
+)
 TIRE_MATERIAL = Choice(MATERIALS, "material of a tire", only=(Elastic, Prony))
 BOND = Choice(BONDS, "bond")
 # A number, or the table of a law.
-FRICTION_OR_NUMBER = Choice(FRICTION, "friction", keeps_number=True)
-MANEUVER = Choice(MANEUVERS, "maneuver", more=lambda _: {"name": str, "share": Share})
+FRICTION_OR_NUMBER = Choice(FRICTION, keeps_number=True)
+MANEUVER = Choice(
+    MANEUVERS,
+    "maneuver",
+    more=lambda _: {"name": str, "share": Share},
+    about="name: for tables. share: of the class's passes, in a list of maneuvers.",
+)
 
 RoadMaterial = Annotated[Any, ROAD_MATERIAL]
 TireMaterial = Annotated[Any, TIRE_MATERIAL]

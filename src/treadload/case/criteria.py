@@ -21,11 +21,12 @@ STRAIN: Literal["in-plane"] = "in-plane"
 class CriterionTable(Made):
     """`[[criteria]]`: name, law, and the layer that it judges.
 
-    layer: its name, or its number from the surface, 1 the top one; left out, the last one for laws of the subgrade
-    and the top one for top-down cracking. place: "top" or "bottom"; left out, "top" for both of these, else "bottom".
-    strain: "principal" or "in-plane", which it is if left out. mean_over: side of the cube of road that an extension
-    near the surface is a mean over; 10 mm if left out. The rest are parameters of the law; those left out are taken
-    from the layer where it is one of the catalogue: ε₆, slope, SN, k_c and E(θ) of a mix, A and b of a platform.
+    name: for tables and figures. layer: its name, or its number from the surface, 1 the top one; left out, the last
+    one for laws of the subgrade and the top one for top-down cracking. place: "top" or "bottom"; left out, "top" for
+    both of these, else "bottom". strain: "principal" or "in-plane", which it is if left out. mean_over: side of the
+    cube of road that an extension near the surface is a mean over; 10 mm if left out. The rest are parameters of the
+    law; those left out are taken from the layer where it is one of the catalogue: ε₆, slope, SN, k_c and E(θ) of a
+    mix, A and b of a platform.
     """
 
     @property
@@ -77,6 +78,7 @@ CRITERION = Choice(
     needed=("name",),
     lenient=True,
     hidden=(OnLayer,),
+    about=CriterionTable.__doc__ or "",
     base=CriterionTable,
 )
 Criterion = Annotated[Any, CRITERION]

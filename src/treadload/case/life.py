@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from treadload.case.criteria import Criterion
 from treadload.case.file import FilePart
-from treadload.case.road import PavementPart
+from treadload.case.road import PavementPart, RoadPart
 from treadload.case.tire import TirePart
 from treadload.case.traffic import ClimatePart, TrafficPart
 from treadload.contact.solve import DEFAULT_SPACING
@@ -19,21 +19,23 @@ from treadload.tire import Tire
 from treadload.units import Length, Number
 
 
-class DesignRoadPart(PavementPart):
+class DesignRoadPart(RoadPart):
     """`[pavement]` of a design: as in a case, but its temperatures are those of [climate]."""
 
-    @model_validator(mode="after")
-    def _one_temperature(self) -> DesignRoadPart:
-        for name in ("temperature", "extrapolate"):
-            if name in self.model_fields_set:
-                raise ValueError(f"{name} has no place here: the road takes the temperatures of [climate]")
-        return self
+    @classmethod
+    def unknown(cls, key: str) -> str:
+        """Which key was meant."""
+        if key in PavementPart.known_keys():
+            return "it has no place here: the road takes the temperatures of [climate]"
+        return super().unknown(key)
 
 
 class LifeCase(FilePart):
     """Everything that the life of a road depends on, checked.
 
-    Numbers are SI; in a TOML file a quoted number carries its unit. spacing: of the contact's cells, 3 mm if left
+    Numbers are SI; in a TOML file a quoted number carries its unit. title: of summaries and reports. tire: of the
+    classes of axles that bring none. pavement: the road. traffic: what passes. climate: how warm the road is over the
+    year. criteria: what ends its life. spacing: of the contact's cells, 3 mm if left
     out: surface lives move by less than 5 % on finer ones, and by half on cells of 6 mm. tolerance: of
     readings interpolated over the climate.
     """

@@ -29,9 +29,11 @@ from treadload.units import Length, Number
 class DamagePart(Table):
     """`[damage]`: the fatigue line, and which strain it reads, where, over how much road.
 
-    mean_over: side of the cube of road whose mean strain is read; 10 mm if left out. depth: one of the response's
-    depths, whose points are read instead; left out, the means of all that lie in the top layer. error_estimate: solve
-    the case on cells twice as large too, and tell how much the reading moves. See `treadload.assess`.
+    fatigue: the line, with epsilon_6 and slope. strain: "in-plane", of the horizontal plane, or "principal", in
+    space. mean_over: side of the cube of road whose mean strain is read; 10 mm if left out. depth: one of the
+    response's depths, whose points are read instead; left out, the means of all that lie in the top layer.
+    error_estimate: solve the case on cells twice as large too, and tell how much the reading moves. See
+    `treadload.assess`.
     """
 
     fatigue: Annotated[Made, As(FatigueLine)]
@@ -51,8 +53,12 @@ class DamagePart(Table):
 class Case(FilePart):
     """Everything that a computation needs, checked.
 
-    Numbers are SI; in a TOML file a quoted number carries its unit. road_compliance: "layers" for a stiff body such
-    as a steel wheel, see `solve_contact`.
+    Numbers are SI; in a TOML file a quoted number carries its unit. title: of summaries and reports. spacing: of the
+    contact's cells; left out, 3 mm, or the cells of a height map. tolerance: of the contact, relative.
+    road_compliance: "layers" for a stiff body such as a steel wheel, see `solve_contact`; else the top layer's
+    half-space. tire: its surface and what it is made of. pavement: the road. rolling: load, friction, forces.
+    footprint: recorded contact stress in place of tire and rolling. response: where the road is read. damage: what it
+    does to the surface.
     """
 
     own_tables: ClassVar = ("rolling", "footprint", "response", "damage")

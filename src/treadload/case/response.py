@@ -19,7 +19,8 @@ _SHALLOW = 0.06
 class WheelPart(Table):
     """`{ x = "0 mm", y = "170 mm", mirror = true }`: where a copy of the wheel stands, to the nearest cell.
 
-    mirror: True for its image in the plane y = 0, as the left wheel of an axle is of the right one.
+    x: along travel. y: to the right. mirror: True for its image in the plane y = 0, as the left wheel of an axle is
+    of the right one.
     """
 
     x: Length = 0.0
@@ -30,9 +31,10 @@ class WheelPart(Table):
 class ResponsePart(Table):
     """`[response]`: depths of the maps, wheels, speed, and how deep the vertical slices go.
 
-    slice_depth: left out, 60 mm, on layers a quarter below the last interface, 600 mm at most. wheels: copies of the
-    contact, whose responses add up; left out, one at the origin. speed: left out, that of [rolling]; a viscoelastic
-    road needs one. side: "above" or "below", of an interface that a depth falls on.
+    depths: of the maps, downwards; 0 is the surface. slice_depth: of the vertical slices; left out, 60 mm, on layers
+    a quarter below the last interface, 600 mm at most. wheels: copies of the contact, whose responses add up; left
+    out, one at the origin. speed: left out, that of [rolling]; a viscoelastic road needs one. side: "above" or
+    "below", of an interface that a depth falls on.
     """
 
     depths: tuple[Length, ...] = (0.0,)

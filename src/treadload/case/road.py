@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BeforeValidator, model_validator
 
@@ -22,9 +22,12 @@ def _finite(value: Any) -> Any:
 class LayerPart(Table):
     """`[[pavement.layers]]`, from the surface down; the last one has no thickness unless the base is rigid.
 
-    material: a table, or mix: a name of the catalogue of road materials. bond, to the layer below: "bonded",
-    "half-bonded", "frictionless" or `{ stiffness = "1000 MPa/m" }`. name: left out, that of the mix.
+    material: a table; or mix. mix: a name of the catalogue of road materials. thickness: left out, the layer is
+    semi-infinite. bond: to the layer below, "bonded", "half-bonded", "frictionless", `{ stiffness = "1000 MPa/m" }`
+    or of another kind. name: left out, that of the mix.
     """
+
+    one_of: ClassVar = ("material", "mix")
 
     material: RoadMaterial | None = None
     mix: str | None = None
@@ -55,7 +58,10 @@ class LayerPart(Table):
 
 
 def _profile(depths: tuple[Length, ...], values: tuple[Celsius, ...]) -> TemperatureProfile:
-    """`temperature = { depths = ["0 mm", "100 mm"], values = [45, 30] }`: each layer takes that of its middle."""
+    """`temperature = { depths = ["0 mm", "100 mm"], values = [45, 30] }`: each layer takes that of its middle.
+
+    depths: downwards, two or more. values: temperatures there.
+    """
     return TemperatureProfile(depths, values)
 
 
@@ -63,39 +69,28 @@ def _profile(depths: tuple[Length, ...], values: tuple[Celsius, ...]) -> Tempera
 TEMPERATURE = As(Celsius | tuple[Celsius, ...] | table_of(_profile))
 
 
-class PavementPart(Table):
-    """`[pavement]`: the road's layers, or a structure of the catalogue, and its temperature.
+class RoadPart(Table):
+    """The road's layers, or a structure of the catalogue.
 
-    structure: a name, or layers, "6 BBSG3 / 10 GB3 / 10 GB3 / PF3", see `Pavement.from_catalogue`. temperature: °C,
-    one, one a layer, or over depth. frequency: of loading, Hz, at which the catalogue's mixes are read; left out,
-    that of their data, 10 Hz. extrapolate: True to go beyond the data of the materials.
+    layers: from the surface down. structure: a name, or layers, "6 BBSG3 / 10 GB3 / 10 GB3 / PF3", see
+    `Pavement.from_catalogue`. rigid_base: True if the last of the layers lies on rock. frequency: of loading, at
+    which the catalogue's mixes are read; left out, that of their data, 10 Hz.
     """
+
+    one_of: ClassVar = ("layers", "structure")
 
     layers: tuple[LayerPart, ...] | None = None
     structure: str | None = None
     rigid_base: bool = False
-    temperature: Annotated[Any, TEMPERATURE] = None
     frequency: Frequency | None = None
-    extrapolate: bool = False
 
     @model_validator(mode="after")
-    def _one_road(self) -> PavementPart:
+    def _one_road(self) -> Self:
         if (self.layers is None) == (self.structure is None):
             got = "none" if self.layers is None else "both"
             raise ValueError(f"give either layers or the name of a structure, got {got} of them")
         if self.structure is not None and self.rigid_base:
             raise ValueError("a structure of the catalogue has its own base; rigid_base belongs to layers")
-        return self
-
-    @model_validator(mode="after")
-    def _one_temperature(self) -> PavementPart:
-        warm = [layer.material for layer in self.untempered().layers if layer.depends_on_temperature]
-        if self.temperature is not None and not warm:
-            raise ValueError("temperature changes nothing here: no layer is a mix or has a shift; leave it out")
-        if self.frequency is not None and not any(isinstance(material, Mix) for material in warm):
-            raise ValueError("frequency changes nothing here: no layer is a bituminous mix of the catalogue")
-        if self.temperature is None and warm:
-            raise ValueError(f"the road needs a temperature, temperature = 15 in °C: it holds {warm[0]}")
         return self
 
     def untempered(self) -> Pavement:
@@ -104,6 +99,32 @@ class PavementPart(Table):
             return Pavement.from_catalogue(self.structure, frequency=self.frequency)
         assert self.layers is not None
         return Pavement([layer.build(self.frequency) for layer in self.layers], rigid_base=self.rigid_base)
+
+
+def _waits(one: Any) -> bool:
+    return isinstance(one, TemperatureDependent) or getattr(one, "depends_on_temperature", False) is True
+
+
+class PavementPart(RoadPart):
+    """`[pavement]`: the road's layers, or a structure of the catalogue, and its temperature.
+
+    temperature: one, one a layer, or over depth. extrapolate: True to go beyond the data of the materials.
+    """
+
+    temperature: Annotated[Any, TEMPERATURE] = None
+    extrapolate: bool = False
+
+    @model_validator(mode="after")
+    def _one_temperature(self) -> Self:
+        layers = [layer for layer in self.untempered().layers if layer.depends_on_temperature]
+        warm = [one for layer in layers for one in (layer.material, layer.bond) if _waits(one)]
+        if self.temperature is not None and not warm:
+            raise ValueError("temperature changes nothing here: no layer is a mix or has a shift; leave it out")
+        if self.frequency is not None and not any(isinstance(material, Mix) for material in warm):
+            raise ValueError("frequency changes nothing here: no layer is a bituminous mix of the catalogue")
+        if self.temperature is None and warm:
+            raise ValueError(f"the road needs a temperature, temperature = 15 in °C: it holds {warm[0]}")
+        return self
 
     def build(self) -> Pavement:
         """The pavement at its temperature."""

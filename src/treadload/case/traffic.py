@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import model_validator
 
@@ -31,12 +31,16 @@ GEARS = {
 class AxlePart(Table):
     """`[[traffic.classes]]`: a kind of axle under one load.
 
-    share: of all passes. axle_load: of one axle on level ground, N, over its wheels; or wheel_load, of each wheel.
-    gear: "single", "dual", "tandem", "tandem-dual", "tridem", "tridem-dual", with dual_spacing and wheelbase; or
-    wheels = [[x, y], ...], the wheel path at y = 0. maneuver: one, or maneuvers: several with their shares.
-    tire: of this class, as [tire]; left out, that of the case. Of dual wheels the left one, at y < 0, has its tire
-    turned round, as on the right of a vehicle; only treads that are not symmetric feel it.
+    name: for tables. share: of all passes. axle_load: of one axle on level ground, over its wheels; or wheel_load.
+    wheel_load: of each wheel. inflation_pressure: of its tires. gear: "single", "dual", "tandem", "tandem-dual",
+    "tridem" or "tridem-dual"; or wheels. dual_spacing: between the middles of dual wheels. wheelbase: between axles
+    of a group. wheels: [[x, y], ...] in place of a gear, the wheel path at y = 0. maneuver: how they roll; left out,
+    straight on. maneuvers: several with their shares. friction: with the road. speed: for viscoelastic roads. tire:
+    of this class, as [tire]; left out, that of the case. Of dual wheels the left one, at y < 0, has its tire turned
+    round, as on the right of a vehicle; only treads that are not symmetric feel it.
     """
+
+    one_of: ClassVar = ("axle_load", "wheel_load")
 
     name: str
     share: Share
@@ -108,7 +112,12 @@ class AxlePart(Table):
 
 
 class TrafficPart(Table):
-    """`[traffic]`: passes_per_year in the wheel path, growth a year, years of design, wander, and classes."""
+    """`[traffic]`: what passes over the wheel path, how that grows, and for how long.
+
+    passes_per_year: of all classes, in the first year. growth: a year. kind: of growth, "geometric" or "arithmetic".
+    years: for which the road is designed. wander: of the wheels across the road; left out, none. classes: of axles,
+    whose shares sum to 1.
+    """
 
     passes_per_year: PerYear
     growth: Share = 0.0
@@ -125,7 +134,13 @@ class TrafficPart(Table):
 
 
 class ClimatePart(Table):
-    """`[climate]`: temperature = 15, or months = [12 of them], or seasons, in °C."""
+    """`[climate]`: temperature = 15, or months = [12 of them], or seasons, in °C.
+
+    temperature: of the road, all the year. months: of twelve months, January first. seasons: with their shares of the
+    passes.
+    """
+
+    one_of: ClassVar = ("temperature", "months", "seasons")
 
     temperature: Celsius | None = None
     months: tuple[Celsius, ...] | None = None

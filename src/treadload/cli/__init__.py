@@ -1,4 +1,4 @@
-"""The command line: `treadload run | life | report | scan | catalogue | demo | validate`."""
+"""The command line: `treadload init | schema | run | life | report | scan | catalogue | demo | validate`."""
 
 from __future__ import annotations
 
@@ -44,6 +44,7 @@ _Set = Annotated[
         show_default=False,
     ),
 ]
+_Kind = Annotated[str, typer.Argument(help="The command that runs the case: run or life.")]
 _DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and tell what would be solved.")]
 
 
@@ -150,6 +151,52 @@ def life(
     files = write(result.to_tree(), path)
     _out.print(result.summary(), markup=False)
     _written(files)
+
+
+@app.command()
+@_one_sentence
+def init(
+    kind: _Kind = "run",
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write.")] = Path("case.toml"),
+    force: Annotated[bool, typer.Option("--force", help="Write over a file that is there.")] = False,
+) -> None:
+    """Write a case that runs as it is, each key with its unit, its default and its reason."""
+    from treadload.case.first import first_case
+    from treadload.errors import InputError
+    from treadload.files import replacing
+
+    text = first_case(kind)
+    if output.exists() and not force:
+        raise InputError(f"{output} is there already; give another name with -o, or --force to write over it")
+    with replacing(output) as path:
+        path.write_text(text, encoding="utf-8")
+    _written([output])
+    _out.print(f"next: treadload {kind} {output} --dry-run", markup=False)
+
+
+@app.command()
+@_one_sentence
+def schema(
+    kind: _Kind = "run",
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="File to write; else it is printed.", show_default=False),
+    ] = None,
+) -> None:
+    """JSON schema of a case, with what other packages bring: an editor then completes and explains its keys."""
+    import json
+
+    from treadload.case.schema import json_schema
+    from treadload.files import replacing
+
+    text = json.dumps(json_schema(kind), indent=2, ensure_ascii=False)
+    if output is None:
+        print(text)
+        return
+    with replacing(output) as path:
+        path.write_text(f"{text}\n", encoding="utf-8")
+    _written([output])
+    _out.print(f"first line of the case, for editors that know Taplo: #:schema ./{output.name}", markup=False)
 
 
 @app.command()

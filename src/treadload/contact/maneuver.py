@@ -86,9 +86,9 @@ class Maneuver:
         """A wheel on a circle, such as a roundabout: the side force V²/(gR) and the spin 1/R.
 
         radius: of the path, m, not 0; positive when the circle lies to the right of travel, negative to the left.
-        speed: m/s, >= 0. crossfall c: of the road towards the centre of the circle, rise over run; it takes off
+        speed: m/s, >= 0. crossfall: c, of the road towards the centre of the circle, rise over run; it takes off
         side force. Every wheel takes side force in proportion to its load: λ = (V²/gR - c) / (1 + c V²/gR) of it.
-        track t, centre_of_gravity h: of the vehicle, between the middles of its wheels and above the road, m;
+        track: t, of the vehicle, between the middles of its wheels, m. centre_of_gravity: h, above the road, m;
         both or neither. With them the vehicle leans, as a rigid body whose axles share the moment as they share the
         weight: the load of a wheel on level ground at rest grows by (1 + c V²/gR) / √(1 + c²) · (1 ± 2 λ h/t),
         + for the outer wheel, which lies away from the centre. Without them the load is the wheel's in the turn.

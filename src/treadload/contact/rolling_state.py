@@ -16,13 +16,14 @@ from treadload.units import Curvature, Force, Length, Number, Speed
 class Rolling:
     """What the wheel does on the road: give forces, or creepages, or one of each.
 
-    normal_load: N, > 0; or approach: m, of the tire towards the road, > 0.
+    normal_load: N, > 0; or approach. approach: of the tire towards the road, m, > 0, in place of the normal_load.
     friction: coefficient μ ≥ 0 of Coulomb's law, or a friction law (`contact.friction.laws`).
     tractive_force: force of the road on the tire along travel, N: positive when driving, negative when
-    braking; or creepage_x = (V - ωR)/V: negative when driving. Neither given: a tractive force of zero.
+    braking; or creepage_x. Neither given: a tractive force of zero. creepage_x: (V - ωR)/V, negative when driving.
     lateral_force: force of the road on the tire to the right, N; or creepage_y. Neither: no lateral force.
-    spin: rad/m, turn slip 1/R_path plus `Tire.camber_spin`, about z (down). speed: m/s: friction that falls with slip
-    or heat needs it, and so does power in W.
+    creepage_y: velocity of the tire relative to the road to the right, over V.
+    spin: turn slip 1/R_path plus `Tire.camber_spin`, about z (down), rad/m. speed: of rolling, m/s; friction that
+    falls with slip or heat needs it, and so does power in W.
     """
 
     normal_load: Force | None = None

@@ -88,6 +88,8 @@ class Model2S2P1D(Operational):
     """Two springs, two parabolic dashpots and one dashpot: Huet-Sayegh's model with viscous flow in its branch.
 
     E*(ω) = E₀ + (E∞ - E₀) / (1 + δ (iωτ)⁻ᵏ + (iωτ)⁻ʰ + (iωβτ)⁻¹).
+    glassy_modulus: E∞, Pa. static_modulus: E₀, Pa, 0 ≤ E₀ < E∞. delta: δ > 0. k, h: exponents, 0 < k < h < 1.
+    tau: τ > 0, s. poisson: Poisson's ratio, constant.
     beta: β > 0; the dashpot's viscosity is η = (E∞ - E₀) β τ. The rest as for HuetSayegh; for a binder E₀ is 0
     or nearly so, and then it is a fluid.
     Raises InputError.

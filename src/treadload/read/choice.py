@@ -32,7 +32,8 @@ class Choice(Mark):
     title: of it in a JSON schema. only: types, one of which must be made. more: keys that a table of this target has
     besides those of the target, all optional unless in `needed`; finish: what becomes of the made thing by them, from
     the made, its table and the folder. lenient: True if no key of the target is needed; such a table is not built
-    when it is read. keeps_number: True to leave a number as it is. hidden: parameters of targets that are no keys.
+    when it is read. keeps_number: True to leave a number as it is. hidden: annotations of parameters that are no
+    keys. about: the keys in `more`, as a docstring tells them.
     """
 
     registry: Registry
@@ -44,6 +45,7 @@ class Choice(Mark):
     lenient: bool = False
     keeps_number: bool = False
     hidden: tuple[Any, ...] = ()
+    about: str = ""
     base: type[Made] = Made
 
     def read(self, value: Any) -> Any:
@@ -68,18 +70,18 @@ class Choice(Mark):
     def table(self, kind: str) -> type[Made]:
         """The table of a kind. Raises InputError for one that is not known, or whose package is broken."""
         entry = self.registry.find(kind)
-        if self.only and not makes(entry.target, self.only):
+        if not self.will_do(kind):
             raise InputError(self.registry.unknown(kind, self.names()))
         return _made(self, entry)
 
     def names(self) -> tuple[str, ...]:
         """Names that will do; of other packages, which are not loaded, all."""
         own = self.registry.own()
-        return tuple(
-            name
-            for name in self.registry.names()
-            if name not in own or not self.only or makes(self.registry.find(name).target, self.only)
-        )
+        return tuple(name for name in self.registry.names() if name not in own or self.will_do(name))
+
+    def will_do(self, name: str) -> bool:
+        """True if what has this name, perhaps of another package, which is loaded, is one of those wanted."""
+        return not self.only or makes(self.registry.find(name).target, self.only)
 
     def knows(self, key: str) -> bool:
         """True if one of our kinds has this key."""

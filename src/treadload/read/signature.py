@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import re
 import types
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from treadload.errors import InputError
@@ -45,3 +46,27 @@ def made_by(target: Callable[..., Any]) -> tuple[Any, ...]:
 def makes(target: Callable[..., Any], only: tuple[type, ...]) -> bool:
     """True if a maker returns one of these types."""
     return any(inspect.isclass(one) and issubclass(one, only) for one in made_by(target))
+
+
+def words_of(target: Any) -> str:
+    """Docstrings of a class and of those it comes from, or of a function."""
+    kinds = target.__mro__ if inspect.isclass(target) else (target,)
+    return "\n\n".join(inspect.cleandoc(kind.__doc__) for kind in kinds if kind.__doc__)
+
+
+def descriptions(text: str, names: Collection[str]) -> dict[str, str]:
+    """What a docstring says of names: of each the words behind "name: " or "name, other: ", up to the next."""
+    known = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
+    if not known:
+        return {}
+    found: dict[str, str] = {}
+    for paragraph in re.split(r"\n\s*\n", text):
+        line = " ".join(paragraph.split())
+        heads = list(re.finditer(rf"(?:^|(?<=[.;:?)`] ))((?:(?:{known}), )*(?:{known})): ", line))
+        ends = [*(head.start() for head in heads[1:]), len(line)]
+        for head, end in zip(heads, ends, strict=False):
+            words = line[head.end() : end]
+            words = re.split(r" (?=Raises |Source: |Sources: |Build it )", words)[0].strip()
+            for name in head[1].split(", "):
+                found.setdefault(name, words)
+    return found

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from treadload.errors import InputError, nearest
+from treadload.read.signature import descriptions, words_of
 from treadload.registry import OURS, Entry, Registry
 
 # Errors told at once: a reader repairs the first, and the rest may follow from it.
@@ -23,20 +24,43 @@ class Table(BaseModel):
     """A table: frozen, and no key that it does not know."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+    # Keys of which a table has one and no more; told to whoever completes it.
+    one_of: ClassVar[tuple[str, ...]] = ()
 
     def __repr_args__(self) -> Any:
         """What was given; the rest stands at its default."""
         return [(name, value) for name, value in super().__repr_args__() if name in self.model_fields_set]
 
     @classmethod
-    def keys(cls) -> tuple[str, ...]:
+    def known_keys(cls) -> tuple[str, ...]:
         """Keys that the table knows."""
         return tuple(name for name, field in cls.model_fields.items() if not field.exclude)
 
     @classmethod
     def unknown(cls, key: str) -> str:
         """What to say of a key that the table does not know."""
-        return nearest(key, cls.keys(), "known here:")
+        return nearest(key, cls.known_keys(), "known here:")
+
+    @classmethod
+    def about(cls) -> dict[str, str]:
+        """What the keys are, in the words of the docstring."""
+        own = (kind for kind in cls.__mro__ if issubclass(kind, Table))
+        return descriptions("\n\n".join(kind.__doc__ or "" for kind in own), cls.known_keys())
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
+        """The keys with their words; those of their units stand with the numbers."""
+        told: dict[str, Any] = handler(schema)
+        table = handler.resolve_ref_schema(told)
+        about = cls.about()
+        for key in [key for key in table["properties"] if key not in cls.known_keys()]:
+            del table["properties"][key]
+        for key, one in table["properties"].items():
+            one["description"] = "; ".join(filter(None, (about.get(key), one.get("description"))))
+        table["description"] = first_words(cls)
+        if cls.one_of:
+            table["oneOf"] = [{"required": [key]} for key in cls.one_of]
+        return told
 
     @model_validator(mode="wrap")
     @classmethod
@@ -82,6 +106,10 @@ class Kinds(Protocol):
     def registry(self) -> Registry:
         """What makes them."""
 
+    @property
+    def about(self) -> str:
+        """What the keys are that all of them have, as a docstring tells it."""
+
     def knows(self, key: str) -> bool:
         """True if one of them has this key."""
 
@@ -108,6 +136,21 @@ class Made(Table):
             return f"{key} is no key of the {cls.kinds.registry.noun} {cls.entry.name!r}, which takes {listed}"
         return super().unknown(key)
 
+    @classmethod
+    def about(cls) -> dict[str, str]:
+        """What the keys are, in the words of the target's docstring and of those that all kinds share."""
+        shared = "" if cls.kinds is None else cls.kinds.about
+        own = descriptions(words_of(cls.target), cls.known_keys())
+        first = first_words(cls)
+        kind = {} if cls.kinds is None else {cls.kinds.registry.key: first}
+        return {**descriptions(shared, cls.known_keys()), **own, **kind}
+
+    @classmethod
+    def needs_more(cls) -> bool:
+        """True if its name alone will not do."""
+        key = "" if cls.kinds is None else cls.kinds.registry.key
+        return any(field.is_required() for name, field in cls.model_fields.items() if name != key)
+
     def given(self, folder: Path = HERE) -> dict[str, Any]:
         """Arguments of the target that the table gives; files start from the folder."""
         own = [name for name in self.hints if name in self.model_fields_set and name not in self.besides]
@@ -132,6 +175,11 @@ class Made(Table):
         if not self.waits:
             self.build()
         return self
+
+
+def first_words(kind: Any) -> str:
+    """The first paragraph of a docstring, in one line."""
+    return " ".join((kind.__doc__ or "").strip().split("\n\n")[0].split())
 
 
 def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **given: Any) -> Any:

@@ -10,10 +10,11 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from treadload.errors import GeometryError, InputError, how_to_install
+from treadload.errors import GeometryError, InputError, TreadloadError, how_to_install
 from treadload.kernels.arrays import Array
+from treadload.registry import OURS, READERS, Entry
 
-FORMATS = (".obj", ".ply", ".stl", ".glb", ".off")
+Triangles = tuple[Array, NDArray[np.int64]]
 FEWEST_FACES = 100
 SMALLEST, LARGEST = 1e-9, 1e12  # size of a scan in its own unit
 HORIZON = 1e4  # over the size of the scan: no point is taken to lie further off
@@ -43,33 +44,23 @@ def import_trimesh() -> ModuleType:
 
 
 def read_mesh(path: str | Path) -> Mesh:
-    """Mesh of an OBJ, PLY, STL, GLB or OFF file, vertices merged and degenerate faces dropped.
+    """Mesh of a file, vertices merged and degenerate faces dropped.
 
+    path: OBJ, PLY, STL, GLB or OFF, or of an ending that another package reads, see `treadload.registry.READERS`.
     Raises InputError for a missing, unknown or unreadable file, GeometryError for one without usable triangles.
     """
     path = Path(path)
     if not os.path.isfile(path):
         raise InputError(f"no scan file {str(path)!r}; give the path of an OBJ, PLY, STL, GLB or OFF mesh")
     suffix = path.suffix.lower()
-    if suffix not in FORMATS:
+    if suffix[1:] not in READERS.names():
         raise InputError(
             f"scan file {path.name!r} has the unknown ending {suffix!r}; "
-            f"export the mesh as one of {', '.join(FORMATS)}"
+            f"export the mesh as one of {', '.join(f'.{name}' for name in READERS.names())}"
         )
     if path.stat().st_size == 0:
         raise InputError(f"scan file {path.name!r} is empty (0 bytes); export or copy it again")
-    trimesh = import_trimesh()
-    try:
-        loaded = trimesh.load_scene(path, process=False, skip_materials=True).to_mesh()
-        vertices = np.array(loaded.vertices, dtype=np.float64)
-        faces = np.array(loaded.faces, dtype=np.int64)
-    except Exception as error:  # trimesh raises whatever its parsers stumble on
-        if _is_cloud(trimesh, path):
-            raise GeometryError(_no_faces(path)) from error
-        raise InputError(
-            f"scan file {path.name!r} could not be read as {suffix[1:].upper()} ({_said(error)}); "
-            "it may be truncated, export or copy it again"
-        ) from error
+    vertices, faces = _read(READERS.find(suffix[1:]), path)
     if len(faces) == 0:
         raise GeometryError(_no_faces(path))
     if vertices.shape[1:] != (3,) or faces.shape[1:] != (3,):
@@ -88,7 +79,45 @@ def read_mesh(path: str | Path) -> Mesh:
             f"scan file {path.name!r} has faces that name vertex {int(faces.max()) + 1} of {len(vertices)}; "
             "it may be truncated, export or copy it again"
         )
-    return _clean(trimesh, path, vertices, faces)
+    return _clean(import_trimesh(), path, vertices, faces)
+
+
+def _read(reader: Entry, path: Path) -> Triangles:
+    """Vertices (n, 3) and faces (m, 3) as a reader gives them; what another package does wrong is told."""
+    if reader.package == OURS:
+        found: Triangles = reader.target(path)
+        return found
+    who = f"scan file {path.name!r} could not be read by the reader {reader.name!r} of {reader.package}"
+    try:
+        given, corners = reader.target(path)
+        vertices, faces = np.array(given, dtype=np.float64), np.array(corners)
+    except TreadloadError:
+        raise
+    except Exception as error:
+        raise InputError(f"{who}: {_said(error)}; the file or that package is broken") from error
+    whole = faces.dtype.kind in "iu" or not faces.size
+    if vertices.ndim != 2 or vertices.shape[1] != 3 or (faces.size and faces.shape[1:] != (3,)) or not whole:
+        raise InputError(
+            f"{who}: it must return vertices (n, 3) and faces (m, 3) of whole numbers, got {vertices.shape} and "
+            f"{faces.shape} of {faces.dtype}; repair that package"
+        )
+    return vertices, faces.astype(np.int64)
+
+
+@READERS.register("obj", "ply", "stl", "glb", "off")
+def _of_trimesh(path: Path) -> Triangles:
+    """Vertices (n, 3) and faces (m, 3) of a mesh file, in its own unit."""
+    trimesh = import_trimesh()
+    try:
+        loaded = trimesh.load_scene(path, process=False, skip_materials=True).to_mesh()
+        return np.array(loaded.vertices, dtype=np.float64), np.array(loaded.faces, dtype=np.int64)
+    except Exception as error:  # trimesh raises whatever its parsers stumble on
+        if _is_cloud(trimesh, path):
+            raise GeometryError(_no_faces(path)) from error
+        raise InputError(
+            f"scan file {path.name!r} could not be read as {path.suffix[1:].upper()} ({_said(error)}); "
+            "it may be truncated, export or copy it again"
+        ) from error
 
 
 def _clean(trimesh: ModuleType, path: Path, vertices: Array, faces: NDArray[np.int64]) -> Mesh:

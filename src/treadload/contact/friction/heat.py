@@ -32,9 +32,10 @@ _LEAST_PECLET = 10.0
 
 @dataclass(frozen=True)
 class Heat:
-    """How a body takes up heat: conductivity λ, W/(m K), and heat_capacity ρc, J/(m³ K), both > 0.
+    """How a body takes up heat.
 
-    Rubber is near 0.25 and 2e6, asphalt concrete near 1.2 and 2.1e6.
+    conductivity: λ, W/(m K), > 0. heat_capacity: ρc, J/(m³ K), > 0. Rubber is near 0.25 and 2e6, asphalt concrete
+    near 1.2 and 2.1e6.
     """
 
     conductivity: Conductivity
@@ -61,8 +62,8 @@ class FlashHeating(FrictionLaw):
     """A law whose coefficient falls as sliding heats the interface.
 
     base: the cold law. tire, road: Heat of the bodies.
-    onset: flash temperature, K above the bodies, ≥ 0, up to which friction is the base's; it falls on a straight
-    line over the next `span`, K, > 0, to the share `hot` in [0, 1] of it, and stays there.
+    onset: flash temperature, K above the bodies, ≥ 0, up to which friction is the base's. span: K, > 0, over which
+    it then falls on a straight line. hot: share of the base's friction in [0, 1] at which it ends and stays.
     """
 
     base: FrictionLaw

@@ -201,7 +201,7 @@ class Exponential(_Falling):
 class PressureDependent(FrictionLaw):
     """Rubber: μ = μ_ref (p/p_ref)^(-n), and never more than `upper`.
 
-    reference: μ_ref ≥ 0 at the reference_pressure p_ref, Pa, > 0. exponent: n in [0, 1/3]; 1/3 is a smooth sphere
+    reference: μ_ref ≥ 0 at p_ref. reference_pressure: p_ref, Pa, > 0. exponent: n in [0, 1/3]; 1/3 is a smooth sphere
     of rubber on a smooth plane, 0 a rough road. upper: μ under vanishing pressure; left out, twice μ_ref.
     Source: Schallamach (1952).
     """
@@ -244,9 +244,9 @@ class PressureDependent(FrictionLaw):
 class Anisotropic(FrictionLaw):
     """Friction that differs along travel and across: the ellipse (q_x/μ_x)² + (q_y/μ_y)² ≤ p².
 
-    along, across: μ_x, μ_y > 0; on a base, factors of its coefficient. Slip follows the associated rule: it is
-    normal to the ellipse, so that shear opposes it only along the axes.
-    Source: Michałowski & Mróz (1978), Arch. Mech. 30, 259-276.
+    along, across: μ_x, μ_y > 0; on a base, factors of its coefficient. base: law that it multiplies. Slip follows the
+    associated rule: it is normal to the ellipse, so that shear opposes it only along the axes. Source: Michałowski &
+    Mróz (1978), Arch. Mech. 30, 259-276.
     """
 
     along: Number

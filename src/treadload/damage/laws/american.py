@@ -110,8 +110,10 @@ class MepdgBottomUp(_Mepdg):
 class MepdgTopDown(_Mepdg):
     """Passes to top-down cracking, N = 0.00432 C k₁ ε^-3.9492 E^-1.281 (E in psi), ε at the surface.
 
-    Arguments and C as in `MepdgBottomUp`; k₁ = 1/(0.01 + 12/(1 + exp(15.676 - 2.8186 h))), h in inches.
-    Source: NCHRP 1-37A (2004), appendix II eq. 27, as coded in ProductOneME: part 3 of the guide misprints k₁.
+    modulus: of the asphalt, Pa. thickness: of all asphalt layers together, m. air_voids, binder_volume: shares of the
+    mix's volume. calibration: local factor on the passes. C as in `MepdgBottomUp`; k₁ = 1/(0.01 + 12/(1 + exp(15.676
+    - 2.8186 h))), h in inches. Source: NCHRP 1-37A (2004), appendix II eq. 27, as coded in ProductOneME: part 3 of
+    the guide misprints k₁.
     """
 
     quantity: ClassVar[str] = SURFACE_EXTENSION

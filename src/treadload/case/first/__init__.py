@@ -1,0 +1,15 @@
+"""Cases to start from: every key with its unit, its default and its reason."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from treadload.case.schema import kind_of_case
+
+_HERE = Path(__file__).parent
+
+
+def first_case(name: str = "run") -> str:
+    """TOML text of a case that runs as it is, each key explained. name: "run" or "life". Raises InputError."""
+    kind_of_case(name)
+    return (_HERE / f"{name}.toml").read_text(encoding="utf-8")
