@@ -11,6 +11,8 @@ It is loaded when a case names it, not before: a broken package stops no one who
 
 from __future__ import annotations
 
+import functools
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from importlib import metadata
@@ -108,7 +110,7 @@ class Registry:
 
     def _points(self) -> dict[str, metadata.EntryPoint]:
         found: dict[str, metadata.EntryPoint] = {}
-        for point in metadata.entry_points(group=self.group):
+        for point in _declared(self.group, tuple(sys.path)):
             other = OURS if point.name in self._own else package_of(found[point.name]) if point.name in found else ""
             # The same distribution may lie on the path twice.
             if other and not (point.name in found and found[point.name].value == point.value):
@@ -118,6 +120,12 @@ class Registry:
                 )
             found[point.name] = point
         return found
+
+
+@functools.cache
+def _declared(group: str, path: tuple[str, ...]) -> tuple[metadata.EntryPoint, ...]:
+    """Entry points of a group; looking through the metadata on the path takes longer than reading a case."""
+    return tuple(metadata.entry_points(group=group))
 
 
 def package_of(point: metadata.EntryPoint) -> str:

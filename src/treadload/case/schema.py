@@ -10,7 +10,7 @@ from treadload.case.file import FilePart
 from treadload.case.life import LifeCase
 from treadload.case.model import Case
 from treadload.errors import InputError, nearest
-from treadload.read import REFERENCE, Choice, choice_named
+from treadload.read import REFERENCE, Choice, choice_named, sentences
 
 KINDS: dict[str, type[FilePart]] = {"run": Case, "life": LifeCase}
 """Cases by the command that runs them."""
@@ -117,9 +117,8 @@ def _plain(schema: Any, *, keys: bool = False) -> Any:
     arms = [one for one in found.get("anyOf", ()) if one != {"type": "null"}]
     if len(arms) == 1:
         del found["anyOf"]
-        said = [one["description"] for one in (found, *arms) if one.get("description")]
-        found |= arms[0]
-        found["description"] = "; ".join(said)
+        said = sentences(*(one.get("description") for one in (found, *arms)))
+        found |= {**arms[0], "description": said}
     elif arms:
         found["anyOf"] = arms
     if not found.get("description", ...):

@@ -27,14 +27,15 @@ def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance
     lowest, highest: the range, rad/s, 0 < lowest < highest. tolerance: largest |E* - E*ₘ| / |E*ₘ| in the range
     and at the glassy limit; the rubbery limit, where there is one, is exact. The least number of evenly spaced
     times that serves is taken; shares are not negative. Outside the range the series is no more than bounded by
-    the two limits. A Prony series is returned as it is.
+    the two limits. A Prony series is returned as it is, and so is that of a material which has one, as `prony`.
     Raises InputError for a range that is none, and if the tolerance is not reached.
     Method: non-negative least squares, after Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519.
     """
     if not 0 < lowest < highest < math.inf:
         raise InputError(f"a range of frequencies needs 0 < lowest < highest, rad/s, got {lowest:g} and {highest:g}")
-    if isinstance(material, Prony):
-        return material
+    own = material if isinstance(material, Prony) else getattr(material, "prony", None)
+    if isinstance(own, Prony):
+        return own
     try:
         long_term = material.rubbery.modulus
     except InputError:

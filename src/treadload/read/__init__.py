@@ -16,7 +16,7 @@ a registry makes (`treadload.registry`) a table told apart by its kind. pydantic
 
 from treadload.read.choice import REFERENCE, As, Choice, choice_named, read, readable, reader, table_of
 from treadload.read.signature import made_by, parameters
-from treadload.read.table import Made, Table, arms, guarded, in_words
+from treadload.read.table import Made, Table, arms, guarded, in_words, sentences
 
 __all__ = [
     "REFERENCE",
@@ -33,5 +33,6 @@ __all__ = [
     "read",
     "readable",
     "reader",
+    "sentences",
     "table_of",
 ]

@@ -56,7 +56,7 @@ class Table(BaseModel):
         for key in [key for key in table["properties"] if key not in cls.known_keys()]:
             del table["properties"][key]
         for key, one in table["properties"].items():
-            one["description"] = "; ".join(filter(None, (about.get(key), one.get("description"))))
+            one["description"] = sentences(about.get(key), one.get("description"))
         table["description"] = first_words(cls)
         if cls.one_of:
             table["oneOf"] = [{"required": [key]} for key in cls.one_of]
@@ -175,6 +175,11 @@ class Made(Table):
         if not self.waits:
             self.build()
         return self
+
+
+def sentences(*texts: str | None) -> str:
+    """Texts one behind the other, each ended by a full stop."""
+    return " ".join(text if text.endswith((".", "?", "!")) else f"{text}." for text in texts if text)
 
 
 def first_words(kind: Any) -> str:
