@@ -4,10 +4,12 @@ The package is a real one on the path, with the metadata that an installer would
 """
 
 import json
+import re
 import subprocess
 import sys
 import textwrap
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,7 +20,7 @@ from tire_meshes import tire_mesh, write
 from treadload.case import Case, LifeCase
 from treadload.case.schema import json_schema
 from treadload.errors import InputError
-from treadload.registry import BONDS, CRITERIA, FRICTION, MATERIALS, READERS
+from treadload.registry import ALL, BONDS, CRITERIA, FRICTION, MATERIALS, READERS
 from treadload.reporting.words import entries
 
 FRICTION_LAW = '''
@@ -506,6 +508,30 @@ def test_a_name_that_two_bring_is_refused(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path / "c"))
     with pytest.raises(InputError, match=r"'lab' comes from the package third-laws 1\.2 and from .*second-laws 1\.2"):
         READERS.names()
+
+
+def test_the_page_on_laws_of_ones_own_does_what_it_says(tmp_path, monkeypatch):
+    page = (Path(__file__).parents[2] / "docs/howto/law_of_your_own.md").read_text(encoding="utf-8")
+    (law, notebook), (project, rolling, first_line) = (
+        re.findall(rf"```{language}\n(.*?)```", page, re.DOTALL) for language in ("python", "toml")
+    )
+    points = tomllib.loads(project)["project"]["entry-points"]["treadload.friction"]
+    declared = "\n".join(f"{name} = {place}" for name, place in points.items())
+    build(tmp_path, "road_laws", f"[treadload.friction]\n{declared}\n", friction=law)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    text = COARSE_CASE.replace('normal_load    = "32.5 kN"\n', "").replace("friction       = 0.7\n", "")
+    case = Case.from_text(first_line + text.replace("[rolling]\n", rolling))
+    assert str(case.build_rolling().law) == "1.2, yielding at 2000 kPa"
+    with pytest.raises(InputError, match=r"rolling\.friction: unloaded must be > 0, got 0; a dry road is near 0\.7"):
+        Case.from_text(text.replace("[rolling]\n", rolling.replace("1.2", "0")))
+    groups = set(re.findall(r"^\| .* \| `(treadload\.[a-z]+)` \|", page, re.MULTILINE))
+    assert groups == {registry.group for registry in ALL}
+    monkeypatch.setattr(FRICTION, "_own", dict(FRICTION._own))
+    # A class of a notebook stands in the same module as before, under a new name here.
+    cell = notebook.replace('"yielding"', '"of the page"')
+    exec(compile(cell, "page", "exec"), {"Yielding": type(case.build_rolling().law)})
+    assert "of the page" in FRICTION.own()
+    del sys.modules["road_laws"], sys.modules["road_laws.friction"]
 
 
 def test_a_session_may_register_its_own():
