@@ -35,13 +35,19 @@ def test_a_law_of_friction_is_named_by_a_word(law):
     [
         (
             ', lateral = [{ pitch = 0.05, width = 0.01, depth = 0.01, y_range = ["-5 mm", {}] }]',
-            "y_range[1]: expected",
+            "tire.profile.lateral.0.y_range.1: expected",
         ),
-        (", lateral = [{ pitch = 0.05, width = 0.01, depth = 0.01, y_range = 0.1 }]", "y_range must be two lengths"),
-        (', grooves = [{ centre = 0, width = "10 kg", depth = 0.01 }]', "grooves[0]: width: cannot read '10 kg'"),
-        (", grooves = 0.3", "grooves must be a list of tables"),
-        (", grooves = [0.3]", "grooves[0] must be a table"),
-        (", name = 3", "name must be a text"),
+        (
+            ", lateral = [{ pitch = 0.05, width = 0.01, depth = 0.01, y_range = 0.1 }]",
+            "tire.profile.lateral.0.y_range: must be a list, got 0.1",
+        ),
+        (
+            ', grooves = [{ centre = 0, width = "10 kg", depth = 0.01 }]',
+            "tire.profile.grooves.0.width: cannot read '10 kg'",
+        ),
+        (", grooves = 0.3", "tire.profile.grooves: must be a list, got 0.3"),
+        (", grooves = [0.3]", "tire.profile.grooves.0: must be a table of keys and values, got 0.3"),
+        (", name = 3", "tire.profile.name: must be a text, got 3"),
     ],
 )
 def test_a_tread_of_a_case_is_checked_where_it_is_read(tread, words):

@@ -156,12 +156,12 @@ def test_toml_faults_are_named(tmp_path):
     assert read(good).width == 0.28
     with pytest.raises(InputError, match="did you mean 'shoulder_radius'"):
         read(good + "shoulder_radus = 0.01\n")
-    with pytest.raises(InputError, match=r"grooves\[0\]: missing depth"):
+    with pytest.raises(InputError, match=r"tread profile: 'grooves\.0\.depth' is missing"):
         read(good + "[[grooves]]\ncentre = 0\nwidth = 0.01\n")
     assert read(good.replace("0.28", "'282 mm'")).width == 0.282
     with pytest.raises(InputError, match="width: cannot read '282 kg'"):
         read(good.replace("0.28", "'282 kg'"))
-    with pytest.raises(InputError, match="missing width"):
+    with pytest.raises(InputError, match="tread profile: 'width' is missing"):
         read(good.replace("width = 0.28", ""))
     with pytest.raises(InputError, match="not valid TOML"):
         read("rolling_radius = ")

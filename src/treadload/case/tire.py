@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import model_validator
 
 from treadload.case.choices import TIRE_MATERIAL, TireMaterial
-from treadload.read import Table
+from treadload.read import As, Table
 from treadload.tire import Tire, TreadProfile, example_mesh
 from treadload.units import Angle, Length, Number, Pressure
 
 # The word that stands for the tire mesh that ships with the package.
 EXAMPLE = "example"
+
+
+# A name, a file, or a table.
+PROFILE = As(str | TreadProfile)
 
 
 class TirePart(Table):
@@ -32,7 +36,7 @@ class TirePart(Table):
     one_of: ClassVar = ("scan", "profile", "height_map")
 
     scan: str | None = None
-    profile: str | dict[str, Any] | None = None
+    profile: Annotated[Any, PROFILE] = None
     height_map: str | None = None
     units: str | dict[str, str] | None = None
     decimal: Literal[".", ","] | None = None
@@ -55,8 +59,6 @@ class TirePart(Table):
             raise ValueError(
                 f"give exactly one of scan, profile and height_map, got {' and '.join(given) or 'none of them'}"
             )
-        if isinstance(self.profile, dict):
-            TreadProfile.from_dict(self.profile)
         if self.profile is not None and self.units is not None:
             raise ValueError("units belongs to a scan or a height_map; this tire is a profile")
         if self.scan is not None and isinstance(self.units, dict):
@@ -102,10 +104,7 @@ class TirePart(Table):
             return Tire.from_height_map(
                 folder / self.height_map, self.cell, units=self.units, decimal=self.decimal, **body
             )
-        profile = self.profile
-        if isinstance(profile, dict):
-            return Tire.from_profile(TreadProfile.from_dict(profile), **body)
-        assert profile is not None
-        if profile.endswith(".toml"):
-            return Tire.from_profile(TreadProfile.from_toml(folder / profile), **body)
+        profile = PROFILE.build(self.profile)
+        if isinstance(profile, str) and profile.endswith(".toml"):
+            profile = TreadProfile.from_toml(folder / profile)
         return Tire.from_profile(profile, **body)

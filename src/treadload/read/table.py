@@ -18,6 +18,15 @@ from treadload.registry import OURS, Entry, Registry
 # Errors told at once: a reader repairs the first, and the rest may follow from it.
 _TOLD = 4
 HERE = Path(".")
+_KINDS = {
+    "tuple_type": "a list",
+    "string_type": "a text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "int_type": "a whole number",
+    "dict_type": "a table of keys and values",
+    "model_type": "a table of keys and values",
+}
 
 
 class Table(BaseModel):
@@ -35,6 +44,11 @@ class Table(BaseModel):
     def known_keys(cls) -> tuple[str, ...]:
         """Keys that the table knows."""
         return tuple(name for name, field in cls.model_fields.items() if not field.exclude)
+
+    @classmethod
+    def as_table(cls, value: Any) -> Any:
+        """What is read in place of a value."""
+        return value
 
     @classmethod
     def unknown(cls, key: str) -> str:
@@ -66,13 +80,14 @@ class Table(BaseModel):
     @classmethod
     def _told(cls, value: Any, handler: Any) -> Any:
         """Say of an unknown key which one was meant, while the table is known."""
+        value = cls.as_table(value)
         try:
             return handler(value)
         except ValidationError as error:
             details: list[InitErrorDetails] = []
             for one in error.errors():
                 strange = one["type"] == "extra_forbidden" and len(one["loc"]) == 1
-                said = cls.unknown(str(one["loc"][0])) if strange else one["msg"]
+                said = cls.unknown(str(one["loc"][0])) if strange else _plainly(one)
                 kind: Any = PydanticCustomError(one["type"], said.removeprefix("Value error, "))
                 details.append({"type": kind, "loc": one["loc"], "input": one["input"]})
             raise ValidationError.from_exception_data(cls.__name__, details) from error
@@ -146,6 +161,13 @@ class Made(Table):
         return {**descriptions(shared, cls.known_keys()), **own, **kind}
 
     @classmethod
+    def as_table(cls, value: Any) -> Any:
+        """The arguments of an object that is made already."""
+        if isinstance(cls.target, type) and isinstance(value, cls.target):
+            return {name: getattr(value, name) for name in cls.hints}
+        return value
+
+    @classmethod
     def needs_more(cls) -> bool:
         """True if its name alone will not do."""
         key = "" if cls.kinds is None else cls.kinds.registry.key
@@ -185,6 +207,13 @@ def sentences(*texts: str | None) -> str:
 def first_words(kind: Any) -> str:
     """The first paragraph of a docstring, in one line."""
     return " ".join((kind.__doc__ or "").strip().split("\n\n")[0].split())
+
+
+def _plainly(error: Any) -> str:
+    """What is said of a value of another kind than a key has, in the words of TOML."""
+    if error["type"] in _KINDS:
+        return f"must be {_KINDS[error['type']]}, got {error['input']!r}"
+    return str(error["msg"])
 
 
 def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **given: Any) -> Any:

@@ -9,6 +9,7 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.units import Angle, Length
 
 # A wall that falls on a cell centre must fall on the same side left and right.
 EDGE = 1e-9
@@ -24,11 +25,11 @@ class Groove:
     Raises InputError when the walls or the rounding do not fit.
     """
 
-    centre: float
-    width: float
-    depth: float
-    wall_angle: float = 0.0
-    edge_radius: float = 0.0
+    centre: Length
+    width: Length
+    depth: Length
+    wall_angle: Angle = 0.0
+    edge_radius: Length = 0.0
 
     def __post_init__(self) -> None:
         check_finite(self, "groove", ("centre",))
@@ -39,21 +40,21 @@ class Groove:
 class LateralGrooves:
     """Grooves across the tread, repeated round the tire.
 
-    pitch: distance between two of them along the circumference at the crown, m. width, depth, wall_angle,
-    edge_radius: as in Groove, width measured square to the groove. angle: from the axle towards travel on
+    pitch: distance between two of them along the circumference at the crown, m. width: square to the groove, m.
+    depth, wall_angle, edge_radius: as in Groove. angle: from the axle towards travel on
     the right-hand side, rad. y_range: (from, to) in m, for lugs on a part of the width; None for all of it.
     offset: circumferential place of one of them at y = 0, m.
     Raises InputError when the walls or the rounding do not fit.
     """
 
-    pitch: float
-    width: float
-    depth: float
-    wall_angle: float = 0.0
-    edge_radius: float = 0.0
-    angle: float = 0.0
-    y_range: tuple[float, float] | None = None
-    offset: float = 0.0
+    pitch: Length
+    width: Length
+    depth: Length
+    wall_angle: Angle = 0.0
+    edge_radius: Length = 0.0
+    angle: Angle = 0.0
+    y_range: tuple[Length, Length] | None = None
+    offset: Length = 0.0
 
     def __post_init__(self) -> None:
         check_finite(self, "lateral groove", ("pitch", "angle", "offset"))

@@ -6,7 +6,7 @@ import difflib
 import math
 import os
 from collections.abc import Mapping
-from dataclasses import MISSING, asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,7 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.tire.grooves import EDGE, Groove, LateralGrooves, check_finite, rounding_start, trench
 from treadload.tire.quality import ScanQuality
-from treadload.units import quantity
+from treadload.units import Length
 
 EXTENT_HEIGHT = 0.060  # a contact never climbs this far up the tread, m
 EXTENT_MARGIN = 0.012  # bare road beside the tread, m
@@ -38,10 +38,10 @@ class TreadProfile:
     Raises InputError when a number is out of bounds or a groove leaves the tread.
     """
 
-    rolling_radius: float
-    crown_radius: float
-    width: float
-    shoulder_radius: float = 0.0
+    rolling_radius: Length
+    crown_radius: Length
+    width: Length
+    shoulder_radius: Length = 0.0
     grooves: tuple[Groove, ...] = ()
     lateral: tuple[LateralGrooves, ...] = ()
     name: str = ""
@@ -113,16 +113,11 @@ class TreadProfile:
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> TreadProfile:
         """Profile of plain tables, as to_dict gives them; a text carries its unit. Raises InputError."""
-        values = _checked(cls, table, "tread profile")
-        for key, part in (("grooves", Groove), ("lateral", LateralGrooves)):
-            several = values.get(key, ())
-            if not isinstance(several, list | tuple):
-                raise InputError(f"tread profile: {key} must be a list of tables, got {several!r}")
-            values[key] = tuple(
-                item if isinstance(item, part) else part(**_checked(part, item, f"{key}[{number}]"))
-                for number, item in enumerate(several)
-            )
-        return cls(**values)
+        # pydantic is loaded when a table is read, not before.
+        from treadload.read import read
+
+        profile: TreadProfile = read(cls, table, "tread profile")
+        return profile
 
     def to_dict(self) -> dict[str, Any]:
         """Plain tables of numbers and text; from_dict reads them back."""
@@ -276,43 +271,6 @@ def library_names() -> list[str]:
 def example_mesh() -> Path:
     """Path of the truck tire mesh that comes with treadload (335/65R22.5, metres, BSD-3-Clause licence beside it)."""
     return data("tires", "feda_tire_fine.obj")[0]
-
-
-def _checked(owner: Any, table: Any, where: str) -> dict[str, Any]:
-    """The table, when its keys are fields of the dataclass `owner` and no required one is missing."""
-    if not isinstance(table, Mapping):
-        raise InputError(f"{where} must be a table of keys and values, got {table!r}")
-    known = [field.name for field in fields(owner)]
-    for key in table:
-        if key not in known:
-            close = difflib.get_close_matches(str(key), known, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
-            raise InputError(f"{where}: unknown key {key!r}; {hint}")
-    values = {key: _field(value, key, where) for key, value in table.items()}
-    required = [field.name for field in fields(owner) if field.default is MISSING]
-    missing = [key for key in required if key not in values]
-    if missing:
-        raise InputError(f"{where}: missing {', '.join(missing)}")
-    return values
-
-
-def _field(value: Any, key: str, where: str) -> Any:
-    """Value of a key in m or rad; a text carries its unit."""
-    if key in ("grooves", "lateral") or (key == "y_range" and value is None):
-        return value
-    if key in ("name", "source", "notes"):
-        if not isinstance(value, str):
-            raise InputError(f"{where}: {key} must be a text, got {value!r}")
-        return value
-    if key == "y_range":
-        if not (isinstance(value, list | tuple) and len(value) == 2):
-            raise InputError(f"{where}: y_range must be two lengths, [from, to], got {value!r}")
-        return tuple(_field(one, f"y_range[{number}]", where) for number, one in enumerate(value))
-    try:
-        number = float(value) if isinstance(value, np.floating) else value
-        return quantity(number, "rad" if key in ("angle", "wall_angle") else "m")
-    except InputError as error:
-        raise InputError(f"{where}: {key}: {error}") from error
 
 
 def _plain(name: str) -> str:
