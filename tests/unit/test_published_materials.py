@@ -46,7 +46,7 @@ def test_the_printed_shares_leave_a_solid(name, remains):
 def test_files_of_others(tmp_path):
     path = tmp_path / "ours.toml"
     numbers = "glassy_modulus = 3e10\nstatic_modulus = 1e7\ndelta = 2\nk = 0.2\nh = 0.6\nbeta = 300\npoisson = 0.35\n"
-    path.write_text(f'[a]\nlaw = "Model2S2P1D"\n{numbers}tau = 0.1\ntemperature = 15\n')
+    path.write_text(f'[a]\nkind = "2s2p1d"\n{numbers}tau = 0.1\ntemperature = 15\n')
     (found,) = read_published(path)
     assert found.material == Model2S2P1D(3e10, 1e7, 2, 0.2, 0.6, 300, 0.1, 0.35)
     assert "at 15 °C" in str(found)
@@ -55,11 +55,11 @@ def test_files_of_others(tmp_path):
 @pytest.mark.parametrize(
     ("text", "word"),
     [
-        ('[a]\nlaw = "Maxwell"\n', "law must be one of"),
-        ('[a]\nlaw = "Prony"\nmodulus = 1e9\nshares = [0.5]\npoisson = 0.3\n', "'times' is missing"),
-        ('[a]\nlaw = "Prony"\nmodulus = 1e9\nshares = [0.5]\ntimes = [1, 2]\npoisson = 0.3\n', "a: zip"),
-        ('[a]\nlaw = "Prony"\nmodulus = -1\nshares = [0.5]\ntimes = [1]\npoisson = 0.3\n', "a: modulus"),
-        ('[a]\nlaw = "PowerLawCreep"\ntua = 1\n', "did you mean 'tau'"),
+        ('[a]\nkind = "maxwell"\n', "a: no material of the kind 'maxwell'; known are elastic, "),
+        ('[a]\nkind = "prony"\nmodulus = 1e9\npoisson = 0.3\n', "'a.terms' is missing"),
+        ('[a]\nkind = "prony"\nmodulus = 1e9\nterms = [[0.5]]\npoisson = 0.3\n', "'a.terms.0.1' is missing"),
+        ('[a]\nkind = "prony"\nmodulus = -1\nterms = [[0.5, 1]]\npoisson = 0.3\n', "a: modulus must be"),
+        ('[a]\nkind = "power-law-creep"\ntua = 1\n', "unknown key 'a.tua'; did you mean 'tau'"),
     ],
 )
 def test_bad_files(tmp_path, text, word):

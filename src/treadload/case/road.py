@@ -6,8 +6,9 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BeforeValidator, model_validator
 
-from treadload.case.choices import BOND, ROAD_MATERIAL, BondTable, RoadMaterial
+from treadload.case.choices import BOND, BondTable, RoadMaterial
 from treadload.materials import Material, Mix, TemperatureDependent, mix
+from treadload.materials.tables import ROAD_MATERIAL
 from treadload.pavement import Layer, Pavement, TemperatureProfile
 from treadload.read import As, Table, table_of
 from treadload.units import Celsius, Frequency, Length

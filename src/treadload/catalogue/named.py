@@ -97,16 +97,5 @@ def read_tables(path: Path) -> dict[str, Any]:
         raise InputError(f"cannot read {path}: {error}") from error
 
 
-def only(table: dict[str, Any], known: Iterable[str], place: str) -> dict[str, Any]:
-    """The table, if it has no key but these. Raises InputError that names the nearest key."""
-    names = list(known)
-    for key in table:
-        if key not in names:
-            near = difflib.get_close_matches(key, names, n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(names)}"
-            raise InputError(f"{place}: unknown key {key!r}; {hint}")
-    return table
-
-
 def _key(name: str) -> str:
     return "".join(name.casefold().split())

@@ -7,18 +7,76 @@ returns Mix, HydraulicMix and Unbound, for one `lambda: read_mixes(path)` of a f
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from treadload.catalogue.named import Catalogue, data, only, read_tables
+from treadload.catalogue.named import Catalogue, data, read_tables
 from treadload.errors import InputError
 from treadload.materials.mixture import HydraulicMix, Mix, RoadMaterial, Unbound
+from treadload.units import Celsius, Frequency, Length, Modulus, Number, Strain, leading_number, quantity
 
-_MIX_KEYS = ("moduli", "epsilon_6", "scatter", "calibration", "ratios")
-_HYDRAULIC_KEYS = (
-    "modulus", "poisson", "sigma_6", "inverse_slope", "scatter", "calibration", "joints", "thickness_scatter"
-)  # fmt: skip
+
+@dataclass(frozen=True)
+class _Bituminous:
+    """A mix of a file: moduli, Pa, over the temperatures; ratios: name of the table that takes them elsewhere."""
+
+    moduli: tuple[Modulus, ...]
+    epsilon_6: Strain | None = None
+    scatter: Number | None = None
+    calibration: Number | None = None
+    ratios: str | None = None
+
+
+@dataclass(frozen=True)
+class _AllBituminous:
+    """What the mixes of a file share. temperatures. frequency: of their moduli. ratios: by frequency, as text."""
+
+    temperatures: tuple[Celsius, ...]
+    frequency: Frequency
+    poisson: Number
+    mixes: dict[str, _Bituminous]
+    slope: Number | None = None
+    ratios: dict[str, dict[str, tuple[Number, ...]]] | None = None
+
+
+@dataclass(frozen=True)
+class _Hydraulic:
+    """A treated material of a file, see HydraulicMix; inverse_slope is -1/b."""
+
+    modulus: Modulus
+    poisson: Number
+    sigma_6: Modulus
+    inverse_slope: Number
+    scatter: Number
+    calibration: Number
+    joints: Number | None = None
+    thickness_scatter: Length | None = None
+
+
+@dataclass(frozen=True)
+class _AllUnbound:
+    """Unbound materials and platforms of a file by their moduli, and what they share, see Unbound."""
+
+    poisson: Number
+    slope: Number
+    constant: Number
+    constant_light: Number
+    constant_inverted: Number | None = None
+    granular: dict[str, Modulus] | None = None
+    platforms: dict[str, Modulus] | None = None
+
+
+@dataclass(frozen=True)
+class _File:
+    """A file of road materials of one source."""
+
+    source: str
+    bituminous: _AllBituminous | None = None
+    hydraulic: dict[str, _Hydraulic] | None = None
+    unbound: _AllUnbound | None = None
 
 
 def mix(name: str) -> RoadMaterial:
@@ -43,16 +101,17 @@ def read_mixes(path: str | os.PathLike[str]) -> list[RoadMaterial]:
     Keys: source; bituminous with temperatures (°C), frequency (Hz) of the moduli (Pa), poisson, slope, mixes and
     ratios; hydraulic; unbound. Raises InputError that names file and key.
     """
-    file = Path(path)
-    tables = only(read_tables(file), ("source", "bituminous", "hydraulic", "unbound"), str(file))
+    # pydantic is loaded when a file is read, not before.
+    from treadload.read import read
+
+    name = str(Path(path))
+    tables: _File = read(_File, read_tables(Path(path)), name)
+    source = " ".join(tables.source.split())
     try:
-        return [*_bituminous(tables, file), *_hydraulic(tables, file), *_unbound(tables, file)]
-    except KeyError as error:
-        raise InputError(f"{file}: key {error.args[0]!r} is missing") from error
-    except InputError:
-        raise
-    except (TypeError, ValueError, AttributeError) as error:
-        raise InputError(f"{file}: {error}; take the files of treadload/catalogue/data/mixes as a pattern") from error
+        return [*_bituminous(tables.bituminous, source), *_hydraulic(tables.hydraulic or {}, source),
+                *_unbound(tables.unbound, source)]  # fmt: skip
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from error
 
 
 @cache
@@ -64,51 +123,41 @@ def _catalogue() -> Catalogue[RoadMaterial]:
     return Catalogue("mix", (Mix, HydraulicMix, Unbound), _own, "treadload.mixes")
 
 
-def _bituminous(tables: dict[str, Any], file: Path) -> list[Mix]:
-    if "bituminous" not in tables:
+def _bituminous(common: _AllBituminous | None, source: str) -> list[Mix]:
+    if common is None:
         return []
-    common = only(
-        tables["bituminous"],
-        ("temperatures", "frequency", "poisson", "slope", "mixes", "ratios"),
-        f"{file}, bituminous",
-    )
     found = []
-    for name, table in common["mixes"].items():
-        own = only(table, _MIX_KEYS, f"{file}, {name}")
-        rows = _moduli(own["moduli"], float(common["frequency"]), _ratios(own, common, f"{file}, {name}"))
-        found.append(
-            Mix(
-                name,
-                tuple(common["temperatures"]),
-                tuple(rows),
-                tuple(rows.values()),
-                common["poisson"],
-                common["frequency"],
-                own.get("epsilon_6"),
-                common.get("slope"),
-                own.get("scatter"),
-                own.get("calibration"),
-                _source(tables),
-            )
-        )
+    for name, own in common.mixes.items():
+        try:
+            rows = _moduli(own.moduli, common.frequency, _ratios(own, common))
+        except InputError as error:
+            raise InputError(f"bituminous.mixes.{name}: {error}") from error
+        fatigue = own.epsilon_6, common.slope, own.scatter, own.calibration
+        moduli = tuple(rows), tuple(rows.values())
+        found.append(Mix(name, common.temperatures, *moduli, common.poisson, common.frequency, *fatigue, source))
     return found
 
 
-def _ratios(own: dict[str, Any], common: dict[str, Any], place: str) -> dict[str, list[float]]:
-    if "ratios" not in own:
+def _ratios(own: _Bituminous, common: _AllBituminous) -> Mapping[str, tuple[float, ...]]:
+    if own.ratios is None:
         return {}
-    known = common.get("ratios", {})
-    if own["ratios"] not in known:
-        raise InputError(f"{place}: no table of ratios {own['ratios']!r}; known are {', '.join(known)}")
-    ratios: dict[str, list[float]] = known[own["ratios"]]
-    return ratios
+    known = common.ratios or {}
+    if own.ratios not in known:
+        raise InputError(f"no table of ratios {own.ratios!r}; known are {', '.join(known)}")
+    return known[own.ratios]
 
 
-def _moduli(moduli: list[float], frequency: float, ratios: dict[str, list[float]]) -> dict[float, tuple[float, ...]]:
+def _moduli(
+    moduli: tuple[float, ...], frequency: float, ratios: Mapping[str, tuple[float, ...]]
+) -> dict[float, tuple[float, ...]]:
     """Rows of moduli by frequency, Hz: the ratios, rounded to two digits, tell only what frequency changes."""
-    by_frequency = {float(key): row for key, row in ratios.items()} or {frequency: [1.0] * len(moduli)}
+    by_frequency = {quantity(_in_hertz(key), "Hz"): row for key, row in ratios.items()}
+    by_frequency = by_frequency or {frequency: (1.0,) * len(moduli)}
     if frequency not in by_frequency:
         raise InputError(f"a table of ratios must hold the frequency of the moduli, {frequency:g} Hz")
+    long = next((row for row in by_frequency.values() if len(row) != len(moduli)), None)
+    if long is not None:
+        raise InputError(f"a table of ratios needs one for each of the {len(moduli)} moduli, got {len(long)}")
     here = by_frequency[frequency]
     return {
         other: tuple(modulus * (there / one) for modulus, there, one in zip(moduli, row, here, strict=True))
@@ -116,37 +165,32 @@ def _moduli(moduli: list[float], frequency: float, ratios: dict[str, list[float]
     }
 
 
-def _hydraulic(tables: dict[str, Any], file: Path) -> list[HydraulicMix]:
+def _in_hertz(key: str) -> str:
+    """A frequency that stands as a key, in Hz where it names no unit."""
+    return f"{key} Hz" if leading_number(key)[1] == "" else key
+
+
+def _hydraulic(tables: Mapping[str, _Hydraulic], source: str) -> list[HydraulicMix]:
     found = []
-    for name, table in tables.get("hydraulic", {}).items():
-        own = dict(only(table, _HYDRAULIC_KEYS, f"{file}, {name}"))
-        slope = -1 / own.pop("inverse_slope")
-        found.append(HydraulicMix(name=name, slope=slope, source=_source(tables), **own))
+    for name, own in tables.items():
+        given = {field.name: getattr(own, field.name) for field in fields(own) if field.name != "inverse_slope"}
+        found.append(HydraulicMix(name=name, slope=-1 / own.inverse_slope, source=source, **given))
     return found
 
 
-def _unbound(tables: dict[str, Any], file: Path) -> list[Unbound]:
-    if "unbound" not in tables:
+def _unbound(common: _AllUnbound | None, source: str) -> list[Unbound]:
+    if common is None:
         return []
-    shared = ("poisson", "slope", "constant", "constant_light")
-    common = only(tables["unbound"], (*shared, "constant_inverted", "granular", "platforms"), f"{file}, unbound")
-    base = {key: common[key] for key in shared}
-    granular = {
-        name: Unbound(
-            name=name,
-            modulus=modulus,
-            constant_inverted=common.get("constant_inverted"),
-            source=_source(tables),
-            **base,
-        )
-        for name, modulus in common.get("granular", {}).items()
+    shared: dict[str, Any] = {
+        "poisson": common.poisson,
+        "slope": common.slope,
+        "constant": common.constant,
+        "constant_light": common.constant_light,
+        "source": source,
     }
-    platforms = {
-        name: Unbound(name=name, modulus=modulus, source=_source(tables), **base)
-        for name, modulus in common.get("platforms", {}).items()
-    }
-    return [*granular.values(), *platforms.values()]
-
-
-def _source(tables: dict[str, Any]) -> str:
-    return " ".join(str(tables["source"]).split())
+    granular = [
+        Unbound(name=name, modulus=modulus, constant_inverted=common.constant_inverted, **shared)
+        for name, modulus in (common.granular or {}).items()
+    ]
+    platforms = [Unbound(name=name, modulus=modulus, **shared) for name, modulus in (common.platforms or {}).items()]
+    return [*granular, *platforms]

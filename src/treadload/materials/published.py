@@ -6,21 +6,16 @@ that returns an iterable of PublishedMaterial, for one `lambda: read_published(p
 
 from __future__ import annotations
 
-import math
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from treadload.catalogue.named import Catalogue, data, only, read_tables
-from treadload.errors import InputError
-from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
+from treadload.catalogue.named import Catalogue, data, read_tables
 from treadload.materials.kinds import TemperatureDependent, Viscoelastic
-from treadload.materials.power_law import PowerLawCreep
-from treadload.materials.temperature import QuadraticShift, Thermorheological
-from treadload.materials.viscoelastic import Prony
 from treadload.registry import MATERIALS
+from treadload.units import Celsius
 
 
 @dataclass(frozen=True)
@@ -64,51 +59,24 @@ def published_materials() -> dict[str, PublishedMaterial]:
 
 
 def read_published(path: str | os.PathLike[str]) -> list[PublishedMaterial]:
-    """Materials of a TOML file, a table each: law, its numbers, source; see `catalogue/data/viscoelastic`.
+    """Materials of a TOML file, a table each, as in a case: kind, numbers, shift; see `catalogue/data/viscoelastic`.
 
-    law: HuetSayegh or Model2S2P1D with tau (s), or log_tau (A₀, A₁, A₂ of ln τ over °C); PowerLawCreep; Prony with
-    shares and times (s). temperature: °C, at which the numbers hold. Raises InputError that names file and table.
+    temperature: at which the numbers hold. source: the paper. Raises InputError that names file and key.
     """
+    # pydantic is loaded when a file is read, not before.
+    from treadload.materials.tables import shift_of, shifted
+    from treadload.read import Choice, read
+
+    def publish(material: Any, table: Any, folder: Path) -> PublishedMaterial:
+        source = " ".join((table.source or "").split())
+        made: Any = shifted(material, table, folder)
+        return PublishedMaterial("", made, table.temperature, source)
+
+    more = {"temperature": Celsius, "source": str}
+    kinds = Choice(MATERIALS, more=lambda target: {**shift_of(target), **more}, finish=publish)
     file = Path(path)
-    return [_material(name, table, f"{file}, {name}") for name, table in read_tables(file).items()]
-
-
-_FRACTIONAL = ("glassy_modulus", "static_modulus", "delta", "k", "h")
-_KEYS = {
-    "HuetSayegh": (*_FRACTIONAL, "tau", "log_tau"),
-    "Model2S2P1D": (*_FRACTIONAL, "beta", "tau", "log_tau"),
-    "PowerLawCreep": ("instantaneous_compliance", "long_term_compliance", "tau", "exponent"),
-    "Prony": ("modulus", "shares", "times"),
-}
-
-
-def _material(name: str, table: dict[str, Any], place: str) -> PublishedMaterial:
-    law = table.get("law")
-    if law not in _KEYS:
-        raise InputError(f"{place}: law must be one of {', '.join(_KEYS)}, got {law!r}")
-    own = dict(only(table, (*_KEYS[law], "law", "poisson", "temperature", "source"), place))
-    del own["law"]
-    source, temperature = " ".join(str(own.pop("source", "")).split()), own.pop("temperature", None)
-    try:
-        return PublishedMaterial(name, _built(law, own), temperature, source)
-    except KeyError as error:
-        raise InputError(f"{place}: key {error.args[0]!r} is missing") from error
-    except (InputError, TypeError, ValueError) as error:
-        raise InputError(f"{place}: {error}") from error
-
-
-def _built(law: str, own: dict[str, Any]) -> Viscoelastic | TemperatureDependent:
-    if law == "Prony":
-        terms = tuple(zip(own["shares"], own["times"], strict=True))
-        return Prony(own["modulus"], terms, own["poisson"])
-    if law == "PowerLawCreep":
-        return PowerLawCreep(**own)
-    coefficients = own.pop("log_tau", None)
-    build = HuetSayegh if law == "HuetSayegh" else Model2S2P1D
-    if coefficients is None:
-        return build(**own)
-    a0, a1, a2 = coefficients
-    return Thermorheological(build(tau=math.exp(a0), **own), QuadraticShift(a1, a2))
+    found = read(dict[str, Annotated[Any, kinds]], read_tables(file), str(file))
+    return [replace(one, name=name) for name, one in found.items()]
 
 
 @cache

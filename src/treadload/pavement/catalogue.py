@@ -7,20 +7,18 @@ that returns Structures, for one `lambda: read_structures(path)` of a file like 
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
 
-from treadload.catalogue.named import Catalogue, data, only, read_tables
+from treadload.catalogue.named import Catalogue, data, read_tables
 from treadload.errors import InputError
 from treadload.materials.library import mix
 from treadload.materials.mixture import Mix
 from treadload.pavement import notation
-from treadload.pavement.bonds import BONDED, Bond, BondLaw
+from treadload.pavement.bonds import BONDED, BondLaw
 from treadload.pavement.layer import Layer
-from treadload.registry import BONDS
+from treadload.units import Length
 
 
 @dataclass(frozen=True)
@@ -28,7 +26,7 @@ class Course:
     """A layer of a catalogued structure: the name of its mix, thickness, m, and bond to the layer below."""
 
     mix: str
-    thickness: float | None = None
+    thickness: Length | None = None
     bond: BondLaw = BONDED
 
 
@@ -93,18 +91,28 @@ def structures() -> dict[str, Structure]:
 
 def read_structures(path: str | os.PathLike[str]) -> list[Structure]:
     """Structures of a TOML file; see `catalogue/data/structures`. Raises InputError that names file and key."""
-    file = Path(path)
-    tables = only(read_tables(file), ("structures",), str(file))
-    try:
-        return [_structure(table, file) for table in tables["structures"]]
-    except KeyError as error:
-        raise InputError(f"{file}: key {error.args[0]!r} is missing") from error
-    except InputError:
-        raise
-    except (TypeError, ValueError, AttributeError) as error:
-        raise InputError(
-            f"{file}: {error}; take the files of treadload/catalogue/data/structures as a pattern"
-        ) from error
+    # pydantic is loaded when a file is read, not before.
+    from treadload.read import read
+
+    tables: _File = read(_File, read_tables(Path(path)), str(Path(path)))
+    return [Structure(one.name, one.title, one.layers, " ".join(one.source.split())) for one in tables.structures]
+
+
+@dataclass(frozen=True)
+class _Row:
+    """A structure of a file."""
+
+    name: str
+    title: str
+    source: str
+    layers: tuple[Course, ...]
+
+
+@dataclass(frozen=True)
+class _File:
+    """A file of structures."""
+
+    structures: tuple[_Row, ...]
 
 
 @cache
@@ -114,23 +122,3 @@ def _own() -> tuple[Structure, ...]:
 
 def _catalogue() -> Catalogue[Structure]:
     return Catalogue("structure", (Structure,), _own, "treadload.structures")
-
-
-def _structure(table: dict[str, Any], file: Path) -> Structure:
-    place = f"{file}, {table['name']}"
-    only(table, ("name", "title", "source", "layers"), place)
-    layers: Sequence[dict[str, Any]] = [only(layer, ("mix", "thickness", "bond"), place) for layer in table["layers"]]
-    courses = tuple(
-        Course(layer["mix"], layer.get("thickness"), _bond(layer.get("bond", "bonded"), place)) for layer in layers
-    )
-    return Structure(table["name"], table["title"], courses, " ".join(str(table["source"]).split()))
-
-
-def _bond(value: str | float, place: str) -> BondLaw:
-    if not isinstance(value, str):
-        return Bond(float(value))
-    words = [name for name in BONDS.names() if name != BONDS.default]
-    if value not in words:
-        raise InputError(f"{place}: bond must be {', '.join(words)} or a stiffness in Pa/m, got {value!r}")
-    bond: BondLaw = BONDS.find(value).target()
-    return bond

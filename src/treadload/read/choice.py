@@ -178,12 +178,10 @@ def table_of(target: Callable[..., Any]) -> type[Made]:
     return _made(None, Entry("", target))
 
 
-def read(target: Callable[..., Any], table: Any, place: str, *, folder: Path = HERE) -> Any:
-    """What a dataclass or a function makes of a table. place: of the table, for errors. Raises InputError."""
-    if not isinstance(table, Mapping):
-        raise InputError(f"{place} must be a table of keys and values, got {table!r}")
+def read(hint: Any, value: Any, place: str, *, folder: Path = HERE) -> Any:
+    """What a value of TOML is as a type, a dataclass of its table. place: of it, for errors. Raises InputError."""
     try:
-        return table_of(target).model_validate(table).build(folder)
+        return settled(reader(hint).validate_python(value), readable(hint), folder)
     except ValidationError as error:
         raise InputError(f"{place}: {in_words(error)}") from error
 
@@ -247,8 +245,10 @@ def readable(hint: Any, where: str = "") -> Any:
         return Annotated[int, Strict()]
     if hint is Path:
         return Annotated[str, File()]
-    if hint in (bool, str, Any) or get_origin(hint) in (Literal, dict):
+    if hint in (bool, str, Any) or get_origin(hint) is Literal:
         return hint
+    if get_origin(hint) is dict:
+        return dict[str, readable(get_args(hint)[1], where)]  # type: ignore[misc]
     if get_origin(hint) is Annotated:
         inner, *marks = get_args(hint)
         if any(isinstance(mark, Unit | Mark) for mark in marks):

@@ -230,14 +230,15 @@ def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **given
 
 def in_words(error: ValidationError) -> str:
     """The first errors of a table on one line, each with the path of its key."""
-    found = error.errors()
+    # A key that was misspelt is missing, too: what was meant is said first.
+    found = sorted(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
     told = [_one_error(item) for item in found[:_TOLD]]
     return "; ".join([*told, f"and {len(found) - _TOLD} more"] if len(found) > _TOLD else told)
 
 
 def _one_error(item: Any) -> str:
     place = ".".join(map(str, item["loc"]))
-    message = str(item["msg"]).removeprefix("Value error, ")
+    message = _plainly(item).removeprefix("Value error, ")
     if item["type"] == "extra_forbidden":
         return f"unknown key {place!r}; {message}"
     if item["type"] == "missing":
@@ -271,6 +272,9 @@ def settled(value: Any, told: Any, folder: Path) -> Any:
     """The argument that a value of a table stands for."""
     if isinstance(value, Made):
         return value.build(folder)
+    if isinstance(value, Mapping):
+        within = next((get_args(arm)[1] for arm in arms(told) if get_origin(arm) is dict), Any)
+        return {key: settled(one, within, folder) for key, one in value.items()}
     if isinstance(value, list | tuple):
         members = zip(value, _members(told, len(value)), strict=True)
         return tuple(settled(one, of, folder) for one, of in members)
@@ -282,6 +286,8 @@ def settled(value: Any, told: Any, folder: Path) -> Any:
 def _reads_file(value: Any, told: Any) -> bool:
     if isinstance(value, Made):
         return value.waits
+    if isinstance(value, Mapping):
+        return any(isinstance(one, Made) and one.waits for one in value.values())
     if isinstance(value, list | tuple):
         return any(_reads_file(one, of) for one, of in zip(value, _members(told, len(value)), strict=True))
     return value is not None and any(isinstance(mark, File) for mark in _marks(told))
