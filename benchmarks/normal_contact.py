@@ -7,8 +7,8 @@ from a cold start: operators and the coarser grids that start the solve are incl
 from floors import normal_product
 from timing import best_of, print_table
 
+from treadload.contact.bodies.half_space import HalfSpaces, combined
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.solve import combine
 from treadload.contact.solvers.normal import solve_normal
 from treadload.grid import Grid
 from treadload.tire import Tire
@@ -18,16 +18,18 @@ SIDE, LOAD = 0.34, 35e3
 
 
 def main(sizes=(64, 128, 256, 512, 1024)):
-    tire, bodies = Tire.from_profile("315/80R22.5"), combine(RUBBER, ASPHALT)
+    tire, bodies = Tire.from_profile("315/80R22.5"), combined(RUBBER, ASPHALT)
     rows = []
     for cells in sizes:
         spacing = SIDE / cells
         grid = Grid.centred(SIDE, SIDE, spacing)
         gap = tire.height_map(grid)
-        floor = normal_product(Influence(grid.shape, spacing, spacing, bodies))
+        floor = normal_product(Influence(grid.shape, spacing, spacing, HalfSpaces(bodies)))
         # A new Influence each time: nothing is kept from the run before.
         seconds, found = best_of(
-            lambda shape=grid.shape, h=spacing, gap=gap: solve_normal(Influence(shape, h, h, bodies), gap, load=LOAD),
+            lambda shape=grid.shape, h=spacing, gap=gap: solve_normal(
+                Influence(shape, h, h, HalfSpaces(bodies)), gap, load=LOAD
+            ),
             repeats=3 if cells <= 512 else 1,
         )
         rows.append(

@@ -7,8 +7,8 @@ the pressures lie from a much tighter solution stands beside the times. Needs `p
 import numpy as np
 from timing import best_of, print_table
 
+from treadload.contact.bodies.half_space import HalfSpaces, combined
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.solve import combine
 from treadload.contact.solvers.normal import solve_normal
 from treadload.grid import Grid
 from treadload.tire import Tire
@@ -41,14 +41,14 @@ def main(sizes=(64, 128, 256), peer_tolerance=1e-7):
         print("tamaas is not installed; `pip install tamaas` sets it beside treadload here\n")
         return
     tamaas.set_log_level(tamaas.LogLevel.error)
-    bodies = combine(RUBBER, ASPHALT)
+    bodies = combined(RUBBER, ASPHALT)
     rows = []
     for cells in sizes:
         grid = Grid.centred(SIZE, SIZE, SIZE / cells)
         gap = Tire.from_profile("315/80R22.5").height_map(grid)
-        exact = ours(Influence(grid.shape, grid.dx, grid.dy, bodies), gap, 1e-10)
+        exact = ours(Influence(grid.shape, grid.dx, grid.dy, HalfSpaces(bodies)), gap, 1e-10)
         scale = np.linalg.norm(exact)
-        seconds, pressure = best_of(lambda g=grid, h=gap: ours(Influence(g.shape, g.dx, g.dy, bodies), h))
+        seconds, pressure = best_of(lambda g=grid, h=gap: ours(Influence(g.shape, g.dx, g.dy, HalfSpaces(bodies)), h))
         theirs, other = best_of(lambda h=gap: peer(tamaas, h, bodies.contact_modulus, peer_tolerance), repeats=1)
         error, their_error = (float(np.linalg.norm(p - exact) / scale) for p in (pressure, other))
         rows.append((f"{cells} x {cells}", seconds, error, theirs, their_error, theirs / seconds))

@@ -11,8 +11,8 @@ import numpy as np
 from floors import rolling_product
 from timing import best_of, print_table
 
+from treadload.contact.bodies.half_space import HalfSpaces, combined
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.solve import combine
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.contact.solvers.shift import solve_shift
@@ -42,7 +42,7 @@ def disc(cells):
     dx = 2.2 / cells
     x = dx * (np.arange(cells) - (cells - 1) / 2)
     gap = (x[None, :] ** 2 + x[:, None] ** 2) * 3 / (8 * DISC.contact_modulus)
-    return gap, Influence(gap.shape, dx, dx, DISC)
+    return gap, Influence(gap.shape, dx, dx, HalfSpaces(DISC))
 
 
 def discs(sizes):
@@ -60,10 +60,10 @@ def discs(sizes):
 
 
 def treads(sizes):
-    bodies = combine(RUBBER, ASPHALT)
+    bodies = combined(RUBBER, ASPHALT)
     for cells in sizes:
         grid = Grid.centred(0.34, 0.34, 0.34 / cells)
-        influence = Influence(grid.shape, grid.dx, grid.dy, bodies)
+        influence = Influence(grid.shape, grid.dx, grid.dy, HalfSpaces(bodies))
         for name, bound, profile, forces, spin in (
             ("ribs, 10 kN", 250, RIBS, (10e3, 0.0), 0.0),
             ("lugs, 10 and 6 kN, 20 m", 400, LUGS, (10e3, 6e3), 0.05),

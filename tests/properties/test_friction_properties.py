@@ -15,6 +15,7 @@ from treadload.contact import (
     PressureDependent,
     Rational,
 )
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.friction.laws import Interface
 from treadload.contact.solvers.rolling import rigid_slip
@@ -69,7 +70,7 @@ def roll(pressure, law, creepages, spin=0.0, forces=(None, None)):
     ny, nx = pressure.shape
     x, y = DX * (np.arange(nx) - (nx - 1) / 2), DX * (np.arange(ny) - (ny - 1) / 2)
     at = Interface(pressure, np.zeros((2, ny, nx)), x, y, DX, SPEED)
-    influence = Influence(pressure.shape, DX, DX, BODIES)
+    influence = Influence(pressure.shape, DX, DX, HalfSpaces(BODIES))
     rigid = rigid_slip(x, y, DX, creepages, spin)
     found = solve_slipping(influence, law, at, rigid, forces, tolerance=TOLERANCE)
     return found, at, influence, rigid

@@ -6,7 +6,10 @@ import numpy as np
 from hypothesis import Phase, assume, given, settings
 from hypothesis import strategies as st
 
-from treadload.contact.bodies.layers import LayeredInfluence, images_of
+from treadload.contact.bodies.body import Sum
+from treadload.contact.bodies.half_space import HalfSpaces
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.layers import Layering, images_of
 from treadload.contact.solvers.normal import solve_normal
 from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.kernels.layers.images import fit_images
@@ -37,7 +40,7 @@ def stacks(draw):
 
 def solved(stack, cell, load, tire=math.inf, curvature=1.0):
     bodies = CombinedElasticity.of(tire, 0.0, stack.shear[0], stack.poisson[0])
-    influence = LayeredInfluence((N, N), cell, cell, bodies, images_of(stack))
+    influence = Influence((N, N), cell, cell, Sum.of(HalfSpaces(bodies), Layering(images_of(stack))))
     x = cell * (np.arange(N) - N / 2 + 0.3)
     gap = (x[None, :] ** 2 + x[:, None] ** 2) / (2 * curvature)
     return influence, gap, solve_normal(influence, gap, load=load, tolerance=1e-8)

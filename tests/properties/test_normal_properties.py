@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.normal import solve_normal
 from treadload.kernels.gridding.convolution import Convolution, Padding
@@ -35,7 +36,7 @@ def surfaces(draw, holes=True):
 
 
 def influence(gap):
-    return Influence(gap.shape, DX, DX, BODIES)
+    return Influence(gap.shape, DX, DX, HalfSpaces(BODIES))
 
 
 @quick
@@ -79,7 +80,7 @@ def test_mirrored_and_turned_surfaces_give_mirrored_and_turned_pressure(gap, loa
 def test_stiffness_and_load_scale_together(gap, load, factor):
     p = solve_normal(influence(gap), gap, load=load, tolerance=1e-9)
     stiffer = CombinedElasticity(factor * BODIES.shear_modulus, BODIES.poisson, 0.0)
-    other = solve_normal(Influence(gap.shape, DX, DX, stiffer), gap, load=factor * load, tolerance=1e-9)
+    other = solve_normal(Influence(gap.shape, DX, DX, HalfSpaces(stiffer)), gap, load=factor * load, tolerance=1e-9)
     np.testing.assert_allclose(other.pressure, factor * p.pressure, atol=1e-5 * factor * p.pressure.max())
 
 
@@ -108,7 +109,7 @@ def test_convolution_is_linear(shape, factor, seed):
 @quick
 @given(SHAPES, st.integers(0, 2**32 - 1))
 def test_the_normal_operator_is_symmetric_and_positive(shape, seed):
-    operator = Influence(shape, DX, 1.7 * DX, BODIES).normal
+    operator = Influence(shape, DX, 1.7 * DX, HalfSpaces(BODIES)).normal
     one, two = np.random.default_rng(seed).normal(size=(2, *shape))
     assert np.isclose(np.vdot(one, operator(two)), np.vdot(two, operator(one)), rtol=1e-9, atol=1e-18)
     assert np.vdot(one, operator(one)) > 0

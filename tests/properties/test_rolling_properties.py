@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from treadload.contact import Rolling, solve_contact
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.kernels.half_space.rectangle import CombinedElasticity
@@ -41,7 +42,7 @@ def bounds(draw):
 def roll(bound, creepages=(0.0, 0.0), spin=0.0, forces=(None, None), bodies=BODIES):
     ny, nx = bound.shape
     x, y = DX * (np.arange(nx) - (nx - 1) / 2), DX * (np.arange(ny) - (ny - 1) / 2)
-    influence = Influence(bound.shape, DX, DX, bodies)
+    influence = Influence(bound.shape, DX, DX, HalfSpaces(bodies))
     return solve_rolling(influence, bound, rigid_slip(x, y, DX, creepages, spin), forces, tolerance=TOLERANCE)
 
 
@@ -49,7 +50,7 @@ def natural_residual(bound, found, creepages, spin):
     """|q - P(q - r s)| / |μp| of the returned shear, with the slip computed anew from its cells."""
     ny, nx = bound.shape
     x, y = DX * (np.arange(nx) - (nx - 1) / 2), DX * (np.arange(ny) - (ny - 1) / 2)
-    influence = Influence(bound.shape, DX, DX, BODIES)
+    influence = Influence(bound.shape, DX, DX, HalfSpaces(BODIES))
     total = np.asarray(creepages) + np.asarray(found.found)
     padding = influence.rolling_padding
     (xx, yy, xy), (q_x, q_y) = influence.tangential(padding), padding.forward(found.shear)

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.contact.solvers.shift import solve_shift
@@ -31,7 +32,7 @@ def patches(draw):
 def roll(bound, creepages, spin=0.0, scale=1.0, bodies=BODIES):
     dx = DX * scale
     x, y = dx * (np.arange(SHAPE[1]) - 5.0), dx * (np.arange(SHAPE[0]) - 4.0)
-    influence = Influence(SHAPE, dx, dx, bodies)
+    influence = Influence(SHAPE, dx, dx, HalfSpaces(bodies))
     return solve_rolling(influence, bound, rigid_slip(x, y, dx, creepages, spin), (None, None), tolerance=TOLERANCE)
 
 
@@ -68,9 +69,9 @@ def test_creepage_scales_with_friction(bound, along, across, scale):
 @given(patches(), st.floats(-2e-3, 2e-3), st.floats(-2e-3, 2e-3))
 def test_a_shift_turns_with_its_axes(bound, along, across):
     rigid = np.stack([np.full(SHAPE, along), np.full(SHAPE, across)])
-    one = solve_shift(Influence(SHAPE, DX, DX, BODIES), bound, rigid, (None, None), tolerance=TOLERANCE)
+    one = solve_shift(Influence(SHAPE, DX, DX, HalfSpaces(BODIES)), bound, rigid, (None, None), tolerance=TOLERANCE)
     turned_rigid = np.stack([rigid[1].T, rigid[0].T])
-    influence = Influence(SHAPE[::-1], DX, DX, BODIES)
+    influence = Influence(SHAPE[::-1], DX, DX, HalfSpaces(BODIES))
     other = solve_shift(influence, bound.T.copy(), turned_rigid, (None, None), tolerance=TOLERANCE)
     atol = 1e-4 * bound.max()
     np.testing.assert_allclose(other.shear[0].T, one.shear[1], atol=atol)
@@ -82,7 +83,7 @@ def test_a_shift_turns_with_its_axes(bound, along, across):
 def test_both_solvers_find_the_same(bound, along, across, spin):
     x, y = DX * (np.arange(SHAPE[1]) - 5.0), DX * (np.arange(SHAPE[0]) - 4.0)
     rigid = DX * rigid_slip(x, y, DX, (along, across), spin)
-    problem = _problem(Influence(SHAPE, DX, DX, BODIES), bound, rigid, (None, None), True, (1.0, 1.0))
+    problem = _problem(Influence(SHAPE, DX, DX, HalfSpaces(BODIES)), bound, rigid, (None, None), True, (1.0, 1.0))
     fast = coulomb_newton.solve(problem, tolerance=TOLERANCE)
     slow, _, _ = split(problem, np.zeros_like(rigid), np.zeros(2), tolerance=TOLERANCE, max_iterations=20_000)
     assert fast.converged

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.marching import Stage, roll_transient
 from treadload.contact.solvers.normal import solve_normal
@@ -58,7 +59,7 @@ def history(steps, friction=0.6):
 @given(steps=STEPS, seed=st.integers(0, 50), pair=st.sampled_from(sorted(PAIRS)))
 @settings(max_examples=12, deadline=None)
 def test_friction_only_takes(steps, seed, pair):
-    influence = Influence((CELLS, CELLS), SPACING, SPACING, PAIRS[pair])
+    influence = Influence((CELLS, CELLS), SPACING, SPACING, HalfSpaces(PAIRS[pair]))
     for state in roll_transient(influence, history(steps), gap=tread(seed), tolerance=1e-7).states:
         q, s, bound = state.tangential.shear, state.tangential.slip, 0.6 * state.pressure
         assert (np.hypot(*q) <= bound * (1 + 1e-12)).all()
@@ -71,7 +72,7 @@ def test_friction_only_takes(steps, seed, pair):
 @given(steps=STEPS, seed=st.integers(0, 50), pair=st.sampled_from(sorted(PAIRS)))
 @settings(max_examples=8, deadline=None)
 def test_a_mirror_turns_lateral_slip_and_spin(steps, seed, pair):
-    influence = Influence((CELLS, CELLS), SPACING, SPACING, PAIRS[pair])
+    influence = Influence((CELLS, CELLS), SPACING, SPACING, HalfSpaces(PAIRS[pair]))
     gap = tread(seed)
     mirrored = [(travel, along, -across, -angle, load) for travel, along, across, angle, load in steps]
     one = roll_transient(influence, history(steps), gap=gap, tolerance=1e-8).last
@@ -83,7 +84,7 @@ def test_a_mirror_turns_lateral_slip_and_spin(steps, seed, pair):
 @given(steps=STEPS, seed=st.integers(0, 50))
 @settings(max_examples=8, deadline=None)
 def test_without_rolling_the_axes_may_be_swapped(steps, seed):
-    influence = Influence((CELLS, CELLS), SPACING, SPACING, PAIRS["unlike"])
+    influence = Influence((CELLS, CELLS), SPACING, SPACING, HalfSpaces(PAIRS["unlike"]))
     gap = tread(seed)
     still = [(0.0, *rest) for _, *rest in steps]
     swapped = [(0.0, across, along, -angle, load) for _, along, across, angle, load in steps]
@@ -101,9 +102,12 @@ def test_rolling_past_the_road_is_the_road_seen_to_move(pair):
     gap = X[None, :] ** 2 / 0.5 + X[:, None] ** 2 / 0.4
     rolling = Stage(creep * SPACING * 3, (None, None), friction, SPACING, load=load)
     moving = roll_transient(
-        Influence((CELLS, CELLS), SPACING, SPACING, bodies), [rolling] * (steps + 1), gap=gap, tolerance=1e-9
+        Influence((CELLS, CELLS), SPACING, SPACING, HalfSpaces(bodies)),
+        [rolling] * (steps + 1),
+        gap=gap,
+        tolerance=1e-9,
     )
-    long = Influence((CELLS, CELLS + steps), SPACING, SPACING, bodies)
+    long = Influence((CELLS, CELLS + steps), SPACING, SPACING, HalfSpaces(bodies))
     state = None
     for step in range(steps + 1):
         at = np.full((CELLS, CELLS + steps), np.nan)
@@ -134,7 +138,9 @@ def test_scale(factor):
     other = CombinedElasticity.of(4e5 * factor, 0.4, 2e9 * factor, 0.35)
     stages = [history([(*step[:4], step[4] * f) for step in steps]) for f in (1.0, factor)]
     last = [
-        roll_transient(Influence((CELLS, CELLS), SPACING, SPACING, bodies), way, gap=gap, tolerance=1e-8).last
+        roll_transient(
+            Influence((CELLS, CELLS), SPACING, SPACING, HalfSpaces(bodies)), way, gap=gap, tolerance=1e-8
+        ).last
         for bodies, way in zip((one, other), stages, strict=True)
     ]
     np.testing.assert_allclose(
@@ -144,7 +150,7 @@ def test_scale(factor):
 
 def test_a_step_cut_in_two_without_a_change_of_direction_is_the_same_turn():
     # Monotone shift of like bodies under constant pressure: the path does not matter.
-    influence = Influence((CELLS, CELLS), SPACING, SPACING, PAIRS["like"])
+    influence = Influence((CELLS, CELLS), SPACING, SPACING, HalfSpaces(PAIRS["like"]))
     pressure = solve_normal(influence, X[None, :] ** 2 + X[:, None] ** 2, load=60.0, tolerance=1e-9).pressure
     turn = 0.02 * arm_of(X, X)
     whole, halves = (

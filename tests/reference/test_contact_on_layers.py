@@ -9,8 +9,10 @@ from scipy import special
 
 import treadload as tl
 from punch import compliance_of_bonded_layer, flat_punch_stiffness, sphere
+from treadload.contact.bodies.body import Offsets, Sum
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.bodies.layers import LayeredInfluence, images_of, road_share
+from treadload.contact.bodies.layers import Layering, images_of, road_share
 from treadload.contact.solvers.normal import solve_normal
 from treadload.kernels.half_space import rectangle
 from treadload.kernels.half_space.rectangle import CombinedElasticity
@@ -42,7 +44,7 @@ ROADS = {
 
 def operators(stack, shape, dx, tire=(math.inf, 0.0)):
     bodies = CombinedElasticity.of(*tire, stack.shear[0], stack.poisson[0])
-    return LayeredInfluence(shape, dx, dx, bodies, images_of(stack))
+    return Influence(shape, dx, dx, Sum.of(HalfSpaces(bodies), Layering(images_of(stack))))
 
 
 def centres(n, dx):
@@ -56,11 +58,11 @@ def test_coefficients_are_the_displacement_of_the_layered_response(name):
     influence = operators(stack_of(layers), (32, 32), dx)
     at_x, at_y = np.array([0, 1, 5, 20, 31]), np.array([0, 2, 25])
     where = np.ix_(at_y, at_x)
-    k_x, k_y = influence._crosswise(32, 32)
-    pressed = {"z": influence._by_pressure(32, 32), "x": k_x, "y": k_y}
+    k_x, k_y = influence.pair.coupling(Offsets(32, 32, dx, dx))
+    pressed = {"z": influence.pair.normal(Offsets(32, 32, dx, dx)), "x": k_x, "y": k_y}
     sheared = {"z": -k_x}
     if influence.images.held:
-        sheared["x"], _, sheared["y"] = influence._by_shear(32, 32)
+        sheared["x"], _, sheared["y"] = influence.pair.tangential(Offsets(32, 32, dx, dx))
     for load, expected in (({"pressure": 1.0}, pressed), ({"pressure": 0.0, "traction_x": 1.0}, sheared)):
         cell = tl.UniformRectangle(dx, dx, **load)
         data = tl.solve_response([cell], layers, depths=[0.0], x=dx * at_x, y=dx * at_y).dataset
@@ -154,7 +156,7 @@ def pressed_by_a_plate(stack, radius, n):
     x = centres(n, dx)
     gap = np.where(x[None, :] ** 2 + x[:, None] ** 2 <= radius**2, 0.0, np.nan)
     layered = operators(stack, gap.shape, dx)
-    plain = Influence(gap.shape, dx, dx, layered.bodies)
+    plain = Influence(gap.shape, dx, dx, HalfSpaces(layered.bodies))
     return [solve_normal(one, gap, load=1e4, tolerance=1e-9) for one in (layered, plain)]
 
 
@@ -265,9 +267,11 @@ def test_a_pneumatic_tire_feels_next_to_nothing_of_the_road():
     rubber = tl.Elastic(3e6, 0.5)
     asphalt = Stack([5.4e9 / 2.7], [0.35], [math.inf], [])
     ratio = (1 - 0.35**2) / 5.4e9 / ((1 - 0.25) / 3e6)
-    assert road_share(rubber, asphalt, 0.05).share == pytest.approx(ratio / (1 + ratio), rel=1e-12)
-    assert road_share(rubber, asphalt, 0.05).layering == pytest.approx(0.0, abs=1e-12)
-    found = road_share(rubber, stack_of(ROADS["asphalt on soil"]), 0.05)
+    assert road_share(HalfSpaces.of(rubber, None), asphalt, 0.05).share == pytest.approx(
+        ratio / (1 + ratio), rel=1e-12
+    )
+    assert road_share(HalfSpaces.of(rubber, None), asphalt, 0.05).layering == pytest.approx(0.0, abs=1e-12)
+    found = road_share(HalfSpaces.of(rubber, None), stack_of(ROADS["asphalt on soil"]), 0.05)
     assert 5e-4 < found.share < 1e-2
 
 
@@ -276,11 +280,11 @@ def test_the_mean_sinking_under_a_disc():
     asphalt = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
     radius = 0.15
     tire = tl.Elastic(3e6, 0.5)
-    found = road_share(tire, stack_of(asphalt), np.pi * radius**2)
+    found = road_share(HalfSpaces.of(tire, None), stack_of(asphalt), np.pi * radius**2)
     # The waves left out are 1e-5 of it.
     assert found.road == pytest.approx(16 * (1 - 0.35**2) * radius / (3 * np.pi * 5.4e9), rel=2e-5)
     layers = ROADS["asphalt on soil"]
-    found = road_share(tire, stack_of(layers), np.pi * radius**2)
+    found = road_share(HalfSpaces.of(tire, None), stack_of(layers), np.pi * radius**2)
     nodes, weights = np.polynomial.legendre.leggauss(12)
     r = radius * np.sqrt((1 + nodes) / 2)  # equal areas for equal weights
     sunk = tl.solve_response([tl.UniformDisc(radius, 1.0)], layers, depths=[0.0], x=r, y=[0.0]).dataset.displacement_z

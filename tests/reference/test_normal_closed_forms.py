@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.normal import solve_normal
 from treadload.kernels.half_space.rectangle import CombinedElasticity
@@ -70,7 +71,7 @@ def test_the_middle_of_five_long_rows_is_a_strip():
     peak = BODIES.contact_modulus * 1e-3 / 0.2
     load = np.pi * 1e-3 * peak / 2
     x = centres(56, 2e-3 / 48)
-    influence = Influence((5, x.size), 2e-3 / 48, 0.2, BODIES)
+    influence = Influence((5, x.size), 2e-3 / 48, 0.2, HalfSpaces(BODIES))
     gap = np.tile(x**2 / 0.2, (5, 1))
     five = solve_normal(influence, gap, load=load, tolerance=1e-10)
     # The ends carry more; the middle row, 0.1 m from its neighbours' ends, is a strip under its own share.
@@ -87,7 +88,7 @@ def test_flat_circular_punch(cells):
     dx = 2.0 / cells
     x = centres(cells + 2, dx)
     r = np.hypot(x[None, :], x[:, None])
-    influence = Influence((x.size, x.size), dx, dx, BODIES)
+    influence = Influence((x.size, x.size), dx, dx, HalfSpaces(BODIES))
     found = solve_normal(influence, np.where(r < 1, 0.0, np.nan), load=1e3)
     area = (r < 1).sum() * dx**2
     a = np.sqrt(area / np.pi)

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from treadload.contact.bodies.half_space import HalfSpaces, combined
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.solve import combine
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.grid import Grid
@@ -26,7 +26,7 @@ LUGS = replace(
 
 def on_tread(profile, cells, forces, spin):
     grid = Grid.centred(0.34, 0.34, 0.34 / cells)
-    influence = Influence(grid.shape, grid.dx, grid.dy, combine(Elastic(3e6, 0.5), Elastic(5.4e9, 0.35)))
+    influence = Influence(grid.shape, grid.dx, grid.dy, HalfSpaces(combined(Elastic(3e6, 0.5), Elastic(5.4e9, 0.35))))
     pressure = solve_normal(influence, Tire.from_profile(profile).height_map(grid), load=32.5e3).pressure
     return solve_rolling(influence, 0.7 * pressure, rigid_slip(grid.x, grid.y, grid.dx, (0.0, 0.0), spin), forces)
 

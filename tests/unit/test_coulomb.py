@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.kernels.complementarity import coulomb_newton
 from treadload.kernels.complementarity.coulomb import CoulombProblem, project_disc
@@ -22,7 +23,7 @@ def dome(shape=SHAPE):
 
 def problem(kind="rolling", rigid=(0.05, -0.03), totals=(None, None), bound=None):
     bound = dome() if bound is None else bound
-    influence = Influence(bound.shape, 0.2, 0.25, BODIES)
+    influence = Influence(bound.shape, 0.2, 0.25, HalfSpaces(BODIES))
     rolls = kind == "rolling"
     padding = influence.rolling_padding if rolls else influence.padding
     return CoulombProblem(

@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 
-from treadload.contact.bodies.influence import Influence, stiffness_symbol
+from treadload.contact.bodies.half_space import HalfSpaces
+from treadload.contact.bodies.influence import Influence
 from treadload.kernels.gridding.convolution import Convolution
 from treadload.kernels.half_space import rectangle
 from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 BODIES = CombinedElasticity(2.0, 0.3, 0.07)
 SHAPE, DX, DY = (4, 6), 0.7, 1.3
-INFLUENCE = Influence(SHAPE, DX, DY, BODIES)
+INFLUENCE = Influence(SHAPE, DX, DY, HalfSpaces(BODIES))
 
 
 def matrix(quadrant, parity_x=1, parity_y=1, shift=0):
@@ -102,7 +103,7 @@ def test_displacement_is_the_sum_of_its_parts():
 def test_the_stiffness_symbol_inverts_the_compliance_of_a_wave():
     # A sinusoidal pressure of wave length 2π/k sinks by 2p/(E* k): Johnson (1985), section 13.2.
     n, dx = 64, 0.5
-    symbol = stiffness_symbol((n, n), dx, dx, 3.0)
+    symbol = Influence((n, n), dx, dx, HalfSpaces(CombinedElasticity(3.0 * 0.7, 0.3, 0.0))).normal_stiffness
     k = 2 * np.pi * 5 / (n * dx)
     assert symbol[0, 5] == pytest.approx(k * 3.0 / 2)
     assert symbol.min() > 0

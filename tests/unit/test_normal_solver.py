@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.normal import solve_normal
 from treadload.errors import ConvergenceError, GeometryError
@@ -11,7 +12,7 @@ from treadload.kernels.half_space.rectangle import CombinedElasticity
 BODIES = CombinedElasticity(1e6, 0.4, 0.0)
 N, DX = 40, 2e-3
 X = DX * (np.arange(N) - (N - 1) / 2)
-INFLUENCE = Influence((N, N), DX, DX, BODIES)
+INFLUENCE = Influence((N, N), DX, DX, HalfSpaces(BODIES))
 DOME = (X[None, :] ** 2 + X[:, None] ** 2) / (2 * 0.3)
 LOAD = 200.0
 
@@ -59,7 +60,9 @@ def test_any_start_leads_to_the_same(start):
 def test_any_shape_of_grid(shape):
     ny, nx = shape
     x, y = DX * (np.arange(nx) - (nx - 1) / 2), DX * (np.arange(ny) - (ny - 1) / 2)
-    found = solve_normal(Influence(shape, DX, DX, BODIES), (x[None] ** 2 + y[:, None] ** 2) / 0.6, load=10.0)
+    found = solve_normal(
+        Influence(shape, DX, DX, HalfSpaces(BODIES)), (x[None] ** 2 + y[:, None] ** 2) / 0.6, load=10.0
+    )
     assert found.pressure.shape == shape
     assert found.pressure.sum() * DX**2 == pytest.approx(10.0, rel=1e-12)
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers import tangential
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
@@ -168,7 +169,7 @@ def test_a_shift_beyond_friction_does_not_converge():
 
 def test_single_rows_and_columns_of_cells():
     for shape in ((1, 20), (20, 1)):
-        influence = Influence(shape, 2e-3, 2e-3, BODIES)
+        influence = Influence(shape, 2e-3, 2e-3, HalfSpaces(BODIES))
         bound = np.full(shape, 1e5)
         rigid = np.zeros((2, *shape))
         rigid[0] = -0.01

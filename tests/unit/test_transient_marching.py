@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from treadload.contact.bodies.ahead import Ahead
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.marching import Stage, march, roll_transient
 from treadload.contact.solvers.shift import solve_shift
@@ -14,7 +15,7 @@ from treadload.validation.patches import centres, paraboloid
 
 RNG = np.random.default_rng(7)
 BODIES = CombinedElasticity(1.0, 0.3, 0.2)
-INFLUENCE = Influence((13, 17), 0.2, 0.3, BODIES)
+INFLUENCE = Influence((13, 17), 0.2, 0.3, HalfSpaces(BODIES))
 SHEAR, PRESSURE = RNG.normal(size=(2, 13, 17)), RNG.random((13, 17))
 PATCH = paraboloid(CombinedElasticity(1e6, 0.4, 0.0), (0.3, 0.5), 50.0, (24, 26), (3e-3, 3e-3))
 STILL = np.zeros((2, 1, 1))
@@ -31,7 +32,7 @@ def test_ahead_by_nothing_is_the_displacement_itself():
 
 @pytest.mark.parametrize("cells", [1, 5, 20])
 def test_ahead_by_whole_cells_is_the_displacement_of_a_larger_grid(cells):
-    wide = Influence((13, 40), 0.2, 0.3, BODIES)
+    wide = Influence((13, 40), 0.2, 0.3, HalfSpaces(BODIES))
     shear, pressure = np.zeros((2, 13, 40)), np.zeros((13, 40))
     shear[..., :17], pressure[:, :17] = SHEAR, PRESSURE
     expected = wide.displacement(pressure, shear)[:2, :, cells : cells + 17]
@@ -41,7 +42,7 @@ def test_ahead_by_whole_cells_is_the_displacement_of_a_larger_grid(cells):
 @pytest.mark.parametrize("quarter", [1, 3, 5, 7])
 def test_ahead_by_a_part_of_a_cell_is_the_displacement_of_finer_cells(quarter):
     # Centres of cells of half the size lie a quarter ahead of and behind those of the whole.
-    fine = Influence((13, 52), 0.1, 0.3, BODIES)
+    fine = Influence((13, 52), 0.1, 0.3, HalfSpaces(BODIES))
     shear, pressure = np.zeros((2, 13, 52)), np.zeros((13, 52))
     shear[..., :34], pressure[:, :34] = SHEAR.repeat(2, -1), PRESSURE.repeat(2, -1)
     expected = fine.displacement(pressure, shear)[:2, :, (quarter + 1) // 2 :: 2][..., :17]
@@ -56,7 +57,7 @@ def test_ahead_by_half_a_cell_meets_the_corners_and_stays_smooth():
 
 
 def test_like_bodies_feel_no_pressure():
-    alike = Ahead(Influence((13, 17), 0.2, 0.3, CombinedElasticity(1.0, 0.3, 0.0)), 0.1)
+    alike = Ahead(Influence((13, 17), 0.2, 0.3, HalfSpaces(CombinedElasticity(1.0, 0.3, 0.0))), 0.1)
     assert not alike.by_pressure(PRESSURE).any()
     assert not alike.gap(SHEAR).any()
 

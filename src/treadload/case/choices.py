@@ -6,12 +6,13 @@ from typing import Annotated, Any
 
 from treadload.contact import Maneuver
 from treadload.materials import Elastic, Prony
+from treadload.materials.kinds import Surfaced
 from treadload.materials.tables import ROAD_MATERIAL
 from treadload.read import Choice
 from treadload.registry import BONDS, FRICTION, MANEUVERS, MATERIALS
 from treadload.units import Share
 
-TIRE_MATERIAL = Choice(MATERIALS, "material of a tire", only=(Elastic, Prony))
+TIRE_MATERIAL = Choice(MATERIALS, "material of a tire", only=(Elastic, Prony, Surfaced))
 BOND = Choice(BONDS, "bond")
 # A number, or the table of a law.
 FRICTION_OR_NUMBER = Choice(FRICTION, keeps_number=True)

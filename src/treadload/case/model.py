@@ -13,8 +13,7 @@ from treadload.case.response import ResponsePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
 from treadload.contact import Rolling
-from treadload.contact.bodies.viscoelastic import check_rolling
-from treadload.contact.solve import RoadCompliance
+from treadload.contact.bodies.choose import RoadCompliance, surface_of
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.kernels.layers.depths import same_depth
@@ -110,7 +109,7 @@ class Case(FilePart):
         assert self.rolling is not None
         self.rolling.build(self.folder)
         if self.tire.material is not None:
-            check_rolling(TIRE_MATERIAL.build(self.tire.material), road.surface_material, self.rolling.speed)
+            surface_of(TIRE_MATERIAL.build(self.tire.material), is_tire=True, speed=self.rolling.speed)
 
     @property
     def speed(self) -> float | None:

@@ -4,32 +4,28 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
-from typing import Any, Literal, get_args
+from typing import Any
 
 import numpy as np
 
 from treadload.contact import cautions
+from treadload.contact.bodies.body import Body
+from treadload.contact.bodies.choose import Pair, RoadCompliance
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.bodies.layers import LayeredInfluence, RoadShare, images_of, road_share
-from treadload.contact.bodies.viscoelastic import ViscoelasticInfluence, check_rolling, combined, elastic
+from treadload.contact.bodies.layers import RoadShare, road_share
+from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.coupling import Coupled, Progress, Start, solve_coupled
 from treadload.contact.solvers.normal import solve_normal
-from treadload.contact.solvers.tangential import TangentialSolution
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.kernels.half_space.rectangle import CombinedElasticity
-from treadload.materials import Elastic, Prony
 from treadload.pavement import Pavement
 from treadload.pavement.stack import stack_of
 from treadload.tire import Tire
-from treadload.variables import dataset
 
 DEFAULT_SPACING = 3e-3
 _LOCATING_CELLS = 64
@@ -38,10 +34,6 @@ _MOST_CELLS = 4_000_000
 _FINEST, _COARSEST = 1e-12, 1e-2
 # A change of compliance by the layers that a user should hear of.
 _LAYERS_MATTER = 0.01
-
-
-RoadCompliance = Literal["half_space", "layers"]
-Operators = Callable[[Grid], Influence]
 
 
 class BorderError(GeometryError):
@@ -90,29 +82,23 @@ def solve_contact(
         )
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
-    check_rolling(tire.half_space, road.surface_material, rolling.speed)
-    _check_compliance(road_compliance, tire, road)
-    # Slow rolling makes the largest contact of a viscoelastic tire.
-    bodies = combined(tire.half_space, road.surface_material, "rubbery")
+    bodies = Pair.of(tire, road, speed=rolling.speed, road_compliance=road_compliance)
+    if rolling.law.largest > 0:
+        bodies.both.check_shear()
     tell("locating the contact")
-    on = _operators(bodies, road, road_compliance)
+    # A tire that remembers makes its largest contact where it rolls slowly.
     if start is None:
-        grid, gap = place(tire, rolling, on, spacing)
+        grid, gap = place(tire, rolling, bodies.both, spacing)
     else:
-        grid, gap = _same_place(tire, rolling, on, start, spacing)
+        grid, gap = _same_place(tire, rolling, bodies.both, start, spacing)
     near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start)
     while True:
-        influence = on(grid)
-        if isinstance(influence, LayeredInfluence) and rolling.law.largest > 0:
-            influence.check_held()
-        if isinstance(tire.half_space, Prony):
-            cells = grid.shape, grid.dx, grid.dy
-            influence = ViscoelasticInfluence.of(*cells, tire.half_space, road.surface_material, rolling.speed)
+        scene = Scene(tire, road, bodies, grid, gap)
         tell(f"normal contact on {grid}")
         check = partial(check_border, grid=grid)
         try:
             pair = solve_coupled(
-                influence, grid, gap, rolling, check=check, start=near, tolerance=tolerance, tell=tell
+                scene.influence, grid, gap, rolling, check=check, start=near, tolerance=tolerance, tell=tell
             )
         except BorderError as error:
             wider = _widened(tire, grid, error)
@@ -121,37 +107,11 @@ def solve_contact(
             # Shear of dissimilar bodies has carried the contact beyond its grid.
             grid, gap, near = wider, tire.height_map(wider), None
         else:
-            return _contact(tire, road, rolling, grid, gap, influence, pair, time.perf_counter() - began)
+            return _contact(scene, rolling, pair, road_compliance, time.perf_counter() - began)
 
 
-def _check_compliance(wanted: str, tire: Tire, road: Pavement) -> None:
-    """Refuse what layers cannot do."""
-    if wanted not in get_args(RoadCompliance):
-        raise InputError(f'road_compliance must be "half_space" or "layers", got {wanted!r}')
-    if wanted == "half_space" or road.is_homogeneous:
-        return
-    if isinstance(tire.half_space, Prony):
-        raise InputError(
-            f"the tire is viscoelastic ({tire.half_space}), and contact on layers takes an elastic one; "
-            'leave out road_compliance="layers", which changes next to nothing under rubber'
-        )
-
-
-def combine(tire: Elastic, road: Elastic) -> CombinedElasticity:
-    """The elasticity of tire (body 1) and road (body 2) seen as one."""
-    return CombinedElasticity.of(tire.shear_modulus, tire.poisson, road.shear_modulus, road.poisson)
-
-
-def _operators(bodies: CombinedElasticity, road: Pavement, compliance: RoadCompliance) -> Operators:
-    """What makes the influence operators of the two bodies on a grid; the road as a half-space, or its layers."""
-    if compliance == "half_space" or road.is_homogeneous:
-        return lambda grid: Influence(grid.shape, grid.dx, grid.dy, bodies)
-    images = images_of(stack_of(road))
-    return lambda grid: LayeredInfluence(grid.shape, grid.dx, grid.dy, bodies, images)
-
-
-def place(tire: Tire, rolling: Rolling, on: Operators, spacing: float | None) -> tuple[Grid, Array]:
-    """Grid that holds the contact with a margin, and the initial gap on it; `on` makes the operators on a grid."""
+def place(tire: Tire, rolling: Rolling, bodies: Body, spacing: float | None) -> tuple[Grid, Array]:
+    """Grid that holds the contact of two bodies with a margin, and the initial gap on it."""
     if tire.fixed_grid is not None:
         grid = tire.fixed_grid
         if spacing is not None and not math.isclose(spacing, grid.dx, rel_tol=1e-9):
@@ -177,7 +137,7 @@ def place(tire: Tire, rolling: Rolling, on: Operators, spacing: float | None) ->
         )
     coarse = Grid.centred(length, width, max(step, max(length, width) / _LOCATING_CELLS))
     first = solve_normal(
-        on(coarse),
+        Influence(coarse.shape, coarse.dx, coarse.dy, bodies.at_rest),
         tire.height_map(coarse),
         load=rolling.normal_load,
         approach=rolling.approach,
@@ -208,7 +168,7 @@ def _widened(tire: Tire, grid: Grid, cut: BorderError) -> Grid | None:
 
 
 def _same_place(
-    tire: Tire, rolling: Rolling, on: Operators, start: Contact, spacing: float | None
+    tire: Tire, rolling: Rolling, bodies: Body, start: Contact, spacing: float | None
 ) -> tuple[Grid, Array]:
     """The grid of an earlier contact, or a larger one if this contact needs it, and the initial gap on it."""
     data = start.dataset
@@ -221,19 +181,15 @@ def _same_place(
     before = start.rolling
     if (tire, rolling.normal_load, rolling.approach) != (start.tire, before.normal_load, before.approach):
         # Where its border lies in a groove, it would not show what it cuts.
-        wanted, gap = place(tire, rolling, on, dx if tire.fixed_grid is None else None)
+        wanted, gap = place(tire, rolling, bodies, dx if tire.fixed_grid is None else None)
         if wanted.nx > grid.nx or wanted.ny > grid.ny:
             return wanted, gap
     return grid, tire.height_map(grid)
 
 
 def _near(start: Contact) -> Start:
-    """The fields of an earlier contact, with the solver's signs: shear acts on the tire there."""
-    data = start.dataset
-    shear = -np.stack([data.traction_x.values, data.traction_y.values])
-    slip = np.stack([data.slip_x.values, data.slip_y.values])
-    found = (float(data.creepage_x), float(data.creepage_y))
-    return Start(data.pressure.values, TangentialSolution(shear, slip, found, data.state.values == 1, 0.0))
+    """The fields of an earlier contact, for the solvers."""
+    return Start(start.dataset.pressure.values, tangential_of(start.dataset))
 
 
 def _reach(positions: Array, touching: BoolArray) -> float:
@@ -260,69 +216,38 @@ def check_border(pressure: Array, grid: Grid) -> None:
 
 
 def _contact(
-    tire: Tire,
-    road: Pavement,
-    rolling: Rolling,
-    grid: Grid,
-    gap: Array,
-    influence: Influence,
-    pair: Coupled,
-    seconds: float,
+    scene: Scene, rolling: Rolling, pair: Coupled, road_compliance: RoadCompliance, seconds: float
 ) -> Contact:
+    tire, road, grid = scene.tire, scene.road, scene.grid
     normal, slipping, tangential = pair.normal, pair.slipping, pair.slipping.tangential
-    # Shear acts on the tire inside the solver; results tell what the road feels.
-    traction = 0.0 - tangential.shear
-    state = np.where(normal.pressure > 0, np.where(tangential.stick, 1, 2), 0).astype(np.int8)
-    stiff = road.surface_material
-    alone = CombinedElasticity.of(math.inf, 0.0, stiff.shear_modulus, stiff.poisson)
-    layered = isinstance(influence, LayeredInfluence)
-    road_only = replace(influence, bodies=alone) if layered else Influence(grid.shape, grid.dx, grid.dy, alone)
-    displacement = road_only.displacement(normal.pressure, tangential.shear)
     known = rolling.creepages
-    forces = tangential.shear.sum((1, 2)) * grid.cell_area
     pressure_moment = float((normal.pressure * grid.x[None, :]).sum()) * grid.cell_area
     load = float(normal.pressure.sum()) * grid.cell_area
-    moment = (grid.x[None, :] * tangential.shear[1] - grid.y[:, None] * tangential.shear[0]).sum() * grid.cell_area
     # The law opposes slip to shear, so that work is lost in every cell; below zero lies round-off only.
     work = np.maximum(-(tangential.shear * tangential.slip).sum(0), 0.0)
     lost = float(work.sum()) * grid.cell_area
     # The coefficient that would carry as much on the whole patch; Coulomb's is its own mean.
     mean = rolling.law.number if isinstance(rolling.law, Coulomb) else slipping.bound.sum() / normal.pressure.sum()
-    plane = ("y", "x")
-    fields: dict[str, tuple[tuple[str, ...], Any]] = {
-        "initial_gap": (plane, gap),
-        "gap": (plane, normal.gap),
-        "pressure": (plane, normal.pressure),
-        "traction_x": (plane, traction[0]),
-        "traction_y": (plane, traction[1]),
-        "state": (plane, state),
-        "slip_x": (plane, tangential.slip[0]),
-        "slip_y": (plane, tangential.slip[1]),
-        # u = u_tire - u_road: with a rigid tire the road moves the other way.
-        "displacement_x": (plane, -displacement[0]),
-        "displacement_y": (plane, -displacement[1]),
-        "displacement_z": (plane, displacement[2]),
-        "approach": ((), normal.approach),
-        "creepage_x": ((), known[0] + tangential.found[0]),
-        "creepage_y": ((), known[1] + tangential.found[1]),
-        "spin": ((), rolling.spin),
-        "normal_load": ((), load),
-        "tractive_force": ((), float(forces[0])),
-        "lateral_force": ((), float(forces[1])),
-        "aligning_moment": ((), float(moment)),
-        "pressure_centre_x": ((), pressure_moment / load),
-        "rolling_resistance_moment": ((), pressure_moment),
-        "friction": ((), float(mean)),
-        "friction_coefficient": (plane, slipping.coefficient),
-        "friction_work": (plane, work),
-        "friction_work_total": ((), lost),
+    planes = {"friction_coefficient": slipping.coefficient, "friction_work": work}
+    scalars = {
+        "approach": normal.approach,
+        "creepage_x": known[0] + tangential.found[0],
+        "creepage_y": known[1] + tangential.found[1],
+        "spin": rolling.spin,
+        "pressure_centre_x": pressure_moment / load,
+        "rolling_resistance_moment": pressure_moment,
+        "friction": float(mean),
+        "friction_work_total": lost,
     }
     if rolling.speed is not None:
         with np.errstate(over="ignore"):
-            fields["friction_power"] = (plane, work * rolling.speed)
-            fields["friction_power_total"] = ((), lost * rolling.speed)
+            planes["friction_power"] = work * rolling.speed
+            scalars["friction_power_total"] = lost * rolling.speed
     if slipping.temperature is not None:
-        fields["flash_temperature"] = (plane, slipping.temperature)
+        planes["flash_temperature"] = slipping.temperature
+    data = contact_dataset(
+        scene, normal.pressure, normal.gap, tangential, tangential.slip, planes=planes, scalars=scalars
+    )
     stats: dict[str, Any] = {
         "normal_iterations": pair.normal_iterations,
         "normal_residual": normal.residual,
@@ -334,9 +259,10 @@ def _contact(
         "friction_change": slipping.change,
         "coupling_rounds": pair.rounds,
         "coupling_change": pair.change,
-        "dundurs": influence.dundurs,
+        "dundurs": scene.influence.dundurs,
         "cells": grid.nx * grid.ny,
         "seconds": seconds,
+        **scene.bodies.both.stats,
     }
     warnings = [
         *cautions.of_tire(tire),
@@ -345,7 +271,8 @@ def _contact(
     ]
     if tangential.splitting:
         warnings.append(f"Newton's method stalled; {tangential.splitting} steps of the slower splitting helped it on")
-    share = _share(tire, road, float((normal.pressure > 0).sum()) * grid.cell_area)
+    share = _share(scene, float((normal.pressure > 0).sum()) * grid.cell_area)
+    layered = road_compliance == "layers" and not road.is_homogeneous
     if share is not None:
         stats |= {"road_share": share.share, "layer_share": share.layering, "layers_solved": layered}
         if not layered and abs(share.layering) > _LAYERS_MATTER:
@@ -353,15 +280,12 @@ def _contact(
                 f"the layers of the road change the compliance of this contact by {100 * share.layering:.1f} %, and "
                 'it was solved on a half-space of the top layer; solve it with road_compliance="layers"'
             )
-    if isinstance(influence, LayeredInfluence):
-        stats["images_residual"] = influence.images.residual
-    data = dataset(fields, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)
     return Contact(data, tire, road, rolling, stats, tuple(warnings + cautions.of_fields(data)))
 
 
-def _share(tire: Tire, road: Pavement, area: float) -> RoadShare | None:
+def _share(scene: Scene, area: float) -> RoadShare | None:
     """The road's share in a contact of an area, m²; None while a layer waits for its temperature."""
-    if any(layer.depends_on_temperature for layer in road.layers):
+    if any(layer.depends_on_temperature for layer in scene.road.layers):
         return None
     # Of a road that changes with time or bond, the stiffest: the one that the half-space stands for.
-    return road_share(elastic(tire.half_space, "rubbery"), stack_of(road.glassy.bond_limits[0]), area)
+    return road_share(scene.bodies.tire, stack_of(scene.road.glassy.bond_limits[0]), area)

@@ -16,12 +16,13 @@ import numpy as np
 import xarray as xr
 
 from treadload.contact import cautions
-from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
+from treadload.contact.fields import Scene, tractions
 from treadload.contact.friction.laws import Interface
 from treadload.contact.rolling_state import Rolling
-from treadload.contact.snapshot import Scene, contact_of, scalars_of
+from treadload.contact.snapshot import contact_at, scalars_of
 from treadload.contact.solution import Contact
-from treadload.contact.solve import check_border, combine, place
+from treadload.contact.solve import check_border, place
 from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.rolling import rigid_slip
@@ -81,11 +82,12 @@ def solve_transient(
     spacing: float | None = None,
     fields: bool = False,
     tolerance: float = 1e-6,
+    road_compliance: RoadCompliance = "half_space",
     progress: Progress | None = None,
 ) -> TransientResult:
     """Rolling from rest: pressure, shear, stick and slip of a tire step by step along its way.
 
-    tire, spacing, progress: as in `solve_contact`. road: as a half-space of its top layer.
+    tire, spacing, road_compliance, progress: as in `solve_contact`; an elastic tire only.
     rolling: one state for the whole way, or one for every step; the wheel stands under the load of the first before.
     distances: rolled since the start at the end of every step, m, ascending from zero; steps
     may be smaller or larger than a cell. A step of no distance shifts the wheel where it stands, by forces; a
@@ -101,7 +103,7 @@ def solve_transient(
     ends = _checked_distances(distances)
     wanted = _one_for_each(rolling, ends.size)
     tell("locating the contact")
-    scene = set_scene(tire, road, wanted, spacing)
+    scene = set_scene(tire, road, wanted, spacing, road_compliance)
     stages = [standing(scene, wanted[0])]
     for given, travel in zip(wanted, np.diff(ends, prepend=0.0), strict=True):
         slip = rigid_slip(scene.grid.x, scene.grid.y, float(travel), given.creepages, given.spin)
@@ -123,13 +125,22 @@ def solve_transient(
     }
     creepages = rows[-1]["creepage_x"], rows[-1]["creepage_y"]
     warnings = cautions.of_rolling(tire, wanted[-1])
-    contact = contact_of(scene, state, wanted[-1], creepages, stats, warnings)
+    contact = contact_at(scene, state, wanted[-1], creepages, stats, warnings)
     return TransientResult(_dataset(scene.grid, rows), contact, wanted, stats)
 
 
-def set_scene(tire: Tire, road: Pavement, rolling: Sequence[Rolling], spacing: float | None) -> Scene:
+def set_scene(
+    tire: Tire,
+    road: Pavement,
+    rolling: Sequence[Rolling],
+    spacing: float | None,
+    road_compliance: RoadCompliance = "half_space",
+) -> Scene:
     """Grid that holds the contact of every one of these states, the gap on it, and the two bodies."""
-    bodies = combine(tire.elastic, road.surface_material)
+    # A body that remembers is known in steady rolling only.
+    bodies = Pair(surface_of(tire.elastic, is_tire=True), road_surface(road, road_compliance))
+    if any(state.law.largest > 0 for state in rolling):
+        bodies.both.check_shear()
     loads = [state.normal_load for state in rolling]
     if None in loads and any(load is not None for load in loads):
         raise InputError("the steps give normal_load here and approach there; give one of them throughout")
@@ -143,11 +154,8 @@ def set_scene(tire: Tire, road: Pavement, rolling: Sequence[Rolling], spacing: f
             state.check_friction_limit(state.normal_load)
     heaviest = max(rolling, key=lambda state: state.normal_load or state.approach or 0.0)
 
-    def on(grid: Grid) -> Influence:
-        return Influence(grid.shape, grid.dx, grid.dy, bodies)
-
-    grid, gap = place(tire, heaviest, on, spacing)
-    return Scene(tire, road, grid, gap, on(grid))
+    grid, gap = place(tire, heaviest, bodies.both, spacing)
+    return Scene(tire, road, bodies, grid, gap)
 
 
 def standing(scene: Scene, rolling: Rolling) -> Stage:
@@ -191,10 +199,7 @@ def _row(scene: Scene, state: State, given: Rolling, distance: float, fields: bo
         **scalars_of(scene, state),
     }
     if fields:
-        touching = np.where(state.tangential.stick, 1, 2)
-        row["pressure"] = state.pressure
-        row["traction_x"], row["traction_y"] = 0.0 - state.tangential.shear
-        row["state"] = np.where(state.pressure > 0, touching, 0).astype(np.int8)
+        row |= {"pressure": state.pressure, **tractions(state.pressure, state.tangential)}
     return row
 
 

@@ -16,8 +16,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.contact.bodies.choose import RoadCompliance
+from treadload.contact.fields import Scene
 from treadload.contact.rolling_state import Rolling
-from treadload.contact.snapshot import Scene, contact_of, scalars_of
+from treadload.contact.snapshot import contact_at, scalars_of
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import State
@@ -87,11 +89,12 @@ def turn_on_the_spot(
     pivot: tuple[float, float] | None = None,
     spacing: float | None = None,
     tolerance: float = 1e-6,
+    road_compliance: RoadCompliance = "half_space",
     progress: Progress | None = None,
 ) -> TurnResult:
     """Torque that turns a standing wheel about z, and what the tread does to the road meanwhile.
 
-    tire, spacing, tolerance, progress: as in `solve_contact`. road: as a half-space of its top layer.
+    tire, spacing, tolerance, road_compliance, progress: as in `solve_contact`; an elastic tire only.
     rolling: load, friction, and forces along the road that act all the while; no creepages, no spin.
     angles: of the wheel at the end of every increment, rad, positive to the right; they may go to and fro.
     pivot: (x, y) that is held, m, such as where the kingpin meets the road; None: the wheel finds its centre,
@@ -108,7 +111,7 @@ def turn_on_the_spot(
         raise InputError("a held pivot takes what force it needs: leave the forces out, or the pivot")
     ends = _checked_angles(angles)
     tell("locating the contact")
-    scene = set_scene(tire, road, (rolling,), spacing)
+    scene = set_scene(tire, road, (rolling,), spacing, road_compliance)
     held = (0.0, 0.0) if pivot is None else pivot
     arm = np.zeros((2, *scene.grid.shape))
     arm[0] = held[1] - scene.grid.y[:, None]
@@ -134,7 +137,7 @@ def turn_on_the_spot(
         "cells": grid.nx * grid.ny,
         "seconds": time.perf_counter() - began,
     }
-    contact = contact_of(scene, state, rolling, (math.nan, math.nan), stats)
+    contact = contact_at(scene, state, rolling, (math.nan, math.nan), stats)
     return TurnResult(_dataset(rows, limit), contact, rolling, pivot, stats)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from numpy.typing import ArrayLike
 
 # Those of Python 3.11 would ask a fluid for its rubbery modulus to find out what it is.
@@ -30,6 +32,14 @@ class Viscoelastic(Protocol):
 
     def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
         """E*(ω) = E' + iE'', Pa, at angular frequencies ω > 0, rad/s, for motion as exp(iωt); shape of `omega`."""
+
+
+@runtime_checkable
+class Surfaced(Protocol):
+    """A material of a tire that makes the surface of its body itself: another kind of body than a half-space."""
+
+    def surface(self, *, is_tire: bool, speed: float | None) -> Any:
+        """A `treadload.contact.bodies.Body` on the tire's side or the road's, rolling at a speed, m/s."""
 
 
 @runtime_checkable

@@ -9,8 +9,7 @@ import numpy as np
 
 from treadload.case import Case, LifeCase
 from treadload.contact import cautions
-from treadload.contact.bodies.influence import Influence
-from treadload.contact.bodies.viscoelastic import combined
+from treadload.contact.bodies.choose import Pair
 from treadload.contact.solve import place
 from treadload.grid import Grid
 from treadload.kernels import fft
@@ -96,8 +95,8 @@ def _contact_grid(case: Case, road: Pavement) -> Grid:
     tire, rolling = case.build_tire(), case.build_rolling()
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
-    bodies = combined(tire.half_space, road.surface_material, "rubbery")
-    grid, _ = place(tire, rolling, lambda on: Influence(on.shape, on.dx, on.dy, bodies), case.spacing)
+    pair = Pair.of(tire, road, speed=rolling.speed).both
+    grid, _ = place(tire, rolling, pair, case.spacing)
     return grid
 
 

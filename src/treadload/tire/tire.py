@@ -18,6 +18,7 @@ from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Prony
+from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 POISSON_OF_RUBBER = 0.5
+TireMaterial = Elastic | Prony | Surfaced
 # Cells, m, on which a tread is compared with its mirror image; round-off of their places and of its gap, m.
 _LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
 
@@ -44,12 +46,13 @@ class Tire:
     """A tire, as the road meets it.
 
     surface: of the tread. material: of the half-space that stands for the tire, elastic or, for steady rolling,
-    viscoelastic; inflation_pressure: Pa, gives its modulus when there is no material. name: free text.
+    viscoelastic; or one that makes a surface of its own (`materials.kinds.Surfaced`). inflation_pressure: Pa, gives
+    the modulus when there is no material. name: free text.
     Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
     """
 
     surface: Surface
-    material: Elastic | Prony | None = None
+    material: TireMaterial | None = None
     inflation_pressure: float | None = None
     name: str = ""
 
@@ -59,8 +62,10 @@ class Tire:
                 f"a tire needs a surface, got {type(self.surface).__name__}; "
                 "use Tire.from_height_map, Tire.from_profile or Tire.from_scan"
             )
-        if self.material is not None and not isinstance(self.material, Elastic | Prony):
-            raise InputError(f"material must be an Elastic or a Prony, got {self.material!r}")
+        if self.material is not None and not isinstance(self.material, TireMaterial):
+            raise InputError(
+                f"material must be an Elastic, a Prony or what makes a surface of its own, got {self.material!r}"
+            )
         if self.inflation_pressure is not None:
             object.__setattr__(self, "inflation_pressure", check_inflation_pressure(self.inflation_pressure))
 
@@ -72,7 +77,7 @@ class Tire:
         *,
         units: str | Mapping[str, str] | None = None,
         decimal: Literal[".", ","] | None = None,
-        material: Elastic | Prony | None = None,
+        material: TireMaterial | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
     ) -> Tire:
@@ -106,7 +111,7 @@ class Tire:
         cls,
         profile: TreadProfile | str,
         *,
-        material: Elastic | Prony | None = None,
+        material: TireMaterial | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
     ) -> Tire:
@@ -134,7 +139,7 @@ class Tire:
         smooth: Literal[False, "auto"] | float = False,
         outliers: Literal["remove", "refuse", "keep"] = "remove",
         roundness: float = 0.02,
-        material: Elastic | Prony | None = None,
+        material: TireMaterial | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
     ) -> Tire:
@@ -171,7 +176,7 @@ class Tire:
         return cls(surface, material, inflation_pressure, name or Path(path).stem)
 
     @property
-    def half_space(self) -> Elastic | Prony:
+    def half_space(self) -> TireMaterial:
         """Half-space that stands for the tire: the material, or else from the inflation pressure, ν = 0.5."""
         if self.material is not None:
             return self.material
@@ -183,8 +188,8 @@ class Tire:
         return Elastic(modulus_from_inflation(self.inflation_pressure), POISSON_OF_RUBBER)
 
     @property
-    def elastic(self) -> Elastic:
-        """The same, of an elastic tire. Raises InputError for a viscoelastic one."""
+    def elastic(self) -> Elastic | Surfaced:
+        """The same, of a tire without memory. Raises InputError for a viscoelastic one."""
         material = self.half_space
         if isinstance(material, Prony):
             raise InputError(

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 from scipy.integrate import quad
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.marching import Stage, TransientSolution, roll_transient
 from treadload.kernels.arrays import Array
@@ -65,7 +66,7 @@ def stuck_disc_torsion(cells: int, poisson: float) -> float:
     spacing = 2 / cells
     x = centres(cells + 2, spacing)
     inside = x[None, :] ** 2 + x[:, None] ** 2 < 1
-    influence = Influence(inside.shape, spacing, spacing, CombinedElasticity(1.0, poisson, 0.0))
+    influence = Influence(inside.shape, spacing, spacing, HalfSpaces(CombinedElasticity(1.0, poisson, 0.0)))
     # A bound far above the shear of this angle: every cell sticks.
     step = Stage(1e-3 * arm_of(x, x), (None, None), 1.0, pressure=np.where(inside, 1e3, 0.0))
     q = roll_transient(influence, [step], tolerance=1e-8).last.tangential.shear
@@ -111,7 +112,7 @@ def compressed_in_stages() -> TransientSolution:
     """
     x = centres(45, 0.2, 1e-4)
     gap = 0.004116 * (x[None, :] ** 2 + x[:, None] ** 2)
-    influence = Influence((45, 45), 0.2, 0.2, CombinedElasticity.of(0.5, 0.0, 1e5, 0.0))
+    influence = Influence((45, 45), 0.2, 0.2, HalfSpaces(CombinedElasticity.of(0.5, 0.0, 1e5, 0.0)))
     still = np.zeros((2, 1, 1))
     stages = [Stage(still, (None, None), 0.2986, load=round((k / 45) ** 3, 6)) for k in range(1, 36)]
     return roll_transient(influence, stages, gap=gap, keep="last", tolerance=1e-6)

@@ -9,8 +9,9 @@ from typing import Literal
 import numpy as np
 
 from treadload.contact import Contact, Rolling, solve_contact
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.bodies.layers import LayeredInfluence, images_of
+from treadload.contact.bodies.layers import layered_road
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.kernels.arrays import Array
 from treadload.kernels.half_space.rectangle import CombinedElasticity
@@ -62,9 +63,13 @@ def layered_contact_checks() -> Iterator[Check]:
     yield from _responses()
 
 
-def _influence(stack: Stack, shape: tuple[int, ...], dx: float) -> LayeredInfluence:
-    bodies = CombinedElasticity.of(math.inf, 0.0, stack.shear[0], stack.poisson[0])
-    return LayeredInfluence((shape[0], shape[1]), dx, dx, bodies, images_of(stack))
+def _influence(stack: Stack, shape: tuple[int, ...], dx: float) -> Influence:
+    return Influence((shape[0], shape[1]), dx, dx, layered_road(stack))
+
+
+def _top(stack: Stack) -> CombinedElasticity:
+    """A rigid body on the top layer as a half-space."""
+    return CombinedElasticity.of(math.inf, 0.0, stack.shear[0], stack.poisson[0])
 
 
 def _rigid(stack: Stack, gap: Array, dx: float, load: float) -> NormalSolution:
@@ -77,7 +82,7 @@ def _plate(stack: Stack, radius: float, cells: int) -> tuple[float, float]:
     x = centres(cells, dx)
     gap = np.where(x[None, :] ** 2 + x[:, None] ** 2 <= radius**2, 0.0, np.nan)
     layered = _influence(stack, gap.shape, dx)
-    plain = Influence(layered.shape, dx, dx, layered.bodies)
+    plain = Influence(layered.shape, dx, dx, HalfSpaces(_top(stack)))
     on_top = solve_normal(plain, gap, load=_LOAD, tolerance=1e-9).approach
     same = _LOAD * (1 - stack.poisson[0]) / stack.shear[0] / (4 * on_top)
     return solve_normal(layered, gap, load=_LOAD, tolerance=1e-9).approach, same

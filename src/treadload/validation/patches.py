@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
@@ -83,7 +84,7 @@ def paraboloid(
     """
     (ny, nx), (dx, dy) = shape, spacing
     x, y = centres(nx, dx, shift), centres(ny, dy)
-    influence = Influence(shape, dx, dy, bodies)
+    influence = Influence(shape, dx, dy, HalfSpaces(bodies))
     gap = x[None, :] ** 2 / (2 * radii[0]) + y[:, None] ** 2 / (2 * radii[1])
     return Patch(x, y, influence, solve_normal(influence, gap, load=load, tolerance=tolerance))
 
@@ -103,7 +104,7 @@ def cylinder(
 
     load: N per m of length. number, spacing, m: of the cells along x. length: of the row along y, m.
     """
-    influence = Influence((1, number), spacing, length, bodies)
+    influence = Influence((1, number), spacing, length, HalfSpaces(bodies))
     x = centres(number, spacing, shift)
     normal = solve_normal(influence, x[None, :] ** 2 / (2 * radius), load=load * length, tolerance=tolerance)
     return Patch(x, np.zeros(1), influence, normal)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from treadload.contact.bodies.half_space import HalfSpaces, combined
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.solve import combine
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.grid import Grid
 from treadload.kernels.half_space.rectangle import CombinedElasticity
@@ -42,7 +42,7 @@ def grooved_tire(cells: int) -> NormalSolution:
     spacing = _PIECE / cells
     grid = Grid.centred(_PIECE, _PIECE, spacing)
     gap = Tire.from_profile("315/80R22.5").height_map(grid)
-    influence = Influence(grid.shape, spacing, spacing, combine(RUBBER, ASPHALT))
+    influence = Influence(grid.shape, spacing, spacing, HalfSpaces(combined(RUBBER, ASPHALT)))
     return solve_normal(influence, gap, load=35e3)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.contact.solvers.shift import solve_shift
@@ -111,7 +112,7 @@ def kalker_coefficients(poisson: float, cells: int, ratio: float = 1.0) -> dict[
     dx, dy = 2 * a / cells, 2 * b / cells
     x, y = centres(cells + 2, dx), centres(cells + 2, dy)
     inside = (x[None, :] / a) ** 2 + (y[:, None] / b) ** 2 < 1
-    influence = Influence(inside.shape, dx, dy, bodies)
+    influence = Influence(inside.shape, dx, dy, HalfSpaces(bodies))
     # A bound far above the shear of a unit creepage: every cell sticks.
     bound = np.where(inside, 1e3, 0.0)
     c = float(np.sqrt(inside.sum() * dx * dy / np.pi))

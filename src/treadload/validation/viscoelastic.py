@@ -11,7 +11,8 @@ from scipy.optimize import brentq
 from scipy.special import i0e, i1e, k0e, k1e
 
 from treadload.contact import Contact, Rolling, solve_contact
-from treadload.contact.bodies.viscoelastic import Material, ViscoelasticInfluence
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.viscoelastic import Material, rolling_pair
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.kernels.arrays import Array
@@ -93,7 +94,7 @@ def cylinder(
 ) -> Patch:
     """Cylinder of radius R, m, across the travel, under a load, N/m, on a row of cells at x, of a length, m."""
     dx = float(x[1] - x[0])
-    influence = ViscoelasticInfluence.of((1, x.size), dx, length, *materials, speed)
+    influence = Influence((1, x.size), dx, length, rolling_pair(*materials, speed))
     normal = solve_normal(influence, x[None, :] ** 2 / (2 * radius), load=load * length, tolerance=1e-9)
     return Patch(x, np.zeros(1), influence, normal)
 

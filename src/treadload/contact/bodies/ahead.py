@@ -13,7 +13,6 @@ import numpy as np
 
 from treadload.contact.bodies.influence import Influence
 from treadload.kernels.arrays import Array, ComplexArray
-from treadload.kernels.half_space import rectangle_ahead
 
 
 @dataclass(frozen=True)
@@ -30,48 +29,27 @@ class Ahead:
     def __call__(self, shear: Array, pressure: Array | None = None) -> Array:
         """Displacement by shear on body 1 (2, ny, nx), Pa, and by pressure (ny, nx), Pa, of dissimilar bodies."""
         padding = self.influence.padding
-        xx, yy, xy = self._tangential
+        xx, yy, xy = self._symbols[0]
         x, y = padding.forward(shear)
         spectra = np.stack([xx * x + xy * y, xy * x + yy * y])
-        if pressure is not None and self.influence.bodies.difference != 0:
-            spectra -= self._coupling * padding.forward(pressure)
+        if pressure is not None and self.influence.coupled:
+            spectra -= self._symbols[1] * padding.forward(pressure)
         return padding.inverse(spectra)
 
     def by_pressure(self, pressure: Array) -> Array:
         """Displacement (2, ny, nx), m, by pressure (ny, nx), Pa, alone: zero for like bodies."""
-        if self.influence.bodies.difference == 0:
+        if not self.influence.coupled:
             return np.zeros((2, *pressure.shape))
         padding = self.influence.padding
-        return padding.inverse(-self._coupling * padding.forward(pressure))
+        return padding.inverse(-self._symbols[1] * padding.forward(pressure))
 
     def gap(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear on body 1 (2, ny, nx), Pa: zero for like bodies."""
-        if self.influence.bodies.difference == 0:
+        if not self.influence.coupled:
             return np.zeros(shear.shape[1:])
         padding = self.influence.padding
-        return padding.inverse((self._coupling * padding.forward(shear)).sum(0))
+        return padding.inverse((self._symbols[1] * padding.forward(shear)).sum(0))
 
     @cached_property
-    def _tangential(self) -> ComplexArray:
-        return self._spectra(rectangle_ahead.tangential_by_shear(*self._offsets, *self._cell, self.influence.bodies))
-
-    @cached_property
-    def _coupling(self) -> ComplexArray:
-        return self._spectra(rectangle_ahead.coupling(*self._offsets, *self._cell, self.influence.bodies))
-
-    @property
-    def _cell(self) -> tuple[float, float]:
-        return self.influence.dx, self.influence.dy
-
-    @property
-    def _offsets(self) -> tuple[Array, Array]:
-        (ny, nx), (dx, dy) = self.influence.shape, self._cell
-        return self.distance + dx * np.arange(1 - nx, nx), dy * np.arange(1 - ny, ny)
-
-    def _spectra(self, kernels: Array) -> ComplexArray:
-        ny, nx = self.influence.shape
-        padding = self.influence.padding
-        my, mx = padding.shape
-        wrapped = np.zeros((len(kernels), my, mx))
-        wrapped[:, np.arange(1 - ny, ny)[:, None], np.arange(1 - nx, nx)[None, :]] = kernels
-        return np.stack([padding.spectrum(kernel) for kernel in wrapped])
+    def _symbols(self) -> tuple[ComplexArray, ComplexArray]:
+        return self.influence.ahead(self.distance)

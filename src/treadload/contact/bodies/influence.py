@@ -2,29 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from treadload.contact.bodies.body import Body, Offsets, Waves
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.gridding.convolution import Convolution, Padding
-from treadload.kernels.half_space import rectangle
-from treadload.kernels.half_space.rectangle import CombinedElasticity
+
+# Waves that a patch holds, at which the coupling of pressure and shear is looked at.
+_WAVES = 64
 
 
 @dataclass(frozen=True)
 class Influence:
-    """Influence operators of two half-spaces on a piece of (ny, nx) cells of dx by dy, m.
+    """Influence operators of two bodies on a piece of (ny, nx) cells of dx by dy, m.
 
-    Operators are built when first asked for and kept. Signs as in `kernels.half_space.rectangle`: q acts on body 1.
+    pair: both bodies, a `contact.bodies.body.Sum` or half-spaces seen as one. Operators are built when first asked
+    for and kept. Signs as in `contact.bodies.body`: q acts on body 1.
     """
 
     shape: tuple[int, int]
     dx: float
     dy: float
-    bodies: CombinedElasticity
+    pair: Body
 
     @cached_property
     def padding(self) -> Padding:
@@ -39,42 +43,49 @@ class Influence:
     @property
     def symmetric(self) -> bool:
         """True if loads work on each other's displacements alike, as in elastic bodies."""
-        return True
+        return self.pair.symmetric
+
+    @cached_property
+    def dundurs(self) -> float:
+        """Dundurs' β: coupling over normal compliance, the largest of the waves that the patch holds."""
+        longest = np.pi / np.hypot(self.shape[0] * self.dy, self.shape[1] * self.dx)
+        normal, coupling = self.pair.across(np.geomspace(longest, np.pi / min(self.dx, self.dy), _WAVES))
+        ratio = coupling / normal
+        return float(ratio[np.argmax(np.abs(ratio))])
 
     @property
-    def dundurs(self) -> float:
-        """Dundurs' β: how strongly pressure and shear are coupled."""
-        return self.bodies.dundurs
+    def coupled(self) -> bool:
+        """True if pressure makes the bodies slip and shear opens the gap."""
+        return self.dundurs != 0
 
     @cached_property
     def normal(self) -> Convolution:
         """Gap opening by pressure, m/Pa."""
-        quadrant = self._by_pressure(*self.padding.quadrant)
-        return Convolution.of_kernel(self.padding, self.padding.wrap(quadrant), even=True)
+        spectrum = self._spectra(self.padding, lambda at: self.pair.normal(at)[None], ((1, 1),))[0]
+        return Convolution(self.padding, np.ascontiguousarray(spectrum))
 
     def tangential(self, padding: Padding) -> Array | ComplexArray:
         """Symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy.
 
-        Real for symmetric operators.
+        Real for symmetric operators. Raises InputError where a body drifts under shear.
         """
-        xx, yy, xy = self._by_shear(*padding.quadrant)
-        wrapped = padding.wrap(xx), padding.wrap(yy), padding.wrap(xy, -1, -1)
-        return np.array([padding.spectrum(kernel).real for kernel in wrapped])
+        return self._spectra(padding, self.pair.tangential, ((1, 1), (1, 1), (-1, -1)))
 
     def self_influence(self, *, rolls: bool) -> float:
         """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
-        xx = self._by_shear(1, 2)[0]
-        return float(xx[0, 0] - xx[0, 1]) if rolls else float(xx[0, 0])
+        xx = self.pair.tangential(Offsets(1, 2, self.dx, self.dy))[0, 0]
+        return float(xx[0] - xx[1]) if rolls else float(xx[0])
 
     @cached_property
     def normal_stiffness(self) -> Array | ComplexArray:
         """About the inverse of `normal`: its symbol (ny, nx // 2 + 1) on the unpadded, periodic grid, Pa/m."""
-        return stiffness_symbol(self.shape, self.dx, self.dy, self.bodies.contact_modulus)
+        return np.asarray(self._waves.k / self._compliance[0])
 
     @cached_property
     def tangential_stiffness(self) -> Array | ComplexArray:
         """About the inverse of `tangential`: symbols (3, ny, nx // 2 + 1) as above, Pa/m: xx, yy, xy."""
-        return tangential_stiffness_symbols(self.shape, self.dx, self.dy, self.bodies)
+        _, xx, yy, xy = self._compliance
+        return np.asarray(self._waves.k * np.array([yy, xx, -xy]) / (xx * yy - xy * xy))
 
     def gap_by_shear(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear (2, ny, nx) on body 1, Pa: zero for like bodies."""
@@ -88,59 +99,61 @@ class Influence:
         return u[..., :-1] - u[..., 1:]
 
     def displacement(self, pressure: Array, shear: Array) -> Array:
-        """(u_x, u_y, u_n) (3, ny, nx), m, by pressure (ny, nx) and shear on body 1 (2, ny, nx), Pa."""
-        p, (x, y) = self.padding.forward(pressure), self.padding.forward(shear)
-        xx, yy, xy = self.tangential(self.padding)
+        """(u_x, u_y, u_n) (3, ny, nx), m, by pressure (ny, nx) and shear on body 1 (2, ny, nx), Pa.
+
+        Raises InputError for shear where a body drifts under it.
+        """
+        p = self.padding.forward(pressure)
         k_x, k_y = self._coupling(self.padding)
-        spectra = [xx * x + xy * y - k_x * p, xy * x + yy * y - k_y * p, self.normal.spectrum * p + k_x * x + k_y * y]
-        return self.padding.inverse(np.array(spectra))
+        spectra = np.array([-k_x * p, -k_y * p, self.normal.spectrum * p])
+        if shear.any():
+            x, y = self.padding.forward(shear)
+            xx, yy, xy = self.tangential(self.padding)
+            spectra += np.array([xx * x + xy * y, xy * x + yy * y, k_x * x + k_y * y])
+        return self.padding.inverse(spectra)
 
-    def _coupling(self, padding: Padding) -> ComplexArray:
-        k_x, k_y = self._crosswise(*padding.quadrant)
-        return np.array([padding.spectrum(padding.wrap(k_x, -1, 1)), padding.spectrum(padding.wrap(k_y, 1, -1))])
+    def ahead(self, distance: float) -> tuple[ComplexArray, ComplexArray]:
+        """Symbols xx, yy, xy and k_x, k_y of the displacement at a distance ahead of the cells along x, m."""
+        tangential = self._spectra_of(self.padding, self.pair.tangential, (1, 1, -1), distance)
+        return tangential, self._spectra_of(self.padding, self.pair.coupling, (1, -1), distance)
 
-    def _by_pressure(self, ny: int, nx: int) -> Array:
-        """u_n by p (ny, nx) at offsets 0, 1, 2, … of whole cells both ways, m/Pa; so the others below."""
-        return rectangle.normal_by_pressure(ny, nx, self.dx, self.dy, self.bodies)
+    @cached_property
+    def _waves(self) -> Waves:
+        return Waves(self.shape, self.dx, self.dy)
 
-    def _by_shear(self, ny: int, nx: int) -> Array:
-        """u_x by q_x, u_y by q_y, u_x by q_y = u_y by q_x: (3, ny, nx)."""
-        return np.array(rectangle.tangential_by_shear(ny, nx, self.dx, self.dy, self.bodies))
+    @cached_property
+    def _compliance(self) -> Array | ComplexArray:
+        return self.pair.compliance(self._waves)
 
-    def _crosswise(self, ny: int, nx: int) -> Array:
-        """k_x, k_y: (2, ny, nx), the coupling of pressure and shear."""
-        return np.array(rectangle.coupling(ny, nx, self.dx, self.dy, self.bodies))
+    def _coupling(self, padding: Padding) -> Array | ComplexArray:
+        return self._spectra(padding, self.pair.coupling, ((-1, 1), (1, -1)))
 
+    def _spectra(
+        self, padding: Padding, kernels: Callable[[Offsets], Array], parities: tuple[tuple[int, int], ...]
+    ) -> Array | ComplexArray:
+        """Spectra of kernels with these parities along x and y, +1 even, -1 odd; along y only if not symmetric."""
+        if not self.symmetric:
+            return self._spectra_of(padding, kernels, tuple(along_y for _, along_y in parities))
+        quadrants = kernels(Offsets(*padding.quadrant, self.dx, self.dy))
+        spectra = [
+            padding.spectrum(padding.wrap(quadrant, *parity))
+            for quadrant, parity in zip(quadrants, parities, strict=True)
+        ]
+        # Even in both directions, or odd in both.
+        real = all(along_x == along_y for along_x, along_y in parities)
+        return np.array([spectrum.real for spectrum in spectra] if real else spectra)
 
-def stiffness_symbol(shape: tuple[int, int], dx: float, dy: float, contact_modulus: float) -> Array:
-    """|k| E*/2 (ny, nx // 2 + 1) on the unpadded, periodic grid: the inverse of the normal compliance, Pa/m.
-
-    Source: Johnson (1985), Contact Mechanics, section 13.2 (sinusoidal pressure on a half-space).
-    """
-    symbol: Array = 0.5 * contact_modulus * wavenumbers(shape, dx, dy)[0]
-    return symbol
-
-
-def tangential_stiffness_symbols(shape: tuple[int, int], dx: float, dy: float, bodies: CombinedElasticity) -> Array:
-    """G|k|/2 (1 + ν/(1-ν) k kᵀ/k²) (3, ny, nx // 2 + 1), xx, yy, xy: the inverse tangential compliance, Pa/m.
-
-    On the unpadded, periodic grid. Source: Johnson (1985), Contact Mechanics, section 3 (Cerruti).
-    """
-    k, cosine, sine = wavenumbers(shape, dx, dy)
-    stiffness = 0.5 * bodies.shear_modulus * k
-    ratio = bodies.poisson / (1 - bodies.poisson)
-    return np.array(
-        [stiffness * (1 + ratio * cosine**2), stiffness * (1 + ratio * sine**2), stiffness * ratio * cosine * sine]
-    )
-
-
-def wavenumbers(shape: tuple[int, int], dx: float, dy: float) -> tuple[Array, Array, Array]:
-    """|k|, k_x/|k|, k_y/|k|; at k = 0 that of the finite patch: a uniform load on it is no rigid motion."""
-    ny, nx = shape
-    kx = 2 * np.pi * fft.rfftfreq(nx, dx)[None, :]
-    ky = 2 * np.pi * fft.fftfreq(ny, dy)[:, None]
-    k = np.hypot(kx, ky)
-    short, long = sorted((nx * dx, ny * dy))
-    # A uniform load sinks a long strip by the logarithm of its slenderness.
-    k[0, 0] = np.pi / (short * (1 + np.log(long / short)))
-    return k, kx / k, ky / k
+    def _spectra_of(
+        self, padding: Padding, kernels: Callable[[Offsets], Array], parities: tuple[int, ...], distance: float = 0.0
+    ) -> ComplexArray:
+        """Spectra of kernels that have a parity along y only, at a distance ahead of the cells' centres, m."""
+        my, mx = padding.shape
+        behind = mx - 1 - mx // 2
+        at = Offsets(my // 2 + 1, mx, self.dx, self.dy, distance - behind * self.dx)
+        offset = fft.fftfreq(my, 1 / my).round().astype(int)
+        spectra = []
+        for half, parity in zip(kernels(at), parities, strict=True):
+            # Half way round, plus and minus meet: an odd kernel has no value there.
+            sign = np.where(offset < 0, parity, 1) * np.where((2 * np.abs(offset) == my) & (parity < 0), 0, 1)
+            spectra.append(padding.spectrum(np.roll(half, -behind, axis=-1)[np.abs(offset)] * sign[:, None]))
+        return np.array(spectra)

@@ -1,26 +1,25 @@
-"""A tire on layers: the influence operators of a half-space against a layered road.
+"""Layers of a road: what they add to the half-space of their top layer, by images of the load.
 
-Everything is as in `contact.bodies.influence`, where the road is a half-space of its top layer; here images of the
-load add what its layers change, see `kernels.layers.images`. For a soft tire that is next to nothing: `road_share`
-tells.
+See `kernels.layers.images`. Under a soft tire that is next to nothing: `road_share` tells.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy import special
 
-from treadload.contact.bodies.influence import Influence, wavenumbers
+from treadload.contact.bodies.body import Body, Offsets, Sum, Waves
+from treadload.contact.bodies.half_space import RIGID, HalfSpaces
 from treadload.errors import ConvergenceError, InputError
-from treadload.kernels.arrays import Array, ComplexArray
-from treadload.kernels.gridding.convolution import Padding
+from treadload.kernels.arrays import Array
+from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.kernels.layers import images as imaging
 from treadload.kernels.layers.images import Images, surface_compliance
 from treadload.kernels.layers.layered import Stack
-from treadload.materials import Elastic
 
 # Of the images' fit, which is below 1e-6 for roads.
 _WORST_FIT = 1e-4
@@ -29,31 +28,45 @@ _LONGEST_WAVE, _SHORTEST_WAVE = 1e-6, 200.0
 
 
 @dataclass(frozen=True)
-class LayeredInfluence(Influence):
-    """Influence operators of a half-space, body 1, on layers, body 2, on a piece of (ny, nx) cells of dx by dy, m.
-
-    bodies: body 1 and the top layer as half-spaces. images: what the layers change, see `images_of`.
-    """
+class Layering:
+    """What layers of the road, body 2, change of the half-space of their top layer. images: see `images_of`."""
 
     images: Images
 
     @property
-    def dundurs(self) -> float:
-        """The largest Dundurs' β of the waves that the patch holds: coupling over normal compliance."""
-        longest = np.pi / np.hypot(self.shape[0] * self.dy, self.shape[1] * self.dx)
-        normal, coupling, *_ = self._compliance(np.geomspace(longest, np.pi / min(self.dx, self.dy), 64))
-        ratio = coupling / normal
-        return float(ratio[np.argmax(np.abs(ratio))])
+    def symmetric(self) -> bool:
+        """True."""
+        return True
 
-    def tangential(self, padding: Padding) -> Array | ComplexArray:
-        """Symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy.
+    @property
+    def at_rest(self) -> Layering:
+        """Itself."""
+        return self
 
-        Raises InputError as `check_held`.
-        """
-        self.check_held()
-        return super().tangential(padding)
+    def normal(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        return np.asarray(self._images(at)[0])
 
-    def check_held(self) -> None:
+    def tangential(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        self.check_shear()
+        return self._images(at)[1:4]
+
+    def coupling(self, at: Offsets) -> Array:
+        """As in `Body`: u = u1 - u2, so that the road's own displacement by pressure counts against the tire's."""
+        return self._images(at)[4:]
+
+    def compliance(self, waves: Waves) -> Array:
+        """As in `Body`."""
+        normal, _, transverse, difference = self.images.at(waves.k)
+        c, s = waves.cosine, waves.sine
+        return np.array([normal, transverse + difference * c**2, transverse + difference * s**2, difference * c * s])
+
+    def across(self, k: Array) -> Array:
+        """As in `Body`."""
+        return np.asarray(self.images.at(k)[:2])
+
+    def check_shear(self) -> None:
         """Refuse shear above a frictionless interface. Raises InputError."""
         if not self.images.held:
             raise InputError(
@@ -61,55 +74,22 @@ class LayeredInfluence(Influence):
                 "has no bound; give the bond a stiffness, such as Bond(stiffness=1e8), or the contact friction = 0"
             )
 
-    @cached_property
-    def normal_stiffness(self) -> Array:
-        """About the inverse of `normal`: its symbol (ny, nx // 2 + 1) on the unpadded, periodic grid, Pa/m."""
-        k = wavenumbers(self.shape, self.dx, self.dy)[0]
-        return np.asarray(k / self._compliance(k)[0])
+    @property
+    def stats(self) -> Mapping[str, Any]:
+        """Residual of the images' fit, relative."""
+        return {"images_residual": self.images.residual}
 
-    @cached_property
-    def tangential_stiffness(self) -> Array:
-        """About the inverse of `tangential`: symbols (3, ny, nx // 2 + 1) as above, Pa/m: xx, yy, xy."""
-        k, cosine, sine = wavenumbers(self.shape, self.dx, self.dy)
-        _, _, transverse, difference = self._compliance(k)
-        across, along = k / transverse, k / (transverse + difference)
-        return np.array(
-            [
-                along * cosine**2 + across * sine**2,
-                along * sine**2 + across * cosine**2,
-                (along - across) * cosine * sine,
-            ]
-        )
+    def joined(self, other: Body) -> None:
+        """None: there is one road."""
 
-    def displacement(self, pressure: Array, shear: Array) -> Array:
-        """(u_x, u_y, u_n) (3, ny, nx), m, by pressure (ny, nx) and shear on body 1 (2, ny, nx), Pa."""
-        if self.images.held or shear.any():
-            return super().displacement(pressure, shear)
-        # Nothing holds the top against shear, and there is none.
-        p = self.padding.forward(pressure)
-        k_x, k_y = self._coupling(self.padding)
-        return self.padding.inverse(np.array([-k_x * p, -k_y * p, self.normal.spectrum * p]))
+    def _images(self, at: Offsets) -> Array:
+        return imaging.coefficients(self.images, at.ny, at.nx, at.dx, at.dy, at.first)
 
-    def _by_pressure(self, ny: int, nx: int) -> Array:
-        added = self._images(ny, nx)[0]
-        return np.asarray(super()._by_pressure(ny, nx) + added)
 
-    def _by_shear(self, ny: int, nx: int) -> Array:
-        return np.asarray(super()._by_shear(ny, nx) + self._images(ny, nx)[1:4])
-
-    def _crosswise(self, ny: int, nx: int) -> Array:
-        # u = u1 - u2, so that the road's own displacement by pressure counts against that of the tire.
-        return np.asarray(super()._crosswise(ny, nx) + self._images(ny, nx)[4:])
-
-    def _images(self, ny: int, nx: int) -> Array:
-        return imaging.coefficients(self.images, ny, nx, self.dx, self.dy)
-
-    def _compliance(self, k: Array) -> Array:
-        """Times k (…): of u_n by p, of k_x, of u_t by q_t, and of u_k by q_k less that: (4, …), 1/Pa."""
-        bodies = self.bodies
-        parts = np.array([1 - bodies.poisson, bodies.difference, 1.0, -bodies.poisson]) * (2 / bodies.shear_modulus)
-        compliance: Array = self.images.at(k) + parts.reshape(4, *(1,) * np.ndim(k))
-        return compliance
+def layered_road(stack: Stack) -> Body:
+    """A road of layers, body 2. Raises ConvergenceError as `images_of`."""
+    top = CombinedElasticity.of(*RIGID, stack.shear[0], stack.poisson[0])
+    return Sum.of(HalfSpaces(top), Layering(images_of(stack)))
 
 
 def images_of(stack: Stack) -> Images:
@@ -129,8 +109,8 @@ def images_of(stack: Stack) -> Images:
 class RoadShare:
     """Who gives way under a disc as large as the contact: mean sinking, m per Pa of uniform pressure.
 
-    tire, road: of the tire as a half-space and of the road with its layers. top: of the road as a half-space of
-    its top layer's material.
+    tire, road: of the tire and of the road with its layers. top: of the road as a half-space of its top layer's
+    material.
     """
 
     tire: float
@@ -148,7 +128,7 @@ class RoadShare:
         return (self.road - self.top) / (self.tire + self.top)
 
 
-def road_share(tire: Elastic, stack: Stack, area: float) -> RoadShare:
+def road_share(tire: Body, stack: Stack, area: float) -> RoadShare:
     """Compliance of tire and layers under a uniform pressure on a disc of an area, m².
 
     By Parseval's theorem the mean sinking is 2 ∫ k·u_z(k) (J1(k a)/k)² dk.
@@ -160,6 +140,5 @@ def road_share(tire: Elastic, stack: Stack, area: float) -> RoadShare:
     at = (edges[:-1, None] + half[:, None] * (1 + nodes)).ravel()
     weight = (half[:, None] * weights).ravel() * 2 * radius * (special.j1(at) / at) ** 2
     road = float(weight @ surface_compliance(at / radius, stack)[0])
-    mean = float(weight.sum())
-    tire_alone = mean * (1 - tire.poisson) / tire.shear_modulus
-    return RoadShare(tire_alone, road, mean * (1 - stack.poisson[0]) / stack.shear[0])
+    top = float(weight.sum()) * (1 - stack.poisson[0]) / stack.shear[0]
+    return RoadShare(float(weight @ tire.at_rest.across(at / radius)[0]), road, top)

@@ -1,169 +1,116 @@
-"""Viscoelastic bodies in steady rolling: the influence operators of surfaces that remember.
+"""A half-space that remembers, in steady rolling: what enters the patch is undeformed, what leaves it still recovers.
 
-Everything is as in `contact.bodies.influence`, but the operators are not symmetric: what enters the patch at its
-leading edge is undeformed, and what leaves it still recovers. Contact moves ahead of the axle, and rolling costs
-work.
+Its displacement is not symmetric along x: contact moves ahead of the axle, and rolling costs work.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from treadload.contact.bodies.influence import Influence, stiffness_symbol, tangential_stiffness_symbols
+from treadload.contact.bodies.body import Body, Offsets, Sum, Waves
+from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.errors import InputError
-from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray
-from treadload.kernels.gridding.convolution import Convolution, Padding
-from treadload.kernels.half_space import memory, rectangle_ahead
-from treadload.kernels.half_space.rectangle import CombinedElasticity
+from treadload.kernels.half_space import memory
 from treadload.materials import Elastic, Prony
 
 Material = Elastic | Prony
 
-# (x, y, dx, dy, bodies) → kernels (components, ny, nx).
-_Kernel = Callable[[Array, Array, float, float, CombinedElasticity], Array]
-
 
 @dataclass(frozen=True)
-class ViscoelasticInfluence(Influence):
-    """Influence operators of two half-spaces, at least one of them viscoelastic, that roll steadily along +x.
+class Fading:
+    """A viscoelastic half-space that rolls steadily along +x: its displacement at once, and what fades of it.
 
-    bodies: their elasticity at once (glassy). tire, road: materials of body 1 and body 2. speed: m/s.
-    Build it with `of`. The kernels of the bodies add up; each is its glassy one and what fades of it.
+    material: not a fluid. is_tire: body 1, or else the road, body 2. speed: m/s, > 0.
+    Build it with `half_space`, which checks.
     """
 
-    tire: Material
-    road: Material
+    material: Prony
+    is_tire: bool
     speed: float
-
-    @classmethod
-    def of(
-        cls, shape: tuple[int, int], dx: float, dy: float, tire: Material, road: Material, speed: float | None
-    ) -> ViscoelasticInfluence:
-        """Operators on (ny, nx) cells of dx by dy, m, for two materials rolling at a speed, m/s.
-
-        Raises InputError for a speed that is missing or not positive, and for a fluid.
-        """
-        check_rolling(tire, road, speed)
-        assert speed is not None
-        glassy, rubbery = combined(tire, road, "glassy"), combined(tire, road, "rubbery")
-        # Bodies that are alike at once, but not for long, are coupled.
-        alike = glassy.difference == 0 and rubbery.difference != 0
-        return cls(shape, dx, dy, rubbery if alike else glassy, tire, road, float(speed))
 
     @property
     def symmetric(self) -> bool:
         """False: the work of two loads on each other's displacements differs."""
         return False
 
-    @cached_property
-    def normal(self) -> Convolution:
-        """Gap opening by pressure, m/Pa."""
-        return Convolution(self.padding, self._spectra(self.padding, _normal, (1,))[0])
-
-    def tangential(self, padding: Padding) -> ComplexArray:
-        """Symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy."""
-        return self._spectra(padding, rectangle_ahead.tangential_by_shear, (1, 1, -1))
-
-    def self_influence(self, *, rolls: bool) -> float:
-        """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
-        xx = self._kernels(rectangle_ahead.tangential_by_shear, 1, 0, 1)[0, 0]
-        return float(xx[0] - xx[1]) if rolls else float(xx[0])
+    @property
+    def at_rest(self) -> HalfSpaces:
+        """The half-space of the long-term modulus."""
+        return _elastic(self.material.rubbery, self.is_tire)
 
     @cached_property
-    def normal_stiffness(self) -> ComplexArray:
-        """Symbol (ny, nx // 2 + 1) on the unpadded, periodic grid of the inverse normal compliance, Pa/m."""
-        compliance = sum(self._fading_symbol(material) / alone.contact_modulus for material, alone in self._alone)
-        return np.asarray(stiffness_symbol(self.shape, self.dx, self.dy, 1.0) / compliance)
+    def glassy(self) -> HalfSpaces:
+        """The half-space of the instantaneous modulus."""
+        return _elastic(self.material.glassy, self.is_tire)
 
-    @cached_property
-    def tangential_stiffness(self) -> ComplexArray:
-        """Symbols (3, ny, nx // 2 + 1), xx, yy, xy, of the inverse tangential compliance, Pa/m, as above."""
-        glassy = [(m, tangential_stiffness_symbols(self.shape, self.dx, self.dy, alone)) for m, alone in self._alone]
-        compliance = sum(self._fading_symbol(m) * _inverse(symbols) for m, symbols in glassy)
-        return _inverse(np.asarray(compliance))
+    def normal(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        return self._with_memory(self.glassy.normal, at)
 
-    def _coupling(self, padding: Padding) -> ComplexArray:
-        return self._spectra(padding, rectangle_ahead.coupling, (1, -1))
+    def tangential(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        return self._with_memory(self.glassy.tangential, at)
 
-    @cached_property
-    def _alone(self) -> list[tuple[Material, CombinedElasticity]]:
-        """The materials that deform, each with its glassy elasticity against a rigid body."""
-        tire, road = (elastic(material, "glassy") for material in (self.tire, self.road))
-        pairs = (
-            (self.tire, CombinedElasticity.of(tire.shear_modulus, tire.poisson, math.inf, 0.0)),
-            (self.road, CombinedElasticity.of(math.inf, 0.0, road.shear_modulus, road.poisson)),
+    def coupling(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        return self._with_memory(self.glassy.coupling, at)
+
+    def compliance(self, waves: Waves) -> ComplexArray:
+        """As in `Body`: the glassy one times 1 + Σ fⱼ/(1 - i k_x V Tⱼ)."""
+        fading = self._fading(waves.along)
+        fading[0, 0] = abs(fading[0, 0])
+        return np.asarray(fading * self.glassy.compliance(waves))
+
+    def across(self, k: Array) -> Array:
+        """As in `Body`, of waves along x."""
+        return np.asarray(np.abs(self._fading(k)) * self.glassy.across(k))
+
+    def check_shear(self) -> None:
+        """Nothing to refuse."""
+
+    @property
+    def stats(self) -> Mapping[str, Any]:
+        """None."""
+        return {}
+
+    def joined(self, other: Body) -> None:
+        """None: memories stay apart."""
+
+    def _fading(self, kx: Array) -> ComplexArray:
+        return np.asarray(
+            1 + sum((f / (1 - 1j * kx * self.speed * t) for f, t in self.material.creep_terms), np.zeros(kx.shape))
         )
-        return [(material, alone) for material, alone in pairs if math.isfinite(alone.shear_modulus)]
 
-    def _spectra(self, padding: Padding, kernel: _Kernel, parities: tuple[int, ...]) -> ComplexArray:
-        """Spectra of kernels that have a parity along y only: +1 even, -1 odd."""
-        my, mx = padding.shape
-        ahead = mx // 2
-        behind = mx - 1 - ahead
-        half = np.roll(self._kernels(kernel, my // 2 + 1, behind, ahead), -behind, axis=-1)
-        offset = fft.fftfreq(my, 1 / my).round().astype(int)
-        spectra = []
-        for part, parity in zip(half, parities, strict=True):
-            # Half way round, plus and minus meet: an odd kernel has no value there.
-            sign = np.where(offset < 0, parity, 1) * np.where((2 * np.abs(offset) == my) & (parity < 0), 0, 1)
-            spectra.append(padding.spectrum(part[np.abs(offset)] * sign[:, None]))
-        return np.array(spectra)
+    def _with_memory(self, glassy: Callable[[Offsets], Array], at: Offsets) -> Array:
+        def sample(first: float, count: int) -> Array:
+            return glassy(Offsets(at.ny, count, at.dx, at.dy, first))
 
-    def _kernels(self, kernel: _Kernel, ny: int, behind: int, ahead: int) -> Array:
-        """Coefficients (components, ny, behind + 1 + ahead) at Y = 0 … and X = -behind · dx … ahead · dx."""
-        y = self.dy * np.arange(ny)
-        total: Array | float = 0.0
-        for material, alone in self._alone:
-
-            def sample(first: float, count: int, alone: CombinedElasticity = alone) -> Array:
-                return kernel(first + self.dx * np.arange(count), y, self.dx, self.dy, alone)
-
-            total = total + sample(-behind * self.dx, behind + 1 + ahead)
-            if isinstance(material, Prony):
-                strengths, times = np.array(material.creep_terms).T
-                faded = memory.fading(sample, behind, ahead, self.dx, self.speed * times)
-                total = total + np.tensordot(strengths, faded, 1)
-        return np.asarray(total)
-
-    def _fading_symbol(self, material: Material) -> ComplexArray:
-        """1 + Σ fⱼ/(1 - i k_x V Tⱼ) (1, nx // 2 + 1): compliance over the glassy one."""
-        nx = self.shape[1]
-        kx = 2 * np.pi * fft.rfftfreq(nx, self.dx)[None, :]
-        # Not at rest, even at k_x = 0: nothing stays under the wheel for longer than it takes to cross the patch.
-        kx[0, 0] = np.pi / (nx * self.dx)
-        terms = material.creep_terms if isinstance(material, Prony) else ()
-        symbol = 1 + sum((f / (1 - 1j * kx * self.speed * t) for f, t in terms), np.zeros(kx.shape, complex))
-        symbol[0, 0] = abs(symbol[0, 0])
-        return np.asarray(symbol)
+        behind = round(-at.first / at.dx)
+        if behind < 0 or not math.isclose(-at.first, behind * at.dx, abs_tol=1e-9 * at.dx):
+            raise InputError(
+                f"a viscoelastic half-space in steady rolling is known at whole cells, asked for {at.first:g} m on "
+                f"cells of {at.dx:g} m; a history takes an elastic one, material.glassy or material.rubbery"
+            )
+        strengths, times = np.array(self.material.creep_terms).T
+        faded = memory.fading(sample, behind, at.nx - 1 - behind, at.dx, self.speed * times)
+        return np.asarray(sample(at.first, at.nx) + np.tensordot(strengths, faded, 1))
 
 
-def combined(tire: Material, road: Material, limit: str) -> CombinedElasticity:
-    """The elasticity of tire (body 1) and road (body 2) seen as one, in the "glassy" or the "rubbery" limit."""
-    one, other = elastic(tire, limit), elastic(road, limit)
-    return CombinedElasticity.of(one.shear_modulus, one.poisson, other.shear_modulus, other.poisson)
+def half_space(material: Material, *, is_tire: bool, speed: float | None = None) -> Body:
+    """A half-space of a material on one side of a contact, rolling at a speed, m/s.
 
-
-def elastic(material: Material, limit: str) -> Elastic:
-    """An elastic material, or the "glassy" or the "rubbery" limit of a viscoelastic one."""
+    Raises InputError for a viscoelastic one without a positive speed, and for a fluid.
+    """
     if isinstance(material, Elastic):
-        return material
-    return material.glassy if limit == "glassy" else material.rubbery
-
-
-def check_rolling(tire: Material, road: Material, speed: float | None) -> None:
-    """Refuse viscoelastic materials without a speed, m/s, > 0, and fluids. Raises InputError."""
-    for name, material in (("tire", tire), ("road", road)):
-        if isinstance(material, Prony):
-            _check_rolls(name, material, speed)
-
-
-def _check_rolls(name: str, material: Prony, speed: float | None) -> None:
+        return _elastic(material, is_tire)
+    name = "tire" if is_tire else "road"
     if speed is None:
         raise InputError(
             f"the {name} is viscoelastic ({material}): give the rolling speed (m/s), on which its stiffness depends"
@@ -179,16 +126,13 @@ def _check_rolls(name: str, material: Prony, speed: float | None) -> None:
             "it sinks without end and leaves a rut. Keep a long-term modulus: a standard linear solid, "
             "or shares that add up to 0.99 at most"
         )
+    return Fading(material, is_tire, float(speed))
 
 
-def _normal(x: Array, y: Array, dx: float, dy: float, bodies: CombinedElasticity) -> Array:
-    """u_n by p (1, ny, nx), m/Pa: Boussinesq's 1/r is a share of the sum of Cerruti's two."""
-    xx, yy, _ = rectangle_ahead.tangential_by_shear(x, y, dx, dy, bodies)
-    share = (1 - bodies.poisson) / (2 - bodies.poisson)
-    return np.asarray(share * (xx + yy))[None]
+def rolling_pair(tire: Material, road: Material, speed: float | None) -> Body:
+    """Two half-spaces that roll at a speed, m/s; raises as `half_space`."""
+    return Sum.of(half_space(tire, is_tire=True, speed=speed), half_space(road, is_tire=False, speed=speed))
 
 
-def _inverse(symbols: Array | ComplexArray) -> ComplexArray:
-    """Inverse, mode by mode, of the symmetric 2 x 2 matrices xx, yy, xy (3, …)."""
-    xx, yy, xy = symbols
-    return np.asarray(np.array([yy, xx, -xy]) / (xx * yy - xy * xy))
+def _elastic(material: Elastic, is_tire: bool) -> HalfSpaces:
+    return HalfSpaces.of(material, None) if is_tire else HalfSpaces.of(None, material)

@@ -238,7 +238,7 @@ def _press(
 
     The change in the first round tells how strongly the two are coupled: bodies nearly alike need no second.
     """
-    coupled = influence.bodies.difference != 0
+    coupled = influence.coupled
     if not coupled and state is not None and state.normal is not None and _same_load(state.stage, stage):
         normal = state.normal
     else:

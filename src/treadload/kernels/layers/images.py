@@ -119,19 +119,20 @@ def surface_compliance(wavenumbers: Array, stack: Stack) -> Array:
     return compliance
 
 
-def coefficients(images: Images, ny: int, nx: int, dx: float, dy: float) -> Array:
-    """Displacement of the surface at offsets 0 … n-1 of whole cells by unit loads on one: (6, ny, nx), m/Pa.
+def coefficients(images: Images, ny: int, nx: int, dx: float, dy: float, first: float = 0.0) -> Array:
+    """Displacement of the surface by unit loads on a cell, at distances from its centre: (6, ny, nx), m/Pa.
 
+    At x = first + dx · (0 … nx-1) and y = dy · (0 … ny-1), m:
     u_z by p (even in x and y); u_x by q_x, u_y by q_y (even), u_x by q_y = u_y by q_x (odd in both); k_x (odd in
     x), k_y (odd in y): u_x = k_x ∗ p, u_z = -(k_x ∗ q_x + k_y ∗ q_y). Positive along +x, +y and down.
     """
     rows, columns = -(-ny // _ROUND) * _ROUND, -(-nx // _ROUND) * _ROUND
-    return _coefficients(images, rows, columns, dx, dy)[:, :ny, :nx]
+    return _coefficients(images, rows, columns, dx, dy, first)[:, :ny, :nx]
 
 
 @lru_cache(maxsize=8)
-def _coefficients(images: Images, ny: int, nx: int, dx: float, dy: float) -> Array:
-    x, y = dx * (np.arange(nx + 1) - 0.5)[None, :], dy * (np.arange(ny + 1) - 0.5)[:, None]
+def _coefficients(images: Images, ny: int, nx: int, dx: float, dy: float, first: float) -> Array:
+    x, y = first + dx * (np.arange(nx + 1) - 0.5)[None, :], dy * (np.arange(ny + 1) - 0.5)[:, None]
     total = np.zeros((6, ny + 1, nx + 1))
     xy, squared = x * y, x**2 + y**2
     shear = images.held

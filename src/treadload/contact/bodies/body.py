@@ -1,0 +1,209 @@
+"""What a surface does under pressure and shear: the seam at which a kind of body meets the solvers.
+
+A body tells the displacement of its surface by a uniformly loaded cell, at any distances along x from it, and the
+compliance of its surface to a wave. Two bodies in contact are the sum of both. Signs are those of a pair (Kalker
+1990): q acts on body 1, p presses the bodies together, u = u1 - u2, u_n opens the gap; a body on the side of the road
+tells its displacement with the sign of -u2. Then for every pair
+
+    u_n = N ∗ p + k_x ∗ q_x + k_y ∗ q_y
+    u_x = T_xx ∗ q_x + T_xy ∗ q_y - k_x ∗ p
+    u_y = T_xy ∗ q_x + T_yy ∗ q_y - k_y ∗ p
+
+N, T_xx and T_yy are even in y, T_xy and k_y odd in y, k_x even in y; so they are along x in a symmetric body, with
+T_xy and k_x odd there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from treadload.kernels import fft
+from treadload.kernels.arrays import Array, ComplexArray
+
+
+@dataclass(frozen=True)
+class Offsets:
+    """Where a surface is looked at: distances from the centre of a loaded cell of dx by dy, m.
+
+    x = first + dx · (0 … nx - 1), y = dy · (0 … ny - 1). first: 0 in the middle of the cell.
+    """
+
+    ny: int
+    nx: int
+    dx: float
+    dy: float
+    first: float = 0.0
+
+    @property
+    def x(self) -> Array:
+        """(nx,), m."""
+        return self.first + self.dx * np.arange(self.nx)
+
+    @property
+    def y(self) -> Array:
+        """(ny,), m."""
+        return self.dy * np.arange(self.ny)
+
+
+@dataclass(frozen=True)
+class Waves:
+    """The waves that a periodic grid of (ny, nx) cells of dx by dy, m, holds, as its real transform orders them."""
+
+    shape: tuple[int, int]
+    dx: float
+    dy: float
+
+    @cached_property
+    def k(self) -> Array:
+        """|k| (ny, nx // 2 + 1), 1/m; at k = 0 that of the finite patch: a uniform load on it is no rigid motion."""
+        k = np.hypot(*self._vector)
+        short, long = sorted((self.shape[1] * self.dx, self.shape[0] * self.dy))
+        # A uniform load sinks a long strip by the logarithm of its slenderness.
+        k[0, 0] = np.pi / (short * (1 + np.log(long / short)))
+        return k
+
+    @property
+    def cosine(self) -> Array:
+        """k_x/|k|, zero at k = 0."""
+        return np.asarray(self._vector[0] / self.k)
+
+    @property
+    def sine(self) -> Array:
+        """k_y/|k|, zero at k = 0."""
+        return np.asarray(self._vector[1] / self.k)
+
+    @cached_property
+    def along(self) -> Array:
+        """k_x (1, nx // 2 + 1), 1/m; never zero: nothing stays under a wheel for longer than it takes to cross."""
+        kx = self._vector[0].copy()
+        kx[0, 0] = np.pi / (self.shape[1] * self.dx)
+        return kx
+
+    @cached_property
+    def _vector(self) -> tuple[Array, Array]:
+        ny, nx = self.shape
+        return 2 * np.pi * fft.rfftfreq(nx, self.dx)[None, :], 2 * np.pi * fft.fftfreq(ny, self.dy)[:, None]
+
+
+class Body(Protocol):
+    """A surface, or the two of a pair. Displacements as in `contact.bodies.body`, m/Pa, per unit load on a cell."""
+
+    @property
+    def symmetric(self) -> bool:
+        """True if loads work on each other's displacements alike, as in elastic bodies."""
+        ...
+
+    @property
+    def at_rest(self) -> Body:
+        """The body under loads that stay: itself, unless it remembers."""
+        ...
+
+    def normal(self, at: Offsets) -> Array:
+        """N (ny, nx): u_n by p."""
+        ...
+
+    def tangential(self, at: Offsets) -> Array:
+        """T_xx, T_yy, T_xy (3, ny, nx). Raises InputError where nothing bounds it, as `check_shear`."""
+        ...
+
+    def coupling(self, at: Offsets) -> Array:
+        """k_x, k_y (2, ny, nx); zero in a body that does not couple pressure and shear."""
+        ...
+
+    def compliance(self, waves: Waves) -> Array | ComplexArray:
+        """Compliance to waves, times |k|, 1/Pa: of u_n by p; xx, yy and xy of u by q: (4, ny, nx // 2 + 1).
+
+        It serves as a preconditioner: near is enough.
+        """
+        ...
+
+    def across(self, k: Array) -> Array:
+        """The same of u_n by p, and of the coupling, u_k by p, to waves |k| (n,), 1/m: (2, n), 1/Pa.
+
+        The size, where the response lags behind; the mean over directions, where they differ.
+        """
+        ...
+
+    def check_shear(self) -> None:
+        """Refuse shear on a surface that drifts under it without end. Raises InputError."""
+        ...
+
+    @property
+    def stats(self) -> Mapping[str, Any]:
+        """What was approximated, for the statistics of a contact."""
+        ...
+
+    def joined(self, other: Body) -> Body | None:
+        """This body and another as one of the same kind, or None."""
+        ...
+
+
+@dataclass(frozen=True)
+class Sum:
+    """Bodies whose displacements add up: the two of a contact, or the parts of one."""
+
+    parts: tuple[Body, ...]
+
+    @classmethod
+    def of(cls, *bodies: Body) -> Body:
+        """The sum of bodies, those of one kind joined where they can be."""
+        parts: list[Body] = []
+        for body in bodies:
+            for part in body.parts if isinstance(body, Sum) else (body,):
+                for number, known in enumerate(parts):
+                    joined = known.joined(part)
+                    if joined is not None:
+                        parts[number] = joined
+                        break
+                else:
+                    parts.append(part)
+        return parts[0] if len(parts) == 1 else cls(tuple(parts))
+
+    @property
+    def symmetric(self) -> bool:
+        """As all of them are."""
+        return all(part.symmetric for part in self.parts)
+
+    @property
+    def at_rest(self) -> Body:
+        """Of all of them."""
+        return Sum.of(*(part.at_rest for part in self.parts))
+
+    def normal(self, at: Offsets) -> Array:
+        """Added up."""
+        return np.asarray(sum(part.normal(at) for part in self.parts))
+
+    def tangential(self, at: Offsets) -> Array:
+        """Added up."""
+        return np.asarray(sum(part.tangential(at) for part in self.parts))
+
+    def coupling(self, at: Offsets) -> Array:
+        """Added up."""
+        return np.asarray(sum(part.coupling(at) for part in self.parts))
+
+    def compliance(self, waves: Waves) -> Array | ComplexArray:
+        """Added up."""
+        return np.asarray(sum(part.compliance(waves) for part in self.parts))
+
+    def across(self, k: Array) -> Array:
+        """Added up."""
+        return np.asarray(sum(part.across(k) for part in self.parts))
+
+    def check_shear(self) -> None:
+        """Refused by any of them."""
+        for part in self.parts:
+            part.check_shear()
+
+    @property
+    def stats(self) -> Mapping[str, Any]:
+        """Of all of them."""
+        return {name: value for part in self.parts for name, value in part.stats.items()}
+
+    def joined(self, other: Body) -> Body | None:
+        """None: `of` joins the parts."""
+        return None

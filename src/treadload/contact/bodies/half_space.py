@@ -1,0 +1,103 @@
+"""Elastic half-spaces, one or the two of a pair."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from treadload.contact.bodies.body import Body, Offsets, Waves
+from treadload.kernels.arrays import Array
+from treadload.kernels.half_space import rectangle, rectangle_ahead
+from treadload.kernels.half_space.rectangle import CombinedElasticity
+from treadload.materials import Elastic
+
+RIGID = (math.inf, 0.0)
+
+
+@dataclass(frozen=True)
+class HalfSpaces:
+    """Elastic half-spaces seen as one. elasticity: of both, or of one against a rigid body.
+
+    Sources: those of `kernels.half_space.rectangle`; Johnson (1985), Contact Mechanics, sections 3 and 13.2 (waves).
+    """
+
+    elasticity: CombinedElasticity
+
+    @classmethod
+    def of(cls, tire: Elastic | None, road: Elastic | None) -> HalfSpaces:
+        """Of a material on each side, body 1 and body 2; None is rigid."""
+        return cls(combined(tire, road))
+
+    @property
+    def symmetric(self) -> bool:
+        """True."""
+        return True
+
+    @property
+    def at_rest(self) -> HalfSpaces:
+        """Itself."""
+        return self
+
+    def normal(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        if at.first == 0:
+            return rectangle.normal_by_pressure(at.ny, at.nx, at.dx, at.dy, self.elasticity)
+        # Boussinesq's 1/r is a share of the sum of Cerruti's two.
+        xx, yy, _ = self.tangential(at)
+        share = (1 - self.elasticity.poisson) / (2 - self.elasticity.poisson)
+        return np.asarray(share * (xx + yy))
+
+    def tangential(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        if at.first == 0:
+            return np.array(rectangle.tangential_by_shear(at.ny, at.nx, at.dx, at.dy, self.elasticity))
+        return rectangle_ahead.tangential_by_shear(at.x, at.y, at.dx, at.dy, self.elasticity)
+
+    def coupling(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        if self.elasticity.difference == 0:
+            return np.zeros((2, at.ny, at.nx))
+        if at.first == 0:
+            return np.array(rectangle.coupling(at.ny, at.nx, at.dx, at.dy, self.elasticity))
+        return rectangle_ahead.coupling(at.x, at.y, at.dx, at.dy, self.elasticity)
+
+    def compliance(self, waves: Waves) -> Array:
+        """As in `Body`."""
+        scale, poisson = 2 / self.elasticity.shear_modulus, self.elasticity.poisson
+        c, s = waves.cosine, waves.sine
+        parts = [np.full_like(c, 1 - poisson), 1 - poisson * c**2, 1 - poisson * s**2, -poisson * c * s]
+        return np.asarray(scale * np.array(parts))
+
+    def across(self, k: Array) -> Array:
+        """As in `Body`."""
+        parts = np.array([1 - self.elasticity.poisson, self.elasticity.difference])
+        return np.multiply.outer(2 / self.elasticity.shear_modulus * parts, np.ones_like(k))
+
+    def check_shear(self) -> None:
+        """Nothing to refuse."""
+
+    @property
+    def stats(self) -> Mapping[str, Any]:
+        """None."""
+        return {}
+
+    def joined(self, other: Body) -> HalfSpaces | None:
+        """With other half-spaces: their compliances add up."""
+        if not isinstance(other, HalfSpaces):
+            return None
+        one, two = self.elasticity, other.elasticity
+        # 2/G, 2ν/G and 4K/G are sums over the bodies, see `CombinedElasticity`.
+        shear = 1 / (1 / one.shear_modulus + 1 / two.shear_modulus)
+        poisson = shear * (one.poisson / one.shear_modulus + two.poisson / two.shear_modulus)
+        difference = shear * (one.difference / one.shear_modulus + two.difference / two.shear_modulus)
+        return HalfSpaces(CombinedElasticity(shear, poisson, difference))
+
+
+def combined(tire: Elastic | None, road: Elastic | None) -> CombinedElasticity:
+    """The elasticity of two half-spaces seen as one; None is rigid."""
+    one, other = (RIGID if side is None else (side.shear_modulus, side.poisson) for side in (tire, road))
+    return CombinedElasticity.of(*one, *other)
