@@ -102,6 +102,9 @@ def read_tree(path: Path, kind: str) -> xr.DataTree:
         # Units are read by who needs them: none of them is a date.
         with xr.open_datatree(path, engine="h5netcdf", decode_times=False) as tree:
             loaded: xr.DataTree = tree.load()
+        # A variable whose dimensions were lost shows when its group is put together.
+        for node in loaded.subtree:
+            node.to_dataset()
     except Exception as error:
         raise InputError(f"cannot read {path} as {kind}: {one_line(str(error))}") from error
     return loaded

@@ -244,7 +244,7 @@ def _broken_group(rng: random.Random, data: xr.Dataset) -> xr.Dataset:
     if which == 3:
         return data.isel({dim: slice(0, rng.choice((0, 0, 1, 2)))}) if dims else data
     if which == 4:
-        return data.isel({dim: 0}, drop=rng.random() < 0.5) if dims else data
+        return data.isel({dim: 0}, drop=rng.random() < 0.5) if dims and data.sizes[dim] else data
     if which == 5:
         return data.isel({dim: slice(None, None, -1)}) if dims else data
     if which == 6:
@@ -260,7 +260,7 @@ def _broken_group(rng: random.Random, data: xr.Dataset) -> xr.Dataset:
     if which == 8:
         unit = rng.choice(("mm", "kPa", "m", "Pa", "1", "", "odd", 3, "days since 2000-01-01"))
         return data.assign({name: (field.dims, field.to_numpy(), {"units": unit})})
-    if which == 9 and field.ndim:
+    if which == 9 and field.size and field.ndim:
         return data.assign({name: field.isel({field.dims[0]: 0}, drop=True).variable}) if name not in dims else data
     if which == 10 and name not in dims:
         return data.assign({name: (("other", *field.dims), field.to_numpy()[None])})

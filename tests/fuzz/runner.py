@@ -24,7 +24,7 @@ from treadload.errors import GeometryError, InputError
 Attack = Callable[[random.Random, Path], str]
 
 TAKEN, REFUSED = "taken", "refused"
-SECONDS = 30  # that an attack may take
+SECONDS = 30  # of the processor that an attack may take: others may keep the machine busy
 _LONGEST = 1500  # characters of a sentence that still fits a screen
 _COLLECT = 50  # attacks between two rounds of the garbage collector
 
@@ -159,10 +159,10 @@ def _limited() -> Iterator[None]:
     def stop(*_: Any) -> None:
         raise _TooSlow
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.alarm(SECONDS)
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)
     try:
         yield
     finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)

@@ -1,5 +1,7 @@
 """Figures and the report of a life: what they show is what the data say."""
 
+import warnings
+
 import numpy as np
 import pytest
 from matplotlib.text import Text
@@ -100,3 +102,23 @@ def test_the_report_holds_verdict_criteria_laws_and_solves(tmp_path):
         "every axle",
     ):
         assert words in page
+
+
+def test_a_life_of_one_place_is_drawn_without_a_range():
+    """Every other place across was below what shows: matplotlib warned of equal limits."""
+    life = a_life()
+    damage = life.dataset["damage_per_year"]
+    lone = life.dataset.assign(damage_per_year=damage.where(damage["y"] == damage["y"][40], 0.0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        left, right = life_damage(lone).axes[0].get_xlim()
+    assert left < right
+
+
+def test_lists_of_a_life_are_lists_of_texts(tmp_path):
+    """Torn ends of life and groups of wheels once were JSONDecodeErrors."""
+    for name, told in (("ends", "["), ("groups", ""), ("ends", '["one of two"]')):
+        tree = a_tree()
+        tree["life"].attrs[name] = told
+        with pytest.raises(InputError, match=f"the attribute {name} must"):
+            write_report({"life": tree}, tmp_path / "life.html")

@@ -1,8 +1,10 @@
 """Broken results are refused in one sentence that names the group and what of it is wrong."""
 
+import contextlib
 import gc
 import json
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -65,6 +67,16 @@ BREAKS = {
     "of a plane": ("response", lambda d: d.isel(component=slice(0, 2)), "2 components"),
     "without a worst point": ("damage", lambda d: d.drop_vars("worst_strain"), "lacks 'worst_strain'"),
     "with words for ε₆": ("damage", lambda d: d.assign_attrs(epsilon_6="a"), "epsilon_6 must be a finite number"),
+    "with a layer over the plane": (
+        "response",
+        lambda d: d.assign_coords(layer=(("y", "x"), np.zeros((d.sizes["y"], d.sizes["x"])))),
+        "layer is over x, y, not depth",
+    ),
+    "with half a layer": (
+        "response",
+        lambda d: d.assign_coords(layer=("depth", d["depth"].to_numpy() + 0.5)),
+        "layer has values other",
+    ),
     "with torn names": ("response", lambda d: d.assign_attrs(layer_names="["), "layer_names must be a list as JSON"),
 }
 
@@ -102,7 +114,7 @@ def test_the_file_of_a_broken_result_is_refused_too(tree, tmp_path):
 
 def test_units_of_a_file_are_no_dates(tree, tmp_path):
     data = tree["contact"].to_dataset()
-    data["pressure"].attrs["units"] = "days since 2000-01-01"
+    data = data.assign(pressure=data["pressure"].assign_attrs(units="days since 2000-01-01"))
     with pytest.raises(tl.InputError, match="pressure is in days since 2000-01-01"):
         load(save(with_group(tree, "contact", data), tmp_path / "odd.nc"))
 
@@ -120,3 +132,16 @@ def test_a_torn_file_leaves_no_traceback_behind(tree, tmp_path, monkeypatch):
         assert len(str(caught.value).splitlines()) == 1
     gc.collect()
     assert not ignored
+
+
+def test_a_variable_that_lost_its_dimensions(tree, tmp_path, monkeypatch):
+    """The reader of torn files lets it through; what puts its group together does not."""
+    path = save(tree, tmp_path / "torn.nc")
+    lost = tree.copy()
+    lost["contact"].variables["pressure"]._dims = ()
+    monkeypatch.setattr(
+        xr, "open_datatree", lambda *_, **__: contextlib.nullcontext(SimpleNamespace(load=lambda: lost))
+    )
+    with pytest.raises(tl.InputError, match=r"cannot read .*torn\.nc") as caught:
+        load(path)
+    assert len(str(caught.value).splitlines()) == 1

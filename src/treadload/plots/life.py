@@ -113,7 +113,7 @@ def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
     least = _LEAST * float(damage.max())
     ax.set_ylim(0.7 * least, 2.2 * top)
     seen = np.flatnonzero((damage > least).any(axis=0))
-    if len(seen):
+    if len(seen) > 1:
         ax.set_xlim(y[seen[0]], y[seen[-1]])
     ax.spines[["top", "right"]].set_visible(False)
     ax.grid(True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import struct
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -30,11 +31,14 @@ class Picture:
 
 def picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = False) -> list[Picture]:
     """The picture, or nothing when the results lack what it draws."""
-    try:
-        figure = draw()
-    except InputError:
-        return []
-    image = png(figure, dpi=_DPI)
+    with warnings.catch_warnings():
+        # Of a single row of cells, or a single place, matplotlib finds no extent to draw.
+        for said in ("constrained_layout not applied", "Attempting to set identical low and high"):
+            warnings.filterwarnings("error", said, UserWarning)
+        try:
+            image = png(draw(), dpi=_DPI)
+        except (InputError, UserWarning):
+            return []
     # The width stands at a fixed place of every PNG; all figures get letters of the same size.
     (pixels,) = struct.unpack(">I", image[16:20])
     encoded = base64.b64encode(image).decode("ascii")

@@ -259,6 +259,6 @@ def _json(text: Any, otherwise: Any) -> Any:
         return otherwise
     try:
         value = json.loads(text)
-    except ValueError:
+    except (ValueError, RecursionError):
         return otherwise
     return value if isinstance(value, type(otherwise)) else otherwise

@@ -23,6 +23,8 @@ _RESPONSES = ("response", "slice", "slice_along", "slice_across", "bowl")
 # Dimensions that lie in the road, with a coordinate of numbers; the others are counted or named.
 _LENGTHS = ("x", "y", "depth")
 _COMPONENTS = 3
+# More than any road has; what is beyond is no number of a layer.
+_MOST_LAYERS = 10_000
 
 
 @dataclass(frozen=True)
@@ -80,6 +82,7 @@ _ROAD = _Group(
         **_fields("in_plane_angle_1", _SPACE, "some"),
         **_fields("principal_direction_1", (*_SPACE, "component"), "some"),
         **_fields("dissipated_energy", ("depth", "y")),
+        **_fields("layer", ("depth",), "all", codes=_MOST_LAYERS),
     },
     ("x", "y", "depth"),
     {"principal_strain_1": "principal_direction_1", "in_plane_strain_1": "in_plane_angle_1"},
@@ -116,7 +119,10 @@ _LIFE = _Group(
         "orientation": "orientation_damage", "orientation_damage": "first_crack_angle",
     },
     ("design_years", "sensitivity_contacts", "sensitivity_responses", "sensitivity_coverage"),
-    {"stats": dict, "laws": list, "sources": list, "doubts": list, "quantities": list},
+    {
+        "stats": dict, "laws": list, "sources": list, "doubts": list, "quantities": list, "ends": list,
+        "groups": list,
+    },
 )  # fmt: skip
 _GROUPS: Mapping[str, _Group] = {
     "contact": _CONTACT,
@@ -219,7 +225,8 @@ def _check_life(data: xr.Dataset, where: str) -> None:
     if not count:
         raise InputError(f"{where} has no criterion")
     held = _json_attributes(data.attrs, _LIFE.texts, where)
-    for name in _OF_A_CRITERION:
+    told = [*_OF_A_CRITERION, *(["ends"] if held.get("ends") else [])]
+    for name in told:
         if len(held.get(name, ())) != count:
             raise InputError(f"{where}: the attribute {name} must tell of {count} criteria")
     stats = held.get("stats", {})

@@ -1,0 +1,37 @@
+"""Pictures of a page: what cannot be drawn is left out."""
+
+import warnings
+
+import pytest
+from matplotlib.figure import Figure
+
+from treadload.errors import InputError
+from treadload.reporting.pictures import picture
+from treadload.reporting.reading import _json
+
+
+def one_place():
+    figure = Figure()
+    figure.subplots().set_xlim(0.1, 0.1)
+    return figure
+
+
+def one_row():
+    figure = Figure(figsize=(0.1, 0.1), layout="constrained")
+    figure.subplots().set_ylabel("y (mm)")
+    return figure
+
+
+def nothing():
+    raise InputError("nothing to draw")
+
+
+@pytest.mark.parametrize("draw", [one_place, one_row, nothing])
+def test_a_figure_without_extent_is_left_out(draw):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert picture("title", "caption", draw) == []
+
+
+def test_citations_too_deep_in_each_other_are_none():
+    assert _json("[" * 3000, []) == []
