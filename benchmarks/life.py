@@ -18,11 +18,11 @@ GOAL = 60.0
 TIRE = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ROAD = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 CRITERIA = (
-    tl.DesignCriterion("surface, top-down", tl.FatigueLine(100e-6, -0.2), 0, "top", "principal"),
-    tl.DesignCriterion("base, bottom-up", tl.FatigueLine(90e-6, -0.2), 1),
-    tl.DesignCriterion("platform", tl.FrenchSubgrade(), -1, "top"),
+    tl.damage.DesignCriterion("surface, top-down", tl.FatigueLine(100e-6, -0.2), 0, "top", "principal"),
+    tl.damage.DesignCriterion("base, bottom-up", tl.FatigueLine(90e-6, -0.2), 1),
+    tl.damage.DesignCriterion("platform", tl.damage.FrenchSubgrade(), -1, "top"),
 )
-CLIMATE = tl.Climate.equal_parts([2.0, 3.0, 7.0, 11.0, 16.0, 21.0, 24.0, 23.0, 18.0, 12.0, 6.0, 3.5])
+CLIMATE = tl.damage.Climate.equal_parts([2.0, 3.0, 7.0, 11.0, 16.0, 21.0, 24.0, 23.0, 18.0, 12.0, 6.0, 3.5])
 MANEUVERS = (
     ("straight", tl.Maneuver(), 0.90),
     ("braking", tl.Maneuver.braking(2.0), 0.07),
@@ -48,11 +48,11 @@ AXLES = (
 
 def traffic():
     rows = tuple(
-        tl.AxleClass(f"{name}, {word}", share / len(AXLES), load, pressure, wheels, maneuver)
+        tl.damage.AxleClass(f"{name}, {word}", share / len(AXLES), load, pressure, wheels, maneuver)
         for name, load, pressure, wheels in AXLES
         for word, maneuver, share in MANEUVERS
     )
-    return tl.Traffic(rows, 1e6, growth=0.02, wander=tl.Wander.normal(0.25), years=20)
+    return tl.damage.Traffic(rows, 1e6, growth=0.02, wander=tl.damage.Wander.normal(0.25), years=20)
 
 
 def check():
@@ -63,7 +63,7 @@ def check():
     largest = exact.readings.max(("turn", "y"))
     apart = abs(few.readings.max(("turn", "y")) - largest) / largest
     lives = [
-        tl.design_life(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, tolerance=t, **asked)
+        tl.study.solve_life(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, tolerance=t, **asked)
         .dataset["life_years"]
         .to_numpy()
         for t in (0.0, 5e-3)
@@ -78,7 +78,7 @@ def check():
 
 def main():
     began, spent = time.perf_counter(), time.process_time()
-    life = tl.design_life(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, workers=2)
+    life = tl.study.solve_life(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, workers=2)
     seconds, processor = time.perf_counter() - began, time.process_time() - spent
     stats = life.stats
     row = (

@@ -12,18 +12,18 @@ from treadload.grid import Grid
 from treadload.kernels.layers import wavenumbers
 from treadload.response import GridLoad, moving
 
-BINDER = tl.Prony(12e9, ((0.3, 0.002), (0.3, 0.02), (0.2, 0.2), (0.1, 2.0)), 0.35)
+BINDER = tl.materials.Prony(12e9, ((0.3, 0.002), (0.3, 0.02), (0.2, 0.2), (0.1, 2.0)), 0.35)
 ROAD = tl.Pavement(
     [
         tl.Layer(BINDER, 0.06),
-        tl.Layer(tl.Prony(14e9, ((0.3, 0.003), (0.3, 0.03)), 0.35), 0.15),
+        tl.Layer(tl.materials.Prony(14e9, ((0.3, 0.003), (0.3, 0.03)), 0.35), 0.15),
         tl.Layer(tl.Elastic(2e8, 0.35), 0.3),
         tl.Layer(tl.Elastic(5e7, 0.35)),
     ]
 )
 ELLVA = tl.Pavement(
     [
-        tl.Layer(tl.PowerLawCreep(2.5e-11, 1e-8, 1000.0, 0.35, 0.3), 0.15),
+        tl.Layer(tl.materials.PowerLawCreep(2.5e-11, 1e-8, 1000.0, 0.35, 0.3), 0.15),
         tl.Layer(tl.Elastic(2e8, 0.35), 0.6),
         tl.Layer(tl.Elastic(4e7, 0.4)),
     ]

@@ -11,6 +11,7 @@ import numpy as np
 from floors import rolling_product
 from timing import best_of, print_table
 
+from treadload.catalogue import tires
 from treadload.contact.bodies.half_space import HalfSpaces, combined
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.normal import solve_normal
@@ -18,12 +19,12 @@ from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.contact.solvers.shift import solve_shift
 from treadload.grid import Grid
 from treadload.kernels.half_space.rectangle import CombinedElasticity
-from treadload.tire import LateralGrooves, Tire, TreadProfile
+from treadload.tire import LateralGrooves, Tire
 from treadload.validation.pressing import ASPHALT, RUBBER
 
 HEADER = ("problem", "cells", "floor, ms", "whole, s", "whole/floor", "bound", "Newton", "Krylov", "products")
 DISC = CombinedElasticity(1.0, 0.25, 0.0)
-RIBS = TreadProfile.from_library("315/80R22.5")
+RIBS = tires["315/80R22.5"]
 LUGS = replace(
     RIBS, lateral=(LateralGrooves(pitch=0.06, width=0.012, depth=0.012, wall_angle=0.1, edge_radius=0.002),)
 )

@@ -26,7 +26,7 @@ def main(
     folder.mkdir(parents=True, exist_ok=True)
     angles = (-0.1, -0.06, -0.03, -0.015, 0.0, 0.015, 0.03, 0.06, 0.1)
     straight = tl.Rolling(normal_load=LOAD, friction=FRICTION)
-    curve = tl.creep_curve(TIRE, ROAD, straight, angles, along="y", spacing=spacing)
+    curve = tl.contact.creep_curve(TIRE, ROAD, straight, angles, along="y", spacing=spacing)
     print("slip angle as lateral creepage")
     print(curve.summary())
     save(creep_curves([curve], ["32.5 kN, μ = 0.7"], along="y"), folder / "aligning_moment.png")

@@ -20,7 +20,7 @@ CREEPAGES = (-0.3, -0.2, -0.15, -0.1, -0.07, -0.05, -0.03, -0.015, 0.0, 0.015, 0
 
 def main(folder: Path, spacing: float = 4e-3, creepages: tuple[float, ...] = CREEPAGES) -> dict[str, float]:
     folder.mkdir(parents=True, exist_ok=True)
-    ribs = tl.TreadProfile.from_library("315/80R22.5")
+    ribs = tl.catalogue.tires["315/80R22.5"]
     treads = {"ribs": ribs, "smooth": replace(ribs, grooves=())}
     cases = [("ribs", 0.7), ("ribs", 0.35), ("smooth", 0.7)]
     curves, slopes = {}, {}
@@ -28,7 +28,7 @@ def main(folder: Path, spacing: float = 4e-3, creepages: tuple[float, ...] = CRE
         name = f"{tread}, μ = {friction:g}"
         tire = tl.Tire.from_profile(treads[tread], material=RUBBER)
         state = tl.Rolling(normal_load=32.5e3, friction=friction)
-        curves[name] = tl.creep_curve(tire, ROAD, state, creepages, spacing=spacing)
+        curves[name] = tl.contact.creep_curve(tire, ROAD, state, creepages, spacing=spacing)
         print(f"\n{name}\n{curves[name].summary()}")
         nearest = min((c for c in creepages if c < 0), key=abs)
         slopes[name] = float(curves[name].dataset.tractive_force.sel(creepage=nearest)) / -nearest

@@ -22,20 +22,20 @@ TEMPERATURE = 15.0
 ROAD = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 LOAD, PRESSURE, FRICTION = 32.5e3, 820e3, 0.7
 BRAKING = tl.Maneuver.braking(4.0)
-UPPER = tl.InterfaceStrength.leutner_minimum("wearing")
-LOWER = tl.InterfaceStrength(50e3, math.radians(35))
-FATIGUE = tl.ShearFatigue(slope=-0.1)
+UPPER = tl.damage.InterfaceStrength.leutner_minimum("wearing")
+LOWER = tl.damage.InterfaceStrength(50e3, math.radians(35))
+FATIGUE = tl.damage.ShearFatigue(slope=-0.1)
 CRITERIA = (
-    tl.DesignCriterion("wearing course, bottom", tl.FatigueLine(100e-6, -0.2), 0),
-    tl.DesignCriterion("base, bottom", tl.FatigueLine(90e-6, -0.2), 1),
-    tl.DesignCriterion("subgrade", tl.FrenchSubgrade(), -1, "top"),
-    tl.BondCriterion("upper bond", UPPER, FATIGUE, 0),
+    tl.damage.DesignCriterion("wearing course, bottom", tl.FatigueLine(100e-6, -0.2), 0),
+    tl.damage.DesignCriterion("base, bottom", tl.FatigueLine(90e-6, -0.2), 1),
+    tl.damage.DesignCriterion("subgrade", tl.damage.FrenchSubgrade(), -1, "top"),
+    tl.damage.BondCriterion("upper bond", UPPER, FATIGUE, 0),
 )
-TRAFFIC = tl.Traffic(
-    (tl.AxleClass("braking truck", 1.0, LOAD, PRESSURE, maneuver=BRAKING, friction=FRICTION),),
+TRAFFIC = tl.damage.Traffic(
+    (tl.damage.AxleClass("braking truck", 1.0, LOAD, PRESSURE, maneuver=BRAKING, friction=FRICTION),),
     passes_per_year=2e5,
     growth=0.02,
-    wander=tl.Wander.normal(0.2),
+    wander=tl.damage.Wander.normal(0.2),
 )
 
 
@@ -47,13 +47,13 @@ def main(folder: Path, spacing: float = 6e-3, step: float = 9e-3) -> dict[str, f
     contact = tl.solve_contact(tire, road, BRAKING.rolling(LOAD, FRICTION), spacing=spacing)
     half = np.arange(step / 2, 0.45, step)
     points = np.concatenate([-half[::-1], half])
-    fields = tl.solve_interfaces(contact, road, x=points, y=points)
-    verdict = tl.assess_bonds(fields, (UPPER, LOWER), FATIGUE)
+    fields = tl.study.solve_interfaces(contact, road, x=points, y=points)
+    verdict = tl.damage.assess_bonds(fields, (UPPER, LOWER), FATIGUE)
     print(verdict.summary())
     save(bond_utilisation(verdict, contact=contact), folder / "utilisation.png")
 
-    compared = tl.compare_bonds(
-        tire, ROAD, TRAFFIC, tl.Climate.constant(TEMPERATURE), CRITERIA, spacing=spacing, interface=0
+    compared = tl.study.compare_bonds(
+        tire, ROAD, TRAFFIC, tl.damage.Climate.constant(TEMPERATURE), CRITERIA, spacing=spacing, interface=0
     )
     print()
     print(compared.summary())

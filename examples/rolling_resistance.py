@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import treadload as tl
+from treadload.materials import Prony
 from treadload.plots import new_figure, save
 from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled, travel_arrow
 
@@ -22,8 +23,8 @@ ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 LONG_TERM, INSTANTANEOUS, POISSON = 3e6, 3.6e6, 0.5
 SHARE = 1 - LONG_TERM / INSTANTANEOUS
 RUBBERS = {
-    "one relaxation, 5 ms": tl.Prony.standard_linear_solid(INSTANTANEOUS, LONG_TERM, 5e-3, POISSON),
-    "five, 50 µs to 0.5 s": tl.Prony(INSTANTANEOUS, tuple((SHARE / 5, 5e-5 * 10**k) for k in range(5)), POISSON),
+    "one relaxation, 5 ms": Prony.standard_linear_solid(INSTANTANEOUS, LONG_TERM, 5e-3, POISSON),
+    "five, 50 µs to 0.5 s": Prony(INSTANTANEOUS, tuple((SHARE / 5, 5e-5 * 10**k) for k in range(5)), POISSON),
 }
 SPEEDS = (0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 40.0)  # m/s, to 144 km/h
 WHEEL = {"normal_load": 32.5e3, "friction": 0.7}
@@ -31,7 +32,7 @@ WHEEL = {"normal_load": 32.5e3, "friction": 0.7}
 
 def main(folder: Path, spacing: float = 6e-3, speeds: tuple[float, ...] = SPEEDS) -> dict[str, list[float]]:
     folder.mkdir(parents=True, exist_ok=True)
-    profile = tl.TreadProfile.from_library("315/80R22.5")
+    profile = tl.catalogue.tires["315/80R22.5"]
     found: dict[str, list[float]] = {}
     lines = {}
     for name, rubber in RUBBERS.items():
@@ -41,7 +42,7 @@ def main(folder: Path, spacing: float = 6e-3, speeds: tuple[float, ...] = SPEEDS
         found[name] = []
         for speed in speeds:
             contact = tl.solve_contact(tire, ROAD, tl.Rolling(speed=speed, **WHEEL), spacing=spacing)
-            result = tl.rolling_resistance(contact, profile.rolling_radius)
+            result = tl.contact.rolling_resistance(contact, profile.rolling_radius)
             found[name].append(1e3 * result.coefficient)
             lines[name, speed] = contact.dataset.pressure.sum("y") * contact.dataset.attrs["dy"]
             approach, area = 1e3 * float(contact.dataset.approach), 1e4 * contact.area

@@ -19,12 +19,12 @@ from treadload.reporting import write_report
 DESIGN = Path(__file__).parent / "design.toml"
 
 
-def main(folder: Path, spacing: float | None = None, workers: int | None = None) -> tl.DesignResult:
+def main(folder: Path, spacing: float | None = None, workers: int | None = None) -> tl.LifeResult:
     folder.mkdir(parents=True, exist_ok=True)
     case = tl.LifeCase.from_toml(DESIGN)
     if spacing is not None:
         case = case.model_copy(update={"spacing": spacing})
-    result = tl.run_design(case, workers=workers)
+    result = tl.run_life(case, workers=workers)
     print(result.summary())
     tree = result.to_tree()
     tl.save(tree, folder / "life.nc")
@@ -34,7 +34,7 @@ def main(folder: Path, spacing: float | None = None, workers: int | None = None)
     return result
 
 
-def check(result: tl.DesignResult) -> None:
+def check(result: tl.LifeResult) -> None:
     """What the page says must follow from the laws alone, whatever the numbers."""
     life, traffic = result.life, result.life.traffic
     data = life.dataset

@@ -6,7 +6,7 @@ and kept near what such tires look like: a search of some minutes. The strains o
 predictions.
 
     python examples/paper/fit_profile.py            print the fit
-    python examples/paper/fit_profile.py --write    and put it into the library of profiles
+    python examples/paper/fit_profile.py --write    and put it into the catalogue
 """
 
 import argparse
@@ -30,24 +30,28 @@ EXPECTED = (
 SOURCE = (
     "Rolling radius: half of the size's nominal overall diameter, 1076 mm. Crown radius, shoulder radius, groove "
     "width and groove-edge radius: fitted by examples/paper/fit_profile.py to the contact area (59 553 mm²) and the "
-    "peak pressure (1576 kPa) that Materials 2021, 14, 2117 prints for 35 kN at 820 kPa. Not measured on a tire."
+    "peak pressure (1576 kPa) that Materials 2021, 14, 2117 prints for 35 kN at 820 kPa."
 )
-NOTES = (
-    "Five equal ribs, four grooves with vertical walls. Groove depth: 15 mm, usual for a new truck tire; the contact "
-    "does not depend on it as long as the floor stays clear of the road. Tread width 282 mm, assumed."
+NOTES = "Five equal ribs, four grooves with vertical walls."
+DOUBTS = (
+    "Fitted to two printed numbers, not measured on a tire.",
+    "Groove depth: 15 mm, usual for a new truck tire; the contact does not depend on it as long as the floor stays "
+    "clear of the road.",
+    "Tread width: 282 mm, assumed.",
 )
 RUBBER, ASPHALT = tl.Elastic(3e6, 0.5), tl.Elastic(5.4e9, 0.35)
 
 
-def profile_of(crown: float, shoulder: float, groove: float, edge: float) -> tl.TreadProfile:
+def profile_of(crown: float, shoulder: float, groove: float, edge: float) -> tl.tire.TreadProfile:
     """Five equal ribs with these measures, m."""
-    start = tl.TreadProfile.from_library("315/80R22.5")
+    start = tl.catalogue.tires["315/80R22.5"]
     grooves = treadload.tire.equal_ribs(start.width, 4, groove, 0.015, edge_radius=edge)
     grooves = tuple(replace(g, centre=round(g.centre, 5)) for g in grooves)
-    return replace(start, crown_radius=crown, shoulder_radius=shoulder, grooves=grooves, source=SOURCE, notes=NOTES)
+    texts = {"source": SOURCE, "notes": NOTES, "doubts": DOUBTS}
+    return replace(start, crown_radius=crown, shoulder_radius=shoulder, grooves=grooves, **texts)
 
 
-def footprint(profile: tl.TreadProfile) -> tuple[float, float]:
+def footprint(profile: tl.tire.TreadProfile) -> tuple[float, float]:
     """Contact area, m², and peak pressure, Pa, at 35 kN on 3 mm cells."""
     contact = tl.solve_contact(
         tl.Tire.from_profile(profile, material=RUBBER),
@@ -71,7 +75,7 @@ def misfit(scaled: np.ndarray) -> float:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true", help="replace the profile in the library")
+    parser.add_argument("--write", action="store_true", help="replace the profile in the catalogue")
     arguments = parser.parse_args()
     # Whole rows of cells come into contact at once, so the misfit has steps: search without derivatives.
     best = differential_evolution(misfit, [(-2, 2)] * 4, popsize=8, maxiter=15, rng=1, polish=False, init="sobol")
@@ -85,7 +89,7 @@ def main() -> None:
     print(f"{'area':20s} {area * 1e6:8.0f} mm²  (paper {AREA * 1e6:.0f}, {area / AREA - 1:+.1%})")
     print(f"{'peak pressure':20s} {peak / 1e3:8.0f} kPa  (paper {PEAK / 1e3:.0f}, {peak / PEAK - 1:+.1%})")
     if arguments.write:
-        path = Path(treadload.__file__).parent / "catalogue" / "data" / "treads" / "315_80R22.5.toml"
+        path = Path(treadload.__file__).parent / "catalogue" / "data" / "tires" / "315_80R22.5.toml"
         path.write_text(fitted.to_toml(), encoding="utf-8")
         print(f"written to {path}")
 

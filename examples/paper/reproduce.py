@@ -28,7 +28,7 @@ def contact_of(
     rolling: tl.Rolling, rubber: tl.Elastic = RUBBER, spacing: float = 3e-3, edge_radius: float | None = None
 ) -> tl.Contact:
     """Contact of the fitted tread on the paper's road; edge_radius of its grooves, m, where it is varied."""
-    profile = tl.TreadProfile.from_library("315/80R22.5")
+    profile = tl.catalogue.tires["315/80R22.5"]
     if edge_radius is not None:
         profile = replace(profile, grooves=tuple(replace(g, edge_radius=edge_radius) for g in profile.grooves))
     tire = tl.Tire.from_profile(profile, material=rubber)
@@ -75,7 +75,7 @@ def sensitivity() -> list[tuple[str, float, float, float, float]]:
         ("tire ν = 0.49", {"rubber": tl.Elastic(3e6, 0.49)}, 0.0),
         ("tire ν = 0.47", {"rubber": tl.Elastic(3e6, 0.47)}, 0.0),
         ("tire ν = 0.45", {"rubber": tl.Elastic(3e6, 0.45)}, 0.0),
-        ("tire E = 2.914 MPa (eq. 15)", {"rubber": tl.Elastic(tl.modulus_from_inflation(820e3), 0.5)}, 0.0),
+        ("tire E = 2.914 MPa (eq. 15)", {"rubber": tl.Elastic(tl.tire.modulus_from_inflation(820e3), 0.5)}, 0.0),
         ("sharp groove edges", {"edge_radius": 0.0}, 0.0),
     ]
     for name, change, depth in variants:
@@ -94,7 +94,7 @@ def main(folder: Path) -> dict[str, float]:
     measured = {
         "area": static.area * 1e6,
         "peak": float(static.dataset.pressure.max()) / 1e3,
-        "modulus": tl.modulus_from_inflation(820e3) / 1e6,
+        "modulus": tl.tire.modulus_from_inflation(820e3) / 1e6,
         "free": free_3d,
         "tractive": tractive_3d,
         "free in plane": free_flat,

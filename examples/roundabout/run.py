@@ -31,13 +31,13 @@ LOAD, FRICTION = 32.5e3, 0.7
 RADIUS, SPEED = 12.0, 20 / 3.6
 STRUCTURE = "6 BBSG3 / 15 GB3 / PF3"
 # Each road with the fatigue line of its surface: the paper's, and the laboratory's of the mix, without calibration.
-MIX = tl.mix("EB-BBSG3")
+MIX = tl.catalogue.mixes["EB-BBSG3"]
 ROADS = {
     "the paper's asphalt": (tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.FatigueLine(120e-6, -0.2)),
     STRUCTURE: (tl.Pavement.from_catalogue(STRUCTURE, temperature=15), tl.FatigueLine(MIX.epsilon_6, MIX.slope)),
 }
 MANEUVERS = {
-    "straight": tl.STRAIGHT,
+    "straight": tl.contact.STRAIGHT,
     "uphill 6 %": tl.Maneuver.uphill(0.06, 0.25),
     "braking 3 m/s²": tl.Maneuver.braking(3.0),
     "locked": tl.Maneuver.braking(),
@@ -61,7 +61,7 @@ def contacts(spacing: float) -> dict[str, tl.Contact]:
     }
     standing = tl.Rolling(normal_load=LOAD, friction=FRICTION)
     angles = np.radians([1.0, 3.0, 6.0, 10.0, 15.0, 22.0, 30.0])
-    turned = tl.turn_on_the_spot(TIRE, road, standing, angles=angles, spacing=spacing)
+    turned = tl.contact.turn_on_the_spot(TIRE, road, standing, angles=angles, spacing=spacing)
     torque = float(turned.dataset.steering_torque[-1] / turned.dataset.sliding_torque)
     assert 0.99 < torque <= 1.0, "a wheel turned by 30° slides all over"
     return {**found, PARKING: turned.contact}

@@ -51,5 +51,6 @@ def how_to_install(extra: str) -> str:
 def nearest(asked: object, known: Iterable[str], otherwise: str = "known are", cutoff: float = 0.6) -> str:
     """What to say of an unknown name: "did you mean 'x'?", or all that are known. otherwise: words before these."""
     names = list(known)
-    near = difflib.get_close_matches(str(asked), names, n=1, cutoff=cutoff)
-    return f"did you mean {near[0]!r}?" if near else f"{otherwise} {', '.join(names)}"
+    by_letters = {name.casefold(): name for name in reversed(names)}
+    near = difflib.get_close_matches(str(asked).casefold(), by_letters, n=1, cutoff=cutoff)
+    return f"did you mean {by_letters[near[0]]!r}?" if near else f"{otherwise} {', '.join(names)}"

@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -108,19 +109,38 @@ def test_the_catalogue_tells_names_numbers_and_sources(monkeypatch):
     monkeypatch.setattr("treadload.cli._out", Console(width=200, highlight=False, soft_wrap=True))
     result = call("catalogue")
     assert result.exit_code == 0, result.output
-    for road in tl.structures().values():
+    for road in tl.catalogue.structures.values():
         assert road.name in result.stdout
-    for name in (*tl.mixes(), *tl.published_materials()):
+    for name in (*tl.catalogue.mixes, *tl.catalogue.materials):
         assert name in result.stdout
     # NF P98-086: E(15 °C, 10 Hz) and ε₆ of EB-GB3.
     assert "E = 9000 MPa at 15 °C, ε₆ = 90 microstrain" in result.stdout
-    assert "[7] NF P98-086 (2019)" in result.stdout
+    (number,) = re.findall(r"\[(\d+)\] NF P98-086 \(2019\) as tabulated", result.stdout)
+    assert re.search(rf"EB-GB3 .*\[{number}\]", result.stdout)
+
+
+@pytest.mark.parametrize("kind", ["structures", "mixes", "materials", "tires"])
+def test_one_catalogue_and_one_of_its_things(kind):
+    known = getattr(tl.catalogue, kind)
+    shown = call("catalogue", kind)
+    assert shown.exit_code == 0, shown.output
+    assert shown.stdout.count("what it is") == 1
+    name = next(iter(known))
+    one = call("catalogue", kind, name)
+    assert one.stdout.startswith(f"{name}: ")
+    for text in (known[name].source, *known[name].doubts):
+        assert text in one.stdout
+
+
+def test_what_the_catalogue_does_not_have():
+    refused(call("catalogue", "mixs"), 2, "no catalogue of 'mixs'; did you mean 'mixes'?")
+    refused(call("catalogue", "mixes", "BBSG4"), 2, "no mix 'BBSG4'; did you mean 'BBSG")
 
 
 def test_names_of_the_catalogue_stay_whole_in_a_narrow_window(monkeypatch):
     monkeypatch.setattr("treadload.cli._out", Console(width=80, highlight=False, soft_wrap=True))
     result = call("catalogue")
-    for name in (*(road.name for road in tl.structures().values()), *tl.mixes()):
+    for name in (*tl.catalogue.structures, *tl.catalogue.mixes):
         assert name in result.stdout
 
 
@@ -252,7 +272,7 @@ def test_what_is_written_is_what_the_name_says(case, tmp_path):
 
 def test_a_suffix_that_is_not_known_is_refused_before_the_work(case, tmp_path, monkeypatch):
     monkeypatch.setattr("treadload.study.run_case", None)
-    monkeypatch.setattr("treadload.study.run_design", None)
+    monkeypatch.setattr("treadload.study.run_life", None)
     monkeypatch.setattr("treadload.tire.Tire.from_scan", None)
     known = (".nc", ".csv", ".xlsx")
     refused(call("run", case, "-o", tmp_path / "r.json"), 2, ".json", *known)

@@ -47,4 +47,4 @@ def test_the_case_file_is_the_maneuver():
     assert written.forces == pytest.approx(turn.forces, rel=1e-4)
     assert written.spin == pytest.approx(turn.spin, rel=1e-4)
     assert case.pavement.build() == tl.Pavement.from_catalogue(STRUCTURE, temperature=15)
-    assert math.isclose(case.damage.fatigue.epsilon_6, tl.mix("EB-BBSG3").epsilon_6)
+    assert math.isclose(case.damage.fatigue.epsilon_6, tl.catalogue.mixes["EB-BBSG3"].epsilon_6)

@@ -24,6 +24,7 @@ import treadload as tl
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.layered import Stack, Transfer, transfer
+from treadload.pavement import HALF_BONDED
 from treadload.pavement.stack import stack_of
 from treadload.response import GridLoad
 
@@ -132,7 +133,7 @@ def random_road(rng: np.random.Generator) -> tl.Pavement:
         bond: object = tl.BONDED
         if number < count - rigid:
             spring = tl.Bond(float(10 ** rng.uniform(6, 13)))
-            bond = [tl.BONDED, tl.HALF_BONDED, spring, tl.FRICTIONLESS][rng.choice(4, p=[0.45, 0.1, 0.2, 0.25])]
+            bond = [tl.BONDED, HALF_BONDED, spring, tl.FRICTIONLESS][rng.choice(4, p=[0.45, 0.1, 0.2, 0.25])]
         layers.append(tl.Layer(material, None if last else float(10 ** rng.uniform(-3, math.log10(20))), bond=bond))
     return tl.Pavement(layers, rigid_base=rigid)
 

@@ -25,7 +25,7 @@ from fuzz.runner import REFUSED, TAKEN, Refusal, WrongAnswer, ask
 from treadload.case import Case, LifeCase
 from treadload.reporting import write_report
 from treadload.results import load, save
-from treadload.study import run_case, run_design
+from treadload.study import run_case, run_life
 
 # One in so many is a file, has figures, has them drawn: a drawing takes a second, the rest of a report a twentieth.
 FILES, FIGURES, DRAWN = 12, 10, 60
@@ -145,7 +145,7 @@ def _bases() -> list[xr.DataTree]:
         return [
             _small(run_case(Case.from_text(_COARSE)).to_tree()),
             _small(run_case(Case.from_text(slow, folder=folder)).to_tree()),
-            _small(run_design(LifeCase.from_text(_LIFE)).to_tree()),
+            _small(run_life(LifeCase.from_text(_LIFE)).to_tree()),
         ]
 
 

@@ -5,7 +5,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from treadload.contact import (
+from treadload.contact.bodies.half_space import HalfSpaces
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.friction import (
     Anisotropic,
     Exponential,
     FlashHeating,
@@ -15,8 +17,6 @@ from treadload.contact import (
     PressureDependent,
     Rational,
 )
-from treadload.contact.bodies.half_space import HalfSpaces
-from treadload.contact.bodies.influence import Influence
 from treadload.contact.friction.laws import Interface
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.contact.solvers.slipping import solve_slipping

@@ -89,7 +89,7 @@ def test_the_spring_between_layers(stiffness):
 
 def test_half_bonded_is_the_mean_of_two_roads():
     # Interfaces switch together: two roads, not four.
-    half = road(tl.HALF_BONDED, tl.HALF_BONDED)
+    half = road(tl.pavement.HALF_BONDED, tl.pavement.HALF_BONDED)
     points = {"depths": [0.0, 0.06, 0.21], "x": [-0.05, 0.1], "y": [0.0]}
     pressed = tl.UniformRectangle(0.2, 0.1, 5e5)
     found = tl.solve_response(pressed, half, **points).dataset
@@ -109,7 +109,7 @@ def test_half_bonded_is_the_mean_of_two_roads():
 
 
 def test_half_bonded_layers_of_one_material_slide_in_one_of_two_roads():
-    built = tl.Pavement([tl.Layer(ASPHALT, 0.1, bond=tl.HALF_BONDED), tl.Layer(ASPHALT)])
+    built = tl.Pavement([tl.Layer(ASPHALT, 0.1, bond=tl.pavement.HALF_BONDED), tl.Layer(ASPHALT)])
     points = {"depths": [0.0, 0.1], "x": [0.0], "y": [0.0]}
     found, whole, free = (
         tl.solve_response(tl.UniformDisc(0.1, 5e5), one, **points)

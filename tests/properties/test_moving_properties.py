@@ -15,7 +15,7 @@ KINDS += [f"displacement_{c}" for c in "xyz"]
 ODD = {f"{kind}_{c}" for kind in ("stress", "strain") for c in ("xy", "yz")} | {"displacement_y"}
 
 solids = st.builds(
-    lambda shares, slow, poisson: tl.Prony(
+    lambda shares, slow, poisson: tl.materials.Prony(
         9e9, tuple(zip(0.95 * np.array(shares) / max(1.0, sum(shares)), (slow, 9 * slow), strict=True)), poisson
     ),
     st.tuples(st.floats(0.05, 0.9), st.floats(0.05, 0.9)),

@@ -10,10 +10,11 @@ from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.viscoelastic import rolling_pair
 from treadload.errors import InputError
+from treadload.materials import Prony
 from treadload.validation.viscoelastic import smooth_tire
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
-RUBBER = tl.Prony(10e6, ((0.3, 1e-3), (0.4, 2e-2)), 0.45)
+RUBBER = Prony(10e6, ((0.3, 1e-3), (0.4, 2e-2)), 0.45)
 CELL, LOAD = 0.012, 10e3
 
 
@@ -43,7 +44,7 @@ def solve(material, speed, gap, tractive=2e3, **rolling):
 )
 @settings(max_examples=15, deadline=None)
 def test_conditions_of_contact_and_energy(seed, speed, force, poisson, spin):
-    contact = solve(tl.Prony(10e6, ((0.3, 1e-3), (0.4, 2e-2)), poisson), speed, tread(seed), force, spin=spin)
+    contact = solve(Prony(10e6, ((0.3, 1e-3), (0.4, 2e-2)), poisson), speed, tread(seed), force, spin=spin)
     d = contact.dataset
     pressure, gap = d.pressure.values, d.gap.values
     scale = float(d.approach)
@@ -89,7 +90,7 @@ def test_slow_and_fast_rolling_are_elastic():
 def test_pressure_moves_ahead_and_rolling_costs_work():
     previous = None
     for speed in (0.3, 3.0, 30.0):
-        resistance = tl.rolling_resistance(smooth_tire(speed, 0.012), 0.5)
+        resistance = tl.contact.rolling_resistance(smooth_tire(speed, 0.012), 0.5)
         assert resistance.pressure_centre_x > 1e-3
         assert resistance.force > 0
         # Driven: creep in the rubber costs more than the pressure alone.
@@ -108,7 +109,7 @@ def test_an_elastic_tire_loses_nothing_but_the_error_of_its_cells():
             c[None, :] ** 2 + c[:, None] ** 2 / 1.2, spacing, material=tl.Elastic(3e6, 0.45)
         )
         wheel = tl.Rolling(normal_load=LOAD, friction=0.7, tractive_force=-3e3)
-        x[spacing] = tl.rolling_resistance(tl.solve_contact(tire, ROAD, wheel), 0.5)
+        x[spacing] = tl.contact.rolling_resistance(tl.solve_contact(tire, ROAD, wheel), 0.5)
     # Here R = 0.5 m is that of the tread. The slip operator is upwind: first order.
     assert x[0.006].material_loss == pytest.approx(0.5 * x[0.012].material_loss, rel=0.15)
     assert abs(x[0.006].material_loss) < 5e-3 * LOAD
@@ -126,14 +127,14 @@ def test_mirror_in_y():
 
 def test_only_speed_times_memory_counts():
     gap = tread(7)
-    slow = tl.Prony(RUBBER.modulus, tuple((g, 10 * t) for g, t in RUBBER.terms), RUBBER.poisson)
+    slow = Prony(RUBBER.modulus, tuple((g, 10 * t) for g, t in RUBBER.terms), RUBBER.poisson)
     one, other = solve(RUBBER, 20.0, gap).dataset, solve(slow, 2.0, gap).dataset
     np.testing.assert_allclose(one.pressure, other.pressure, atol=1e-6 * float(one.pressure.max()))
 
 
 def test_operators_of_a_solid_without_memory_are_the_elastic_ones():
     shape, dx, dy = (6, 9), 0.01, 0.02
-    tire = tl.Prony(3e6, ((1e-12, 1.0),), 0.4)
+    tire = Prony(3e6, ((1e-12, 1.0),), 0.4)
     found = Influence(shape, dx, dy, rolling_pair(tire, ROAD.surface_material, 1.0))
     exact = Influence(shape, dx, dy, HalfSpaces.of(tire.glassy, ROAD.surface_material))
     rng = np.random.default_rng(0)
@@ -164,7 +165,7 @@ def test_two_viscoelastic_bodies_are_softer_than_one():
     ("material", "speed", "word"),
     [
         (RUBBER, None, "speed"),
-        (tl.Prony.maxwell(3e6, 0.1, 0.5), 10.0, "rut"),
+        (Prony.maxwell(3e6, 0.1, 0.5), 10.0, "rut"),
     ],
 )
 def test_refused(material, speed, word):
@@ -179,4 +180,4 @@ def test_speed_must_be_positive():
         with pytest.raises(InputError, match="speed"):
             Influence((3, 3), 0.01, 0.01, rolling_pair(RUBBER, ROAD.surface_material, speed))
     with pytest.raises(InputError, match="radius"):
-        tl.rolling_resistance(smooth_tire(3.0, 0.012), 0.0)
+        tl.contact.rolling_resistance(smooth_tire(3.0, 0.012), 0.0)

@@ -73,7 +73,7 @@ def test_spin_of_an_elastic_wheel_loses_only_what_friction_takes():
     for spacing in (SPACING, SPACING / 2):
         tire, road = paraboloid(spacing, Elastic(1e6, 0.5)), Pavement.half_space(Elastic(5.4e9, 0.5))
         contact = tl.solve_contact(tire, road, wheel(spin=1.0))
-        losses.append(tl.rolling_resistance(contact, 0.35).material_loss)
+        losses.append(tl.contact.rolling_resistance(contact, 0.35).material_loss)
     taken = float(contact.dataset.friction_work_total)
     assert taken > 40
     # Upwind differences of slip are of first order in the cell, so two cells tell the limit.

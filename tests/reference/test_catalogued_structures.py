@@ -37,11 +37,11 @@ def test_the_semi_rigid_structure_gives_the_printed_stresses():
 
 def test_a_hot_road_bends_more():
     # A profile of a summer afternoon: every bituminous layer at its own middle.
-    hot = tl.TemperatureProfile([0.0, 0.21], [45.0, 30.0])
+    hot = tl.pavement.TemperatureProfile([0.0, 0.21], [45.0, 30.0])
     road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
     moduli = [layer.elastic.modulus for layer in road.at_temperature(hot, extrapolate=True).layers[:2]]
     expected = [
-        tl.mix(name).modulus(45 - 15 * middle / 0.21, extrapolate=True)
+        tl.catalogue.mixes[name].modulus(45 - 15 * middle / 0.21, extrapolate=True)
         for name, middle in (("EB-BBSG3", 0.03), ("EB-GB3", 0.135))
     ]
     assert moduli == pytest.approx(expected, rel=1e-12)

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 import treadload as tl
+from treadload.catalogue import mixes
+from treadload.damage import FrenchSubgrade
 from treadload.damage.criteria.design import DesignCriterion
 
 TABLES = json.loads((Path(__file__).parents[1] / "data" / "layered" / "nf_p98_086_table_I5.json").read_text())
@@ -36,11 +38,11 @@ def test_table_one_is_the_strain_on_top_of_the_gravel():
     table = TABLES["table_I1"]
     structure, printed = table["structure"], table["published"]["eps_z_microstrain"]
     road = built(structure["E_MPa"], structure["nu"], structure["h_m"])
-    under, between = read(DesignCriterion("gravel", tl.FrenchSubgrade(), 1, "top"), road)
+    under, between = read(DesignCriterion("gravel", FrenchSubgrade(), 1, "top"), road)
     # Half a unit of the printed digit.
     assert under == pytest.approx(printed, abs=0.05)
     assert between < 100
-    assert read(DesignCriterion("soil", tl.FrenchSubgrade(), 2, "top"), road)[0] == pytest.approx(1812, abs=0.5)
+    assert read(DesignCriterion("soil", FrenchSubgrade(), 2, "top"), road)[0] == pytest.approx(1812, abs=0.5)
 
 
 # 0.45 for the hot mixes and 0.35 for the rest: of 0.25 to 0.5 in steps of 0.05 for mixes, gravel and soil, the only
@@ -50,8 +52,8 @@ RUN = built([1512, 2588, 200, 50], [0.45, 0.45, 0.35, 0.35], [0.06, 0.10, 0.25])
 
 def test_strains_of_the_run_of_a_second_program():
     """290.58 at the base of the mixes, 891.5 on top of the soil at 0.41 m, which is a sum of three decimals."""
-    base = DesignCriterion("base", tl.FrenchBituminous(90e-6, -0.2, 0.3, 0.16, 0.25, 1.3), 1)
-    soil = DesignCriterion("soil", tl.FrenchSubgrade(), -1, "top")
+    base = DesignCriterion("base", tl.damage.FrenchBituminous(90e-6, -0.2, 0.3, 0.16, 0.25, 1.3), 1)
+    soil = DesignCriterion("soil", FrenchSubgrade(), -1, "top")
     assert read(base, RUN).max() == pytest.approx(290.58, rel=1e-3)
     assert read(soil, RUN).max() == pytest.approx(891.5, rel=3e-3)
 
@@ -67,32 +69,39 @@ def test_the_top_of_the_soil_is_met_by_its_printed_depth(depth):
 
 def test_allowable_strains_of_the_run_of_a_second_program():
     """The Sh of 16 cm, all the asphalt: with that of the 10 cm of GB3 the law would allow 210.4."""
-    mix = tl.mix("EB-GB3")
+    mix = mixes["EB-GB3"]
     road = tl.Pavement(
         [
-            tl.Layer(tl.mix("EB-BBSG3"), 0.06),
+            tl.Layer(mixes["EB-BBSG3"], 0.06),
             tl.Layer(mix, 0.10),
-            tl.Layer(tl.mix("GNT3"), 0.25),
-            tl.Layer(tl.mix("PF2")),
+            tl.Layer(mixes["GNT3"], 0.25),
+            tl.Layer(mixes["PF2"]),
         ]
     )
     ratio = mix.modulus(10.0) / 2588e6
 
     def allowed(thickness):
         # The risk of 25 % is the only one of the method that meets it.
-        law = tl.FrenchBituminous(
-            mix.epsilon_6, mix.slope, mix.scatter, thickness, 0.25, mix.calibration, ratio, tl.mix("GNT3").modulus
+        law = tl.damage.FrenchBituminous(
+            mix.epsilon_6,
+            mix.slope,
+            mix.scatter,
+            thickness,
+            0.25,
+            mix.calibration,
+            ratio,
+            mixes["GNT3"].modulus,
         )
         return 1e6 * law.allowable_strain(AXLES)
 
     # The program's quantile of 25 % is 0.674, rounded: 9e-5 of the strain.
-    assert allowed(tl.bituminous_thickness(road, 1)) == pytest.approx(205.668, rel=1e-4)
+    assert allowed(tl.pavement.bituminous_thickness(road, 1)) == pytest.approx(205.668, rel=1e-4)
     assert allowed(0.10) == pytest.approx(210.45, abs=0.005)
 
 
 def test_allowable_compression_of_the_run_of_a_second_program():
     """The exponent -1/4.5 = -0.2222 of the older guide, and -0.222 of the standard."""
-    older = tl.FrenchSubgrade(slope=-1 / 4.5)
+    older = FrenchSubgrade(slope=-1 / 4.5)
     # Half a unit of the last printed digit.
     assert 1e6 * older.allowable_strain(AXLES) == pytest.approx(511.50, abs=0.005)
-    assert 1e6 * tl.FrenchSubgrade().allowable_strain(AXLES) == pytest.approx(513.11, abs=0.005)
+    assert 1e6 * FrenchSubgrade().allowable_strain(AXLES) == pytest.approx(513.11, abs=0.005)

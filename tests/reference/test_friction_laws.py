@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import integrate, special
 
-from treadload.contact import (
+from treadload.contact.friction import (
     Anisotropic,
     Coulomb,
     Exponential,

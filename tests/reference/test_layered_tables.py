@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.pavement import HALF_BONDED
 
 FOLDER = Path(__file__).parents[1] / "data" / "layered"
 AMADEUS, ELLEA, FRENCH = (
@@ -128,7 +129,7 @@ def test_french_table():
             for key, exact in fine.items():
                 largest = 1.0 if key[0] == "s" else 100.0
                 assert abs(float(values(point, key)) - exact) <= CLOSE * largest, (name, key)
-    built = road(structure["h_m"], structure["E_MPa"], structure["nu"], [tl.BONDED, tl.HALF_BONDED, tl.BONDED])
+    built = road(structure["h_m"], structure["E_MPa"], structure["nu"], [tl.BONDED, HALF_BONDED, tl.BONDED])
     half = {side: tl.solve_response(loads, built, side=side, **arguments).dataset for side in ("above", "below")}
     table = FRENCH["high_accuracy"]
     for (x, _, z, side), fine in zip(table["points"], table["semi_bonded_mean"], strict=True):

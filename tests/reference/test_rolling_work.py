@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from treadload.catalogue import tires
 from treadload.contact.bodies.half_space import HalfSpaces, combined
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.normal import solve_normal
@@ -12,13 +13,13 @@ from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.grid import Grid
 from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.materials import Elastic
-from treadload.tire import LateralGrooves, Tire, TreadProfile
+from treadload.tire import LateralGrooves, Tire
 from treadload.validation.patches import paraboloid
 
 MOST_PRODUCTS = 100
 GRIDS = [64, 128, 256, pytest.param(512, marks=pytest.mark.slow)]
 
-RIBS = TreadProfile.from_library("315/80R22.5")
+RIBS = tires["315/80R22.5"]
 LUGS = replace(
     RIBS, lateral=(LateralGrooves(pitch=0.06, width=0.012, depth=0.012, wall_angle=0.1, edge_radius=0.002),)
 )

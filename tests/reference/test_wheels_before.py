@@ -7,7 +7,7 @@ import treadload as tl
 from treadload.damage.criteria.fields import compute_criteria
 from treadload.damage.history import residual_after
 
-MIX = tl.Prony(2e10, ((0.3, 1e-3), (0.3, 1e-2), (0.2, 0.1), (0.15, 1.0)), 0.35)
+MIX = tl.materials.Prony(2e10, ((0.3, 1e-3), (0.3, 1e-2), (0.2, 0.1), (0.15, 1.0)), 0.35)
 ROAD = tl.Pavement([tl.Layer(MIX, 0.1), tl.Layer(tl.Elastic(1e8, 0.35))])
 SPEED, DEPTH = 20.0, [0.09]
 

@@ -66,7 +66,7 @@ def test_an_incompressible_layer_on_rock_is_solved(poisson):
     assert math.isfinite(float(one["strain_zz"].sum()))
 
 
-@pytest.mark.parametrize("top", [ASPHALT, tl.Prony(5e9, ((1e-9, 1e-3),), 0.35)], ids=["elastic", "moving"])
+@pytest.mark.parametrize("top", [ASPHALT, tl.materials.Prony(5e9, ((1e-9, 1e-3),), 0.35)], ids=["elastic", "moving"])
 def test_a_loose_course_over_an_incompressible_one_on_rock(top):
     """Waves of kilometres press 15 m that keep their volume through 5 mm: stress is that of almost the same road."""
 

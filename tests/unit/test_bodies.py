@@ -15,7 +15,7 @@ from treadload.kernels.layers.layered import Stack
 from treadload.registry import MATERIALS
 
 RUBBER, ASPHALT = tl.Elastic(3e6, 0.45), tl.Elastic(5.4e9, 0.35)
-SOLID = tl.Prony.standard_linear_solid(4e6, 3e6, 5e-3, 0.45)
+SOLID = tl.materials.Prony.standard_linear_solid(4e6, 3e6, 5e-3, 0.45)
 STACK = Stack([2.5e9, 1e8, 4e7], [0.35, 0.3, 0.45], [0.04, 0.1, math.inf], [1e9, math.inf])
 TIRE = HalfSpaces.of(tl.Elastic(1e9, 0.3), None)
 LAYERED = Sum.of(TIRE, layered_road(STACK))

@@ -136,7 +136,7 @@ def test_the_first_case_is_one_and_names_every_key_of_its_tables(kind):
 def test_the_first_cases_run(tmp_path):
     result = tl.run_case(Case.from_text(first_case("run")))
     assert result.verdict is not None
-    life = tl.run_design(LifeCase.from_text(first_case("life")), sensitivity=False)
+    life = tl.run_life(LifeCase.from_text(first_case("life")), sensitivity=False)
     assert len(life.life.criteria) == 3
 
 

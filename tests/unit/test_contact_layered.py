@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.catalogue import mixes
 from treadload.contact.bodies import layers as layered
 from treadload.contact.bodies.body import Sum
 from treadload.contact.bodies.half_space import HalfSpaces
@@ -14,7 +15,6 @@ from treadload.contact.bodies.layers import Layering, images_of
 from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.kernels.layers.images import surface_compliance
 from treadload.kernels.layers.layered import Stack
-from treadload.materials import mix
 
 STACK = Stack([2.5e9, 1e8, 4e7], [0.35, 0.3, 0.45], [0.04, 0.1, math.inf], [1e9, math.inf])
 BODIES = CombinedElasticity.of(4e7, 0.45, STACK.shear[0], STACK.poisson[0])
@@ -160,7 +160,7 @@ def test_refused():
 @pytest.mark.parametrize(("speed", "limit"), [(1e-7, "rubbery"), (1e9, "glassy")])
 def test_a_tire_that_remembers_on_layers(speed, limit):
     """Rolling slowly and fast it is one of its elastic limits, on layers that make a third of the compliance."""
-    solid = tl.Prony.standard_linear_solid(2e11, 1e11, 5e-3, 0.3)
+    solid = tl.materials.Prony.standard_linear_solid(2e11, 1e11, 5e-3, 0.3)
     x = 2e-3 * (np.arange(24) - 11.5)
     gap = (x[None, :] ** 2 + x[:, None] ** 2) / (2 * 0.1)
     wheel = tl.Rolling(normal_load=300.0, friction=0.5, tractive_force=60.0, speed=speed)
@@ -179,12 +179,12 @@ def test_a_tire_that_remembers_on_layers(speed, limit):
 
 
 def test_layers_that_are_no_elastic_stack_are_refused():
-    soft = tl.Prony.standard_linear_solid(4e9, 3e9, 5e-3, 0.35)
+    soft = tl.materials.Prony.standard_linear_solid(4e9, 3e9, 5e-3, 0.35)
     wearing = tl.Layer(tl.Elastic(7e9, 0.35), 0.06, "wearing course")
     layers = tl.Pavement([wearing, tl.Layer(soft, name="binder")])
     with pytest.raises(tl.InputError, match=r"layer 'binder' is viscoelastic .* \.glassy"):
         contact(STEEL, layers, road_compliance="layers")
-    half = road(tl.HALF_BONDED)
+    half = road(tl.pavement.HALF_BONDED)
     with pytest.raises(tl.InputError, match=r"below layer 'wearing course' is half-bonded.*road\.bond_limits"):
         contact(STEEL, half, road_compliance="layers")
     # As a half-space both serve, and the share is that of the stiff limit.
@@ -192,7 +192,7 @@ def test_layers_that_are_no_elastic_stack_are_refused():
     assert contact(STEEL, half).stats["road_share"] == pytest.approx(bonded, rel=1e-12)
     assert contact(STEEL, layers).stats["road_share"] > 0.9
     # A layer that waits for its temperature has no share yet.
-    waiting = tl.Pavement([wearing, tl.Layer(mix("EB-GB3"), 0.15, "base"), tl.Layer(tl.Elastic(1e8, 0.35))])
+    waiting = tl.Pavement([wearing, tl.Layer(mixes["EB-GB3"], 0.15, "base"), tl.Layer(tl.Elastic(1e8, 0.35))])
     assert "road_share" not in contact(STEEL, waiting).stats
     assert "road  " not in contact(STEEL, waiting).summary()
 

@@ -78,7 +78,7 @@ def test_a_start_brings_its_grid_and_not_its_creepage():
 @pytest.mark.parametrize("friction", [1.0, 2.0])
 def test_the_strongest_coupling_settles(friction):
     """ν = 0 on a hard road: Dundurs' β = 0.5, where plain alternation circles for μ = 2."""
-    smooth = replace(tl.TreadProfile.from_library("315/80R22.5"), grooves=())
+    smooth = replace(tl.catalogue.tires["315/80R22.5"], grooves=())
     tire = tl.Tire.from_profile(smooth, material=tl.Elastic(3e6, 0.0))
     state = tl.Rolling(normal_load=32.5e3, friction=friction, tractive_force=10e3)
     contact = tl.solve_contact(tire, ROAD, state, spacing=12e-3)

@@ -7,8 +7,8 @@ import treadload as tl
 from treadload.tire.modulus import modulus_doubt
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
-SEDAN = tl.TreadProfile(0.317, 0.8, 0.18, 0.01)
-ROBOT = tl.TreadProfile(0.15, 0.3, 0.08, 0.005)
+SEDAN = tl.tire.TreadProfile(0.317, 0.8, 0.18, 0.01)
+ROBOT = tl.tire.TreadProfile(0.15, 0.3, 0.08, 0.005)
 
 
 def said(tire, load):

@@ -16,7 +16,7 @@ from treadload.materials import Elastic
 from treadload.pavement import FRICTIONLESS, Bond, Layer, Pavement
 from treadload.response import UniformRectangle, solve_response
 from treadload.study.delamination import AFTER, BEFORE, PARTING, compare_bonds, solve_interfaces
-from treadload.study.life import design_life
+from treadload.study.life import solve_life
 from treadload.tire import Tire
 
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
@@ -81,9 +81,9 @@ def test_two_phases_add_up_to_one_and_lie_between_their_lives(before, after, cha
 
 
 def test_both_lives_are_those_of_their_roads(compared):
-    bonded = design_life(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, **COARSE)
+    bonded = solve_life(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, **COARSE)
     free = Pavement([Layer(Elastic(7e9, 0.35), 0.06, bond=FRICTIONLESS), *ROAD.layers[1:]])
-    parted = design_life(TIRE, free, TRAFFIC, CLIMATE, CRITERIA, **COARSE)
+    parted = solve_life(TIRE, free, TRAFFIC, CLIMATE, CRITERIA, **COARSE)
     data = compared.dataset
     for state, life in ((BEFORE, bonded), (AFTER, parted)):
         for name in ("life_passes", "life_years", "largest_reading"):

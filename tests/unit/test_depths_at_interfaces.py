@@ -87,7 +87,7 @@ def test_the_rigid_base_is_met_within_round_off():
 
 
 def test_under_a_moving_load_too():
-    asphalt = tl.Prony(5e9, ((0.3, 1e-3), (0.3, 0.1)), 0.35)
+    asphalt = tl.materials.Prony(5e9, ((0.3, 1e-3), (0.3, 0.1)), 0.35)
     road = tl.Pavement([tl.Layer(asphalt, 0.02) for _ in range(19)] + [tl.Layer(SOFT)])
     exact = float(road.interfaces[18])
     found = [at(road, depth, "below", speed=10.0).dataset.stress_xx.item() for depth in (0.38, exact)]

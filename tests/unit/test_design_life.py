@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.catalogue import mixes
 from treadload.contact.maneuver import Maneuver
 from treadload.damage import (
     BondCriterion,
@@ -25,7 +26,7 @@ from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import solve_response
-from treadload.study.life import design_life
+from treadload.study.life import solve_life
 from treadload.study.passages import solve_passages
 from treadload.tire import Groove, Tire, TreadProfile
 
@@ -84,7 +85,7 @@ def test_the_readings_are_those_of_the_response():
 def test_heavier_wheels_live_shorter_and_wander_lives_longer():
     def lives(load, wander):
         traffic = Traffic((AxleClass("one", 1.0, load, 820e3),), 1e5, wander=wander)
-        life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA, **COARSE)
+        life = solve_life(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA, **COARSE)
         return life.dataset["life_years"].to_numpy()
 
     light, heavy, spread = lives(25e3, Wander()), lives(40e3, Wander()), lives(40e3, Wander.normal(0.25))
@@ -98,7 +99,7 @@ def test_seasons_of_layers_and_laws_that_follow_them():
     seasons = Climate((Season("winter", 0.5, (0.0, 4.0, 8.0)), Season("summer", 0.5, (35.0, 28.0, 15.0))))
     law = lambda temperature: FatigueLine((80 + temperature) * 1e-6, -0.2)  # noqa: E731
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5)
-    life = design_life(TIRE, ROAD, traffic, seasons, (DesignCriterion("base", law, 1),), **COARSE)
+    life = solve_life(TIRE, ROAD, traffic, seasons, (DesignCriterion("base", law, 1),), **COARSE)
     assert life.stats["responses"] == 2
     assert 0 < life.years("base") < math.inf
     assert "solved: 1 contacts and 2 responses" in life.summary()
@@ -153,7 +154,7 @@ def test_bonds_are_criteria_and_follow_their_temperature():
 def test_a_bond_that_parts_at_once_lives_no_pass():
     bond = BondCriterion("bond", InterfaceStrength(0.0), ShearFatigue(-0.2))
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5, wander=Wander.normal(0.2))
-    life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), (bond, CRITERIA[1]), **COARSE)
+    life = solve_life(TIRE, ROAD, traffic, Climate.constant(15.0), (bond, CRITERIA[1]), **COARSE)
     assert life.governing == "bond"
     assert life.years("bond") < 1e-9
     assert math.isfinite(life.years("base"))
@@ -165,7 +166,7 @@ def test_axles_far_apart_are_as_many_cycles():
     lives = {}
     for name, wheels in (("one", ((0.0, 0.0),)), ("three", ((-6.0, 0.0), (0.0, 0.0), (6.0, 0.0)))):
         traffic = Traffic((AxleClass(name, 1.0, 32.5e3, 820e3, wheels),), 1e5)
-        lives[name] = design_life(TIRE, road, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+        lives[name] = solve_life(TIRE, road, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
     ratio = lives["one"].dataset["life_passes"].item() / lives["three"].dataset["life_passes"].item()
     # Strain falls like the inverse square of the distance: (0.1 / 6)² of the largest is left of each of two axles at
     # 6 m, which the slope of the law takes five times.
@@ -182,30 +183,30 @@ def test_a_wheel_moves_by_half_a_cell_at_most():
 def test_a_braked_wheel_tears_the_surface_across_travel():
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3, maneuver=Maneuver.braking(5.0)),), 1e5)
     plane = (DesignCriterion("top-down", FatigueLine(100e-6, -0.2), 0, "top"),)
-    life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), plane, **COARSE)
+    life = solve_life(TIRE, ROAD, traffic, Climate.constant(15.0), plane, **COARSE)
     assert life.dataset["orientation_damage"].sel(orientation="transverse").item() > 0.9
     assert abs(life.dataset["first_crack_angle"].item()) == pytest.approx(math.pi / 2, abs=math.radians(15))
 
 
 def test_two_lifts_live_as_long_as_one_and_the_upper_says_that_it_is_none():
     """2 x 10 cm of GB3 and 1 x 20 cm: the same strain at the base, and the same scatter of the thickness."""
-    mix, soil = tl.mix("EB-GB3"), tl.mix("PF3")
+    mix, soil = mixes["EB-GB3"], mixes["PF3"]
     roads = {
-        "one": Pavement([Layer(tl.mix("EB-BBSG3"), 0.06), Layer(mix, 0.20), Layer(soil)]),
-        "two": Pavement([Layer(tl.mix("EB-BBSG3"), 0.06), Layer(mix, 0.10), Layer(mix, 0.10), Layer(soil)]),
+        "one": Pavement([Layer(mixes["EB-BBSG3"], 0.06), Layer(mix, 0.20), Layer(soil)]),
+        "two": Pavement([Layer(mixes["EB-BBSG3"], 0.06), Layer(mix, 0.10), Layer(mix, 0.10), Layer(soil)]),
     }
     traffic, climate = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5), Climate.constant(15.0)
     lives = {}
     for name, road in roads.items():
         law = FrenchBituminous.of(
-            mix, thickness=tl.bituminous_thickness(road, 1), risk=0.05, platform_modulus=soil.modulus
+            mix, thickness=tl.pavement.bituminous_thickness(road, 1), risk=0.05, platform_modulus=soil.modulus
         )
         base = DesignCriterion("base", law, -2)
-        lives[name] = design_life(TIRE, road, traffic, climate, (base,), **COARSE)
+        lives[name] = solve_life(TIRE, road, traffic, climate, (base,), **COARSE)
         assert not any("lift" in text for text in lives[name].warnings)
     # The same layers to the solver; round-off of the thickness.
     assert lives["two"].years("base") == pytest.approx(lives["one"].years("base"), rel=1e-9)
-    upper = design_life(TIRE, roads["two"], traffic, climate, (DesignCriterion("base", law, 1),), **COARSE)
+    upper = solve_life(TIRE, roads["two"], traffic, climate, (DesignCriterion("base", law, 1),), **COARSE)
     (said,) = [text for text in upper.warnings if "lift" in text]
     assert said.startswith("base: it reads the bottom of layer 2, but a lift of the same mix lies below")
     assert "that of layer 3" in said
@@ -264,10 +265,10 @@ def test_the_harm_of_an_axle_in_its_group_is_printed_beside_the_french_factor():
     """K by two lives: that of the group, and that of one of its axles."""
     wheels = ((-1.31, 0.0), (0.0, 0.0), (1.31, 0.0))
     climate = Climate.constant(15.0)
-    group = design_life(
+    group = solve_life(
         TIRE, ROAD, Traffic((AxleClass("tridem", 1.0, 39e3, 850e3, wheels),), 1e5), climate, CRITERIA, **COARSE
     )
-    alone = design_life(
+    alone = solve_life(
         TIRE, ROAD, Traffic((AxleClass("single", 1.0, 39e3, 850e3),), 1e5), climate, CRITERIA, **COARSE
     )
     factor = group.dataset["group_factor"].sel(axle_class="tridem")

@@ -24,7 +24,7 @@ def column(rows, heading):
 
 
 def test_a_case_becomes_a_table_for_each_group(coarse_result, tmp_path):
-    files = tl.write_csv(coarse_result, tmp_path / "r.csv")
+    files = tl.results.write_csv(coarse_result, tmp_path / "r.csv")
     names = [path.name for path in files]
     assert names[:2] == ["r_contact.csv", "r_contact_scalars.csv"]
     assert {"r_response.csv", "r_slice_along.csv", "r_damage.csv", "r_about.csv"} <= set(names)
@@ -47,7 +47,7 @@ def test_a_case_becomes_a_table_for_each_group(coarse_result, tmp_path):
 
 
 def test_scalars_say_what_they_are(coarse_result, tmp_path):
-    files = tl.write_csv(coarse_result.contact, tmp_path / "c.csv")
+    files = tl.results.write_csv(coarse_result.contact, tmp_path / "c.csv")
     assert [path.name for path in files] == ["c.csv", "c_scalars.csv"]
     rows = {row[0]: row for row in rows_of(files[1])}
     assert rows["quantity"] == ["quantity", "value", "unit", "meaning"]
@@ -58,7 +58,7 @@ def test_scalars_say_what_they_are(coarse_result, tmp_path):
 def test_the_about_table_holds_the_case_and_what_was_warned(coarse_result, tmp_path):
     tree = coarse_result.to_tree()
     tree["contact"].attrs["warnings"] = json.dumps(["mind the gap"])
-    tl.write_csv(tree, tmp_path / "r.csv")
+    tl.results.write_csv(tree, tmp_path / "r.csv")
     about = {tuple(row[:2]): row[2] for row in rows_of(tmp_path / "r_about.csv")}
     assert about["", "case"] == coarse_result.case.to_toml()
     assert json.loads(about["contact", "warnings"]) == ["mind the gap"]
@@ -68,7 +68,7 @@ def test_points_and_fields_without_coordinates_are_rows(tmp_path):
     at = [(0.0, 0.0), (0.1, 0.2)]
     road = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
     response = tl.solve_response(tl.UniformDisc(0.1, 7e5), road, depths=[0.05, 0.1], points=at)
-    rows = rows_of(tl.write_csv(response, tmp_path / "p.csv")[0])
+    rows = rows_of(tl.results.write_csv(response, tmp_path / "p.csv")[0])
     assert rows[0][:2] == ["depth [m]", "point"]
     assert {"x [m]", "y [m]"} <= set(rows[0])
     assert len(rows) == 1 + 4
@@ -77,7 +77,7 @@ def test_points_and_fields_without_coordinates_are_rows(tmp_path):
 
 def test_a_workbook_holds_the_same_numbers(coarse_result, tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
-    path = tl.write_excel(coarse_result, tmp_path / "r.xlsx")
+    path = tl.results.write_excel(coarse_result, tmp_path / "r.xlsx")
     book = openpyxl.load_workbook(path)
     assert book.sheetnames[:2] == ["contact", "contact_scalars"]
     assert book.sheetnames[-1] == "about"
@@ -96,7 +96,7 @@ def test_what_a_sheet_cannot_hold_is_kept_as_text(tmp_path):
         {"value": ("name", [1.5, np.nan, np.inf]), "note": ("name", ["=1+1", "a\x07b", "x" * 70_000])},
         {"name": ["a", "b", "c"]},
     )
-    sheet = openpyxl.load_workbook(tl.write_excel(data, tmp_path / "odd.xlsx")).active
+    sheet = openpyxl.load_workbook(tl.results.write_excel(data, tmp_path / "odd.xlsx")).active
     rows = list(sheet.values)
     assert rows[1] == ("a", 1.5, "=1+1")
     assert sheet["C2"].data_type == "s"
@@ -112,7 +112,7 @@ def test_a_life_is_told_by_criterion(tmp_path):
         "damage_per_year": (("criterion", "y"), np.arange(6.0).reshape(2, 3)),
     }
     data = dataset(fields, {"criterion": ["base", "soil"], "y": [0.0, 0.1, 0.2]})
-    files = tl.write_csv(xr.DataTree.from_dict({"/life": data}), tmp_path / "life.csv")
+    files = tl.results.write_csv(xr.DataTree.from_dict({"/life": data}), tmp_path / "life.csv")
     assert [path.name for path in files] == ["life.csv", "life_criterion_y.csv", "life_about.csv"]
     assert rows_of(files[0])[1][:2] == ["base", "12.5"]
     assert rows_of(files[1])[4] == ["soil", "0.0", "3.0"]
@@ -121,11 +121,11 @@ def test_a_life_is_told_by_criterion(tmp_path):
 def test_all_files_or_none(coarse_result, tmp_path):
     (tmp_path / "r_about.csv").mkdir()
     with pytest.raises(tl.InputError, match="is a folder"):
-        tl.write_csv(coarse_result, tmp_path / "r.csv")
+        tl.results.write_csv(coarse_result, tmp_path / "r.csv")
     assert [path.name for path in tmp_path.iterdir()] == ["r_about.csv"]
 
 
-@pytest.mark.parametrize("write", [tl.save, tl.write_csv, tl.write_excel, exports.write])
+@pytest.mark.parametrize("write", [tl.save, tl.results.write_csv, tl.results.write_excel, exports.write])
 @pytest.mark.parametrize("name", ["r.pdf", "r.json", "r", "r.txt"])
 def test_other_suffixes_are_refused_with_those_known(write, name, coarse_result, tmp_path):
     with pytest.raises(tl.InputError, match=r"use \..*\("):
@@ -143,17 +143,17 @@ def test_a_workbook_without_openpyxl_is_refused_with_what_to_run(monkeypatch, co
     with pytest.raises(tl.InputError, match=r"pip install '\.\[excel\]'"):
         exports.check_output(tmp_path / "r.xlsx")
     with pytest.raises(tl.InputError, match="openpyxl"):
-        tl.write_excel(coarse_result.contact, tmp_path / "r.xlsx")
+        tl.results.write_excel(coarse_result.contact, tmp_path / "r.xlsx")
 
 
 def test_a_table_longer_than_a_sheet_is_refused(monkeypatch, coarse_result, tmp_path):
     monkeypatch.setattr(exports, "_MOST_ROWS", 100)
     with pytest.raises(tl.InputError, match="holds 100"):
-        tl.write_excel(coarse_result.contact, tmp_path / "r.xlsx")
+        tl.results.write_excel(coarse_result.contact, tmp_path / "r.xlsx")
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("nothing", [xr.Dataset(), xr.DataTree(), 3.0])
 def test_nothing_is_no_table(nothing, tmp_path):
     with pytest.raises(tl.InputError, match=r"nothing to write|tables are written of results"):
-        tl.write_csv(nothing, tmp_path / "r.csv")
+        tl.results.write_csv(nothing, tmp_path / "r.csv")

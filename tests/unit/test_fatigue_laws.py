@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import treadload as tl
+from treadload.catalogue import mixes
 from treadload.damage.laws import american, equivalence, french
 from treadload.damage.laws.american import (
     AsphaltInstitute,
@@ -176,28 +176,40 @@ def test_cracking_grows_from_nothing_to_its_ends():
 
 def test_laws_of_catalogued_materials():
     known = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3, 11880 / 9000, 120e6)
-    law = FrenchBituminous.of(tl.mix("EB-GB3"), thickness=0.15, risk=0.05, platform_modulus=120e6)
+    law = FrenchBituminous.of(mixes["EB-GB3"], thickness=0.15, risk=0.05, platform_modulus=120e6)
     # The table is linear between 10 and 20 °C: (11880 + 6120)/2 = 9000 MPa at 15 °C.
     assert law.allowable_strain(5e6) == pytest.approx(known.allowable_strain(5e6), rel=1e-12)
-    warm = FrenchBituminous.of(tl.mix("EB-GB3"), thickness=0.15, risk=0.05, temperature=25, platform_modulus=120e6)
+    warm = FrenchBituminous.of(mixes["EB-GB3"], thickness=0.15, risk=0.05, temperature=25, platform_modulus=120e6)
     # k_θ alone: √(9000/4410).
     assert warm.at_a_million / law.at_a_million == pytest.approx(math.sqrt(9000 / 4410), rel=1e-12)
-    assert FrenchHydraulic.of(tl.mix("GC-T3"), risk=0.05) == GC3
-    jointed = FrenchHydraulic.of(tl.mix("BC5"), risk=0.05, joints=1 / 1.47, thickness_scatter=0.01)
+    assert FrenchHydraulic.of(mixes["GC-T3"], risk=0.05) == GC3
+    jointed = FrenchHydraulic.of(mixes["BC5"], risk=0.05, joints=1 / 1.47, thickness_scatter=0.01)
     assert jointed.joints == 1 / 1.47
-    assert FrenchSubgrade.of(tl.mix("PF3")) == FrenchSubgrade()
-    assert FrenchSubgrade.of(tl.mix("PF3"), "light").constant == 0.016
-    assert FrenchSubgrade.of(tl.mix("GNT1"), "inverted").constant == 0.0144
+    assert FrenchSubgrade.of(mixes["PF3"]) == FrenchSubgrade()
+    assert FrenchSubgrade.of(mixes["PF3"], "light").constant == 0.016
+    assert FrenchSubgrade.of(mixes["GNT1"], "inverted").constant == 0.0144
 
 
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: FrenchBituminous.of(tl.mix("BBM"), thickness=0.04, risk=0.05), "'BBM' has no fatigue line"),
-        (lambda: FrenchHydraulic.of(tl.mix("BC5"), risk=0.05), "joints of 'BC5' depends on the structure"),
-        (lambda: FrenchHydraulic.of(tl.mix("BC5"), risk=0.05, joints=1.0), "thickness_scatter of 'BC5' depends"),
-        (lambda: FrenchSubgrade.of(tl.mix("PF3"), "inverted"), "the traffic heavy, light, got 'inverted'"),
-        (lambda: FrenchSubgrade.of(tl.mix("PF3"), "none"), "got 'none'"),
+        (
+            lambda: FrenchBituminous.of(mixes["BBM"], thickness=0.04, risk=0.05),
+            "'BBM' has no fatigue line",
+        ),
+        (
+            lambda: FrenchHydraulic.of(mixes["BC5"], risk=0.05),
+            "joints of 'BC5' depends on the structure",
+        ),
+        (
+            lambda: FrenchHydraulic.of(mixes["BC5"], risk=0.05, joints=1.0),
+            "thickness_scatter of 'BC5' depends",
+        ),
+        (
+            lambda: FrenchSubgrade.of(mixes["PF3"], "inverted"),
+            "the traffic heavy, light, got 'inverted'",
+        ),
+        (lambda: FrenchSubgrade.of(mixes["PF3"], "none"), "got 'none'"),
         (lambda: FrenchBituminous(90, -0.2, 0.3, 0.15, 0.05, 1.3), '90e-6 or "90 microstrain"'),
         (lambda: FrenchBituminous(90e-6, 0.2, 0.3, 0.15, 0.05, 1.3), r"slope must lie in \(-1, 0\), got 0.2"),
         (lambda: FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 5, 1.3), r"risk must lie in \(0, 1\), got 5; 5 % is 0.05"),

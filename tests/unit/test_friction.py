@@ -7,7 +7,8 @@ import pytest
 
 from cases import COARSE_CASE
 from treadload.case import Case
-from treadload.contact import (
+from treadload.contact import Rolling, solve_contact
+from treadload.contact.friction import (
     Anisotropic,
     Coulomb,
     Exponential,
@@ -17,8 +18,6 @@ from treadload.contact import (
     LinearFalling,
     PressureDependent,
     Rational,
-    Rolling,
-    solve_contact,
 )
 from treadload.contact.friction.heat import flash_temperature, strip_kernel
 from treadload.contact.friction.laws import Interface

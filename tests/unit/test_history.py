@@ -14,7 +14,7 @@ from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.response.fields import response_dataset
 
-SOLID = tl.Prony(3e10, ((0.3, 1.0), (0.4, 100.0), (0.29, 1e4)), 0.35)
+SOLID = tl.materials.Prony(3e10, ((0.3, 1.0), (0.4, 100.0), (0.29, 1e4)), 0.35)
 
 
 class Constant:

@@ -4,6 +4,7 @@ import pytest
 
 import treadload as tl
 from treadload.case import LifeCase
+from treadload.catalogue import mixes
 from treadload.contact.maneuver import Maneuver
 from treadload.errors import InputError
 
@@ -74,7 +75,7 @@ def test_classes_and_maneuvers_become_rows():
     assert bend.wheel_load == pytest.approx(28.25e3)
     assert set(bend.wheels) == {(x, y) for x in (-0.655, 0.655) for y in (-0.17, 0.17)}
     assert bend.maneuver == Maneuver.turning(-60.0, 10.0)
-    assert (bend.friction, traffic.years, traffic.wander) == (0.6, 20, tl.Wander.normal(0.25))
+    assert (bend.friction, traffic.years, traffic.wander) == (0.6, 20, tl.damage.Wander.normal(0.25))
 
 
 def test_a_class_may_bring_its_tire_and_pairs_are_mounted_back_to_back():
@@ -92,24 +93,24 @@ def test_a_class_may_bring_its_tire_and_pairs_are_mounted_back_to_back():
 def test_a_mix_gives_its_law():
     """The numbers of the catalogue, at the temperature of the layer, and k_s of what lies below."""
     base, surface, soil, mepdg = LifeCase.from_text(DESIGN).build_criteria()
-    mix = tl.mix("EB-GB3")
+    mix = mixes["EB-GB3"]
     for temperature in (5.0, 15.0, 30.0):
-        asked = tl.FrenchBituminous.of(
+        asked = tl.damage.FrenchBituminous.of(
             mix, thickness=0.21, risk=0.05, temperature=temperature, platform_modulus=120e6
         )
         # 6 cm of BBSG3 and 15 cm of GB3: the laws ask for all asphalt.
         assert base.law_at(temperature) == asked
-        assert mepdg.law_at(temperature) == tl.MepdgBottomUp(mix.modulus(temperature), 0.21, 0.07, 0.11)
-    assert surface.law_at(15.0) == tl.FatigueLine(tl.mix("EB-BBSG3").epsilon_6, tl.mix("EB-BBSG3").slope)
+        assert mepdg.law_at(temperature) == tl.damage.MepdgBottomUp(mix.modulus(temperature), 0.21, 0.07, 0.11)
+    assert surface.law_at(15.0) == tl.FatigueLine(mixes["EB-BBSG3"].epsilon_6, mixes["EB-BBSG3"].slope)
     assert (surface.layer, surface.place, surface.strain) == (0, "top", "principal")
-    assert soil.law_at(15.0) == tl.FrenchSubgrade.of(tl.mix("PF3"))
+    assert soil.law_at(15.0) == tl.damage.FrenchSubgrade.of(mixes["PF3"])
     assert (soil.layer, soil.place, base.layer, base.place) == (2, "top", 1, "bottom")
 
 
 def test_a_number_given_stands_before_the_mixs():
     text = DESIGN.replace("risk = 0.05", 'risk = 0.05\nepsilon_6 = "80 microstrain"\nthickness_scatter = "20 mm"')
     law = LifeCase.from_text(text).build_criteria()[0].law_at(10.0)
-    assert (law.epsilon_6, law.spread, law.slope) == (80e-6, 0.02, tl.mix("EB-GB3").slope)
+    assert (law.epsilon_6, law.spread, law.slope) == (80e-6, 0.02, mixes["EB-GB3"].slope)
     assert law.verified
 
 
@@ -191,7 +192,7 @@ material = { modulus = "60 MPa", poisson = 0.35 }
     text = text.replace("months = [4, 5, 9, 12, 17, 22, 25, 24, 19, 14, 8, 5]", "temperature = 15") + layers
     criteria = '[[criteria]]\nname = "shell"\nlaw = "shell"\nlayer = "Asphalt"\n'
     criterion = LifeCase.from_text(text + criteria).build_criteria()[0]
-    assert criterion.law_at(15.0) == tl.ShellFatigue(7e9)
+    assert criterion.law_at(15.0) == tl.damage.ShellFatigue(7e9)
     with pytest.raises(InputError, match=r"epsilon_6 is missing"):
         LifeCase.from_text(text + criteria.replace('"shell"\nlayer', '"fatigue-line"\nlayer'))
     with pytest.raises(InputError, match=r"no layer has moduli"):

@@ -7,7 +7,7 @@ import xarray as xr
 import treadload as tl
 from treadload.errors import InputError
 from treadload.grid import Grid
-from treadload.response import GridLoad, UniformDisc, UniformRectangle, axle, dual_wheels, place, tandem
+from treadload.response import GridLoad, UniformDisc, UniformRectangle, axle, dual_wheels, place_load, tandem
 
 GRID = Grid(3, 2, 0.003, 0.004, -0.002, 0.01)
 PRESSURE = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.5]]) * 1e5
@@ -61,7 +61,7 @@ def test_a_mirror_turns_rows_and_lateral_shear_round():
 def test_place_takes_a_dataset_and_mirrors_before_it_moves():
     names = {"pressure": PRESSURE, "traction_x": ALONG, "traction_y": ACROSS}
     data = xr.Dataset({k: (("y", "x"), v) for k, v in names.items()}, {"x": GRID.x, "y": GRID.y})
-    placed = place(data, x=1.0, y=0.5, mirror=True)
+    placed = place_load(data, x=1.0, y=0.5, mirror=True)
     np.testing.assert_allclose(placed.grid.y, [0.486, 0.490], rtol=1e-12)
     assert placed.grid.x0 == pytest.approx(0.998)
     np.testing.assert_array_equal(placed.traction_y, -ACROSS[::-1])
@@ -85,7 +85,7 @@ def test_gears_stand_where_they_should():
     ("make", "message"),
     [
         (lambda: LOAD.moved(x=np.nan), "finite numbers of metres"),
-        (lambda: place([LOAD, LOAD], x=1.0), "one load, got 2"),
+        (lambda: place_load([LOAD, LOAD], x=1.0), "one load, got 2"),
         (lambda: dual_wheels(LOAD, 0.0), "spacing of dual wheels must be a positive"),
         (lambda: axle(LOAD, -1.0), "track of an axle must be a positive"),
         (lambda: axle(LOAD, 0.3, 0.4), "0.4 m must be smaller than the track"),
@@ -234,7 +234,7 @@ def test_a_saved_contact_loads_the_road_again(tmp_path):
     tire = tl.Tire.from_height_map(gap, 0.005, material=tl.Elastic(3e6, 0.49))
     road = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
     contact = tl.solve_contact(tire, road, tl.Rolling(normal_load=100.0, friction=0.5, tractive_force=20.0))
-    path = tl.save(tl.to_tree([contact]), tmp_path / "contact.nc")
+    path = tl.save(tl.results.to_tree([contact]), tmp_path / "contact.nc")
     for load in (GridLoad.from_file(path, interpolation="bilinear"), GridLoad.from_dataset(contact)):
         assert load.normal_load == pytest.approx(100.0, rel=1e-6)
         # The contact's own sign: positive when driving; the solver's tolerance.
@@ -247,7 +247,7 @@ def test_a_saved_contact_loads_the_road_again(tmp_path):
 def test_our_own_table_of_a_contact_comes_back(tmp_path):
     names = {"pressure": PRESSURE, "traction_x": ALONG, "traction_y": ACROSS, "gap": 0 * PRESSURE}
     data = tl.variables.dataset({k: (("y", "x"), v) for k, v in names.items()}, {"x": GRID.x, "y": GRID.y})
-    load = GridLoad.from_csv(tl.write_csv(data, tmp_path / "contact.csv")[0])
+    load = GridLoad.from_csv(tl.results.write_csv(data, tmp_path / "contact.csv")[0])
     np.testing.assert_allclose(load.array, LOAD.array, rtol=1e-12)
     np.testing.assert_allclose([load.grid.x, load.grid.y[:1].repeat(3)], [GRID.x, GRID.y[:1].repeat(3)], atol=1e-12)
 

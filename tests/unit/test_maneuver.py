@@ -66,7 +66,7 @@ def test_the_outer_wheel_by_hand():
 
 def test_without_a_vehicle_the_load_stays():
     assert tl.Maneuver.turning(12.0, 6.0, crossfall=0.025).rolling(25e3, MU).normal_load == 25e3
-    assert tl.STRAIGHT.rolling(25e3, MU) == tl.Rolling(
+    assert tl.contact.STRAIGHT.rolling(25e3, MU) == tl.Rolling(
         normal_load=25e3, friction=MU, tractive_force=0.0, lateral_force=0.0
     )
 
@@ -114,12 +114,12 @@ def test_the_contact_of_a_turn_carries_its_forces(tire):
 
 def test_a_parking_turn_twists_the_road(tire):
     angles = np.radians([5.0, 15.0, 30.0])
-    turn = tl.turn_on_the_spot(tire, ROAD, tl.Rolling(normal_load=LOAD, friction=MU), angles=angles)
+    turn = tl.contact.turn_on_the_spot(tire, ROAD, tl.Rolling(normal_load=LOAD, friction=MU), angles=angles)
     data = tl.solve_response(turn.contact, ROAD, depths=[0.0]).dataset.isel(depth=0)
     # At the surface stress_xz = -traction_x: the torque that turns the wheel arrives in the road.
     twist = -(data.x * data.stress_yz - data.y * data.stress_xz).sum() * SPACING**2
     assert float(twist) == pytest.approx(float(turn.dataset.steering_torque[-1]), rel=1e-9)
-    standing = tl.solve_contact(tire, ROAD, tl.STRAIGHT.rolling(LOAD, MU))
+    standing = tl.solve_contact(tire, ROAD, tl.contact.STRAIGHT.rolling(LOAD, MU))
     before = tl.solve_response(standing, ROAD, depths=[0.0]).dataset
     assert float(data.principal_strain_1.max()) > 3 * float(before.principal_strain_1.max())
 

@@ -176,15 +176,15 @@ def test_laws_are_refused_where_they_do_not_speak(law, more, words):
 def test_criteria_are_refused_where_their_law_does_not_speak():
     top, bottom = MepdgTopDown(5e9, 0.15, 0.06, 0.11), FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
     with pytest.raises(InputError, match=r'reads the bottom of a layer.*give place = "top"'):
-        tl.DesignCriterion("a", top, 0, "bottom")
+        tl.damage.DesignCriterion("a", top, 0, "bottom")
     with pytest.raises(InputError, match=r'reads the top of a layer.*give place = "bottom"'):
-        tl.DesignCriterion("a", bottom, 0, "top")
+        tl.damage.DesignCriterion("a", bottom, 0, "top")
     with pytest.raises(InputError, match=r"reads layer 1.*give layer 0"):
-        tl.DesignCriterion("a", top, 1, "top").depth(LAYERS)
+        tl.damage.DesignCriterion("a", top, 1, "top").depth(LAYERS)
     with pytest.raises(InputError, match="reads the utilisation of the bond"):
-        tl.DesignCriterion("a", ShearFatigue(-0.2))
+        tl.damage.DesignCriterion("a", ShearFatigue(-0.2))
     with pytest.raises(InputError, match=r"mean_over must lie in \(0, 0.1\] m, got 10"):
-        tl.DesignCriterion("a", LINE, length=10)
+        tl.damage.DesignCriterion("a", LINE, length=10)
 
 
 def test_a_response_without_its_road_needs_a_depth(response):
@@ -195,7 +195,7 @@ def test_a_response_without_its_road_needs_a_depth(response):
 
 
 def test_two_grids_tell_the_error(driving):
-    verdict = tl.assess_on_two_grids(driving.tire, HALF, driving.rolling, LINE, spacing=3e-3)
+    verdict = tl.study.assess_on_two_grids(driving.tire, HALF, driving.rolling, LINE, spacing=3e-3)
     text = next(line for line in verdict.summary().splitlines() if line.startswith("error estimate"))
     assert "on cells of 6 mm" in text
     read, coarse = float(verdict.dataset.worst_strain), float(verdict.dataset.attrs["coarse_strain"])
@@ -208,7 +208,7 @@ def test_two_grids_tell_the_error(driving):
     assert abs(float(finer.dataset.worst_strain) - read) <= abs(coarse - read)
     flat = tl.Tire.from_height_map(np.zeros((20, 20)), 5e-3)
     with pytest.raises(InputError, match="a height map has one; leave it out"):
-        tl.assess_on_two_grids(flat, HALF, driving.rolling, LINE)
+        tl.study.assess_on_two_grids(flat, HALF, driving.rolling, LINE)
 
 
 def test_a_case_asks_for_the_error():
@@ -223,19 +223,19 @@ def test_a_case_asks_for_the_error():
 def test_a_life_says_that_it_reads_planes_parallel_to_the_surface():
     tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
     road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=15)
-    one = tl.AxleClass("one", 1.0, 32.5e3, 820e3)
-    traffic = tl.Traffic((one,), 1e5)
+    one = tl.damage.AxleClass("one", 1.0, 32.5e3, 820e3)
+    traffic = tl.damage.Traffic((one,), 1e5)
     upright, plane = (
-        tl.DesignCriterion(strain, FatigueLine(100e-6, -0.2), 0, "top", strain)
+        tl.damage.DesignCriterion(strain, FatigueLine(100e-6, -0.2), 0, "top", strain)
         for strain in ("principal", "in-plane")
     )
-    life = tl.design_life(tire, road, traffic, tl.Climate.constant(15.0), (upright, plane), spacing=12e-3)
+    life = tl.study.solve_life(tire, road, traffic, tl.damage.Climate.constant(15.0), (upright, plane), spacing=12e-3)
     flat = life.dataset.orientation_damage.sel(orientation="horizontal")
     assert float(flat.sel(criterion="principal")) > 0.5
     assert float(flat.sel(criterion="in-plane")) == 0
     (text,) = [text for text in life.warnings if "parallel to its surface" in text]
     assert text.startswith("principal: ")
-    assert json.loads(tl.life_tree(life)["life"].attrs["warnings"])
+    assert json.loads(tl.results.life_tree(life)["life"].attrs["warnings"])
 
 
 def test_the_default_is_written_down():
@@ -245,7 +245,7 @@ def test_the_default_is_written_down():
 
 def test_the_reading_is_the_largest_between_the_points_of_the_map():
     """Where the line at which tension ends cuts the reading off, the map's own points are off by a twentieth."""
-    block = tl.Tire.from_profile(tl.TreadProfile(0.3, 1.0, 0.05, 0.0), inflation_pressure=820e3)
+    block = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 1.0, 0.05, 0.0), inflation_pressure=820e3)
     contact = tl.solve_contact(block, HALF, tl.Rolling(normal_load=3e3, tractive_force=1e3, friction=0.7))
     data = assess(solve_response(contact, HALF, depths=[0.0]), LINE).dataset
     x, y = (float(data[name]) + np.linspace(-5e-4, 5e-4, 41) for name in ("worst_x", "worst_y"))

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from treadload.catalogue import mixes
 from treadload.errors import InputError
-from treadload.materials import Elastic, HydraulicMix, Mix, TemperatureDependent, Unbound, mix, mixes
+from treadload.materials import Elastic, HydraulicMix, Mix, TemperatureDependent, Unbound
 
 DATA = Path(__file__).parents[1] / "data"
 WORKED = json.loads((DATA / "damage" / "worked.json").read_text())
@@ -27,13 +28,13 @@ RATIOS = {
 }
 # Round-off of a product of a few numbers.
 ROUND_OFF = 1e-14
-GB3 = mix("EB-GB3")
+GB3 = mixes["EB-GB3"]
 
 
 @pytest.mark.parametrize("name", BITUMINOUS)
 def test_bituminous_mixes_as_tabulated(name):
     at_15, epsilon_6, scatter, calibration, moduli = BITUMINOUS[name]
-    found = mix(name)
+    found = mixes[name]
     assert isinstance(found, Mix)
     assert isinstance(found, TemperatureDependent)
     for temperature, modulus in zip(TEMPERATURES, moduli, strict=True):
@@ -50,7 +51,7 @@ def test_bituminous_mixes_as_tabulated(name):
 @pytest.mark.parametrize(("table", "names"), RATIOS.items())
 def test_moduli_over_frequency(table, names):
     ratios = TABLES["E_ratio_theta_f"]["rows"][table]
-    for found in map(mix, names):
+    for found in map(mixes.__getitem__, names):
         at_15 = found.modulus(15.0)
         for key, row in ratios.items():
             for temperature, ratio in zip(TEMPERATURES, row, strict=True):
@@ -67,7 +68,7 @@ def test_the_rule_between_frequencies_finds_what_was_taken_out():
     # Without its row at 3 Hz each mix is asked for it: 1.7 % off on average, 3.9 % if it were linear in ln f.
     errors, linear = [], []
     for names in RATIOS.values():
-        full = mix(names[0])
+        full = mixes[names[0]]
         less = replace(full, frequencies=(1.0, 10.0), moduli=(full.moduli[0], full.moduli[2]))
         for i, temperature in enumerate(TEMPERATURES):
             printed = full.moduli[1][i]
@@ -80,7 +81,7 @@ def test_the_rule_between_frequencies_finds_what_was_taken_out():
 
 @pytest.mark.parametrize("row", WORKED["worked_eps_adm"], ids=lambda row: f"{row['material']}-{row['theta_eq_C']}C")
 def test_modulus_ratio_against_worked_factors(row):
-    found = mix(row["material"])
+    found = mixes[row["material"]]
     assert found.modulus(row["theta_eq_C"]) == pytest.approx(row["E_theta_MPa"] * 1e6, rel=ROUND_OFF)
     # Twelve digits are printed.
     assert math.sqrt(found.modulus_ratio(row["theta_eq_C"])) == pytest.approx(row["k_theta"], rel=1e-11)
@@ -93,7 +94,7 @@ def test_modulus_ratio_against_worked_factors(row):
 @pytest.mark.parametrize("name", HYDRAULIC)
 def test_hydraulic_mixes_as_tabulated(name):
     modulus, poisson, sigma_6, inverse, scatter, spread, calibration, joints = HYDRAULIC[name]
-    found = mix(name)
+    found = mixes[name]
     assert isinstance(found, HydraulicMix)
     assert (found.modulus, found.poisson, found.sigma_6) == (modulus * 1e6, poisson, pytest.approx(sigma_6 * 1e6))
     assert found.slope == pytest.approx(-1 / inverse, rel=ROUND_OFF)
@@ -104,7 +105,7 @@ def test_hydraulic_mixes_as_tabulated(name):
 
 def test_unbound_materials_as_tabulated():
     for name, modulus in TABLES["unbound"]["E_MPa"].items():
-        found = mix(name)
+        found = mixes[name]
         assert isinstance(found, Unbound)
         assert (found.modulus, found.poisson) == (modulus * 1e6, 0.35)
         assert (found.constant, found.constant_light, found.slope) == (0.012, 0.016, -0.222)
@@ -112,11 +113,11 @@ def test_unbound_materials_as_tabulated():
 
 
 def test_the_catalogue_holds_these_and_no_more():
-    ours = [one for one in mixes().values() if "NF P98-086" in one.source]
+    ours = [one for one in mixes.values() if "NF P98-086" in one.source]
     assert len(ours) == len(BITUMINOUS) + len(HYDRAULIC) + len(TABLES["unbound"]["E_MPa"])
 
 
-BITUMINOUS_MIXES = st.sampled_from([mix(name) for name in BITUMINOUS])
+BITUMINOUS_MIXES = st.sampled_from([mixes[name] for name in BITUMINOUS])
 
 
 @given(BITUMINOUS_MIXES, st.floats(-40, 70), st.floats(0.01, 30))
@@ -132,7 +133,7 @@ def test_warmer_is_softer(found, temperature, step):
     st.floats(1.01, 5),
 )
 def test_faster_is_stiffer(name, temperature, frequency, factor):
-    found = mix(name)
+    found = mixes[name]
     slow, fast = (found.modulus(temperature, frequency=f, extrapolate=True) for f in (frequency, factor * frequency))
     assert slow < fast
 
@@ -156,7 +157,7 @@ TABLE = {"name": "mine", "temperatures": (0, 20), "frequencies": (10,), "moduli"
         (lambda: GB3.at(288.15), "kelvin, give °C: 15"),
         (lambda: GB3.at(15.0, frequency=25.0), "25 Hz lies outside its data, 1 to 10 Hz"),
         (lambda: GB3.at(15.0, frequency=0.0), "frequency must be a positive number of Hz, got 0"),
-        (lambda: mix("BBTM").at(15.0, frequency=3.0, extrapolate=True), "tabulated at 10 Hz only, got 3 Hz"),
+        (lambda: mixes["BBTM"].at(15.0, frequency=3.0, extrapolate=True), "tabulated at 10 Hz only, got 3 Hz"),
         (lambda: GB3.with_frequency(-1.0), "frequency must be a positive number, got -1"),
         (lambda: Mix(**{**TABLE, "temperatures": (20, 0)}), r"at least two and increase, got \[20.0, 0.0\]"),
         (lambda: Mix(**{**TABLE, "temperatures": (0, 293)}), "kelvin"),
@@ -169,11 +170,11 @@ TABLE = {"name": "mine", "temperatures": (0, 20), "frequencies": (10,), "moduli"
         (lambda: Mix(**TABLE, epsilon_6=100), "epsilon_6 must be a plain strain .*got 100; 100 microstrain"),
         (lambda: Mix(**TABLE, slope=5), r"slope must lie in \(-1, 0\), got 5"),
         (lambda: Mix(**TABLE, scatter=-0.25), "scatter must be a positive number, got -0.25"),
-        (lambda: replace(mix("GC-T3"), sigma_6=0.0), "'GC-T3': sigma_6 must be a positive number"),
-        (lambda: replace(mix("GC-T3"), slope=15), r"slope must lie in \(-1, 0\), got 15"),
-        (lambda: replace(mix("GC-T3"), modulus=-1.0), "modulus must be a positive"),
-        (lambda: replace(mix("PF3"), constant=12000), "constant must be a plain strain below 1, got 12000"),
-        (lambda: replace(mix("PF3"), slope=0.222), r"slope must lie in \(-1, 0\), got 0.222"),
+        (lambda: replace(mixes["GC-T3"], sigma_6=0.0), "'GC-T3': sigma_6 must be a positive number"),
+        (lambda: replace(mixes["GC-T3"], slope=15), r"slope must lie in \(-1, 0\), got 15"),
+        (lambda: replace(mixes["GC-T3"], modulus=-1.0), "modulus must be a positive"),
+        (lambda: replace(mixes["PF3"], constant=12000), "constant must be a plain strain below 1, got 12000"),
+        (lambda: replace(mixes["PF3"], slope=0.222), r"slope must lie in \(-1, 0\), got 0.222"),
     ],
 )
 def test_refusals(build, message):

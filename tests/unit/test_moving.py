@@ -175,7 +175,7 @@ def test_wake_of_one_term_is_its_integral(length):
 
 def test_bilinear_loads_and_half_bonded_layers_keep_their_limits():
     soft = GridLoad(GRID, load().pressure, load().traction_x, load().traction_y, interpolation="bilinear")
-    half = road(bond=tl.HALF_BONDED)
+    half = road(bond=tl.pavement.HALF_BONDED)
     points = {"depths": [0.0, 0.15], "x": [-0.1, 0.013], "y": [0.0]}
     for speed in (1e-9, 1e9):
         moved = tl.solve_response(soft, half, speed=speed, **points).dataset

@@ -104,14 +104,14 @@ def test_a_description_reads_as_the_call_that_makes_it():
 
 
 def test_long_members_are_told_by_their_size():
-    mix = repr(tl.mix("EB-GB3"))
+    mix = repr(tl.catalogue.mixes["EB-GB3"])
     assert "moduli=<3 x 6 numbers>" in mix
     assert "temperatures=(-10.0, 0.0, 10.0, 20.0, 30.0, 40.0)" in mix
     load = tl.GridLoad(tl.Grid.centred(0.03, 0.02, 1e-3), np.ones((20, 30)))
     assert "20 x 30" in repr(load)
     assert len(repr(load)) < 300
-    axles = tuple(tl.AxleClass(f"axle {k}", 0.05, 4e4, 8e5) for k in range(20))
-    said = as_call(tl.Traffic(axles, 1e5))
+    axles = tuple(tl.damage.AxleClass(f"axle {k}", 0.05, 4e4, 8e5) for k in range(20))
+    said = as_call(tl.damage.Traffic(axles, 1e5))
     assert "… 20 in all" in said
     assert "axle 19" not in said
 

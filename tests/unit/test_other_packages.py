@@ -29,7 +29,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.contact import FrictionLaw
+from treadload.contact.friction import FrictionLaw
 from treadload.errors import InputError
 from treadload.units import Number, Pressure
 
@@ -350,7 +350,7 @@ def test_a_material_is_one_file_of_theirs(road_laws):
         "depths", "speed = 1\ndepths"
     )
     shifted = Case.from_text(text).pavement.build().layers[0].material
-    assert shifted.time == pytest.approx(0.01 * float(tl.WLF(15, 120, 15).factor(30)))
+    assert shifted.time == pytest.approx(0.01 * float(tl.materials.WLF(15, 120, 15).factor(30)))
     # A tire takes what is elastic, theirs too.
     tire = case_of('inflation_pressure = "8.2 bar"', 'material = { kind = "soil", cbr = 0.05 }')
     assert Case.from_text(tire).build_tire().material == tl.Elastic(17.6e6 * 5**0.64, 0.4)
@@ -395,8 +395,8 @@ def test_a_law_of_fatigue_and_a_criterion_are_one_file_of_theirs(road_laws):
     assert LifeCase.from_text(case.to_toml()) == case
     # What the table leaves out the layer gives, as for our laws.
     own = LifeCase.from_text(DESIGN.replace('epsilon_6 = "100 microstrain"\npower', "power")).build_criteria()[1]
-    assert own.law_at(15.0) == CRITERIA.find("track").target(tl.mix("EB-GB3").epsilon_6, 5.0)
-    result = tl.run_design(case, sensitivity=False)
+    assert own.law_at(15.0) == CRITERIA.find("track").target(tl.catalogue.mixes["EB-GB3"].epsilon_6, 5.0)
+    result = tl.run_life(case, sensitivity=False)
     years = result.life.dataset.life_years.to_numpy()
     assert years[1] == pytest.approx(years[0], rel=1e-12)
     # Twice the strain in a power of five.
@@ -479,7 +479,7 @@ def test_the_schema_knows_their_things(road_laws):
 
 
 def test_a_broken_package_stops_no_one_else_and_is_named(road_laws):
-    assert Case.from_text(COARSE_CASE).build_rolling().law == tl.contact.Coulomb(0.7)
+    assert Case.from_text(COARSE_CASE).build_rolling().law == tl.friction.Coulomb(0.7)
     torn = said(case_of("friction       = 0.7", 'friction = { law = "torn" }'))
     assert torn.startswith(
         "case: rolling.friction: the package road-laws 1.2 brings 'torn' for treadload.friction, but "
@@ -539,9 +539,9 @@ def test_a_session_may_register_its_own():
     try:
 
         @FRICTION.register("of a notebook")
-        def half(of: float) -> tl.contact.FrictionLaw:
+        def half(of: float) -> tl.friction.FrictionLaw:
             """Half of a coefficient."""
-            return tl.contact.Coulomb(of / 2)
+            return tl.friction.Coulomb(of / 2)
 
         case = Case.from_text(case_of("friction       = 0.7", 'friction = { law = "of a notebook", of = 1.4 }'))
         assert case.build_rolling().coefficient == 0.7

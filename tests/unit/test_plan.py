@@ -6,7 +6,7 @@ import pytest
 
 import treadload as tl
 from cases import COARSE_CASE
-from treadload.study import plan_case, plan_design, run_case
+from treadload.study import plan_case, plan_life, run_case
 
 LAYERS = """
 [[pavement.layers]]
@@ -72,7 +72,7 @@ traffic = { passes_per_year = 1e5, years = 20, classes = [
     { name = "rear", share = 0.5, axle_load = "70 kN", inflation_pressure = "8 bar", gear = "tandem" } ] }
 criteria = [{ name = "base", law = "french-bituminous", layer = "EB-GB3", risk = 0.05 }]
 """
-    plan = plan_design(tl.LifeCase.from_text(design))
+    plan = plan_life(tl.LifeCase.from_text(design))
     # Both classes press alike; May and December are as warm as February and January are not: 5 °C twice.
     assert "contacts  1 on cells of 12 mm" in plan
     assert "climate   12 season(s), 11 of them different" in plan

@@ -97,7 +97,7 @@ def test_wheels_that_reach_into_each_other_are_told():
     assert "wheels 1 and 2 reach into each other by 250 mm along travel and 50 mm across" in near.warnings[0]
     assert "0 and 200 mm apart" in near.warnings[0]
     # The French axle; and two parts of one load, which may lie on each other.
-    assert not tl.solve_response(tl.axle(DISC, 1.8, 0.375), road, **at).warnings
+    assert not tl.solve_response(tl.response.axle(DISC, 1.8, 0.375), road, **at).warnings
     assert not tl.solve_response([DISC, DISC], road, **at).warnings
     # Footprints, of which empty cells count for nothing.
     grid = tl.Grid.centred(0.4, 0.4, 0.01)
@@ -116,11 +116,11 @@ def test_a_case_carries_the_sentences_to_its_file():
 
 
 def test_a_life_says_what_no_traffic_is():
-    row = tl.AxleClass("front", 1.0, 35.0, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
-    traffic = tl.Traffic((row,), 1e12, growth=2.0, years=2)
+    row = tl.damage.AxleClass("front", 1.0, 35.0, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
+    traffic = tl.damage.Traffic((row,), 1e12, growth=2.0, years=2)
     road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
-    criterion = tl.DesignCriterion("base", tl.FatigueLine(90e-6, -0.2), 1, "bottom")
-    life = tl.design_life(TRUCK, road, traffic, tl.Climate.constant(15.0), [criterion], spacing=4e-3)
+    criterion = tl.damage.DesignCriterion("base", tl.FatigueLine(90e-6, -0.2), 1, "bottom")
+    life = tl.study.solve_life(TRUCK, road, traffic, tl.damage.Climate.constant(15.0), [criterion], spacing=4e-3)
     said = "\n".join(life.warnings)
     for word in (
         "number of passes a year is 1e+12",
@@ -130,19 +130,19 @@ def test_a_life_says_what_no_traffic_is():
     ):
         assert word in said
         assert word in life.summary()
-    heavy = tl.AxleClass("front", 1.0, 35e3, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
-    usual = tl.Traffic((heavy,), 1e5, growth=0.02, years=20)
-    life = tl.design_life(TRUCK, road, usual, tl.Climate.constant(15.0), [criterion], spacing=12e-3)
+    heavy = tl.damage.AxleClass("front", 1.0, 35e3, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
+    usual = tl.damage.Traffic((heavy,), 1e5, growth=0.02, years=20)
+    life = tl.study.solve_life(TRUCK, road, usual, tl.damage.Climate.constant(15.0), [criterion], spacing=12e-3)
     (text,) = [text for text in life.warnings if "reach into" in text]
     assert text.startswith("front: the footprints of wheels 1 and 2")
 
 
 def test_a_class_is_judged_by_its_own_tire():
-    narrow = tl.Tire.from_profile(tl.TreadProfile(0.1, 0.03, 0.03))
+    narrow = tl.Tire.from_profile(tl.tire.TreadProfile(0.1, 0.03, 0.03))
     rows = [
-        tl.AxleClass("robot", 0.5, 20.0, 5e4, tire=narrow),
-        tl.AxleClass("truck", 0.5, 20.0, 8e5),
+        tl.damage.AxleClass("robot", 0.5, 20.0, 5e4, tire=narrow),
+        tl.damage.AxleClass("truck", 0.5, 20.0, 8e5),
     ]
-    said = traffic_doubts(TRUCK, tl.Traffic(tuple(rows), 1e5), tl.Climate.constant(15.0))
+    said = traffic_doubts(TRUCK, tl.damage.Traffic(tuple(rows), 1e5), tl.damage.Climate.constant(15.0))
     assert len(said) == 1
     assert "wheel load of truck is 20 N" in said[0]

@@ -155,7 +155,7 @@ def test_the_horizontal_plane_is_another_reading(turn):
 def test_a_parking_turn_shows_its_shear(turn):
     contact = turn[0]
     standing = tl.Rolling(normal_load=32.5e3, friction=0.7)
-    parked = tl.turn_on_the_spot(contact.tire, ROAD, standing, angles=[0.3], spacing=0.012)
+    parked = tl.contact.turn_on_the_spot(contact.tire, ROAD, standing, angles=[0.3], spacing=0.012)
     figure = tearing(parked.contact, tl.solve_response(parked.contact, ROAD, depths=[0.0]))
     assert any(ax.get_xlabel() == "kPa" for ax in figure.axes[0].child_axes)
 

@@ -236,7 +236,7 @@ def page(tmp_path_factory) -> str:
 
 
 def test_a_tire_built_in_python_tells_the_modulus_it_is_solved_with(page):
-    modulus = tl.modulus_from_inflation(820e3) / 1e6
+    modulus = tl.tire.modulus_from_inflation(820e3) / 1e6
     assert f"E = {modulus:.4g} MPa by the inflation pressure, ν = 0.5" in page
     given = tl.Tire.from_height_map(np.ones((2, 2)), 0.1, material=tl.Elastic(3e6, 0.5), inflation_pressure=820e3)
     assert "by the inflation pressure" not in str(given)

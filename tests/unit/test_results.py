@@ -62,7 +62,7 @@ def test_a_saved_height_map_makes_the_same_tire(tmp_path):
 
 def test_csv_has_a_row_a_cell_and_units_in_its_heading(coarse_result, tmp_path):
     data = coarse_result.contact.dataset
-    tl.write_csv(data, tmp_path / "c.csv")
+    tl.results.write_csv(data, tmp_path / "c.csv")
     heading, *rows = (tmp_path / "c.csv").read_text().splitlines()
     assert "pressure [Pa]" in heading
     assert len(rows) == data.pressure.size
@@ -77,7 +77,7 @@ def test_slices_pass_through_the_worst_point(coarse_result):
 def test_citations_follow_what_was_used(coarse_result):
     from dataclasses import replace
 
-    from treadload.contact import Exponential
+    from treadload.contact.friction import Exponential
     from treadload.results import citations
 
     plain = " ".join(citations(coarse_result.contact, None))

@@ -8,7 +8,17 @@ import xarray as xr
 
 import treadload as tl
 from cases import COARSE_CASE
-from treadload.materials import Thermorheological
+from treadload.materials import (
+    WLF,
+    Arrhenius,
+    HuetSayegh,
+    Model2S2P1D,
+    PowerLawCreep,
+    Prony,
+    QuadraticShift,
+    TabulatedShift,
+    Thermorheological,
+)
 from treadload.pavement import HALF_BONDED, layer_rows
 from treadload.reporting import write_report
 
@@ -86,7 +96,7 @@ def test_a_temperature_over_depth():
 
 def test_frequency_reads_the_mixes_elsewhere():
     slow = case_of(MIXES.replace('"10 Hz"', "1")).pavement.build()
-    assert slow.layers[0].material == tl.mix("EB-BBSG3").at(35, frequency=1.0)
+    assert slow.layers[0].material == tl.catalogue.mixes["EB-BBSG3"].at(35, frequency=1.0)
 
 
 def test_extrapolation_only_when_asked_for():
@@ -98,18 +108,18 @@ def test_extrapolation_only_when_asked_for():
 
 
 MATERIALS = {
-    'material = { kind = "prony", modulus = "10 GPa", terms = [[0.9, "10 ms"]], poisson = 0.3 }': tl.Prony(
+    'material = { kind = "prony", modulus = "10 GPa", terms = [[0.9, "10 ms"]], poisson = 0.3 }': Prony(
         10e9, ((0.9, 0.01),), 0.3
     ),
-    HUET.split(", shift")[0] + " }": tl.HuetSayegh(40995e6, 18e6, 2.356, 0.186, 0.515, 9.381, 0.35),
+    HUET.split(", shift")[0] + " }": HuetSayegh(40995e6, 18e6, 2.356, 0.186, 0.515, 9.381, 0.35),
     (
         'material = { kind = "2s2p1d", glassy_modulus = "40 GPa", static_modulus = "18 MPa", delta = 2.3, k = 0.2, '
         'h = 0.5, beta = 300, tau = "10 ms", poisson = 0.35 }'
-    ): tl.Model2S2P1D(40e9, 18e6, 2.3, 0.2, 0.5, 300, 0.01, 0.35),
+    ): Model2S2P1D(40e9, 18e6, 2.3, 0.2, 0.5, 300, 0.01, 0.35),
     (
         'material = { kind = "power-law-creep", instantaneous_compliance = "2.5e-5 1/MPa", '
         "long_term_compliance = 1e-8, tau = 1000, exponent = 0.35, poisson = 0.3 }"
-    ): tl.PowerLawCreep(2.5e-11, 1e-8, 1000, 0.35, 0.3),
+    ): PowerLawCreep(2.5e-11, 1e-8, 1000, 0.35, 0.3),
 }
 
 
@@ -121,10 +131,10 @@ def test_viscoelastic_materials(material):
 
 
 SHIFTS = {
-    '{ kind = "wlf", c1 = 15, c2 = "120 K", reference = 10 }': tl.WLF(15, 120, 10),
-    '{ kind = "arrhenius", activation_energy = "200 kJ/mol", reference = "10 degC" }': tl.Arrhenius(200e3, 10),
-    '{ kind = "quadratic", a1 = -0.4, a2 = 0.0015 }': tl.QuadraticShift(-0.4, 0.0015),
-    '{ kind = "table", temperatures = [0, 30], log_factors = [2, -2], reference = 15 }': tl.TabulatedShift(
+    '{ kind = "wlf", c1 = 15, c2 = "120 K", reference = 10 }': WLF(15, 120, 10),
+    '{ kind = "arrhenius", activation_energy = "200 kJ/mol", reference = "10 degC" }': Arrhenius(200e3, 10),
+    '{ kind = "quadratic", a1 = -0.4, a2 = 0.0015 }': QuadraticShift(-0.4, 0.0015),
+    '{ kind = "table", temperatures = [0, 30], log_factors = [2, -2], reference = 15 }': TabulatedShift(
         (0, 30), (2, -2), 15
     ),
 }
@@ -135,7 +145,7 @@ def test_shifts_make_materials_wait_for_their_temperature(shift):
     material = HUET[: HUET.index("shift")] + f"shift = {shift} }}"
     case = case_of(*viscoelastic(material, "temperature = 25\n"))
     waiting = case.pavement.untempered().layers[0].material
-    assert waiting == Thermorheological(tl.HuetSayegh(40995e6, 18e6, 2.356, 0.186, 0.515, 9.381, 0.35), SHIFTS[shift])
+    assert waiting == Thermorheological(HuetSayegh(40995e6, 18e6, 2.356, 0.186, 0.515, 9.381, 0.35), SHIFTS[shift])
     assert written_back(case).pavement.build().layers[0].material == waiting.at(25)
 
 
@@ -389,7 +399,7 @@ def test_a_footprint_leaves_no_place_for_a_tire(tmp_path):
 
 
 def test_rows_of_viscoelastic_and_rigid_roads():
-    material = tl.HuetSayegh(40e9, 18e6, 2.3, 0.2, 0.5, 0.01, 0.35)
+    material = HuetSayegh(40e9, 18e6, 2.3, 0.2, 0.5, 0.01, 0.35)
     road = tl.Pavement([tl.Layer(material, 0.08, name="asphalt")], rigid_base=True)
     (row,) = layer_rows(road)
     assert row.modulus == pytest.approx(abs(material.complex_modulus(20 * math.pi)))

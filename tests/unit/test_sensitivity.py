@@ -8,7 +8,7 @@ from treadload.damage import AxleClass, Climate, DesignCriterion, FatigueLine, T
 from treadload.errors import InputError
 from treadload.materials import Prony
 from treadload.pavement import Layer, Pavement
-from treadload.study import design_life, life_sensitivity
+from treadload.study import life_sensitivity, solve_life
 from treadload.study.sensitivity import TEMPERATURE
 from treadload.tire import Tire
 
@@ -20,7 +20,7 @@ LIGHT, HEAVY = AxleClass("light", 0.6, 15e3, 700e3), AxleClass("heavy", 0.4, 32.
 
 
 def elasticities(traffic, climate, road=ROAD, criteria=(BASE,), **asked):
-    life = design_life(TIRE, road, traffic, climate, criteria, **COARSE)
+    life = solve_life(TIRE, road, traffic, climate, criteria, **COARSE)
     found = life_sensitivity(TIRE, road, life, **COARSE, **asked)
     return found, dict(zip(found.dataset["input"].to_numpy(), found.dataset["elasticity"].to_numpy(), strict=True))
 
@@ -71,7 +71,7 @@ def test_only_what_does_the_damage_is_solved_again(plain):
 def test_growth_shortens_what_an_input_gains():
     """d ln(years) / d ln(passes) = (1 - (1+t)^-n) / (n ln(1+t)) of a geometric growth t over n years."""
     traffic = Traffic((AxleClass("heavy", 1.0, 32.5e3, 850e3),), 1e5, growth=0.05, wander=Wander.normal(0.2))
-    life = design_life(TIRE, ROAD, traffic, Climate.constant(15.0), (BASE,), **COARSE)
+    life = solve_life(TIRE, ROAD, traffic, Climate.constant(15.0), (BASE,), **COARSE)
     found = life_sensitivity(TIRE, ROAD, life, **COARSE).dataset["elasticity"]
     years = life.years("base")
     expected = (1 - 1.05**-years) / (years * math.log(1.05))
@@ -92,7 +92,7 @@ def test_what_cannot_be_changed_is_said():
 
 
 def test_a_life_without_end_has_no_sensitivity():
-    life = design_life(TIRE, ROAD, Traffic((AxleClass("one", 1.0, 32.5e3, 850e3),), 0.0),
+    life = solve_life(TIRE, ROAD, Traffic((AxleClass("one", 1.0, 32.5e3, 850e3),), 0.0),
                        Climate.constant(15.0), (BASE,), **COARSE)  # fmt: skip
     with pytest.raises(InputError, match="ever used up"):
         life_sensitivity(TIRE, ROAD, life, **COARSE)

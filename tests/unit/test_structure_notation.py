@@ -11,15 +11,15 @@ from treadload.pavement.catalogue import find_structure
 from treadload.pavement.notation import bonds, in_words, read_layers
 
 
-@pytest.mark.parametrize("name", tl.structures())
+@pytest.mark.parametrize("name", tl.catalogue.structures)
 def test_the_catalogue_is_what_its_names_say(name):
     # Each name, read as layers instead of looked up, gives the catalogue's road to the last bond.
     layers = read_layers(name)
     held = bonds([material for material, _ in layers])
     written = [(one.name, thickness, bond) for (one, thickness), bond in zip(layers, held, strict=True)]
-    assert written == [(one.mix, one.thickness, one.bond) for one in tl.structures()[name].courses]
+    assert written == [(one.mix, one.thickness, one.bond) for one in tl.catalogue.structures[name].courses]
     assert in_words(layers) == name
-    assert tl.Pavement.from_catalogue(name) == tl.Pavement.from_catalogue(tl.structures()[name])
+    assert tl.Pavement.from_catalogue(name) == tl.Pavement.from_catalogue(tl.catalogue.structures[name])
 
 
 def test_layers_of_one_mix_stay_two():
@@ -45,16 +45,16 @@ def test_spellings_of_one_road(text):
     assert found.name == "6.5 BBSG3 / 25 GNT1 / PF2qs"
     assert tl.Pavement.from_catalogue(text) == tl.Pavement(
         [
-            tl.Layer(tl.mix("EB-BBSG3"), 0.065, name="EB-BBSG3"),
-            tl.Layer(tl.mix("GNT1"), 0.25, name="GNT1"),
-            tl.Layer(tl.mix("PF2qs"), name="PF2qs"),
+            tl.Layer(tl.catalogue.mixes["EB-BBSG3"], 0.065, name="EB-BBSG3"),
+            tl.Layer(tl.catalogue.mixes["GNT1"], 0.25, name="GNT1"),
+            tl.Layer(tl.catalogue.mixes["PF2qs"], name="PF2qs"),
         ]
     )
 
 
 def test_treated_layers_are_half_bonded_to_each_other_only():
     road = tl.Pavement.from_catalogue("8 BBSG3 / 18 GC-T3 / 20 GLp-T2 / 10 GNT1 / PF3")
-    assert [layer.bond for layer in road.layers[:-1]] == [tl.BONDED, tl.HALF_BONDED, tl.BONDED, tl.BONDED]
+    assert [layer.bond for layer in road.layers[:-1]] == [tl.BONDED, tl.pavement.HALF_BONDED, tl.BONDED, tl.BONDED]
 
 
 @settings(deadline=None)
@@ -85,7 +85,7 @@ def test_what_is_written_comes_back(courses, base, short, unit, mark):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("6 BBSG3 / 15 GB9 / PF3", "no mix 'GB9'; did you mean 'EB-GB[1-4]'"),
+        ("6 BBSG3 / 15 GB9 / PF3", "no mix 'GB9'; did you mean 'GB[1-4]'"),
         ("6 BBSG3 / 15 GB3", "'15 GB3', has a thickness"),
         ("BBSG3 / 15 GB3 / PF3", "cannot read 'BBSG3': it does not start with a number"),
         ("6 BBSG3 / / PF3", "nothing between"),

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from treadload.catalogue import tires
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.materials import Elastic
@@ -208,7 +209,7 @@ def test_netcdf_that_is_unclear_is_refused(tmp_path):
 
 
 def test_from_profile_takes_a_name_or_a_profile():
-    profile = TreadProfile.from_library("315/80R22.5")
+    profile = tires["315/80R22.5"]
     assert Tire.from_profile(profile) == Tire.from_profile("315_80r22.5")
     assert Tire.from_profile(profile).fixed_grid is None
     with pytest.raises(InputError, match="TreadProfile"):

@@ -4,6 +4,7 @@ import math
 import numpy as np
 import pytest
 
+from treadload.catalogue import tires
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.tire import Groove, LateralGrooves, Tire, TreadProfile, equal_ribs
@@ -41,7 +42,7 @@ def test_beyond_the_wheel_there_is_nothing():
 
 
 def test_library_profile_has_five_ribs_and_four_grooves():
-    profile = TreadProfile.from_library("315/80R22.5")
+    profile = tires["315/80R22.5"]
     # The numbers that examples/paper/fit_profile.py found and wrote.
     assert (profile.rolling_radius, profile.width) == (0.538, 0.282)
     assert (profile.crown_radius, profile.shoulder_radius) == (1.678, 0.0088)
@@ -57,11 +58,11 @@ def test_library_profile_has_five_ribs_and_four_grooves():
 
 
 def test_library_tolerates_spelling_and_says_what_there_is():
-    assert TreadProfile.from_library("315_80r22.5") == TreadProfile.from_library("315/80 R22.5")
+    assert tires["315_80r22.5"] == tires["315/80 R22.5"]
     with pytest.raises(InputError, match=r"did you mean '315/80R22\.5'"):
-        TreadProfile.from_library("315/70R22.5")
-    with pytest.raises(InputError, match="which has"):
-        TreadProfile.from_library("bicycle")
+        tires["315/70R22.5"]
+    with pytest.raises(InputError, match=r"known are 315/80R22\.5"):
+        tires["bicycle"]
 
 
 def test_the_map_is_symmetric_cell_by_cell():

@@ -8,7 +8,7 @@ from typing import Literal
 from pydantic import model_validator
 
 from treadload.read import Table
-from treadload.response import GridLoad, place
+from treadload.response import GridLoad, place_load
 from treadload.units import Length, Speed
 
 # A vertical slice goes this far below the last interface, as a part of its depth, and no deeper than that, m.
@@ -74,7 +74,7 @@ class ResponsePart(Table):
         """Copies of a wheel at their places, each moved to the nearest cells of the first."""
         placed: list[GridLoad] = []
         for part in self.wheels:
-            copy = place(wheel, x=part.x, y=part.y, mirror=part.mirror)
+            copy = place_load(wheel, x=part.x, y=part.y, mirror=part.mirror)
             assert isinstance(copy, GridLoad)
             first = placed[0].grid if placed else copy.grid
             placed.append(

@@ -7,7 +7,8 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import BeforeValidator, model_validator
 
 from treadload.case.choices import BOND, BondTable, RoadMaterial
-from treadload.materials import Material, Mix, TemperatureDependent, mix
+from treadload.catalogue import mixes
+from treadload.materials import Material, Mix, TemperatureDependent
 from treadload.materials.tables import ROAD_MATERIAL
 from treadload.pavement import Layer, Pavement, TemperatureProfile
 from treadload.read import As, Table, table_of
@@ -54,7 +55,7 @@ class LayerPart(Table):
             made: Material | TemperatureDependent = ROAD_MATERIAL.build(self.material)
             return made
         assert self.mix is not None
-        found = mix(self.mix)
+        found = mixes[self.mix]
         return found.with_frequency(frequency) if frequency is not None and isinstance(found, Mix) else found
 
 

@@ -1,1 +1,26 @@
-"""Named things from data files: one reader, and the data that come with the package."""
+"""Named things with their sources and doubts: mixes, structures, viscoelastic materials and tires.
+
+Each is a read-only mapping, `catalogue.mixes["BBSG3"]`; other packages bring more by entry points, see the `group` of
+each. The readers take files like those in `catalogue/data`.
+"""
+
+from treadload.materials.library import mixes, read_mixes
+from treadload.materials.published import published as materials
+from treadload.materials.published import read_materials
+from treadload.named import Catalogue
+from treadload.pavement.catalogue import Structure, read_structures, structures
+from treadload.tire.library import TireMesh, read_tires, tires
+
+__all__ = [
+    "Catalogue",
+    "Structure",
+    "TireMesh",
+    "materials",
+    "mixes",
+    "read_materials",
+    "read_mixes",
+    "read_structures",
+    "read_tires",
+    "structures",
+    "tires",
+]

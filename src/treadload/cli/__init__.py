@@ -138,16 +138,16 @@ def life(
     from treadload.case import LifeCase
     from treadload.files import check_writable
     from treadload.results.exports import check_output, write
-    from treadload.study import plan_design, run_design
+    from treadload.study import plan_life, run_life
 
     path = output or design.with_suffix(".nc")
     check_output(path)
     question = LifeCase.from_toml(design, changes=changes or ())
     check_writable(path)
     if dry_run:
-        return _planned(plan_design(question), path)
+        return _planned(plan_life(question), path)
     with counts(_err, quiet=quiet) as tell:
-        result = run_design(question, sensitivity=sensitivity, workers=workers, progress=tell)
+        result = run_life(question, sensitivity=sensitivity, workers=workers, progress=tell)
     files = write(result.to_tree(), path)
     _out.print(result.summary(), markup=False)
     _written(files)
@@ -278,44 +278,32 @@ def scan(
 
 @app.command()
 @_one_sentence
-def catalogue() -> None:
-    """Structures, mixes and viscoelastic materials that a case can name, with their sources."""
-    from treadload.materials import Mix, mixes, published_materials
-    from treadload.pavement import structures
+def catalogue(
+    kind: Annotated[
+        str,
+        typer.Argument(help="structures, mixes, materials or tires; all if left out.", show_default=False),
+    ] = "",
+    name: Annotated[str, typer.Argument(help="One of them, in full.", show_default=False)] = "",
+) -> None:
+    """Structures, mixes, viscoelastic materials and tires that a case can name, with sources and doubts."""
+    from treadload import catalogue as catalogues
+    from treadload.errors import InputError, nearest
 
-    sources: dict[str, int] = {}
-
-    def cited(source: str) -> str:
-        return f"[{sources.setdefault(source, len(sources) + 1)}]" if source else ""
-
-    roads = Table(
-        _name(),
-        "layers from the surface down",
-        "source",
-        title="structure = … or layers, 6 BBSG3 / 10 GB3 / 10 GB3 / PF3",
-    )
-    for road in structures().values():
-        layers = ", ".join(
-            course.mix if course.thickness is None else f"{course.thickness * 1e3:g} mm {course.mix}"
-            for course in road.courses
-        )
-        roads.add_row(road.name, f"{road.title}: {layers}", Text(cited(road.source)))
-    materials = Table(_name(), "what it is", "source", title="mix = …")
-    for material in mixes().values():
-        words = str(material).removeprefix(f"{material.name}, ")
-        if isinstance(material, Mix):
-            fatigue = "" if material.epsilon_6 is None else f", ε₆ = {material.epsilon_6 * 1e6:g} microstrain"
-            words = f"E = {material.modulus(15) / 1e6:g} MPa at 15 °C{fatigue}; data {words}"
-        materials.add_row(material.name, Text(words), Text(cited(material.source)))
-    laws = Table(_name(), "what it is", "source", title='material = { kind = "published", name = … }')
-    for law in published_materials().values():
-        at = "" if law.temperature is None else f"at {law.temperature:g} °C: "
-        laws.add_row(law.name, Text(f"{at}{law.material}"), Text(cited(law.source)))
-    for table in (roads, materials, laws):
-        table.title_justify = "left"
+    kinds = {one: getattr(catalogues, one) for one in ("structures", "mixes", "materials", "tires")}
+    if kind and kind not in kinds:
+        raise InputError(f"no catalogue of {kind!r}; {nearest(kind, kinds)}")
+    if name:
+        return _out.print(kinds[kind].about(name), markup=False)
+    notes: dict[str, int] = {}
+    for one in kinds.values() if not kind else [kinds[kind]]:
+        table = Table(_name(), "what it is", "notes", title=one.use, title_justify="left")
+        for item_name, words, item in one.rows():
+            told = [text for text in (item.source, *item.doubts) if text]
+            marks = " ".join(f"[{notes.setdefault(text, len(notes) + 1)}]" for text in told)
+            table.add_row(item_name, Text(words), Text(marks))
         _out.print(table)
-    for source, number in sources.items():
-        _out.print(f"[{number}] {source}", markup=False)
+    for text, number in notes.items():
+        _out.print(f"[{number}] {text}", markup=False)
 
 
 @app.command()

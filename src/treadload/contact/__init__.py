@@ -1,17 +1,6 @@
 """Contact of tire and road: pressure, shear, stick and slip."""
 
 from treadload.contact.curve import CreepCurve, creep_curve
-from treadload.contact.friction.heat import FlashHeating, Heat
-from treadload.contact.friction.laws import (
-    Anisotropic,
-    Coulomb,
-    Exponential,
-    FrictionLaw,
-    LinearFalling,
-    PressureDependent,
-    Rational,
-)
-from treadload.contact.friction.map import FrictionMap
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.contact.resistance import RollingResistance, rolling_resistance
 from treadload.contact.rolling_state import Rolling
@@ -22,19 +11,9 @@ from treadload.contact.turning import TurnResult, turn_on_the_spot
 
 __all__ = [
     "STRAIGHT",
-    "Anisotropic",
     "Contact",
-    "Coulomb",
     "CreepCurve",
-    "Exponential",
-    "FlashHeating",
-    "FrictionLaw",
-    "FrictionMap",
-    "Heat",
-    "LinearFalling",
     "Maneuver",
-    "PressureDependent",
-    "Rational",
     "Rolling",
     "RollingResistance",
     "TransientResult",

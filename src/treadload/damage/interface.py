@@ -261,7 +261,7 @@ def _mm(metres: xr.DataArray) -> str:
 
 @dataclass(frozen=True)
 class BondCriterion:
-    """The bond of an interface as a criterion of design: what `design_life` asks after how many passes it parts.
+    """The bond of an interface as a criterion of design: what `solve_life` asks after how many passes it parts.
 
     name: for tables and figures. strength, law: of the bond; strength at the temperature of the layer above.
     interface: counted from the surface, 0 below the top layer, negative from the lowest.

@@ -4,7 +4,6 @@ from treadload.materials.elastic import Elastic
 from treadload.materials.fit import MaterialFit, fit_2s2p1d, fit_huet_sayegh, fit_prony
 from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
 from treadload.materials.kinds import Material, TemperatureDependent, Viscoelastic
-from treadload.materials.library import mix, mixes, read_mixes
 from treadload.materials.measured import (
     FrequencySweep,
     RelaxationTest,
@@ -14,12 +13,7 @@ from treadload.materials.measured import (
 )
 from treadload.materials.mixture import HydraulicMix, Mix, RoadMaterial, Unbound
 from treadload.materials.power_law import PowerLawCreep
-from treadload.materials.published import (
-    PublishedMaterial,
-    published_material,
-    published_materials,
-    read_published,
-)
+from treadload.materials.published import PublishedMaterial
 from treadload.materials.series import as_prony
 from treadload.materials.shifting import MasterCurve, master_curve
 from treadload.materials.temperature import WLF, Arrhenius, QuadraticShift, TabulatedShift, Thermorheological
@@ -53,13 +47,7 @@ __all__ = [
     "fit_huet_sayegh",
     "fit_prony",
     "master_curve",
-    "mix",
-    "mixes",
-    "published_material",
-    "published_materials",
     "read_isotherms",
     "read_master_curve",
-    "read_mixes",
-    "read_published",
     "read_shift_factors",
 ]

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from functools import cache
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-from treadload.catalogue.named import Catalogue, data, read_tables
 from treadload.errors import InputError
 from treadload.materials.mixture import HydraulicMix, Mix, RoadMaterial, Unbound
+from treadload.named import Catalogue, read_tables, sentence
 from treadload.units import Celsius, Frequency, Length, Modulus, Number, Strain, leading_number, quantity
 
 
@@ -28,6 +27,7 @@ class _Bituminous:
     scatter: Number | None = None
     calibration: Number | None = None
     ratios: str | None = None
+    doubts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,7 @@ class _Hydraulic:
     calibration: Number
     joints: Number | None = None
     thickness_scatter: Length | None = None
+    doubts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -71,59 +72,41 @@ class _AllUnbound:
 
 @dataclass(frozen=True)
 class _File:
-    """A file of road materials of one source."""
+    """A file of road materials of one source, and the doubts about it."""
 
     source: str
+    doubts: tuple[str, ...] = ()
     bituminous: _AllBituminous | None = None
     hydraulic: dict[str, _Hydraulic] | None = None
     unbound: _AllUnbound | None = None
 
 
-def mix(name: str) -> RoadMaterial:
-    """A road material by its name: Mix for "EB-GB3", HydraulicMix for "GC-T3", Unbound for "GNT1" or "PF3".
-
-    Raises InputError that names the nearest known one.
-    """
-    return _catalogue().find(name)
-
-
-def mixes() -> dict[str, RoadMaterial]:
-    """All road materials by name: ours, and those that other packages bring along by `treadload.mixes`.
-
-    Raises InputError for an entry point that fails, and for a name that stands twice.
-    """
-    return _catalogue().all()
-
-
 def read_mixes(path: str | os.PathLike[str]) -> list[RoadMaterial]:
     """Road materials of a TOML file; see the files of `catalogue/data/mixes`.
 
-    Keys: source; bituminous with temperatures (°C), frequency (Hz) of the moduli (Pa), poisson, slope, mixes and
-    ratios; hydraulic; unbound. Raises InputError that names file and key.
+    Keys: source; doubts, sentences, also of one mix; bituminous with temperatures (°C), frequency (Hz) of the moduli
+    (Pa), poisson, slope, mixes and ratios; hydraulic; unbound. Raises InputError that names file and key.
     """
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read
 
     name = str(Path(path))
     tables: _File = read(_File, read_tables(Path(path)), name)
-    source = " ".join(tables.source.split())
     try:
-        return [*_bituminous(tables.bituminous, source), *_hydraulic(tables.hydraulic or {}, source),
-                *_unbound(tables.unbound, source)]  # fmt: skip
+        items: list[RoadMaterial] = [
+            *_bituminous(tables.bituminous),
+            *_hydraulic(tables.hydraulic or {}),
+            *_unbound(tables.unbound),
+        ]
     except InputError as error:
         raise InputError(f"{name}: {error}") from error
+    source = sentence(tables.source)
+    return [
+        replace(item, source=source, doubts=tuple(map(sentence, (*item.doubts, *tables.doubts)))) for item in items
+    ]
 
 
-@cache
-def _own() -> tuple[RoadMaterial, ...]:
-    return tuple(item for file in data("mixes") for item in read_mixes(file))
-
-
-def _catalogue() -> Catalogue[RoadMaterial]:
-    return Catalogue("mix", (Mix, HydraulicMix, Unbound), _own, "treadload.mixes")
-
-
-def _bituminous(common: _AllBituminous | None, source: str) -> list[Mix]:
+def _bituminous(common: _AllBituminous | None) -> list[Mix]:
     if common is None:
         return []
     found = []
@@ -134,7 +117,8 @@ def _bituminous(common: _AllBituminous | None, source: str) -> list[Mix]:
             raise InputError(f"bituminous.mixes.{name}: {error}") from error
         fatigue = own.epsilon_6, common.slope, own.scatter, own.calibration
         moduli = tuple(rows), tuple(rows.values())
-        found.append(Mix(name, common.temperatures, *moduli, common.poisson, common.frequency, *fatigue, source))
+        at = common.poisson, common.frequency
+        found.append(Mix(name, common.temperatures, *moduli, *at, *fatigue, doubts=own.doubts))
     return found
 
 
@@ -170,15 +154,15 @@ def _in_hertz(key: str) -> str:
     return f"{key} Hz" if leading_number(key)[1] == "" else key
 
 
-def _hydraulic(tables: Mapping[str, _Hydraulic], source: str) -> list[HydraulicMix]:
+def _hydraulic(tables: Mapping[str, _Hydraulic]) -> list[HydraulicMix]:
     found = []
     for name, own in tables.items():
         given = {field.name: getattr(own, field.name) for field in fields(own) if field.name != "inverse_slope"}
-        found.append(HydraulicMix(name=name, slope=-1 / own.inverse_slope, source=source, **given))
+        found.append(HydraulicMix(name=name, slope=-1 / own.inverse_slope, **given))
     return found
 
 
-def _unbound(common: _AllUnbound | None, source: str) -> list[Unbound]:
+def _unbound(common: _AllUnbound | None) -> list[Unbound]:
     if common is None:
         return []
     shared: dict[str, Any] = {
@@ -186,7 +170,6 @@ def _unbound(common: _AllUnbound | None, source: str) -> list[Unbound]:
         "slope": common.slope,
         "constant": common.constant,
         "constant_light": common.constant_light,
-        "source": source,
     }
     granular = [
         Unbound(name=name, modulus=modulus, constant_inverted=common.constant_inverted, **shared)
@@ -194,3 +177,24 @@ def _unbound(common: _AllUnbound | None, source: str) -> list[Unbound]:
     ]
     platforms = [Unbound(name=name, modulus=modulus, **shared) for name, modulus in (common.platforms or {}).items()]
     return [*granular, *platforms]
+
+
+def _words(material: RoadMaterial) -> str:
+    words = str(material).removeprefix(f"{material.name}, ")
+    if not isinstance(material, Mix):
+        return words
+    fatigue = "" if material.epsilon_6 is None else f", ε₆ = {material.epsilon_6 * 1e6:g} microstrain"
+    return f"E = {material.modulus(15) / 1e6:g} MPa at 15 °C{fatigue}; data {words}"
+
+
+mixes: Catalogue[RoadMaterial] = Catalogue(
+    "mix",
+    (Mix, HydraulicMix, Unbound),
+    folder="mixes",
+    read=read_mixes,
+    words=_words,
+    group="treadload.mixes",
+    use='mix = "EB-GB3" in a layer of a case',
+    prefix="EB-",
+)
+"""Road materials: Mix as "EB-GB3", HydraulicMix as "GC-T3", Unbound as "GNT1" or "PF3"; "EB-" may be left out."""

@@ -2,7 +2,7 @@
 
 from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift_below
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded
-from treadload.pavement.catalogue import Structure, read_structures, structures
+from treadload.pavement.catalogue import Structure
 from treadload.pavement.layer import Layer
 from treadload.pavement.rows import LayerRow, layer_rows
 from treadload.pavement.structure import Pavement
@@ -24,6 +24,4 @@ __all__ = [
     "is_bituminous",
     "layer_rows",
     "lift_below",
-    "read_structures",
-    "structures",
 ]

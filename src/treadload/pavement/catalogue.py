@@ -7,14 +7,14 @@ that returns Structures, for one `lambda: read_structures(path)` of a file like 
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from treadload.catalogue.named import Catalogue, data, read_tables
+from treadload.describing import as_call
 from treadload.errors import InputError
-from treadload.materials.library import mix
+from treadload.materials.library import mixes
 from treadload.materials.mixture import Mix
+from treadload.named import Catalogue, read_tables, sentence
 from treadload.pavement import notation
 from treadload.pavement.bonds import BONDED, BondLaw
 from treadload.pavement.layer import Layer
@@ -35,12 +35,14 @@ class Structure:
     """A catalogued road: layers by the names of their mixes.
 
     name: in the catalogue. title: in words. courses: from the surface down. source: where it is from.
+    doubts: what is not certain about it, a sentence each.
     """
 
     name: str
     title: str
     courses: tuple[Course, ...]
-    source: str = ""
+    source: str = field(default="", repr=False)
+    doubts: tuple[str, ...] = field(default=(), repr=False)
 
     def layers(self, *, frequency: float | None = None) -> list[Layer]:
         """The layers of the road, see `Pavement.from_catalogue`; bituminous ones wait for their temperature.
@@ -50,7 +52,7 @@ class Structure:
         """
         layers = []
         for course in self.courses:
-            material = mix(course.mix)
+            material = mixes[course.mix]
             if frequency is not None and isinstance(material, Mix):
                 material = material.with_frequency(frequency)
             layers.append(Layer(material, course.thickness, name=course.mix, bond=course.bond))
@@ -59,6 +61,8 @@ class Structure:
     def __str__(self) -> str:
         return f"{self.name} ({self.title})"
 
+    __repr__ = as_call
+
 
 def find_structure(name: str) -> Structure:
     """A catalogued structure by name, or one written out as layers, see `pavement.notation`.
@@ -66,7 +70,7 @@ def find_structure(name: str) -> Structure:
     Raises InputError that names the nearest known one, and says what is wrong with the layers.
     """
     try:
-        return _catalogue().find(name)
+        return structures[name]
     except InputError as unknown:
         if not isinstance(name, str):
             raise
@@ -81,21 +85,16 @@ def find_structure(name: str) -> Structure:
     return Structure(notation.in_words(layers), "layers as written", courses)
 
 
-def structures() -> dict[str, Structure]:
-    """All catalogued structures by name: ours, and those that other packages bring by `treadload.structures`.
-
-    Raises InputError for an entry point that fails, and for a name that stands twice.
-    """
-    return _catalogue().all()
-
-
 def read_structures(path: str | os.PathLike[str]) -> list[Structure]:
     """Structures of a TOML file; see `catalogue/data/structures`. Raises InputError that names file and key."""
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read
 
     tables: _File = read(_File, read_tables(Path(path)), str(Path(path)))
-    return [Structure(one.name, one.title, one.layers, " ".join(one.source.split())) for one in tables.structures]
+    return [
+        Structure(one.name, one.title, one.layers, sentence(one.source), tuple(map(sentence, one.doubts)))
+        for one in tables.structures
+    ]
 
 
 @dataclass(frozen=True)
@@ -106,6 +105,7 @@ class _Row:
     title: str
     source: str
     layers: tuple[Course, ...]
+    doubts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -115,10 +115,21 @@ class _File:
     structures: tuple[_Row, ...]
 
 
-@cache
-def _own() -> tuple[Structure, ...]:
-    return tuple(item for file in data("structures") for item in read_structures(file))
+def _words(structure: Structure) -> str:
+    layers = ", ".join(
+        course.mix if course.thickness is None else f"{course.thickness * 1e3:g} mm {course.mix}"
+        for course in structure.courses
+    )
+    return f"{structure.title}: {layers}"
 
 
-def _catalogue() -> Catalogue[Structure]:
-    return Catalogue("structure", (Structure,), _own, "treadload.structures")
+structures: Catalogue[Structure] = Catalogue(
+    "structure",
+    (Structure,),
+    folder="structures",
+    read=read_structures,
+    words=_words,
+    group="treadload.structures",
+    use='structure = "6 BBSG3 / 15 GB3 / PF3" in [pavement] of a case, or any layers written so',
+)
+"""Roads by the names of their layers; `Pavement.from_catalogue` builds them."""

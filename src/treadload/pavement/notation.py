@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from treadload.errors import InputError
-from treadload.materials.library import mix
+from treadload.materials.library import mixes
 from treadload.materials.mixture import HydraulicMix, RoadMaterial
 from treadload.pavement.bonds import BONDED, HALF_BONDED, BondLaw
 from treadload.units import leading_number
@@ -33,7 +33,7 @@ def read_layers(text: str) -> list[tuple[RoadMaterial, float | None]]:
             f"the last layer, {last!r}, has a thickness, but goes down without end: add what lies below it, such as "
             "a platform, PF3, or write the layers one by one above a rigid base"
         )
-    return [*layers, (_material(last), None)]
+    return [*layers, (mixes[last], None)]
 
 
 def bonds(materials: Sequence[RoadMaterial]) -> list[BondLaw]:
@@ -77,15 +77,4 @@ def _layer(part: str) -> tuple[RoadMaterial, float]:
     if not name:
         raise InputError(f'{part!r} names no mix; write it like "{EXAMPLE}"')
     # As a person would write it in m: 0.06, not 0.06000000000000001.
-    return _material(name), float(f"{number * _METRES[unit]:.12g}")
-
-
-def _material(name: str) -> RoadMaterial:
-    try:
-        return mix(name)
-    except InputError as unknown:
-        try:
-            return mix(f"{_PREFIX}{name}")
-        except InputError as neither:
-            _, _, hint = str(unknown if "did you mean" in str(unknown) else neither).partition("; ")
-            raise InputError(f"no mix {name!r}; {hint}") from None
+    return mixes[name], float(f"{number * _METRES[unit]:.12g}")

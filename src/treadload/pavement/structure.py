@@ -80,11 +80,11 @@ class Pavement:
         temperature: float | Sequence[float | None] | TemperatureProfile | None = None,
         frequency: float | None = None,
     ) -> Pavement:
-        """A road by its name in the catalogue, see `structures()`, or written as layers of the catalogue's mixes.
+        """A road by its name in `treadload.catalogue.structures`, or written as layers of the catalogue's mixes.
 
         name: "6 BBSG3 / 10 GB3 / 10 GB3 / PF3": thickness in cm (or with its unit, "60 mm BBSG3") and mix, "EB-" left
         out or not, from the surface down; the last without thickness. Layers written so are bonded, and half-bonded
-        between two that are treated with cement, slag or ash. Or one of `structures()` itself.
+        between two that are treated with cement, slag or ash. Or one of those structures itself.
         temperature: as for `at_temperature`; left out, the bituminous layers wait for theirs. frequency: of
         loading, Hz, at which their moduli are read; left out, that of their data, 10 Hz for the French ones.
         Raises InputError for an unknown name, which it compares with the known ones, and as `at_temperature` does.

@@ -1,6 +1,6 @@
 """Stress, strain and displacement in the road."""
 
-from treadload.response.gears import axle, dual_wheels, place, tandem
+from treadload.response.gears import axle, dual_wheels, place_load, tandem
 from treadload.response.loads import GridLoad, UniformDisc, UniformRectangle
 from treadload.response.material import MATERIAL_LENGTH
 from treadload.response.solution import Response
@@ -14,7 +14,7 @@ __all__ = [
     "UniformRectangle",
     "axle",
     "dual_wheels",
-    "place",
+    "place_load",
     "solve_response",
     "tandem",
 ]

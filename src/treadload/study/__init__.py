@@ -1,18 +1,18 @@
 """From a case to its results, from a traffic to a life."""
 
 from treadload.study.delamination import BondComparison, compare_bonds, solve_interfaces
-from treadload.study.design import DesignResult, run_design
-from treadload.study.life import design_life
+from treadload.study.life import solve_life
 from treadload.study.passages import Passages, solve_passages
-from treadload.study.plan import plan_case, plan_design
+from treadload.study.plan import plan_case, plan_life
 from treadload.study.run import Result, run_case
+from treadload.study.run_life import LifeResult, run_life
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 from treadload.study.two_grids import assess_on_two_grids
 from treadload.study.uniform import UniformComparison, compare_uniform
 
 __all__ = [
     "BondComparison",
-    "DesignResult",
+    "LifeResult",
     "Passages",
     "Result",
     "Sensitivity",
@@ -20,12 +20,12 @@ __all__ = [
     "assess_on_two_grids",
     "compare_bonds",
     "compare_uniform",
-    "design_life",
     "life_sensitivity",
     "plan_case",
-    "plan_design",
+    "plan_life",
     "run_case",
-    "run_design",
+    "run_life",
     "solve_interfaces",
+    "solve_life",
     "solve_passages",
 ]

@@ -29,7 +29,7 @@ from treadload.errors import InputError
 from treadload.pavement import BONDED, FRICTIONLESS, BondLaw, Pavement
 from treadload.response import solve_response
 from treadload.response.loads import Load
-from treadload.study.life import design_life
+from treadload.study.life import solve_life
 from treadload.study.passages import Progress
 from treadload.tire import Tire
 
@@ -146,7 +146,7 @@ def compare_bonds(
 ) -> BondComparison:
     """How long a road lasts with its bond, without it, and when the bond parts on the way.
 
-    Arguments as in `design_life`. criteria: one BondCriterion at least, and what limits the road's life; the bottom
+    Arguments as in `solve_life`. criteria: one BondCriterion at least, and what limits the road's life; the bottom
     of the layer above the interface belongs there, as it bends alone once it is parted. interface: that parts;
     left out, that of the bond which lasts shortest. bond: what is left of it, FRICTIONLESS, HALF_BONDED or
     Bond(stiffness=...).
@@ -163,7 +163,7 @@ def compare_bonds(
         raise InputError(f"comparing bonds needs a BondCriterion{where} among the criteria, got none")
 
     def live(one: Pavement) -> Life:
-        return design_life(
+        return solve_life(
             tire, one, traffic, climate, criteria,
             spacing=spacing, tolerance=tolerance, workers=workers, progress=progress,
         )  # fmt: skip

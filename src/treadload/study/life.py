@@ -19,7 +19,7 @@ from treadload.study.passages import Progress, solve_passages
 from treadload.tire import Tire
 
 
-def design_life(
+def solve_life(
     tire: Tire,
     road: Pavement,
     traffic: Traffic,

@@ -69,8 +69,8 @@ def plan_case(case: Case) -> str:
     return "\n".join([*lines, "", road_in_rows(road, case), *(f"warning: {text}" for text in said)])
 
 
-def plan_design(case: LifeCase) -> str:
-    """What `run_design` would do, as text: contacts, responses, criteria. Reads the tire. Raises InputError."""
+def plan_life(case: LifeCase) -> str:
+    """What `run_life` would do, as text: contacts, responses, criteria. Reads the tire. Raises InputError."""
     tire, road, traffic = case.build_tire(), case.build_road(), case.build_traffic()
     criteria, seasons = case.build_criteria(), case.build_climate().seasons
     warm = [warmed(road, criteria, season) for season in seasons]

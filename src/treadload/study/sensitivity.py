@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.contact import Coulomb
+from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criteria.design import Criterion
 from treadload.damage.miner import Life, damage_of, wander_of

@@ -17,7 +17,7 @@ from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
-from treadload.response import MATERIAL_LENGTH, GridLoad, UniformDisc, UniformRectangle, place, solve_response
+from treadload.response import MATERIAL_LENGTH, GridLoad, UniformDisc, UniformRectangle, place_load, solve_response
 from treadload.response.fields import COMPONENTS
 from treadload.response.material import check_length
 
@@ -124,7 +124,7 @@ def compare_uniform(
     at = _depths(road, load.grid.dx) if depths is None else np.unique(np.atleast_1d(np.asarray(depths, dtype=float)))
     values = {name: np.empty((len(loads), len(at))) for name in _READINGS}
     for number, one in enumerate(loads.values()):
-        placed = [place(one, x=x, y=y) for x, y in wheels]
+        placed = [place_load(one, x=x, y=y) for x, y in wheels]
         for row, depth in enumerate(at):
             for name, value in _largest(placed, road, float(depth), load, wheels, mean_over).items():
                 values[name][number, row] = value

@@ -1,11 +1,12 @@
 """The tire: scans, height maps and parametric treads to the gap that the contact solver takes."""
 
 from treadload.tire.grooves import Groove, LateralGrooves, equal_ribs
+from treadload.tire.library import TireMesh, example_mesh
 from treadload.tire.modulus import modulus_from_inflation
 from treadload.tire.quality import GrooveMeasure, ScanQuality
 from treadload.tire.surface import HeightMapSurface, Surface
 from treadload.tire.tire import Tire
-from treadload.tire.tread import ProfileSurface, TreadProfile, example_mesh
+from treadload.tire.tread import ProfileSurface, TreadProfile
 
 __all__ = [
     "Groove",
@@ -16,6 +17,7 @@ __all__ = [
     "ScanQuality",
     "Surface",
     "Tire",
+    "TireMesh",
     "TreadProfile",
     "equal_ribs",
     "example_mesh",

@@ -20,6 +20,7 @@ from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
+from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
 from treadload.tire.surface import (
@@ -117,13 +118,13 @@ class Tire:
     ) -> Tire:
         """Tire of a parametric tread.
 
-        profile: a TreadProfile, or the name of one in the library, e.g. "315/80R22.5".
-        Raises InputError when the library does not have it.
+        profile: a TreadProfile, or the name of one in the catalogue, e.g. "315/80R22.5".
+        Raises InputError when the catalogue does not have it.
         """
-        found = TreadProfile.from_library(profile) if isinstance(profile, str) else profile
-        if not isinstance(found, TreadProfile):
+        tread = tread_named(profile) if isinstance(profile, str) else profile
+        if not isinstance(tread, TreadProfile):
             raise InputError(f"profile must be a TreadProfile or the name of one, got {profile!r}")
-        return cls(ProfileSurface(found), material, inflation_pressure, name or found.name)
+        return cls(ProfileSurface(tread), material, inflation_pressure, name or tread.name)
 
     @classmethod
     def from_scan(

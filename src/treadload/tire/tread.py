@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import os
 from collections.abc import Mapping
@@ -13,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from treadload.catalogue.named import data
 from treadload.describing import as_call
 from treadload.errors import GeometryError, InputError
 from treadload.files import parse_toml
@@ -35,6 +33,7 @@ class TreadProfile:
     the tire, m. width: of the tread, m; there is no material beyond. shoulder_radius: rounding where the
     tread turns into a vertical sidewall, m, tangent to both; 0 for a square shoulder. grooves, lateral: cut
     into it; where two meet, the deeper one counts. name, source, notes: free text.
+    doubts: what is not certain about it, a sentence each.
     Raises InputError when a number is out of bounds or a groove leaves the tread.
     """
 
@@ -47,10 +46,12 @@ class TreadProfile:
     name: str = ""
     source: str = ""
     notes: str = ""
+    doubts: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "grooves", tuple(self.grooves))
         object.__setattr__(self, "lateral", tuple(self.lateral))
+        object.__setattr__(self, "doubts", tuple(self.doubts))
         check_finite(self, "tread profile", ("rolling_radius", "crown_radius", "width"))
         for name, low, high in (("rolling_radius", 0.05, 3.0), ("width", 0.02, 2.0)):
             if not low <= getattr(self, name) <= high:
@@ -82,26 +83,13 @@ class TreadProfile:
                 )
 
     @classmethod
-    def from_library(cls, name: str) -> TreadProfile:
-        """Profile that comes with treadload, e.g. "315/80R22.5" (a slash may be written as underscore).
-
-        Raises InputError with the names there are.
-        """
-        known = library_names()
-        wanted = _plain(name)
-        for path in data("treads"):
-            if _plain(path.stem) == wanted:
-                return cls.from_toml(path)
-        close = difflib.get_close_matches(wanted, [_plain(k) for k in known], n=1, cutoff=0.4)
-        hint = next((f"; did you mean {k!r}?" for k in known if close and _plain(k) == close[0]), "")
-        raise InputError(f"no tread profile {name!r} in the library, which has {', '.join(known)}{hint}")
-
-    @classmethod
     def from_toml(cls, path: str | Path) -> TreadProfile:
         """Profile of a TOML file: the keys are the arguments of the class; m and rad, or texts with their unit."""
         path = Path(path)
         if not os.path.isfile(path):
-            raise InputError(f"no tread profile file {str(path)!r}; library profiles: {', '.join(library_names())}")
+            raise InputError(
+                f"no tread profile file {str(path)!r}; check the path, or give a name of `treadload catalogue tires`"
+            )
         try:
             text = path.read_text(encoding="utf-8")
         except OSError as error:
@@ -261,21 +249,6 @@ class ProfileSurface:
                 "put the grid's origin under the axle"
             )
         return gap
-
-
-def library_names() -> list[str]:
-    """Names of the tread profiles that come with treadload."""
-    return sorted(path.stem.replace("_", "/") for path in data("treads"))
-
-
-def example_mesh() -> Path:
-    """Path of the truck tire mesh that comes with treadload (335/65R22.5, metres, BSD-3-Clause licence beside it)."""
-    return data("tires", "feda_tire_fine.obj")[0]
-
-
-def _plain(name: str) -> str:
-    """A name without what differs between spellings: case, slashes, underscores, blanks."""
-    return "".join(character for character in str(name).lower().removesuffix(".toml") if character.isalnum())
 
 
 def _plain_tables(value: Any) -> Any:

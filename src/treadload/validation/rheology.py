@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from treadload.catalogue import materials
 from treadload.materials import (
     HuetSayegh,
     Model2S2P1D,
@@ -14,7 +15,6 @@ from treadload.materials import (
     Prony,
     Thermorheological,
     as_prony,
-    published_material,
 )
 from treadload.validation.check import Check, absolute
 
@@ -25,7 +25,7 @@ _CREEPING = PowerLawCreep(2.5e-11, 1e-8, 1e3, 0.35, 0.3)
 
 def rheology_checks() -> Iterator[Check]:
     """The mix of ViscoRoute at 15 °C and 10 Hz, series within their tolerance, ∫ E(t - s) J(s) ds = t."""
-    simple = published_material("ViscoRoute").material
+    simple = materials["ViscoRoute"].material
     assert isinstance(simple, Thermorheological)
     mix = simple.at(15.0)
     assert isinstance(mix, HuetSayegh)

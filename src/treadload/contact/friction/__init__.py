@@ -1,1 +1,28 @@
-"""What bounds the shear: laws of friction, where on the road they hold, and the heat that they make."""
+"""Laws of friction: how much shear a pressure bears, by slip, direction, place and heat."""
+
+from treadload.contact.friction.heat import FlashHeating, Heat
+from treadload.contact.friction.laws import (
+    Anisotropic,
+    Coulomb,
+    Exponential,
+    FrictionLaw,
+    Interface,
+    LinearFalling,
+    PressureDependent,
+    Rational,
+)
+from treadload.contact.friction.map import FrictionMap
+
+__all__ = [
+    "Anisotropic",
+    "Coulomb",
+    "Exponential",
+    "FlashHeating",
+    "FrictionLaw",
+    "FrictionMap",
+    "Heat",
+    "Interface",
+    "LinearFalling",
+    "PressureDependent",
+    "Rational",
+]

@@ -12,13 +12,13 @@ from treadload.damage.miner import Life
 from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.results import life_tree
-from treadload.study.life import design_life
+from treadload.study.life import solve_life
 from treadload.study.passages import Progress
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 
 
 @dataclass(frozen=True, eq=False)
-class DesignResult:
+class LifeResult:
     """What a case of design gave.
 
     road: whose materials wait for their temperature. sensitivity: None if it was not asked for, or no criterion is
@@ -50,16 +50,16 @@ class DesignResult:
     __repr__ = first_line
 
 
-def run_design(
+def run_life(
     case: LifeCase, *, sensitivity: bool = True, workers: int | None = None, progress: Progress | None = None
-) -> DesignResult:
+) -> LifeResult:
     """The life of the road of a case, and its sensitivities.
 
     sensitivity: False to leave them out. workers: threads; all cores if left out. progress: called after every solve.
     Raises the errors of reading, contact and response.
     """
     tire, road = case.build_tire(), case.build_road()
-    life = design_life(
+    life = solve_life(
         tire,
         road,
         case.build_traffic(),
@@ -76,4 +76,4 @@ def run_design(
         if asked
         else None
     )
-    return DesignResult(case, road, life, more)
+    return LifeResult(case, road, life, more)

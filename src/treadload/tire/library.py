@@ -1,0 +1,104 @@
+"""The catalogue of tires: parametric treads and meshes, a data file each in `catalogue/data/tires`.
+
+Another package adds its own by an entry point of the group `treadload.tires`: a function without arguments that
+returns TreadProfile and TireMesh, for one `lambda: read_tires(path)` of a file like ours.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from treadload.describing import as_call
+from treadload.errors import InputError
+from treadload.named import Catalogue, read_tables, sentence
+from treadload.tire.tread import TreadProfile
+
+
+@dataclass(frozen=True)
+class TireMesh:
+    """A mesh of a tire in a file; `Tire.from_scan` takes it like a path.
+
+    name: in the catalogue. path: of the file. title: in words. source: where it is from. doubts: what is not certain
+    about it, a sentence each.
+    """
+
+    name: str
+    path: Path
+    title: str = ""
+    source: str = field(default="", repr=False)
+    doubts: tuple[str, ...] = field(default=(), repr=False)
+
+    def __fspath__(self) -> str:
+        return str(self.path)
+
+    def __str__(self) -> str:
+        return f"{self.title or 'mesh'}, {self.path.name}"
+
+    __repr__ = as_call
+
+
+CataloguedTire = TreadProfile | TireMesh
+"""What the catalogue of tires holds."""
+
+
+def read_tires(path: str | os.PathLike[str]) -> list[CataloguedTire]:
+    """The tire of a TOML file, in a list; see `catalogue/data/tires`. Raises InputError that names file and key.
+
+    A mesh has the keys name, mesh (its file, from the folder of the TOML file), title, source and doubts; a
+    parametric tread those of TreadProfile.
+    """
+    # pydantic is loaded when a file is read, not before.
+    from treadload.read import read
+
+    file = Path(path)
+    tables = read_tables(file)
+    if "mesh" not in tables:
+        return [TreadProfile.from_toml(file)]
+    own: _Mesh = read(_Mesh, tables, str(file), folder=file.parent)
+    if not own.mesh.is_file():
+        raise InputError(f"{file}: no mesh file {str(own.mesh)!r}; give its path from the folder of the TOML file")
+    return [TireMesh(own.name, own.mesh, own.title, sentence(own.source), tuple(map(sentence, own.doubts)))]
+
+
+@dataclass(frozen=True)
+class _Mesh:
+    """A mesh of a file."""
+
+    name: str
+    mesh: Path
+    title: str
+    source: str
+    doubts: tuple[str, ...] = ()
+
+
+def example_mesh() -> Path:
+    """Path of the truck tire mesh that comes with treadload (335/65R22.5, metres, BSD-3-Clause licence beside it)."""
+    mesh = tires[EXAMPLE]
+    assert isinstance(mesh, TireMesh)
+    return mesh.path
+
+
+def tread_named(name: str) -> TreadProfile:
+    """The parametric tread of this name in the catalogue. Raises InputError, also where the name is a mesh's."""
+    tire = tires[name]
+    if isinstance(tire, TireMesh):
+        raise InputError(
+            f"{tire.name!r} is a mesh and no parametric tread; use Tire.from_scan(catalogue.tires[{tire.name!r}])"
+        )
+    return tire
+
+
+EXAMPLE = "335/65R22.5"
+
+tires: Catalogue[CataloguedTire] = Catalogue(
+    "tire",
+    (TreadProfile, TireMesh),
+    folder="tires",
+    read=read_tires,
+    words=str,
+    group="treadload.tires",
+    use='profile = "315/80R22.5" in [tire] of a case for a tread, scan = "example" for the mesh',
+)
+"""Treads, for `Tire.from_profile`, and meshes, for `Tire.from_scan`."""

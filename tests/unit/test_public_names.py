@@ -1,0 +1,128 @@
+"""The names at the top: stated once, in the stub, and what else is where."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import treadload as tl
+
+ROOT = Path(tl.__file__).parent
+CLONE = Path(__file__).parents[2]
+STUB = (ROOT / "__init__.pyi").read_text(encoding="utf-8")
+ROOMS = (
+    *("catalogue", "contact", "damage", "friction", "materials", "pavement"),
+    *("plots", "response", "results", "study", "tire"),
+)
+
+
+def test_the_stub_states_every_public_name_once():
+    # Each statement of the stub makes one public name, and nothing else does.
+    statements = [line for line in STUB.partition('"""\n\n')[2].splitlines() if line]
+    stated = [re.fullmatch(r"from treadload[\w.]* import (\w+) as \1", line)[1] for line in statements]
+    assert sorted(stated) == sorted(set(stated)) == dir(tl) == tl.__all__
+    assert all(getattr(tl, name) is not None for name in stated)
+    own = (ROOT / "__init__.py").read_text(encoding="utf-8")
+    assert not [name for name in stated if re.search(rf"\b{name}\b", own.rpartition('"""')[2])]
+
+
+def test_about_thirty_names_and_the_rooms():
+    rooms = [name for name in dir(tl) if isinstance(getattr(tl, name), ModuleType)]
+    assert rooms == list(ROOMS)
+    assert 30 <= len(dir(tl)) - len(rooms) <= 40
+    # What a completion shows is the user's, not the machinery's.
+    assert not {"Any", "importlib", "annotations", "TYPE_CHECKING", "accessors"} & set(dir(tl))
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_rooms_say_what_they_offer(room):
+    module = getattr(tl, room)
+    assert sorted(module.__all__) == sorted(set(module.__all__))
+    assert all(hasattr(module, name) for name in module.__all__)
+    assert module.__doc__
+
+
+def test_friction_laws_can_be_reached():
+    wheel = tl.Rolling(normal_load=1e3, friction=tl.friction.Anisotropic(along=0.8, across=0.6))
+    assert wheel.friction.along == 0.8
+
+
+@pytest.mark.parametrize(
+    ("name", "place"),
+    [
+        ("Prony", "materials.Prony"),
+        ("AxleClass", "damage.AxleClass"),
+        ("creep_curve", "contact.creep_curve"),
+        ("write_csv", "results.write_csv"),
+        ("life_sensitivity", "study.life_sensitivity"),
+        ("TreadProfile", "tire.TreadProfile"),
+        ("mix", r"catalogue.mixes\[name\]"),
+        ("structures", "catalogue.structures"),
+        ("run_design", "run_life"),
+        ("design_life", "study.solve_life"),
+        ("DesignResult", "LifeResult"),
+        ("place", "place_load"),
+    ],
+)
+def test_names_that_left_the_top_tell_where_they_are(name, place):
+    with pytest.raises(AttributeError, match=rf"^treadload\.{name} is treadload\.{place} now$"):
+        getattr(tl, name)
+    # The place that is told exists.
+    found = tl
+    for part in place.partition("\\")[0].split("."):
+        found = getattr(found, part)
+
+
+def test_a_name_that_is_nowhere():
+    with pytest.raises(AttributeError, match="no attribute 'solve_contacts'; did you mean 'solve_contact'"):
+        _ = tl.solve_contacts
+    with pytest.raises(AttributeError, match=r"no attribute 'zzz'$"):
+        _ = tl.zzz
+
+
+def test_notebooks_that_look_for_hidden_names_load_nothing():
+    code = (
+        "import sys, treadload; hasattr(treadload, '_repr_html_'), dir(treadload);"
+        "print(*[name for name in sys.modules if name.startswith(('treadload.', 'numpy', 'xarray', 'matplotlib'))])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert set(done.stdout.split()) == {"treadload._public", "treadload.accessors"}
+
+
+def test_what_the_readme_and_the_examples_name_exists():
+    pages = [CLONE / "README.md", *(CLONE / "docs").rglob("*.md"), *(CLONE / "examples").rglob("*.py")]
+    pages += (CLONE / "benchmarks").glob("*.py")
+    named = {name for page in pages for name in re.findall(r"\btl((?:\.[A-Za-z_]\w*)+)", page.read_text("utf-8"))}
+    assert len(named) > 40
+    for name in named:
+        found = tl
+        for part in name[1:].split("."):
+            found = getattr(found, part)
+
+
+def test_the_readme_needs_the_top_only():
+    code = "\n".join(re.findall(r"```python\n(.*?)```", (CLONE / "README.md").read_text("utf-8"), re.DOTALL))
+    assert set(re.findall(r"\btl\.(\w+)", code)) <= set(dir(tl)) - set(ROOMS)
+
+
+@pytest.mark.slow
+def test_a_type_checker_sees_the_types(tmp_path):
+    # mypy takes the stub for the package: names have their types, others are errors.
+    pytest.importorskip("mypy")
+    (tmp_path / "use.py").write_text(
+        "import treadload as tl\n"
+        "reveal_type(tl.solve_contact)\nreveal_type(tl.friction.Coulomb(0.7))\n"
+        "reveal_type(tl.catalogue.mixes)\ntl.Prony\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--follow-imports=silent", "use.py"],
+        cwd=tmp_path, capture_output=True, text=True, env={"MYPYPATH": str(ROOT.parent)},
+    )  # fmt: skip
+    said = done.stdout
+    assert "-> treadload.contact.solution.Contact" in said
+    assert 'Revealed type is "treadload.contact.friction.laws.Coulomb"' in said
+    assert "treadload.named.Catalogue[treadload.materials.mixture.Mix" in said
+    assert 'Module has no attribute "Prony"' in said
