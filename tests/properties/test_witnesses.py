@@ -12,7 +12,7 @@ from treadload.damage.traffic import AxleClass, Climate, Traffic, Wander
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.study import wheels
-from treadload.study.life import design_life
+from treadload.study.life import solve_life
 from treadload.study.passage import _turns
 from treadload.study.uniform import RECTANGLE, compare_uniform
 from treadload.tire import Tire
@@ -122,7 +122,7 @@ def test_a_life_does_not_know_how_far_beside_the_wheels_readings_end(monkeypatch
     base = (DesignCriterion("base", FatigueLine(90e-6, -0.2), 0),)
 
     def years():
-        return design_life(tire, road, traffic, Climate.constant(15.0), base, spacing=0.012, workers=1).years("base")
+        return solve_life(tire, road, traffic, Climate.constant(15.0), base, spacing=0.012, workers=1).years("base")
 
     own = years()
     monkeypatch.setattr(wheels, "MARGIN", 1.2)
