@@ -18,9 +18,9 @@ GOAL = 60.0
 TIRE = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ROAD = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 CRITERIA = (
-    tl.damage.DesignCriterion("surface, top-down", tl.FatigueLine(100e-6, -0.2), 0, "top", "principal"),
-    tl.damage.DesignCriterion("base, bottom-up", tl.FatigueLine(90e-6, -0.2), 1),
-    tl.damage.DesignCriterion("platform", tl.damage.FrenchSubgrade(), -1, "top"),
+    tl.damage.Criterion("surface, top-down", tl.FatigueLine(100e-6, -0.2), 0, "top", "principal"),
+    tl.damage.Criterion("base, bottom-up", tl.FatigueLine(90e-6, -0.2), 1),
+    tl.damage.Criterion("platform", tl.damage.FrenchSubgrade(), -1, "top"),
 )
 CLIMATE = tl.damage.Climate.equal_parts([2.0, 3.0, 7.0, 11.0, 16.0, 21.0, 24.0, 23.0, 18.0, 12.0, 6.0, 3.5])
 MANEUVERS = (

@@ -26,10 +26,10 @@ UPPER = tl.damage.InterfaceStrength.leutner_minimum("wearing")
 LOWER = tl.damage.InterfaceStrength(50e3, math.radians(35))
 FATIGUE = tl.damage.ShearFatigue(slope=-0.1)
 CRITERIA = (
-    tl.damage.DesignCriterion("wearing course, bottom", tl.FatigueLine(100e-6, -0.2), 0),
-    tl.damage.DesignCriterion("base, bottom", tl.FatigueLine(90e-6, -0.2), 1),
-    tl.damage.DesignCriterion("subgrade", tl.damage.FrenchSubgrade(), -1, "top"),
-    tl.damage.BondCriterion("upper bond", UPPER, FATIGUE, 0),
+    tl.damage.Criterion("wearing course, bottom", tl.FatigueLine(100e-6, -0.2), 0),
+    tl.damage.Criterion("base, bottom", tl.FatigueLine(90e-6, -0.2), 1),
+    tl.damage.Criterion("subgrade", tl.damage.FrenchSubgrade(), -1, "top"),
+    tl.damage.Criterion.of_bond("upper bond", UPPER, FATIGUE, 0),
 )
 TRAFFIC = tl.damage.Traffic(
     (tl.damage.AxleClass("braking truck", 1.0, LOAD, PRESSURE, maneuver=BRAKING, friction=FRICTION),),

@@ -167,6 +167,10 @@ BONDS = Registry("bond", "treadload.bonds", default="spring", words=True, exampl
 FRICTION = Registry("law of friction", "treadload.friction", key="law", number="coulomb")
 MANEUVERS = Registry("maneuver", "treadload.maneuvers", words=True, example='{ kind = "braking", deceleration = 3 }')
 CRITERIA = Registry("law of fatigue", "treadload.criteria", key="law")
+QUANTITIES = Registry(
+    "quantity", "treadload.quantities", key="quantity", words=True,
+    example='{ quantity = "utilisation", cohesion = "0.85 MPa" }',
+)  # fmt: skip
 READERS = Registry("reader of meshes", "treadload.readers")
 BODIES = Registry("body", "treadload.bodies")
-ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, READERS, BODIES)
+ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS, BODIES)

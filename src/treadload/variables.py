@@ -113,7 +113,9 @@ _DAMAGE = {
     "extension_by_depth": ("1", "largest extension strain that is read at each depth"),
 }
 
-_CRITERIA = {
+_QUANTITIES = {
+    "in_plane_extension": ("1", "largest extension strain in the horizontal plane"),
+    "vertical_compression": ("1", "vertical strain, compression positive"),
     "mazars_onset_ratio": ("1", "equivalent strain of Mazars over the strain at which damage begins"),
     "von_mises_strain": ("1", "equivalent strain of von Mises, √(½ Σ (εᵢ - εⱼ)²)"),
     "distortion_energy": ("J/m^3", "energy of the change of shape per volume"),
@@ -178,7 +180,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_RESPONSE,
     **_MOVING,
     **_DAMAGE,
-    **_CRITERIA,
+    **_QUANTITIES,
     **_LIFE,
     **_INTERFACES,
     **_UNIFORM,

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.damage.criteria.design import DesignCriterion
-from treadload.damage.criteria.fields import compute_criteria
+from treadload.damage.criterion import Criterion
+from treadload.damage.fields import compute_quantities
 from treadload.damage.laws.american import (
     AsphaltInstitute,
     AsphaltInstituteSubgrade,
@@ -116,8 +116,8 @@ def test_strains_of_structures_under_the_french_axle(name):
     above = tl.solve_response(wheels, road, **at)
     below = tl.solve_response(wheels, road, **at, side="below")
     law = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
-    extension = DesignCriterion("base", law, layer=1).read(above.dataset.isel(depth=0)).squeeze()
-    soil = DesignCriterion("soil", FrenchSubgrade(), layer=2, place="top")
+    extension = Criterion("base", law, layer=1).read(above.dataset.isel(depth=0)).squeeze()
+    soil = Criterion("soil", FrenchSubgrade(), layer=2, place="top")
     compression = soil.read(below.dataset.isel(depth=0)).squeeze()
     rows = [row for row in WORKED["worked_structures"]["rows"] if row["structure"] == name and "x" in row]
     for number, row in enumerate(rows):
@@ -155,7 +155,7 @@ def test_criteria_of_a_tensor(case):
     stress = full[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].reshape(6, 1, 1, 1)
     strain = tensors.strain_from_stress(stress, case["E_MPa"] * 1e6, case["nu"])
     response = SimpleNamespace(dataset=response_dataset(stress, strain, np.zeros(1), np.zeros(1), np.zeros(1)))
-    found = {name: float(values.squeeze()) for name, values in compute_criteria(response).items()}
+    found = {name: float(values.squeeze()) for name, values in compute_quantities(response).items()}
     # The stress has twelve digits, and their differences lose one.
     known = {
         "extension_strain": case["principal_strain"][2],

@@ -13,7 +13,7 @@ import pytest
 import treadload as tl
 from treadload.catalogue import mixes
 from treadload.damage import FrenchSubgrade
-from treadload.damage.criteria.design import DesignCriterion
+from treadload.damage.criterion import Criterion
 
 TABLES = json.loads((Path(__file__).parents[1] / "data" / "layered" / "nf_p98_086_table_I5.json").read_text())
 TWIN = [tl.UniformDisc(0.125, 0.662e6, y=side * 0.1875) for side in (-1, 1)]
@@ -38,11 +38,11 @@ def test_table_one_is_the_strain_on_top_of_the_gravel():
     table = TABLES["table_I1"]
     structure, printed = table["structure"], table["published"]["eps_z_microstrain"]
     road = built(structure["E_MPa"], structure["nu"], structure["h_m"])
-    under, between = read(DesignCriterion("gravel", FrenchSubgrade(), 1, "top"), road)
+    under, between = read(Criterion("gravel", FrenchSubgrade(), 1, "top"), road)
     # Half a unit of the printed digit.
     assert under == pytest.approx(printed, abs=0.05)
     assert between < 100
-    assert read(DesignCriterion("soil", FrenchSubgrade(), 2, "top"), road)[0] == pytest.approx(1812, abs=0.5)
+    assert read(Criterion("soil", FrenchSubgrade(), 2, "top"), road)[0] == pytest.approx(1812, abs=0.5)
 
 
 # 0.45 for the hot mixes and 0.35 for the rest: of 0.25 to 0.5 in steps of 0.05 for mixes, gravel and soil, the only
@@ -52,8 +52,8 @@ RUN = built([1512, 2588, 200, 50], [0.45, 0.45, 0.35, 0.35], [0.06, 0.10, 0.25])
 
 def test_strains_of_the_run_of_a_second_program():
     """290.58 at the base of the mixes, 891.5 on top of the soil at 0.41 m, which is a sum of three decimals."""
-    base = DesignCriterion("base", tl.damage.FrenchBituminous(90e-6, -0.2, 0.3, 0.16, 0.25, 1.3), 1)
-    soil = DesignCriterion("soil", FrenchSubgrade(), -1, "top")
+    base = Criterion("base", tl.damage.FrenchBituminous(90e-6, -0.2, 0.3, 0.16, 0.25, 1.3), 1)
+    soil = Criterion("soil", FrenchSubgrade(), -1, "top")
     assert read(base, RUN).max() == pytest.approx(290.58, rel=1e-3)
     assert read(soil, RUN).max() == pytest.approx(891.5, rel=3e-3)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.damage.criteria.fields import compute_criteria
+from treadload.damage.fields import compute_quantities
 from treadload.damage.history import residual_after
 
 MIX = tl.materials.Prony(2e10, ((0.3, 1e-3), (0.3, 1e-2), (0.2, 0.1), (0.15, 1.0)), 0.35)
@@ -30,6 +30,6 @@ def test_the_sum_of_tails_is_the_row_of_wheels():
         np.testing.assert_allclose(left, before.dataset[f"stress_{component}"], atol=1e-6 * largest)
     # It is not nothing: the mix still holds some of what the wheels did.
     assert float(abs(found["residual_stress_yy"]).max()) > 1e-3 * largest
-    energy = compute_criteria(one)["dissipated_energy"]
+    energy = compute_quantities(one)["dissipated_energy"]
     assert energy.dims == ("depth", "y")
     assert (energy > 0).all()

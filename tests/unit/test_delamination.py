@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadload.contact.maneuver import Maneuver
-from treadload.damage import BondCriterion, DesignCriterion, FatigueLine, InterfaceStrength, ShearFatigue
+from treadload.damage import Criterion, FatigueLine, InterfaceStrength, ShearFatigue
 from treadload.damage.miner import passes_in_two_phases
 from treadload.damage.traffic import AxleClass, Climate, Traffic, Wander
 from treadload.errors import InputError
@@ -35,12 +35,12 @@ TRAFFIC = Traffic(
 )
 CLIMATE = Climate.constant(15.0)
 LINE = FatigueLine(100e-6, -0.2)
-BOND = BondCriterion("upper bond", InterfaceStrength(1e6), ShearFatigue(-0.1))
+BOND = Criterion.of_bond("upper bond", InterfaceStrength(1e6), ShearFatigue(-0.1))
 CRITERIA = (
-    DesignCriterion("wearing course", LINE, 0),
-    DesignCriterion("base", LINE, 1),
+    Criterion("wearing course", LINE, 0),
+    Criterion("base", LINE, 1),
     BOND,
-    BondCriterion("lower bond", InterfaceStrength(1e6), ShearFatigue(-0.1), 1),
+    Criterion.of_bond("lower bond", InterfaceStrength(1e6), ShearFatigue(-0.1), 1),
 )
 COARSE = {"spacing": 12e-3, "workers": 1}
 
@@ -134,9 +134,9 @@ def test_the_summary_says_both_lives(compared):
 
 
 def test_a_strong_bond_never_changes_the_life():
-    strong = BondCriterion("strong", InterfaceStrength(1e12), ShearFatigue(-0.1))
+    strong = Criterion.of_bond("strong", InterfaceStrength(1e12), ShearFatigue(-0.1))
     glued = Pavement([Layer(Elastic(7e9, 0.35), 0.06), Layer(Elastic(120e6, 0.35))])
-    criteria = (DesignCriterion("base", LINE), strong)
+    criteria = (Criterion("base", LINE), strong)
     found = compare_bonds(TIRE, glued, TRAFFIC, CLIMATE, criteria, bond=Bond(1e10), **COARSE)
     lives = found.dataset["life_passes"].sel(criterion="base")
     assert float(lives.sel(state=PARTING)) == float(lives.sel(state=BEFORE))
@@ -146,9 +146,9 @@ def test_a_strong_bond_never_changes_the_life():
 def test_the_user_can_choose_the_interface():
     found = compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, interface=-1, **COARSE)
     assert (found.interface, found.criterion) == (1, "lower bond")
-    with pytest.raises(InputError, match="BondCriterion of interface 1"):
+    with pytest.raises(InputError, match="the criterion of a bond of interface 1"):
         compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA[:3], interface=1, **COARSE)
-    with pytest.raises(InputError, match="needs a BondCriterion"):
+    with pytest.raises(InputError, match="needs the criterion of a bond"):
         compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA[:2], **COARSE)
     with pytest.raises(InputError, match="2 interface"):
         compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, interface=2, **COARSE)

@@ -11,7 +11,6 @@ import treadload as tl
 from treadload.catalogue import mixes
 from treadload.contact.maneuver import Maneuver
 from treadload.damage import (
-    BondCriterion,
     FatigueLine,
     FrenchBituminous,
     FrenchSubgrade,
@@ -19,8 +18,8 @@ from treadload.damage import (
     ShearFatigue,
     miner,
 )
-from treadload.damage.cracks import in_tension
-from treadload.damage.criteria.design import DesignCriterion
+from treadload.damage.quantity import in_tension
+from treadload.damage.criterion import Criterion
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
@@ -33,9 +32,9 @@ from treadload.tire import Groove, Tire, TreadProfile
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 CRITERIA = (
-    DesignCriterion("top-down", FatigueLine(100e-6, -0.2), 0, "top", "principal"),
-    DesignCriterion("base", FatigueLine(90e-6, -0.2), 1),
-    DesignCriterion("soil", FrenchSubgrade(), -1, "top"),
+    Criterion("top-down", FatigueLine(100e-6, -0.2), 0, "top", "principal"),
+    Criterion("base", FatigueLine(90e-6, -0.2), 1),
+    Criterion("soil", FrenchSubgrade(), -1, "top"),
 )
 LIGHT = AxleClass("light", 0.6, 15e3, 700e3)
 HEAVY = AxleClass("heavy", 0.4, 32.5e3, 850e3, ((0.0, -0.17), (0.0, 0.17)), Maneuver.braking(2.0))
@@ -99,7 +98,7 @@ def test_seasons_of_layers_and_laws_that_follow_them():
     seasons = Climate((Season("winter", 0.5, (0.0, 4.0, 8.0)), Season("summer", 0.5, (35.0, 28.0, 15.0))))
     law = lambda temperature: FatigueLine((80 + temperature) * 1e-6, -0.2)  # noqa: E731
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5)
-    life = solve_life(TIRE, ROAD, traffic, seasons, (DesignCriterion("base", law, 1),), **COARSE)
+    life = solve_life(TIRE, ROAD, traffic, seasons, (Criterion("base", law, 1),), **COARSE)
     assert life.stats["responses"] == 2
     assert 0 < life.years("base") < math.inf
     assert "solved: 1 contacts and 2 responses" in life.summary()
@@ -122,7 +121,7 @@ def test_a_wheel_beside_the_path_is_read_there():
     ("change", "words"),
     [
         ({"criteria": ()}, "at least one criterion"),
-        ({"criteria": (DesignCriterion("deep", FatigueLine(1e-4, -0.2), -1),)}, "semi-infinite"),
+        ({"criteria": (Criterion("deep", FatigueLine(1e-4, -0.2), -1),)}, "semi-infinite"),
         ({"climate": Climate((Season("a", 1.0, (1.0, 2.0)),))}, "temperature"),
         ({"climate": Climate.constant(60.0)}, "60"),
         ({"tolerance": 2.0}, "tolerance"),
@@ -139,7 +138,7 @@ def test_bonds_are_criteria_and_follow_their_temperature():
     """On a road without temperatures the shear is one; the strength of the season alone changes its use."""
     layers = [Layer(Elastic(7e9, 0.35), 0.06), Layer(Elastic(9e9, 0.35), 0.15), Layer(Elastic(120e6, 0.35))]
     strength = InterfaceStrength(lambda t: 1e6 - 20e3 * t)
-    bond = BondCriterion("bond", strength, ShearFatigue(-0.2))
+    bond = Criterion.of_bond("bond", strength, ShearFatigue(-0.2))
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3, maneuver=Maneuver.braking(3.0)),), 1e5)
     climate = Climate((Season("cold", 0.5, 0.0), Season("warm", 0.25, 25.0), Season("warm again", 0.25, 25.0)))
     passages = solve_passages(TIRE, Pavement(layers), traffic, climate, (bond,), **COARSE)
@@ -152,7 +151,7 @@ def test_bonds_are_criteria_and_follow_their_temperature():
 
 
 def test_a_bond_that_parts_at_once_lives_no_pass():
-    bond = BondCriterion("bond", InterfaceStrength(0.0), ShearFatigue(-0.2))
+    bond = Criterion.of_bond("bond", InterfaceStrength(0.0), ShearFatigue(-0.2))
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5, wander=Wander.normal(0.2))
     life = solve_life(TIRE, ROAD, traffic, Climate.constant(15.0), (bond, CRITERIA[1]), **COARSE)
     assert life.governing == "bond"
@@ -182,7 +181,7 @@ def test_a_wheel_moves_by_half_a_cell_at_most():
 
 def test_a_braked_wheel_tears_the_surface_across_travel():
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3, maneuver=Maneuver.braking(5.0)),), 1e5)
-    plane = (DesignCriterion("top-down", FatigueLine(100e-6, -0.2), 0, "top"),)
+    plane = (Criterion("top-down", FatigueLine(100e-6, -0.2), 0, "top"),)
     life = solve_life(TIRE, ROAD, traffic, Climate.constant(15.0), plane, **COARSE)
     assert life.dataset["orientation_damage"].sel(orientation="transverse").item() > 0.9
     assert abs(life.dataset["first_crack_angle"].item()) == pytest.approx(math.pi / 2, abs=math.radians(15))
@@ -201,12 +200,12 @@ def test_two_lifts_live_as_long_as_one_and_the_upper_says_that_it_is_none():
         law = FrenchBituminous.of(
             mix, thickness=tl.pavement.bituminous_thickness(road, 1), risk=0.05, platform_modulus=soil.modulus
         )
-        base = DesignCriterion("base", law, -2)
+        base = Criterion("base", law, -2)
         lives[name] = solve_life(TIRE, road, traffic, climate, (base,), **COARSE)
         assert not any("lift" in text for text in lives[name].warnings)
     # The same layers to the solver; round-off of the thickness.
     assert lives["two"].years("base") == pytest.approx(lives["one"].years("base"), rel=1e-9)
-    upper = solve_life(TIRE, roads["two"], traffic, climate, (DesignCriterion("base", law, 1),), **COARSE)
+    upper = solve_life(TIRE, roads["two"], traffic, climate, (Criterion("base", law, 1),), **COARSE)
     (said,) = [text for text in upper.warnings if "lift" in text]
     assert said.startswith("base: it reads the bottom of layer 2, but a lift of the same mix lies below")
     assert "that of layer 3" in said

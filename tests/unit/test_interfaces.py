@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from treadload.damage import (
     LEUTNER_MINIMUM,
-    BondCriterion,
+    Criterion,
     InterfaceStrength,
     ShearFatigue,
     assess_bonds,
@@ -113,7 +113,7 @@ def test_leutner_forces_become_stresses():
     least = InterfaceStrength.leutner_minimum("lower")
     assert least.cohesion == InterfaceStrength.from_leutner(LEUTNER_MINIMUM["lower"]).cohesion
     assert "no source" in least.doubt
-    assert "no source" in BondCriterion("bond", least, ShearFatigue(-0.2)).law_at(15.0).doubt
+    assert "no source" in Criterion.of_bond("bond", least, ShearFatigue(-0.2)).quantity.doubt
 
 
 def test_strengths_follow_their_temperature():
@@ -261,7 +261,7 @@ def test_delaminate_changes_one_bond():
 
 def test_a_criterion_reads_what_the_verdict_reads(bonded):
     strength = InterfaceStrength(1e6, ANGLE)
-    criterion = BondCriterion("bond", strength, ShearFatigue(-0.2), -2)
+    criterion = Criterion.of_bond("bond", strength, ShearFatigue(-0.2), -2)
     above = solve_response(BRAKED, road(), depths=[criterion.depth(road())], x=X, y=X, side=criterion.side)
     wanted = assess_bonds(bonded, strength).dataset["utilisation"].isel(interface=0).to_numpy()
     # One depth and two share no wavenumbers: both are cut at 1e-9 of the largest stress.

@@ -176,15 +176,15 @@ def test_laws_are_refused_where_they_do_not_speak(law, more, words):
 def test_criteria_are_refused_where_their_law_does_not_speak():
     top, bottom = MepdgTopDown(5e9, 0.15, 0.06, 0.11), FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3)
     with pytest.raises(InputError, match=r'reads the bottom of a layer.*give place = "top"'):
-        tl.damage.DesignCriterion("a", top, 0, "bottom")
+        tl.damage.Criterion("a", top, 0, "bottom")
     with pytest.raises(InputError, match=r'reads the top of a layer.*give place = "bottom"'):
-        tl.damage.DesignCriterion("a", bottom, 0, "top")
+        tl.damage.Criterion("a", bottom, 0, "top")
     with pytest.raises(InputError, match=r"reads layer 1.*give layer 0"):
-        tl.damage.DesignCriterion("a", top, 1, "top").depth(LAYERS)
+        tl.damage.Criterion("a", top, 1, "top").depth(LAYERS)
     with pytest.raises(InputError, match="reads the utilisation of the bond"):
-        tl.damage.DesignCriterion("a", ShearFatigue(-0.2))
+        tl.damage.Criterion("a", ShearFatigue(-0.2))
     with pytest.raises(InputError, match=r"mean_over must lie in \(0, 0.1\] m, got 10"):
-        tl.damage.DesignCriterion("a", LINE, length=10)
+        tl.damage.Criterion("a", LINE, length=10)
 
 
 def test_a_response_without_its_road_needs_a_depth(response):
@@ -226,7 +226,7 @@ def test_a_life_says_that_it_reads_planes_parallel_to_the_surface():
     one = tl.damage.AxleClass("one", 1.0, 32.5e3, 820e3)
     traffic = tl.damage.Traffic((one,), 1e5)
     upright, plane = (
-        tl.damage.DesignCriterion(strain, FatigueLine(100e-6, -0.2), 0, "top", strain)
+        tl.damage.Criterion(strain, FatigueLine(100e-6, -0.2), 0, "top", strain)
         for strain in ("principal", "in-plane")
     )
     life = tl.study.solve_life(tire, road, traffic, tl.damage.Climate.constant(15.0), (upright, plane), spacing=12e-3)

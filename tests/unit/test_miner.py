@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadload.damage import FatigueLine, FrenchBituminous, FrenchSubgrade
-from treadload.damage.criteria.design import DesignCriterion
+from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.errors import InputError
@@ -19,8 +19,8 @@ from treadload.pavement import Layer, Pavement
 
 LINE = FatigueLine(100e-6, -0.2)
 CRITERIA = (
-    DesignCriterion("top", LINE, place="top", strain="principal"),
-    DesignCriterion("soil", FrenchSubgrade(), -1, "top"),
+    Criterion("top", LINE, place="top", strain="principal"),
+    Criterion("soil", FrenchSubgrade(), -1, "top"),
 )
 Y = np.arange(-30, 31) * 0.02
 
@@ -91,7 +91,7 @@ def test_a_law_of_its_temperature_is_asked_at_the_layers():
         asked.append(temperature)
         return FatigueLine((100 + temperature) * 1e-6, -0.2)
 
-    criteria = (DesignCriterion("warm", law, place="top"),)
+    criteria = (Criterion("warm", law, place="top"),)
     climate = Climate((Season("w", 0.5, (1.0, 2.0)), Season("s", 0.5, (31.0, 22.0))))
     values = np.full((1, 1, 2, len(Y)), 120e-6)
     with pytest.raises(InputError, match="layer_temperatures"):
@@ -119,10 +119,10 @@ ROAD = Pavement([Layer(Elastic(5e9, 0.35), 0.1), Layer(Elastic(1e8, 0.35))])
 
 
 def test_a_criterion_knows_its_depth_and_side():
-    assert DesignCriterion("a", LINE, 0, "top").depth(ROAD) == 0
-    assert DesignCriterion("a", LINE, 0, "bottom").depth(ROAD) == pytest.approx(0.1)
-    assert DesignCriterion("a", LINE, -1, "top").depth(ROAD) == pytest.approx(0.1)
-    assert (DesignCriterion("a", LINE, 0, "bottom").side, DesignCriterion("a", LINE, -1, "top").side) == (
+    assert Criterion("a", LINE, 0, "top").depth(ROAD) == 0
+    assert Criterion("a", LINE, 0, "bottom").depth(ROAD) == pytest.approx(0.1)
+    assert Criterion("a", LINE, -1, "top").depth(ROAD) == pytest.approx(0.1)
+    assert (Criterion("a", LINE, 0, "bottom").side, Criterion("a", LINE, -1, "top").side) == (
         "above",
         "below",
     )
@@ -131,10 +131,10 @@ def test_a_criterion_knows_its_depth_and_side():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: DesignCriterion("a", LINE, place="middle"), '"top" or "bottom"'),
-        (lambda: DesignCriterion("a", LINE, strain="shear"), "principal"),
-        (lambda: DesignCriterion("a", LINE, -1).depth(ROAD), "semi-infinite"),
-        (lambda: DesignCriterion("a", LINE, 5).depth(ROAD), "reads layer 5"),
+        (lambda: Criterion("a", LINE, place="middle"), '"top" or "bottom"'),
+        (lambda: Criterion("a", LINE, strain="shear"), "principal"),
+        (lambda: Criterion("a", LINE, -1).depth(ROAD), "semi-infinite"),
+        (lambda: Criterion("a", LINE, 5).depth(ROAD), "reads layer 5"),
         (
             lambda: miner(np.zeros((1, 1, 1, 5)), CRITERIA, Traffic(classes(1.0), 1), Climate.constant(1.0), y=Y),
             "readings must be",
@@ -225,7 +225,7 @@ def test_orientations_of_a_law_that_holds_wander_are_those_of_one_track():
     law = FrenchBituminous(100e-6, -0.2, 0.25, 0.2, 0.5, 1.0)
     traffic = Traffic(classes(0.5, 0.5), 1e5, wander=Wander.normal(0.2))
     data = miner(
-        values, (DesignCriterion("base", law),), traffic, Climate.constant(15.0), y=Y,
+        values, (Criterion("base", law),), traffic, Climate.constant(15.0), y=Y,
         cracks=(angle, np.full_like(angle, np.pi / 2)),
     ).dataset  # fmt: skip
     share = data["damage_share"].to_numpy()[0, :, 0]

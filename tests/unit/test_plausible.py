@@ -119,7 +119,7 @@ def test_a_life_says_what_no_traffic_is():
     row = tl.damage.AxleClass("front", 1.0, 35.0, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
     traffic = tl.damage.Traffic((row,), 1e12, growth=2.0, years=2)
     road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
-    criterion = tl.damage.DesignCriterion("base", tl.FatigueLine(90e-6, -0.2), 1, "bottom")
+    criterion = tl.damage.Criterion("base", tl.FatigueLine(90e-6, -0.2), 1, "bottom")
     life = tl.study.solve_life(TRUCK, road, traffic, tl.damage.Climate.constant(15.0), [criterion], spacing=4e-3)
     said = "\n".join(life.warnings)
     for word in (

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from treadload.damage import AxleClass, Climate, DesignCriterion, FatigueLine, FrenchSubgrade, Traffic, Wander, miner
+from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchSubgrade, Traffic, Wander, miner
 from treadload.errors import InputError
 from treadload.plots import life_damage, life_inputs, life_shares, life_years
 from treadload.reporting import write_report
@@ -15,7 +15,7 @@ from treadload.results import life_tree, load, save
 from treadload.variables import dataset
 
 LINE = FatigueLine(100e-6, -0.2)
-CRITERIA = (DesignCriterion("top-down", LINE, place="top"), DesignCriterion("soil", FrenchSubgrade(), -1, "top"))
+CRITERIA = (Criterion("top-down", LINE, place="top"), Criterion("soil", FrenchSubgrade(), -1, "top"))
 Y = np.arange(-40, 41) * 0.02
 
 

@@ -147,7 +147,7 @@ def test_axles_and_criteria_are_tables():
     assert cells["coefficient of friction"].startswith("exponential: ")
     assert "reference speed 2 m/s" in cells["coefficient of friction"]
 
-    assert criteria.columns == ("criterion", "law", "layer", "place", "strain it reads", "parameters given")
+    assert criteria.columns == ("criterion", "law", "layer", "place", "what it reads", "parameters given")
     base, platform, surface = criteria.rows
     plane = "in the horizontal plane"
     assert base == (
@@ -155,7 +155,14 @@ def test_axles_and_criteria_are_tables():
         "risk 5 %, ε₆, strain of a million passes 90 microstrain",
     )  # fmt: skip
     # What a law reads by itself is said.
-    assert platform == ("platform, rutting", "french subgrade", "PF3", "top", plane, "those of the layer")
+    assert platform == (
+        "platform, rutting",
+        "french subgrade",
+        "PF3",
+        "top",
+        "vertical strain on the subgrade",
+        "those of the layer",
+    )
     assert surface[2:5] == ("EB-BBSG3", "top", "three-dimensional")
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from treadload.damage import AxleClass, Climate, DesignCriterion, FatigueLine, Traffic, Wander
+from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Prony
 from treadload.pavement import Layer, Pavement
@@ -14,7 +14,7 @@ from treadload.tire import Tire
 
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
-BASE = DesignCriterion("base", FatigueLine(90e-6, -0.2), 1)
+BASE = Criterion("base", FatigueLine(90e-6, -0.2), 1)
 COARSE = {"spacing": 12e-3, "workers": 1}
 LIGHT, HEAVY = AxleClass("light", 0.6, 15e3, 700e3), AxleClass("heavy", 0.4, 32.5e3, 850e3)
 
@@ -84,7 +84,7 @@ def test_growth_shortens_what_an_input_gains():
 def test_what_cannot_be_changed_is_said():
     layers = [Layer(Prony(9e9, [(0.3, 0.05)], 0.35), 0.2, "asphalt"), *ROAD.layers[2:]]
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3, speed=20.0),), 1e5)
-    base = DesignCriterion("base", FatigueLine(90e-6, -0.2), 0)
+    base = Criterion("base", FatigueLine(90e-6, -0.2), 0)
     sensitivity, found = elasticities(traffic, Climate.constant(15.0), Pavement(layers), (base,))
     assert "modulus of asphalt" not in found
     assert any("viscoelastic" in text for text in sensitivity.skipped)

@@ -3,29 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
-from treadload.damage.criteria.design import Criterion as Judge
-from treadload.damage.criteria.design import DesignCriterion, Place, usual_layer, usual_place
+from treadload.damage.criterion import Criterion as Judge
 from treadload.damage.laws.of_layer import OnLayer, law_of_layer
+from treadload.damage.quantity import Place, Quantity, Reading
 from treadload.errors import InputError, nearest
 from treadload.pavement import Pavement
-from treadload.read import Choice, Made, guarded, made_by, parameters
+from treadload.read import As, Choice, Made, guarded, made_by, parameters
 from treadload.registry import CRITERIA
 from treadload.response import MATERIAL_LENGTH
 from treadload.units import Length
 
-STRAIN: Literal["in-plane"] = "in-plane"
+_READS = As(Quantity)
 
 
 class CriterionTable(Made):
     """`[[criteria]]`: name, law, and the layer that it judges.
 
     name: for tables and figures. layer: its name, or its number from the surface, 1 the top one; left out, the last
-    one for laws of the subgrade and the top one for top-down cracking. place: "top" or "bottom"; left out, "top" for
-    both of these, else "bottom". strain: "principal" or "in-plane", which it is if left out. mean_over: side of the
-    cube of road that an extension near the surface is a mean over; 10 mm if left out. The rest are parameters of the
-    law; those left out are taken from the layer where it is one of the catalogue: ε₆, slope, SN, k_c and E(θ) of a
+    one for laws of the subgrade and the top one for top-down cracking. place: "top" or "bottom", or "interface" for
+    the bond below the layer; left out, the usual one of what is read: "top" for both of these, else "bottom". reads:
+    a quantity by its name, or a table with its numbers, for laws with the user's numbers; those of published laws hold
+    for what they read. strain: of an extension, "principal" or "in-plane", which it is if left out. mean_over: side of
+    the cube of road that an extension near the surface is a mean over; 10 mm if left out. The rest are parameters of
+    the law; those left out are taken from the layer where it is one of the catalogue: ε₆, slope, SN, k_c and E(θ) of a
     mix, A and b of a platform.
     """
 
@@ -38,21 +40,31 @@ class CriterionTable(Made):
         """The criterion on a road. Raises InputError."""
         table: Any = self
         assert self.entry is not None
-        name, quantity = str(table.name), quantity_of(type(self))
-        number = _number(name, table.layer, road, None if quantity is None else usual_layer(quantity))
+        name, quantity = str(table.name), self.quantity
+        number = _number(name, table.layer, road, None if quantity is None else quantity.where.layer)
         law = self._law(OnLayer(name, road, number))
-        if hasattr(law, "read"):
-            judge: Judge = law
-            return judge
-        quantity = quantity or law.quantity
-        return DesignCriterion(
-            name,
-            law,
-            number,
-            table.place or usual_place(quantity),
-            table.strain or STRAIN,
-            MATERIAL_LENGTH if table.mean_over is None else table.mean_over,
-        )
+        if isinstance(law, Judge):
+            return law
+        length = MATERIAL_LENGTH if table.mean_over is None else table.mean_over
+        # A law that leaves open what it reads has taken `reads` itself.
+        reads = None if "reads" in self.hints else quantity if self.told_quantity else None
+        return Judge(name, law, number, table.place, table.strain, length, reads)
+
+    @property
+    def told_quantity(self) -> bool:
+        """True if the table says what is read."""
+        table: Any = self
+        return table.reads is not None
+
+    @property
+    def quantity(self) -> Quantity | None:
+        """What is read: as the table says, or as its law does; None where only the built law can tell."""
+        table: Any = self
+        if self.told_quantity:
+            told: Quantity = _READS.build(table.reads)
+            return told
+        found = (getattr(one, "reads", None) for one in made_by(type(self).target))
+        return next((one for one in found if isinstance(one, Quantity)), None)
 
     def _law(self, at: OnLayer) -> Any:
         target = type(self).target
@@ -72,7 +84,8 @@ CRITERION = Choice(
         "name": str,
         "layer": int | str,
         "place": Place,
-        "strain": Literal["principal", "in-plane"],
+        "strain": Reading,
+        "reads": Quantity,
         "mean_over": Length,
     },
     needed=("name",),
@@ -84,17 +97,17 @@ CRITERION = Choice(
 Criterion = Annotated[Any, CRITERION]
 
 
-def quantity_of(table: type[Made]) -> str | None:
-    """What the law of a criterion reads; None where only the built law can tell."""
-    found = (getattr(one, "quantity", None) for one in made_by(table.target))
-    return next((one for one in found if isinstance(one, str)), None)
-
-
-def usual_of(table: Mapping[str, Any]) -> tuple[str | None, int | None]:
-    """Place and layer, 0 the top one, that the law of a table of criteria reads; None where it does not tell."""
+def quantity_of(table: Mapping[str, Any]) -> Quantity | None:
+    """What a table of criteria reads; None where it does not tell."""
     kind = CRITERION.table_for(table)
-    quantity = None if kind is None else quantity_of(kind)
-    return (None, None) if quantity is None else (usual_place(quantity), usual_layer(quantity))
+    if kind is None:
+        return None
+    try:
+        read: Any = kind.model_validate({key: table[key] for key in ("name", "law", "reads") if key in table})
+        found: Quantity | None = read.quantity
+    except ValueError:
+        return None
+    return found
 
 
 def _number(who: str, asked: int | str | None, road: Pavement, usual: int | None) -> int:

@@ -13,7 +13,7 @@ from treadload.case.tire import TirePart
 from treadload.case.traffic import ClimatePart, TrafficPart
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage import Climate, Traffic
-from treadload.damage.criteria.design import Criterion as Judge
+from treadload.damage.criterion import Criterion as Judge
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 from treadload.units import Length, Number

@@ -1,11 +1,10 @@
 """What repeated load does to the road."""
 
 from treadload.damage.cracks import crack_rose, envelope
-from treadload.damage.criteria.design import DesignCriterion
-from treadload.damage.criteria.energy_ratio import EnergyRatio
-from treadload.damage.criteria.fields import compute_criteria, peak, tension_behind
+from treadload.damage.criterion import Criterion
+from treadload.damage.fields import compute_quantities, known_quantities, peak, tension_behind
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
-from treadload.damage.interface import BondCriterion, BondVerdict, assess_bonds, delaminate, interface_fields
+from treadload.damage.interface import BondVerdict, assess_bonds, delaminate, interface_fields
 from treadload.damage.laws.american import (
     AsphaltInstitute,
     AsphaltInstituteSubgrade,
@@ -13,12 +12,30 @@ from treadload.damage.laws.american import (
     MepdgTopDown,
     ShellFatigue,
 )
-from treadload.damage.laws.bond import LEUTNER_MINIMUM, InterfaceStrength, ShearFatigue
+from treadload.damage.laws.bond import LEUTNER_MINIMUM, BondStrength, BondUtilisation, InterfaceStrength, ShearFatigue
+from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.laws.equivalence import equivalent_axles
-from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine, PowerLaw
+from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine, PowerLaw, PowerLine
 from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.damage.laws.of_layer import OnLayer
 from treadload.damage.miner import Life, miner
+from treadload.damage.quantities import (
+    BottomExtension,
+    DissipatedEnergy,
+    DistortionEnergy,
+    Extension,
+    HorizontalTension,
+    MazarsOnset,
+    MazarsStrain,
+    MeanStress,
+    OctahedralShear,
+    SubgradeCompression,
+    SurfaceExtension,
+    VerticalCompression,
+    VerticalShear,
+    VonMisesStrain,
+)
+from treadload.damage.quantity import Quantity
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.damage.verdict import Verdict, assess
 
@@ -27,37 +44,55 @@ __all__ = [
     "AsphaltInstitute",
     "AsphaltInstituteSubgrade",
     "AxleClass",
-    "BondCriterion",
+    "BondStrength",
+    "BondUtilisation",
     "BondVerdict",
+    "BottomExtension",
     "Climate",
-    "DesignCriterion",
+    "Criterion",
+    "DissipatedEnergy",
+    "DistortionEnergy",
     "EnergyRatio",
+    "Extension",
     "FatigueLaw",
     "FatigueLine",
     "FrenchBituminous",
     "FrenchHydraulic",
     "FrenchSubgrade",
+    "HorizontalTension",
     "InterfaceStrength",
     "Life",
+    "MazarsOnset",
+    "MazarsStrain",
+    "MeanStress",
     "MepdgBottomUp",
     "MepdgTopDown",
+    "OctahedralShear",
     "OnLayer",
     "PowerLaw",
+    "PowerLine",
+    "Quantity",
     "Season",
     "ShearFatigue",
     "ShellFatigue",
+    "SubgradeCompression",
+    "SurfaceExtension",
     "Traffic",
     "Verdict",
+    "VerticalCompression",
+    "VerticalShear",
+    "VonMisesStrain",
     "Wander",
     "add_thermal_stress",
     "assess",
     "assess_bonds",
-    "compute_criteria",
+    "compute_quantities",
     "crack_rose",
     "delaminate",
     "envelope",
     "equivalent_axles",
     "interface_fields",
+    "known_quantities",
     "miner",
     "peak",
     "residual_after",

@@ -11,10 +11,10 @@ import xarray as xr
 
 from treadload import variables
 from treadload.damage.laws.fatigue import FatigueLaw
+from treadload.damage.quantities import Extension
+from treadload.damage.quantity import Reading
 from treadload.errors import InputError
-from treadload.kernels import tensors
-from treadload.kernels.arrays import Array, BoolArray
-from treadload.response.fields import COMPONENTS
+from treadload.kernels.arrays import Array
 
 # Values of `crack_orientation`.
 ORIENTATIONS = ("none", "longitudinal", "transverse", "oblique", "horizontal")
@@ -22,11 +22,6 @@ NONE, LONGITUDINAL, TRANSVERSE, OBLIQUE, HORIZONTAL = range(5)
 OBLIQUE_TOLERANCE = math.radians(15)
 # A plane nearer to the horizontal than this has no trace to speak of.
 _FLAT = math.radians(45)
-# Stress above this part of the largest is tension, below it round-off of a free surface.
-_TENSION = 1e-9
-
-Reading = Literal["principal", "in-plane"]
-READINGS: dict[str, str] = {"principal": "three-dimensional", "in-plane": "in-plane"}
 
 
 class HasDataset(Protocol):
@@ -76,35 +71,6 @@ def orientation(angle: Array, dip: Array, tolerance: float) -> Array:
     return codes
 
 
-def extension(data: xr.Dataset, strain: Reading) -> tuple[Array, Array]:
-    """Largest extension (depth, y, x) and its unit vector (depth, y, x, 3) of a response's dataset.
-
-    strain: "principal" reads the three-dimensional extension, "in-plane" that in the horizontal plane.
-    """
-    check_reading(strain)
-    order = [dim for dim in ("depth", "y", "x") if dim in data.dims]
-    if strain == "principal":
-        direction = data["principal_direction_1"].transpose(*order, "component").to_numpy()
-        return data["principal_strain_1"].transpose(*order).to_numpy(), direction
-    angle = data["in_plane_angle_1"].transpose(*order).to_numpy()
-    direction = np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
-    return data["in_plane_strain_1"].transpose(*order).to_numpy(), direction
-
-
-def in_tension(data: xr.Dataset) -> BoolArray:
-    """Where a principal stress of a response's dataset is tensile: (depth, y, x), or fewer; all if it has no stress.
-
-    No crack opens elsewhere, whatever extends: beside a point that is squeezed hard a body extends as well.
-    """
-    order = [dim for dim in ("depth", "y", "x") if dim in data.dims]
-    if any(f"stress_{name}" not in data for name in COMPONENTS):
-        return np.ones([data.sizes[dim] for dim in order], dtype=bool)
-    stress = np.stack([data[f"stress_{name}"].transpose(*order).to_numpy() for name in COMPONENTS])
-    limit = _TENSION * np.abs(stress).max(initial=0.0)
-    tensile: BoolArray = np.linalg.eigvalsh(tensors.matrices(stress))[..., -1] > limit
-    return tensile
-
-
 def envelope(
     response: HasDataset, *, strain: Reading = "in-plane", oblique_tolerance: float = OBLIQUE_TOLERANCE
 ) -> xr.Dataset:
@@ -129,11 +95,13 @@ def envelope(
             f"the passage of a wheel needs the response along x, got {data.sizes['x']} position(s); "
             "solve it with x from before the wheel to behind it"
         )
-    strains, directions = extension(data, strain)
+    quantity = Extension(strain)
+    strains, directions = quantity.values(data), quantity.crack(data)
+    assert directions is not None
     instant = np.argmax(np.where(np.isnan(strains), -np.inf, strains), axis=-1)
     worst = np.take_along_axis(strains, instant[..., None], axis=-1)[..., 0]
     direction = np.take_along_axis(directions, instant[..., None, None], axis=-2)[..., 0, :]
-    opens = (worst > 0) & np.take_along_axis(in_tension(data), instant[..., None], axis=-1)[..., 0]
+    opens = (worst > 0) & np.take_along_axis(quantity.opens(data), instant[..., None], axis=-1)[..., 0]
     angle, dip = (np.where(opens, part, np.nan) for part in crack_plane(direction))
     cut = opens & ((instant == 0) | (instant == data.sizes["x"] - 1))
     dims = ("depth", "y")
@@ -219,12 +187,6 @@ def crack_rose(
         oblique_tolerance=oblique_tolerance,
         **({"law": str(law)} if law is not None else {}),
     )
-
-
-def check_reading(strain: str) -> None:
-    """Raise InputError for an unknown reading of the strain."""
-    if strain not in READINGS:
-        raise InputError(f'strain must be "principal" or "in-plane", got {strain!r}')
 
 
 def check_tolerance(oblique_tolerance: float) -> None:

@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from treadload import variables
 from treadload.damage.cracks import HasDataset, gridded
-from treadload.damage.criteria.fields import STRESS, field
+from treadload.damage.quantity import STRESS, part
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
@@ -52,7 +52,7 @@ def residual_after(response: HasDataset, *, spacing: float, passes: int) -> xr.D
             f"{passes} passes {spacing:g} m apart need a response that reaches {reach:g} m behind the wheel, "
             f"its x span {np.ptp(x):g} m; let x reach further back or take fewer passes"
         )
-    stress = np.stack([field(data, name) for name in STRESS])
+    stress = np.stack([part(data, name) for name in STRESS])
     tail = CubicSpline(x, stress, axis=-1)
     places = x[kept]
     left = np.zeros((*stress.shape[:-1], len(places)))
@@ -60,7 +60,7 @@ def residual_after(response: HasDataset, *, spacing: float, passes: int) -> xr.D
         earliest = tail(np.maximum(places - number * spacing, x[0]))
         left += earliest
     largest = float(np.abs(left).max())
-    fields = {f"residual_{name}": (_DIMS, part) for name, part in zip(STRESS, left, strict=True)}
+    fields = {f"residual_{name}": (_DIMS, one) for name, one in zip(STRESS, left, strict=True)}
     fields["residual_tension"] = (_DIMS, tensors.in_plane_principal(left)[0])
     fields["total_tension"] = (_DIMS, tensors.in_plane_principal(left + stress[..., kept])[0])
     return variables.dataset(
@@ -129,7 +129,7 @@ def add_thermal_stress(response: HasDataset, stress: ArrayLike) -> xr.Dataset:
             f"stress must be one finite number of Pa or one for each of {data.sizes['depth']} depths, "
             f"got shape {given.shape}"
         )
-    total = np.stack([field(data, name) for name in STRESS])
+    total = np.stack([part(data, name) for name in STRESS])
     total[:2] += np.broadcast_to(given, data.sizes["depth"])[:, None, None]
     known = {
         **dict(zip(STRESS, total, strict=True)),
@@ -137,4 +137,4 @@ def add_thermal_stress(response: HasDataset, stress: ArrayLike) -> xr.Dataset:
         "octahedral_shear_stress": tensors.octahedral_shear(total),
         "mean_stress": tensors.mean(total),
     }
-    return data.assign({name: (_DIMS, part, variables.attributes(name)) for name, part in known.items()})
+    return data.assign({name: (_DIMS, one, variables.attributes(name)) for name, one in known.items()})

@@ -7,15 +7,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Self
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
 from treadload.damage.cracks import HasDataset, gridded
-from treadload.damage.criteria.design import Side
-from treadload.damage.laws.bond import InterfaceStrength, ShearFatigue
+from treadload.damage.criterion import interface_number
+from treadload.damage.laws.bond import BondStrength, ShearFatigue
 from treadload.damage.laws.fatigue import warnings_of
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -24,10 +23,6 @@ from treadload.kernels.layers.depths import same_depth
 from treadload.pavement import FRICTIONLESS, BondLaw, Pavement
 
 _DIMS = ("interface", "y", "x")
-# Utilisation of a bond that has parted for certain: finite, so that readings can be interpolated.
-_PARTED = 1e3
-# Utilisation below this is the solver's round-off, as on an interface that bears no shear.
-_ROUND_OFF = 1e-6
 
 
 def delaminate(road: Pavement, interface: int, bond: BondLaw = FRICTIONLESS) -> Pavement:
@@ -39,15 +34,6 @@ def delaminate(road: Pavement, interface: int, bond: BondLaw = FRICTIONLESS) -> 
     number = interface_number(road, interface)
     layers = [replace(layer, bond=bond) if k == number else layer for k, layer in enumerate(road.layers)]
     return Pavement(layers, rigid_base=road.rigid_base)
-
-
-def interface_number(road: Pavement, interface: int) -> int:
-    """Number of an interface between layers from the surface. Raises InputError for one that is not there."""
-    count = len(road.layers) - 1
-    if not -count <= interface < count:
-        there = f"{-count} to {count - 1} are there" if count else "there is none"
-        raise InputError(f"the road has {count} interface(s) between layers, got interface {interface}; {there}")
-    return interface % count
 
 
 def interface_fields(above: HasDataset, below: HasDataset | None = None) -> xr.Dataset:
@@ -119,7 +105,7 @@ class BondVerdict:
     """
 
     dataset: xr.Dataset
-    strengths: tuple[InterfaceStrength | None, ...]
+    strengths: tuple[BondStrength | None, ...]
     law: ShearFatigue | None = None
     warnings: tuple[str, ...] = ()
 
@@ -168,7 +154,7 @@ class BondVerdict:
 
 def assess_bonds(
     fields: xr.Dataset,
-    strengths: InterfaceStrength | Sequence[InterfaceStrength | None],
+    strengths: BondStrength | Sequence[BondStrength | None],
     law: ShearFatigue | None = None,
     *,
     temperature: float | Sequence[float] | None = None,
@@ -182,7 +168,7 @@ def assess_bonds(
     Returns a BondVerdict. Raises InputError for a wrong number of strengths or temperatures, or one that is missing.
     """
     count = fields.sizes["interface"]
-    given = [strengths] * count if isinstance(strengths, InterfaceStrength) else list(strengths)
+    given = [strengths] * count if isinstance(strengths, BondStrength) else list(strengths)
     if len(given) != count:
         raise InputError(
             f"give a strength for each of the {count} interfaces, None to leave one out, got {len(given)}"
@@ -195,7 +181,7 @@ def assess_bonds(
     shear, pressed = (fields[f"interface_{name}"].transpose(*_DIMS).to_numpy() for name in ("shear", "pressure"))
     used = np.full(shear.shape, np.nan)
     said: list[str] = json.loads(fields.attrs.get("warnings", "[]"))
-    found: list[InterfaceStrength | None] = []
+    found: list[BondStrength | None] = []
     for k, (strength, degrees) in enumerate(zip(given, warm, strict=True)):
         at = strength if strength is None or degrees is None else strength.at(float(degrees))
         found.append(at)
@@ -236,7 +222,7 @@ def _on_edge(peak: tuple[int, int], shape: tuple[int, ...]) -> bool:
     return any(size > 2 and at in (0, size - 1) for at, size in zip(peak, shape, strict=True))
 
 
-def _doubts(strength: InterfaceStrength, pressed: Array) -> list[str]:
+def _doubts(strength: BondStrength, pressed: Array) -> list[str]:
     said = [strength.doubt] if strength.doubt else []
     tension = float(-pressed.min())
     # Tension that matters: a hundredth of what presses. Less stands everywhere around a load.
@@ -257,61 +243,3 @@ def _named(one: xr.Dataset) -> str:
 
 def _mm(metres: xr.DataArray) -> str:
     return f"{round(float(metres) * 1e3, 1) + 0.0:.1f}"
-
-
-@dataclass(frozen=True)
-class BondCriterion:
-    """The bond of an interface as a criterion of design: what `solve_life` asks after how many passes it parts.
-
-    name: for tables and figures. strength, law: of the bond; strength at the temperature of the layer above.
-    interface: counted from the surface, 0 below the top layer, negative from the lowest.
-    Tension counts only where the strength has a limit for it; `assess_bonds` tells how much of it there is.
-    """
-
-    name: str
-    strength: InterfaceStrength
-    law: ShearFatigue
-    interface: int = 0
-
-    def at(self, temperature: float) -> Self:
-        """The same with the strength at a temperature of the layer above, °C."""
-        return replace(self, strength=self.strength.at(temperature))
-
-    def law_at(self, temperature: float) -> ShearFatigue:
-        """The law, with the doubts of the strength; it depends on temperature only through the strength."""
-        doubts = [text for text in (self.law.doubt, self.strength.doubt) if text]
-        return replace(self.law, doubt="; ".join(doubts))
-
-    @property
-    def quantity(self) -> str:
-        """What the law reads."""
-        return self.law.quantity
-
-    @property
-    def side(self) -> Side:
-        """Side of the interface that is read; shear and pressure are the same on both."""
-        return "above"
-
-    def number(self, road: Pavement) -> int:
-        """Number of the layer above the interface. Raises InputError for an interface that is not there."""
-        return interface_number(road, self.interface)
-
-    def depth(self, road: Pavement) -> float:
-        """Depth of the interface, m. Raises InputError for one that is not there."""
-        return float(road.interfaces[self.number(road)])
-
-    @property
-    def mean_over(self) -> None:
-        """None: an interface lies deep enough that no cell of the contact is felt."""
-        return None
-
-    def read(self, data: xr.Dataset) -> Array:
-        """Utilisation (y, x) of the bond in a response at the interface's depth; at most 1000, round-off is 0."""
-        xz, yz, zz = (data[f"stress_{name}"].transpose("y", "x").to_numpy() for name in ("xz", "yz", "zz"))
-        used = self.strength.utilisation(np.hypot(xz, yz), -zz)
-        return np.where(used < _ROUND_OFF, 0.0, np.minimum(used, _PARTED))
-
-    def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
-        """Angle of the trace and dip (y, x), rad: layers part in the horizontal plane, which has no trace."""
-        shape = (data.sizes["y"], data.sizes["x"])
-        return np.full(shape, np.nan), np.zeros(shape)

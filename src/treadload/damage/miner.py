@@ -13,9 +13,9 @@ import xarray as xr
 
 from treadload import variables
 from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
-from treadload.damage.criteria.design import Criterion
+from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
-from treadload.damage.laws.fatigue import UTILISATION, FatigueLaw, in_words, warnings_of
+from treadload.damage.laws.fatigue import FatigueLaw, warnings_of
 from treadload.damage.traffic import Climate, Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -70,7 +70,7 @@ class Life:
             worst = np.unravel_index(int(np.argmax(share)), share.shape)
             lines.append(
                 f"  {criterion.name}: {_years(float(row['life_years']))}, {float(row['life_passes']):.3g} passes; "
-                f"largest {criterion.quantity} {in_words(law, float(row['largest_reading']))} at "
+                f"largest {criterion.quantity} {criterion.quantity.in_words(float(row['largest_reading']))} at "
                 f"y = {float(row['worst_y']) * 1e3:z.0f} mm; most by {data['axle_class'].to_numpy()[worst[0]]}, "
                 f"{data['season'].to_numpy()[worst[1]]} ({100 * share[worst]:.0f} %); "
                 f"damage 1 means {law.end_of_life}"
@@ -174,7 +174,9 @@ def miner(
     if cracks is not None:
         fields |= _cracks(damage, cracks, wanders, spacing, (worst, margin), peak)
         coordinates["orientation"] = list(ORIENTATIONS)
-    doubts = [row[0].doubt for row in laws]
+    doubts = [
+        "; ".join(filter(None, (row[0].doubt, one.quantity.doubt))) for row, one in zip(laws, criteria, strict=True)
+    ]
     dataset = variables.dataset(
         fields,
         coordinates,
@@ -187,13 +189,14 @@ def miner(
         sources=json.dumps([criterion.law_at(15.0).source for criterion in criteria], ensure_ascii=False),
         doubts=json.dumps(doubts, ensure_ascii=False),
         ends=json.dumps([row[0].end_of_life for row in laws], ensure_ascii=False),
-        quantities=json.dumps([criterion.quantity for criterion in criteria], ensure_ascii=False),
+        reads=json.dumps([criterion.quantity.about for criterion in criteria], ensure_ascii=False),
     )
     said = [
         f"{criterion.name}: {text}"
         for k, criterion in enumerate(criteria)
         for text in _warnings(laws[k], values[k], shares[k])
     ]
+    said += [f"{one.name}: {one.quantity}: {one.quantity.doubt}" for one in criteria if one.quantity.doubt]
     said += [
         f"{name}: its law was calibrated on roads on which wheels wander, so that the traffic's wander is left out "
         f"here and the life is {_years(float(dataset['life_years'][k]))}; counted twice it would be "
@@ -291,7 +294,7 @@ def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
         "part the road parallel to its surface: no crack from the surface down, nor from the bottom up; read "
         'strain = "in-plane" for those'
         for name, share, one in zip(data["criterion"].to_numpy(), shares, criteria, strict=True)
-        if share > _MOSTLY and one.quantity != UTILISATION
+        if share > _MOSTLY and not one.quantity.between_layers
     ]
 
 

@@ -10,8 +10,9 @@ import numpy as np
 import xarray as xr
 from scipy.ndimage import maximum_filter
 
-from treadload.damage.cracks import HasDataset, Reading, crack_plane, extension, gridded, in_tension
-from treadload.damage.laws.fatigue import BOTTOM_EXTENSION, EXTENSION, SURFACE_EXTENSION, PowerLaw
+from treadload.damage.cracks import HasDataset, crack_plane, gridded
+from treadload.damage.laws.fatigue import PowerLaw
+from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import on_interface, same_depth
@@ -27,10 +28,10 @@ _RIVALS = 3
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """Extension over (depth, y, x) as a verdict sees it. data: stress and strain, see `assess`."""
+    """A quantity over (depth, y, x) as a verdict sees it. data: stress and strain, see `assess`."""
 
     data: xr.Dataset
-    strain: Reading
+    quantity: Quantity
 
     @property
     def length(self) -> float:
@@ -40,18 +41,21 @@ class Field:
     @cached_property
     def extension(self) -> Array:
         """Largest extension, whatever opens."""
-        return extension(self.data, self.strain)[0]
+        return self.quantity.values(self.data)
 
     @cached_property
     def value(self) -> Array:
-        """What is read: the extension, and nothing where no principal stress is tensile."""
-        found: Array = np.where(in_tension(self.data), self.extension, np.minimum(self.extension, 0.0))
+        """What is read: the extension, and nothing where no crack can open."""
+        found: Array = np.where(self.quantity.opens(self.data), self.extension, np.minimum(self.extension, 0.0))
         return found
 
     @cached_property
     def crack(self) -> tuple[Array, Array]:
         """Angle of the trace and dip, rad; NaN where no crack opens."""
-        angle, dip = crack_plane(extension(self.data, self.strain)[1])
+        normal = self.quantity.crack(self.data)
+        if normal is None:
+            normal = np.full((*self.extension.shape, 3), np.nan)
+        angle, dip = crack_plane(normal)
         opens = self.value > 0
         return np.where(opens, angle, np.nan), np.where(opens, dip, np.nan)
 
@@ -64,10 +68,8 @@ class Field:
 
 def check_law(line: PowerLaw) -> None:
     """Raise InputError for a law that reads no extension."""
-    if line.quantity not in (EXTENSION, SURFACE_EXTENSION, BOTTOM_EXTENSION):
-        raise InputError(
-            f"a verdict reads an extension, but {line} reads the {line.quantity}; take a law of extension"
-        )
+    if not line.reads.extends:
+        raise InputError(f"a verdict reads an extension, but {line} reads the {line.reads}; take a law of extension")
 
 
 def local_field(response: HasDataset, line: PowerLaw, depth: float) -> xr.Dataset:
@@ -88,10 +90,9 @@ def mean_field(response: HasDataset, line: PowerLaw, length: float) -> tuple[xr.
     A response that is a mean is taken as it is. Raises InputError for one without its road.
     """
     data = gridded(response)
-    if line.quantity == BOTTOM_EXTENSION:
+    if line.reads.where.at_bottom:
         raise InputError(
-            f"{line} reads the {line.quantity}; give depth= of that bottom, an interface of the road, solved from "
-            "above"
+            f"{line} reads the {line.reads}; give depth= of that bottom, an interface of the road, solved from above"
         )
     if "mean_over" in data.attrs:
         depths, said = _asked(data, line)
@@ -177,10 +178,10 @@ def _around(at: Array, k: int, length: float) -> Array | None:
 def _asked(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
     """Depths that a law speaks of: the surface, or the top layer, whose fatigue it tells."""
     depths = data["depth"].to_numpy()
-    if line.quantity == SURFACE_EXTENSION:
+    if line.reads.where.at_surface:
         surface = same_depth(depths, 0.0)
         if not surface.any():
-            raise InputError(f"{line} reads the {line.quantity}; solve the response with depth 0")
+            raise InputError(f"{line} reads the {line.reads}; solve the response with depth 0")
         return depths[surface], []
     own = data["layer"].to_numpy() == 0
     if not own.any():
@@ -199,15 +200,15 @@ def _asked(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
 
 def _check_place(data: xr.Dataset, line: PowerLaw, depth: float) -> None:
     """Refuse a law at a depth of which it does not speak."""
-    if line.quantity == SURFACE_EXTENSION and not same_depth(depth, 0.0):
-        raise InputError(f"{line} reads the {line.quantity}, got depth {depth:g} m; give depth 0")
-    if line.quantity != BOTTOM_EXTENSION or "layer" not in data.coords:
+    if line.reads.where.at_surface and not same_depth(depth, 0.0):
+        raise InputError(f"{line} reads the {line.reads}, got depth {depth:g} m; give depth 0")
+    if not line.reads.where.at_bottom or "layer" not in data.coords:
         return
     interfaces = np.atleast_1d(data.attrs.get("interfaces", []))
     side = data.attrs.get("side", "above")
     if side != "above" or not on_interface([depth], interfaces)[0]:
         known = ", ".join(f"{z:g}" for z in interfaces) or "no interface"
         raise InputError(
-            f"{line} reads the {line.quantity}, got depth {depth:g} m from {side}; the road has {known} m: give the "
+            f"{line} reads the {line.reads}, got depth {depth:g} m from {side}; the road has {known} m: give the "
             "depth of the asphalt's bottom, and solve it from above"
         )

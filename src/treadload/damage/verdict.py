@@ -16,14 +16,12 @@ from treadload.damage.cracks import (
     HORIZONTAL,
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
-    READINGS,
     HasDataset,
-    Reading,
-    check_reading,
     check_tolerance,
     orientation,
 )
-from treadload.damage.laws.fatigue import FatigueLine, PowerLaw, warnings_of
+from treadload.damage.laws.fatigue import PowerLaw, warnings_of
+from treadload.damage.quantity import READINGS, Reading, check_reading
 from treadload.damage.reading import Field, check_law, closer, local_field, mean_field
 from treadload.describing import first_line
 from treadload.response import MATERIAL_LENGTH
@@ -77,9 +75,8 @@ class Verdict:
         if not strain > 0:
             lines += [f"warning: {text}" for text in self.warnings]
             return "\n".join([*lines, f"Verdict: {_no_crack(float(data.attrs['largest_unread']))}"])
-        million = "ε₆" if isinstance(self.line, FatigueLine) else "what allows a million passes"
         angle, dip = float(data["worst_crack_angle"]), float(data["worst_crack_dip"])
-        against = f"{strain * 1e6:.1f} microstrain is {strain / self.line.at_a_million:.2f} of {million}"
+        against = f"{strain * 1e6:.1f} microstrain is {strain / self.line.at_a_million:.2f} of {self.line.symbol}"
         lines += [
             f"worst point: x = {float(data['worst_x']) * 1e3:.1f} mm, y = {float(data['worst_y']) * 1e3:.1f} mm, "
             f"depth {float(data['worst_depth']) * 1e3:g} mm; {against}",
@@ -88,13 +85,13 @@ class Verdict:
             *self._error_estimate(),
             *(f"warning: {text}" for text in self.warnings),
         ]
-        name = "fatigue line" if isinstance(self.line, FatigueLine) else "law of fatigue"
         few = "fewer" if passes < 1e6 else "more"
         first = f"{_article(self.orientation)} {self.orientation} crack is the first to expect"
         if self.orientation == ORIENTATIONS[HORIZONTAL]:
             first = "the road parts along a plane nearer to its surface than upright, and no crack runs down from it"
         lines.append(
-            f"Verdict: the {name} allows {passes:.2g} passes at the worst point, {few} than a million; {first}."
+            f"Verdict: the {self.line.noun} allows {passes:.2g} passes at the worst point, {few} than a million; "
+            f"{first}."
         )
         return "\n".join(lines)
 
@@ -124,7 +121,7 @@ def assess(
     line: PowerLaw,
     *,
     depth: float | None = None,
-    strain: Reading = "in-plane",
+    strain: Reading | None = None,
     mean_over: float = MATERIAL_LENGTH,
     oblique_tolerance: float = OBLIQUE_TOLERANCE,
 ) -> Verdict:
@@ -144,13 +141,15 @@ def assess(
     Such a local reading has no limit under finer cells near the surface: at the edges of ribs and at the rear of the
     slip zone the exact field has roots and logarithms.
     strain: "in-plane" reads the largest extension in the horizontal plane, whose cracks are vertical; "principal"
-    that in space, which near the surface is upright as a rule where the road bends, and parts it parallel to itself.
+    that in space, which near the surface is upright as a rule where the road bends, and parts it parallel to itself;
+    left out, what the line reads, by custom the plane.
     oblique_tolerance: rad, in (0, π/4]. A trace within it of the direction of travel is longitudinal, within
     it of across transverse, else oblique; a plane nearer to the horizontal than 45° is horizontal.
     Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance, for a law that reads something
     else, and for a response without its road.
     """
-    check_reading(strain)
+    if strain is not None:
+        check_reading(strain)
     check_tolerance(oblique_tolerance)
     check_law(line)
     if depth is None:
@@ -159,7 +158,8 @@ def assess(
     else:
         data, said = local_field(response, line, depth), []
         reading = "local, depends on the cells" if depth < _FELT else "local"
-    field = Field(data, strain)
+    quantity = line.reads if strain is None else line.reads.with_strain(strain)
+    field = Field(data, quantity)
     row = field.worst[0]
     near = (closer(response, field) if depth is None and field.value[field.worst] > 0 else None) or field
     at = near.worst
@@ -203,7 +203,7 @@ def assess(
         depth=float(data["depth"][row]),
         reading=reading,
         **{name: data.attrs[name] for name in ("mean_over",) if depth is None},
-        strain=strain,
+        strain=quantity.strain,
         law=str(line),
         epsilon_6=line.at_a_million,
         slope=line.exponent,
@@ -213,7 +213,7 @@ def assess(
         largest_unread=unread,
         warnings=json.dumps([*said, *warnings_of(line, near.value[at])], ensure_ascii=False),
     )
-    return Verdict(dataset, line, strain)
+    return Verdict(dataset, line, quantity.strain)
 
 
 def _no_crack(unread: float) -> str:

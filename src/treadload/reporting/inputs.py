@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from treadload.case import Case, LifeCase
-from treadload.case.criteria import CRITERION, STRAIN, CriterionTable, usual_of
+from treadload.case.criteria import CRITERION, CriterionTable, quantity_of
+from treadload.damage.quantity import Quantity
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import MISSING, Row, Section
 from treadload.reporting.words import annotation_of, columns, entries, named_tables, part_of, worded
@@ -24,8 +25,8 @@ _HEADINGS = {
     "criteria": "Criteria asked for",
 }
 _DROPPED = {"title"}
-_CRITERION = ("criterion", "law", "layer", "place", "strain it reads", "parameters given")
-_OWN = ("name", "law", "layer", "place", "strain")
+_CRITERION = ("criterion", "law", "layer", "place", "what it reads", "parameters given")
+_OWN = ("name", "law", "layer", "place", "strain", "reads")
 
 Key = tuple[str, str, str]
 
@@ -121,19 +122,25 @@ def _rows(table: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
 def _criterion(case: ReportCase, table: Mapping[str, Any]) -> tuple[str, ...]:
     """Cells of `_CRITERION`; what the table leaves to the law is filled in."""
     name = str(table.get("name", ""))
-    usual_place, usual_layer = usual_of(table)
+    quantity = quantity_of(table)
     rest = {key: value for key, value in table.items() if key not in _OWN}
     told = [str(entry) for entry in entries(CRITERION.table_for(table), rest)]
-    place = table.get("place") or usual_place or MISSING
-    strain = table.get("strain") or STRAIN
+    place = table.get("place") or (MISSING if quantity is None else quantity.where.places[0])
     return (
         name,
         case.laws.get(name) or str(table.get("law", MISSING)).replace("-", " "),
-        _layer(case, table.get("layer"), usual_layer),
+        _layer(case, table.get("layer"), None if quantity is None else quantity.where.layer),
         str(place),
-        worded(strain, None)[0],
+        _read(quantity, table.get("strain")),
         ", ".join(told) or "those of the layer",
     )
+
+
+def _read(quantity: Quantity | None, strain: Any) -> str:
+    """What a criterion reads; of an extension whether in space or in the plane."""
+    if quantity is None:
+        return MISSING
+    return worded(strain or quantity.strain, None)[0] if quantity.extends else quantity.words
 
 
 def _layer(case: ReportCase, asked: Any, usual: int | None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +18,6 @@ from treadload.reporting.pictures import Picture, picture
 COLUMNS = (
     "criterion", "life", "passes", "damage at the design life", "largest reading", "where", "first crack",
 )  # fmt: skip
-_NO_CRACK = "ruts, no crack"
 
 
 @dataclass(frozen=True)
@@ -38,12 +38,12 @@ class LifeReport:
 
 def life_report(label: str, data: xr.Dataset) -> LifeReport:
     """The report of a life. data: the group /life."""
-    laws, sources, doubts, quantities = (
-        json.loads(data.attrs.get(name, "[]")) for name in ("laws", "sources", "doubts", "quantities")
+    laws, sources, doubts, reads = (
+        json.loads(data.attrs.get(name, "[]")) for name in ("laws", "sources", "doubts", "reads")
     )
     names = [str(name) for name in data["criterion"].to_numpy()]
     ends = json.loads(data.attrs.get("ends", "[]")) or [""] * len(names)
-    rows = tuple(_row(data.isel(criterion=k), names[k], quantities[k]) for k in range(len(names)))
+    rows = tuple(_row(data.isel(criterion=k), names[k], reads[k]) for k in range(len(names)))
     return LifeReport(
         label,
         _facts(data),
@@ -86,7 +86,7 @@ def _facts(data: xr.Dataset) -> tuple[tuple[str, str], ...]:
     facts = [("governing criterion", str(row["criterion"].item())), ("its life", _years(float(row["life_years"])))]
     if "design_damage" in data:
         facts.append((f"its damage after {float(data.attrs['design_years']):g} years", _number(row["design_damage"])))
-    facts += [("worst place", f"{_deep(row)}, {_aside(row)}"), ("first crack", _crack(row))]
+    facts += [("worst place", f"{_deep(row)}, {_aside(row)}"), ("first crack", _crack(row, _harm(data)))]
     if "elasticity" in data:
         first = zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True)
         for name, value in first:
@@ -101,14 +101,10 @@ def changed_life(name: str, elasticity: float) -> str:
     return f"{'+' if change > 0 else ''}{signed(change, 0)} %"
 
 
-def _row(row: xr.Dataset, name: str, quantity: str) -> tuple[str, ...]:
-    reading = float(row["largest_reading"])
-    if "stress" in quantity:
-        read = f"{reading / 1e6:.3g} MPa"
-    elif "utilisation" in quantity:
-        read = f"{reading:.3g}"
-    else:
-        read = f"{measure(reading * 1e6)} microstrain"
+def _row(row: xr.Dataset, name: str, reads: Mapping[str, Any]) -> tuple[str, ...]:
+    """Cells of `COLUMNS`. reads: what the file tells of the quantity, see `damage.quantity.Quantity.about`."""
+    reading, unit = float(row["largest_reading"]) * float(reads["factor"]), str(reads["shown"])
+    read = f"{measure(reading) if unit == 'microstrain' else f'{reading:.3g}'} {unit}".strip()
     return (
         name,
         _years(float(row["life_years"])),
@@ -116,7 +112,7 @@ def _row(row: xr.Dataset, name: str, quantity: str) -> tuple[str, ...]:
         _number(row["design_damage"]) if "design_damage" in row else "–",
         read,
         f"{_deep(row)}, {_aside(row)}",
-        _crack(row),
+        _crack(row, str(reads["harm"])),
     )
 
 
@@ -143,15 +139,24 @@ def _aside(row: xr.Dataset) -> str:
     return f"{abs(y):.0f} mm to the {'right' if y > 0 else 'left'}"
 
 
-def _crack(row: xr.Dataset) -> str:
-    """Where the damage runs: the orientation that does most of it, with the angle of the first trace."""
+def _harm(data: xr.Dataset) -> str:
+    """What the quantity of the governing criterion does where it opens no crack."""
+    reads = json.loads(data.attrs.get("reads", "[]"))
+    return str(reads[int(data["life_years"].to_numpy().argmin())]["harm"]) if reads else ""
+
+
+def _crack(row: xr.Dataset, harm: str) -> str:
+    """Where the damage runs: the orientation that does most of it, with the angle of the first trace.
+
+    harm: what to say where no crack opens.
+    """
     if "orientation_damage" not in row:
         return "–"
     shares = row["orientation_damage"]
     most = int(np.argmax(shares.to_numpy()))
     word = str(shares["orientation"].to_numpy()[most])
     if word == "none":
-        return _NO_CRACK
+        return harm
     if word == "horizontal":
         return f"parallel to the surface ({100 * float(shares[most]):.0f} % of the damage)"
     angle = float(row["first_crack_angle"])

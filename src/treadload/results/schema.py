@@ -120,7 +120,7 @@ _LIFE = _Group(
     },
     ("design_years", "sensitivity_contacts", "sensitivity_responses", "sensitivity_coverage"),
     {
-        "stats": dict, "laws": list, "sources": list, "doubts": list, "quantities": list, "ends": list,
+        "stats": dict, "laws": list, "sources": list, "doubts": list, "reads": list, "ends": list,
         "groups": list,
     },
 )  # fmt: skip
@@ -130,7 +130,8 @@ _GROUPS: Mapping[str, _Group] = {
     "damage": _DAMAGE,
     "life": _LIFE,
 }
-_OF_A_CRITERION = ("laws", "sources", "doubts", "quantities")
+_OF_A_CRITERION = ("laws", "sources", "doubts", "reads")
+_OF_A_QUANTITY = {"words": str, "shown": str, "factor": float, "harm": str}
 _OF_A_LIFE = ("contacts", "responses", "combinations", "seconds", "interpolation_error")
 
 
@@ -229,6 +230,10 @@ def _check_life(data: xr.Dataset, where: str) -> None:
     for name in told:
         if len(held.get(name, ())) != count:
             raise InputError(f"{where}: the attribute {name} must tell of {count} criteria")
+    for one in held["reads"]:
+        wrong = next((key for key, kind in _OF_A_QUANTITY.items() if not isinstance(_key(one, key), kind)), None)
+        if wrong is not None or not _is_number(one["factor"]):
+            raise InputError(f"{where}: the attribute reads must tell {wrong or 'factor'!r} of every quantity")
     stats = held.get("stats", {})
     lacking = next((key for key in _OF_A_LIFE if stats and not _is_number(stats.get(key))), None)
     if lacking is not None:

@@ -13,15 +13,8 @@ from numpy.typing import ArrayLike
 
 from treadload import variables
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.criteria.design import Criterion
-from treadload.damage.interface import (
-    BondCriterion,
-    delaminate,
-    interface_fields,
-    interface_in_words,
-    interface_number,
-)
-from treadload.damage.laws.fatigue import in_words
+from treadload.damage.criterion import Criterion, interface_number
+from treadload.damage.interface import delaminate, interface_fields, interface_in_words
 from treadload.damage.miner import Life, passes_in_two_phases
 from treadload.damage.traffic import Climate, Traffic
 from treadload.describing import first_line
@@ -88,7 +81,7 @@ class BondComparison:
     def governing(self) -> str:
         """Name of the criterion that ends the road's life, the bond itself aside."""
         years = self.dataset["life_years"].sel(state=PARTING).to_numpy()
-        others = [k for k, one in enumerate(self.bonded.criteria) if not isinstance(one, BondCriterion)]
+        others = [k for k, one in enumerate(self.bonded.criteria) if not one.quantity.between_layers]
         return self.bonded.criteria[min(others or range(len(years)), key=lambda k: years[k])].name
 
     def summary(self) -> str:
@@ -103,7 +96,7 @@ class BondComparison:
         for one in self.bonded.criteria:
             row = data.sel(criterion=one.name)
             cells = [
-                f"{in_words(one.law_at(15.0), float(row['largest_reading'].sel(state=state)))} "
+                f"{one.quantity.in_words(float(row['largest_reading'].sel(state=state)))} "
                 f"({_years(float(row['life_years'].sel(state=state)))})"
                 for state in (BEFORE, AFTER)
             ]
@@ -146,21 +139,21 @@ def compare_bonds(
 ) -> BondComparison:
     """How long a road lasts with its bond, without it, and when the bond parts on the way.
 
-    Arguments as in `solve_life`. criteria: one BondCriterion at least, and what limits the road's life; the bottom
-    of the layer above the interface belongs there, as it bends alone once it is parted. interface: that parts;
-    left out, that of the bond which lasts shortest. bond: what is left of it, FRICTIONLESS, HALF_BONDED or
-    Bond(stiffness=...).
+    Arguments as in `solve_life`. criteria: that of one bond at least, `Criterion.of_bond`, and what limits the
+    road's life; the bottom of the layer above the interface belongs there, as it bends alone once it is parted.
+    interface: that parts; left out, that of the bond which lasts shortest. bond: what is left of it, FRICTIONLESS,
+    HALF_BONDED or Bond(stiffness=...).
     The road is taken as parted everywhere as soon as the bond is used up at the worst place: layers know neither a
     patch nor what its edge concentrates. Miner's sum runs on with the parted road's rate, n₁ / N₁ + n₂ / N₂ = 1, at
     every point across the road, both rates those of a whole year; of several interfaces only the first parts.
     Raises InputError, and ConvergenceError of a contact.
     """
-    bonds = [one for one in criteria if isinstance(one, BondCriterion)]
+    bonds = [one for one in criteria if one.quantity.between_layers]
     chosen = None if interface is None else interface_number(road, interface)
     asked = [one for one in bonds if chosen is None or one.number(road) == chosen]
     if not asked:
         where = "" if chosen is None else f" of interface {chosen}"
-        raise InputError(f"comparing bonds needs a BondCriterion{where} among the criteria, got none")
+        raise InputError(f"comparing bonds needs the criterion of a bond{where}, Criterion.of_bond, got none")
 
     def live(one: Pavement) -> Life:
         return solve_life(

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from treadload import variables
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.criteria.design import Criterion, DesignCriterion
+from treadload.damage.criterion import Criterion
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
 from treadload.pavement import Pavement, lift_below
@@ -76,7 +76,7 @@ def _lifts(road: Pavement, criteria: Sequence[Criterion]) -> tuple[str, ...]:
     """Sentences on criteria that read the bottom of a lift which another of the same mix carries."""
     said = []
     for one in criteria:
-        if isinstance(one, DesignCriterion) and one.place == "bottom" and lift_below(road, one.layer):
+        if one.place == "bottom" and lift_below(road, one.layer):
             number = one.number(road)
             said.append(
                 f"{one.name}: it reads the bottom of layer {number + 1}, but a lift of the same mix lies below; the "

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator, CubicSpline
 
-from treadload.damage.criteria.design import Side
+from treadload.damage.criterion import Side
 from treadload.kernels.arrays import Array
 from treadload.response import solve_response
 from treadload.study.seasons import Warm

@@ -14,7 +14,7 @@ import xarray as xr
 
 from treadload.contact import Contact
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.criteria.design import Criterion
+from treadload.damage.criterion import Criterion
 from treadload.damage.traffic import Climate, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array

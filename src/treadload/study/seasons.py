@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.damage.criteria.design import Criterion
+from treadload.damage.criterion import Criterion
 from treadload.damage.traffic import Season
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array

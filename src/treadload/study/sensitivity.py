@@ -15,7 +15,7 @@ import xarray as xr
 from treadload import variables
 from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.criteria.design import Criterion
+from treadload.damage.criterion import Criterion
 from treadload.damage.miner import Life, damage_of, wander_of
 from treadload.damage.traffic import Climate, Season, Traffic, Wander
 from treadload.describing import first_line

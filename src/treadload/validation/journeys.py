@@ -11,7 +11,7 @@ import numpy as np
 from treadload.damage import (
     AxleClass,
     Climate,
-    DesignCriterion,
+    Criterion,
     FatigueLine,
     FrenchSubgrade,
     Traffic,
@@ -24,8 +24,8 @@ from treadload.tire import Tire
 from treadload.validation.check import Check, absolute, relative
 
 _CRITERIA = (
-    DesignCriterion("top", FatigueLine(100e-6, -0.2), 0, "top", "principal"),
-    DesignCriterion("soil", FrenchSubgrade(), -1, "top"),
+    Criterion("top", FatigueLine(100e-6, -0.2), 0, "top", "principal"),
+    Criterion("soil", FrenchSubgrade(), -1, "top"),
 )
 _TOLERANCE = 0.02
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from treadload.damage import (
-    DesignCriterion,
+    Criterion,
     FrenchBituminous,
     FrenchHydraulic,
     FrenchSubgrade,
@@ -85,14 +85,14 @@ def _printed_designs() -> Iterator[Check]:
     """Table I.1 of the French method, and a design for a hot country that a second program prints."""
     group, source = "French designs as printed", "table I.1 of NF P98-086, quoted by UI_ChausseeNeuve"
     flexible = _road([5500, 600, 50], [0.35, 0.35, 0.35], [0.04, 0.15])
-    found = _largest(DesignCriterion("gravel", FrenchSubgrade(), 1, "top"), flexible)
+    found = _largest(Criterion("gravel", FrenchSubgrade(), 1, "top"), flexible)
     yield absolute(group, "table I.1: ε_z on top of the gravel, microstrain", found, 711.5, 0.05, source)
     source = "a second program's run; its Poisson's ratios are inferred"
     hot = _road([1512, 2588, 200, 50], [0.45, 0.45, 0.35, 0.35], [0.06, 0.10, 0.25])
     law, axles = FrenchBituminous(90e-6, -0.2, 0.3, 0.16, 0.25, 1.3, 11880 / 2588, 200e6), 1_467_315
-    found = _largest(DesignCriterion("base", law, 1), hot)
+    found = _largest(Criterion("base", law, 1), hot)
     yield relative(group, "hot country: ε_t at the base, microstrain", found, 290.58, 1e-3, source)
-    found = _largest(DesignCriterion("soil", FrenchSubgrade(), 3, "top"), hot)
+    found = _largest(Criterion("soil", FrenchSubgrade(), 3, "top"), hot)
     yield relative(group, "hot country: ε_z on top of the soil, microstrain", found, 891.5, 3e-3, source)
     source = "a second program's run"
     # Its quantile of 25 % is rounded to 0.674.
@@ -108,7 +108,7 @@ def _road(moduli: Sequence[float], poissons: Sequence[float], thicknesses: Seque
     return Pavement([Layer(Elastic(1e6 * modulus, nu), thickness) for modulus, nu, thickness in rows])
 
 
-def _largest(criterion: DesignCriterion, road: Pavement) -> float:
+def _largest(criterion: Criterion, road: Pavement) -> float:
     """Largest reading of a criterion under the French axle, microstrain: below a wheel or between the two."""
     wheels, depths = dual_wheels(UniformDisc(0.125, 0.662e6), 0.375), [criterion.depth(road)]
     solved = solve_response(wheels, road, depths=depths, x=[0.0], y=[-0.1875, 0.0], side=criterion.side)

@@ -12,13 +12,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from treadload.damage.laws.fatigue import (
-    BOTTOM_EXTENSION,
-    SUBGRADE,
-    SURFACE_EXTENSION,
-    PowerLaw,
-    check_positive,
-)
+from treadload.damage.laws.fatigue import PowerLaw, check_positive
+from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, SURFACE_EXTENSION
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.registry import CRITERIA
@@ -93,7 +88,7 @@ class MepdgBottomUp(_Mepdg):
     Source: NCHRP 1-37A (2004) as coded in ProductOneME.
     """
 
-    quantity: ClassVar[str] = BOTTOM_EXTENSION
+    reads = BOTTOM_EXTENSION
     end_of_life: ClassVar[str] = "half of the lane's area is cracked, see `bottom_up_cracking`"
 
     @property
@@ -116,7 +111,7 @@ class MepdgTopDown(_Mepdg):
     the guide misprints k₁.
     """
 
-    quantity: ClassVar[str] = SURFACE_EXTENSION
+    reads = SURFACE_EXTENSION
     end_of_life: ClassVar[str] = "a metre of crack along each metre of lane, see `top_down_cracking`"
 
     @property
@@ -142,7 +137,7 @@ class AsphaltInstitute(_Regression):
     air_voids: Share | None = None
     binder_volume: Share | None = None
 
-    quantity: ClassVar[str] = BOTTOM_EXTENSION
+    reads = BOTTOM_EXTENSION
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1; exponents in CRREL Special Report 96-21"
     end_of_life: ClassVar[str] = "a fifth of the lane is cracked by fatigue"
 
@@ -184,7 +179,7 @@ class AsphaltInstituteSubgrade(PowerLaw):
     Not verified: recalled; public programs agree on it.
     """
 
-    quantity: ClassVar[str] = SUBGRADE
+    reads = SUBGRADE_COMPRESSION
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1"
     end_of_life: ClassVar[str] = "a rut of 12.7 mm"
 
@@ -215,7 +210,7 @@ class ShellFatigue(_Regression):
     modulus: of the asphalt, Pa. Not verified: recalled, and found in no source.
     """
 
-    quantity: ClassVar[str] = BOTTOM_EXTENSION
+    reads = BOTTOM_EXTENSION
     source: ClassVar[str] = "Shell Pavement Design Manual (1978), in the form that textbooks give"
     end_of_life: ClassVar[str] = "fatigue of the asphalt; how much of it cracks was found in no source"
 

@@ -1,18 +1,27 @@
-"""What the bond between two layers bears: Coulomb's strength with a tensile limit, and its fatigue in shear."""
+"""What the bond between two layers bears: Coulomb's strength with a tensile limit, how much of it a load uses up, and
+its fatigue in shear.
+
+Another strength is a subclass of `BondStrength`; a case names it by a quantity that makes its `BondUtilisation`, as
+`utilisation_of` does.
+"""
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
-from treadload.damage.laws.fatigue import UTILISATION, PowerLaw
+from treadload.damage.laws.fatigue import PowerLaw
+from treadload.damage.quantity import INTERFACE, STRESS, Quantity
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.registry import CRITERIA, QUANTITIES
+from treadload.units import Angle, Number, Pressure
 
 Strength = float | Callable[[float], float]
 
@@ -24,11 +33,37 @@ Read were proposals: 16 to 25 kN (Stöckert and Grätz 2001, Forschung Straßenb
 just built (Swiss project FA 12/94, as its successor VSS 2005/503 reports).
 """
 _CORE = 0.15
+# Utilisation of a bond that has parted for certain: finite, so that readings can be interpolated.
+_PARTED = 1e3
+# Utilisation below this is the solver's round-off, as on an interface that bears no shear.
+_ROUND_OFF = 1e-6
 _RECALLED = "the least force of Leutner's test is recalled, no source was read"
 
 
+class BondStrength(ABC):
+    """What a bond bears, whichever the law: subclasses are frozen dataclasses.
+
+    doubt: which of its numbers stand on no source that was read; a field, or nothing.
+    """
+
+    doubt: str = ""
+
+    @abstractmethod
+    def utilisation(self, shear: float | Array, normal: float | Array) -> Array:
+        """How much of the bond is used up; 1 parts it. shear: its size, Pa. normal: Pa, compression positive."""
+
+    @property
+    def tension_limit(self) -> float:
+        """Tension that parts the bond without shear, Pa; infinite where the law says nothing of tension."""
+        return math.inf
+
+    def at(self, temperature: float) -> Self:
+        """The strength at a temperature of the interface, °C."""
+        return self
+
+
 @dataclass(frozen=True)
-class InterfaceStrength:
+class InterfaceStrength(BondStrength):
     """Strength of a bond after Coulomb: τ ≤ c + σ_n tan φ, compression positive, with a tensile limit.
 
     cohesion: c, Pa, >= 0, or a function that gives it at a temperature, °C. friction_angle: φ, rad, in [0, π/2).
@@ -157,11 +192,71 @@ def _ratio(part: Array, whole: float | Array) -> Array:
 
 
 @dataclass(frozen=True)
+class BondUtilisation(Quantity):
+    """How much of a bond a load uses up, at an interface of the road; 1 parts it.
+
+    strength: of the bond; left out, a response does not tell it. Readings are at most 1000, round-off of the solver,
+    as on an interface that bears no shear, is 0. The layers part in the horizontal plane.
+    """
+
+    strength: BondStrength | None = None
+
+    name = "utilisation"
+    words = "utilisation of the bond"
+    source = "Coulomb's strength of the bond, or another"
+    where = INTERFACE
+    needs = STRESS
+    bounded = True
+    between_layers = True
+
+    @property
+    def lacks(self) -> str:
+        """The strength, until it is given."""
+        return "" if self.strength is not None else "the strength of the bond"
+
+    @property
+    def doubt(self) -> str:
+        """That of the strength."""
+        return "" if self.strength is None else self.strength.doubt
+
+    def at(self, temperature: float) -> Self:
+        """The same with the strength at a temperature of the layer above, °C."""
+        return self if self.strength is None else replace(self, strength=self.strength.at(temperature))
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """The strength's utilisation by the shear of the horizontal plane and the pressure on it."""
+        if self.strength is None:
+            raise InputError("no response tells the utilisation of a bond without its strength; give strength=")
+        used = self.strength.utilisation(np.hypot(stress[4], stress[5]), -stress[2])
+        return np.where(used < _ROUND_OFF, 0.0, np.minimum(used, _PARTED))
+
+    def normal(self, stress: Array, strain: Array) -> Array:
+        """The vertical."""
+        return np.broadcast_to([0.0, 0.0, 1.0], (*stress.shape[1:], 3))
+
+
+UTILISATION = BondUtilisation()
+
+
+@QUANTITIES.register("utilisation")
+def utilisation_of(
+    cohesion: Pressure, friction_angle: Angle = 0.0, tensile_strength: Pressure | None = None
+) -> BondUtilisation:
+    """How much of a bond with Coulomb's strength a load uses up, see `InterfaceStrength`.
+
+    cohesion: c. friction_angle: φ. tensile_strength: left out, where Coulomb's line ends. Raises InputError.
+    """
+    return BondUtilisation(InterfaceStrength(cohesion, friction_angle, tensile_strength))
+
+
+@CRITERIA.register("shear-fatigue")
+@dataclass(frozen=True)
 class ShearFatigue(PowerLaw):
     """Fatigue of a bond: passes N = (u / u₁)^(1/b) that a utilisation u allows.
 
     slope: b, in (-1, 0), from cyclic shear tests of this bond at this temperature. single_pass: u₁, utilisation that
     one pass bears; 1 ties the line to the strength itself. doubt: which numbers stand on no source that was read.
+    reads: the utilisation of a bond, with its strength where a criterion reads it of a response.
     It reads the largest utilisation, once as each axle passes, though shear turns round under it: take a slope
     counted likewise. Straight lines in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied
     Science 8(2); they depend on normal stress and temperature (Isailović, Cannone Falchetto and Wistuba 2017, AAPT).
@@ -169,11 +264,11 @@ class ShearFatigue(PowerLaw):
     Raises InputError.
     """
 
-    slope: float
-    single_pass: float = 1.0
+    slope: Number
+    single_pass: Number = 1.0
     doubt: str = ""
+    reads: Quantity = UTILISATION
 
-    quantity: ClassVar[str] = UTILISATION
     source: ClassVar[str] = "a power law of the bond's utilisation with the user's numbers"
     end_of_life: ClassVar[str] = "the bond parts"
 
@@ -184,6 +279,8 @@ class ShearFatigue(PowerLaw):
             )
         if not (math.isfinite(self.single_pass) and self.single_pass > 0):
             raise InputError(f"single_pass must be a positive utilisation, got {self.single_pass}; 1 is the strength")
+        if not self.reads.between_layers:
+            raise InputError(f"the fatigue of a bond reads its utilisation, got the {self.reads}; take a law of that")
 
     @property
     def at_a_million(self) -> float:

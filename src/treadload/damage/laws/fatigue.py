@@ -9,18 +9,12 @@ from typing import ClassVar, Protocol, overload
 
 import numpy as np
 
+from treadload.damage.quantities import EXTENSION
+from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.registry import CRITERIA
 from treadload.units import Number, Strain
-
-# What a law reads; `damage.criterion` takes it from a response.
-EXTENSION = "extension strain"
-BOTTOM_EXTENSION = "extension strain at the bottom of the asphalt"
-SURFACE_EXTENSION = "extension strain at the surface"
-SUBGRADE = "vertical strain on the subgrade"
-TENSION = "tensile stress"
-UTILISATION = "utilisation of the bond"
 
 _MILLION = 1e6
 # No road material bears a million passes at one per cent: such a number is microstrain without its unit.
@@ -33,15 +27,13 @@ _SEEN = (1e4, 1e8)
 class FatigueLaw(Protocol):
     """What every law of fatigue can tell.
 
-    A law reads one number of a loading, positive where it does harm: an extension, a compression on the
+    A law reads one quantity of a loading, positive where it does harm: an extension, a compression on the
     subgrade, a tensile stress.
     """
 
     @property
-    def quantity(self) -> str:
-        """What it reads: `BOTTOM_EXTENSION`, `SURFACE_EXTENSION`, `EXTENSION`, `SUBGRADE`, `TENSION` or
-        `UTILISATION`.
-        """
+    def reads(self) -> Quantity:
+        """The quantity for which its numbers hold."""
 
     @property
     def source(self) -> str:
@@ -85,7 +77,10 @@ class FatigueLaw(Protocol):
 class PowerLaw(ABC):
     """A law N = 10⁶ (ε / ε₁)^(1/b) with ε₁ the reading that allows a million passes and b < 0."""
 
-    quantity: ClassVar[str]
+    reads: Quantity
+    # What sentences call it, and its reading of a million passes.
+    noun: ClassVar[str] = "law of fatigue"
+    symbol: ClassVar[str] = "what allows a million passes"
     source: ClassVar[str]
     end_of_life: ClassVar[str]
     includes_wander: ClassVar[bool] = False
@@ -148,21 +143,29 @@ class FatigueLine(PowerLaw):
     """Wöhler line ε = ε₆ (N / 10⁶)^b of a material under repeated extension.
 
     epsilon_6: strain that allows a million passes, plain strain (120 microstrain is 120e-6), > 0.
-    slope: b, in (-1, 0); near -0.2 for bituminous mixes.
+    slope: b, in (-1, 0); near -0.2 for bituminous mixes. reads: the strain that the line was measured for; left out,
+    the extension.
     A line measured in a laboratory carries no shift to the road: temperature, frequency, healing and
     scatter are the user's to include in epsilon_6.
     """
 
     epsilon_6: Strain
     slope: Number
+    reads: Quantity = EXTENSION
 
-    quantity: ClassVar[str] = EXTENSION
+    noun: ClassVar[str] = "fatigue line"
+    symbol: ClassVar[str] = "ε₆"
     source: ClassVar[str] = "Wöhler's line with the user's numbers"
     end_of_life: ClassVar[str] = "what the laboratory's test called failure, by custom half the stiffness lost"
 
     def __post_init__(self) -> None:
         check_strain(self.epsilon_6)
         check_slope(self.slope)
+        if self.reads.shown != "microstrain":
+            raise InputError(
+                f"epsilon_6 is a strain, but the line reads the {self.reads}; take PowerLine, in a case the law "
+                '"power-law", whose number has the unit of what it reads'
+            )
 
     @property
     def at_a_million(self) -> float:
@@ -175,7 +178,43 @@ class FatigueLine(PowerLaw):
         return self.slope
 
     def __str__(self) -> str:
-        return f"fatigue line, ε₆ = {self.epsilon_6 * 1e6:g} microstrain, slope {self.slope:g}"
+        of = "" if self.reads == EXTENSION else f" of the {self.reads}"
+        return f"fatigue line{of}, ε₆ = {self.epsilon_6 * 1e6:g} microstrain, slope {self.slope:g}"
+
+
+@CRITERIA.register("power-law")
+@dataclass(frozen=True)
+class PowerLine(PowerLaw):
+    """Passes N = 10⁶ (r / r₆)^(1/b) that a reading r of any quantity allows, by the user's numbers.
+
+    reads: the quantity, in a case its word. reading_6: r₆, the reading that allows a million passes, > 0, in its SI
+    unit; a text carries its own, "0.4 MPa". slope: b, in (-1, 0). Raises InputError.
+    """
+
+    reads: Quantity
+    reading_6: float | str
+    slope: Number
+
+    source: ClassVar[str] = "a power law with the user's numbers"
+    end_of_life: ClassVar[str] = "what the test behind its numbers called failure"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reading_6", self.reads.number(self.reading_6))
+        check_positive("reading_6", self.at_a_million, f"reading of the {self.reads}", "it allows a million passes")
+        check_slope(self.slope)
+
+    @property
+    def at_a_million(self) -> float:
+        """r₆."""
+        return float(self.reading_6)
+
+    @property
+    def exponent(self) -> float:
+        """Slope b."""
+        return self.slope
+
+    def __str__(self) -> str:
+        return f"power law of the {self.reads}, {self.reads.in_words(self.at_a_million)}, slope {self.slope:g}"
 
 
 def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
@@ -190,18 +229,10 @@ def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
     if 0 < largest < low or largest > high:
         beyond, bound = ("above", high) if largest > high else ("below", low)
         said.append(
-            f"{law}: {in_words(law, largest)} is {beyond} {in_words(law, bound)}, the end of what it is held to "
-            f"cover; {law.allowable_passes(largest):.2g} passes are extrapolated"
+            f"{law}: {law.reads.in_words(largest)} is {beyond} {law.reads.in_words(bound)}, the end of what it is "
+            f"held to cover; {law.allowable_passes(largest):.2g} passes are extrapolated"
         )
     return tuple(said)
-
-
-def in_words(law: FatigueLaw, value: float) -> str:
-    """A reading of a law with its unit."""
-    if law.quantity == UTILISATION:
-        return f"{value:.3g}"
-    number, unit = (value / 1e6, "MPa") if law.quantity == TENSION else (value * 1e6, "microstrain")
-    return f"{number:.0f} {unit}" if number >= 100 else f"{number:.3g} {unit}"
 
 
 def check_strain(epsilon_6: float) -> None:

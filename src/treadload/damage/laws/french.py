@@ -13,15 +13,8 @@ from typing import ClassVar, Literal
 from scipy.special import ndtri
 
 from treadload.damage.laws.equivalence import look_up
-from treadload.damage.laws.fatigue import (
-    BOTTOM_EXTENSION,
-    SUBGRADE,
-    TENSION,
-    PowerLaw,
-    check_positive,
-    check_slope,
-    check_strain,
-)
+from treadload.damage.laws.fatigue import PowerLaw, check_positive, check_slope, check_strain
+from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, TENSION
 from treadload.errors import InputError
 from treadload.materials import HydraulicMix, Mix, Unbound
 
@@ -69,7 +62,7 @@ class FrenchBituminous(PowerLaw):
     platform_modulus: float | None = None
     thickness_scatter: float | None = None
 
-    quantity: ClassVar[str] = BOTTOM_EXTENSION
+    reads = BOTTOM_EXTENSION
     source: ClassVar[str] = _SOURCE
     end_of_life: ClassVar[str] = _FAILS
     includes_wander: ClassVar[bool] = True
@@ -162,7 +155,7 @@ class FrenchHydraulic(PowerLaw):
     platform_modulus: float | None = None
     thickness_scatter: float = _TREATED_SCATTER
 
-    quantity: ClassVar[str] = TENSION
+    reads = TENSION
     source: ClassVar[str] = _SOURCE
     end_of_life: ClassVar[str] = _FAILS
     includes_wander: ClassVar[bool] = True
@@ -231,7 +224,7 @@ class FrenchSubgrade(PowerLaw):
     constant: float = 0.012
     slope: float = -0.222
 
-    quantity: ClassVar[str] = SUBGRADE
+    reads = SUBGRADE_COMPRESSION
     source: ClassVar[str] = _SOURCE
     end_of_life: ClassVar[str] = "the rut that the method bears; the source gives no depth"
     includes_wander: ClassVar[bool] = True

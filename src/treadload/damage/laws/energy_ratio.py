@@ -10,6 +10,8 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.laws.fatigue import check_positive
+from treadload.damage.quantities import TENSION
+from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
@@ -41,6 +43,7 @@ class EnergyRatio:
     fracture_energy: float
     resilient_modulus: float
 
+    reads: ClassVar[Quantity] = TENSION
     source: ClassVar[str] = "Roque et al. (2004), as printed in a thesis of the University of Florida"
     verified: ClassVar[bool] = False
     doubt: ClassVar[str] = "the exponent -3.10 of the energy ratio is recalled: the copy read was partly illegible"
@@ -88,6 +91,12 @@ class EnergyRatio:
         about = {"long_name": "energy ratio", "units": "1"}
         said = json.dumps(self.warnings(tension), ensure_ascii=False)
         return tension.copy(data=ratio).rename("energy_ratio").assign_attrs(about, warnings=said)
+
+    def of(self, data: xr.Dataset) -> xr.DataArray:
+        """ER of what it reads of a response's dataset, with the sentences of `warnings`: a computed tension is none
+        that its sources put in.
+        """
+        return self.ratio(self.reads.field(data))
 
     def warnings(self, tension: float | Array | xr.DataArray) -> tuple[str, ...]:
         """Sentences for the user on a tension, Pa: its doubt, and stress that the regression was not made for."""

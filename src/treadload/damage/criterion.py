@@ -1,0 +1,172 @@
+"""A criterion: a quantity at a place of a road, and the law that says after how many passes the road fails there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal, Self
+
+import numpy as np
+import xarray as xr
+
+from treadload.damage.cracks import crack_plane
+from treadload.damage.laws.bond import BondStrength, BondUtilisation, ShearFatigue
+from treadload.damage.laws.fatigue import FatigueLaw
+from treadload.damage.quantity import Place, Quantity, Reading, check_reading
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.response import MATERIAL_LENGTH
+from treadload.response.material import check_length
+
+Side = Literal["above", "below"]
+
+# At which a law that depends on temperature is asked what it reads.
+_ANY_TEMPERATURE = 15.0
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """A quantity at a place of the road, and the law that says after how many passes the road fails there.
+
+    name: for tables and figures. law: a law of fatigue; or a function that gives it at a temperature of the
+    layer, °C. layer: counted from the surface, 0 is the top one, negative from the bottom. place: "top" or
+    "bottom" of the layer, or "interface", the bond below the layer, counted as `interface_number` does; left out,
+    the usual one of what the law reads. strain: "principal" reads an extension in space, "in-plane" in the horizontal
+    plane; left out, as the law's quantity does, and for all others it does not matter.
+    length: of the mean over a cube of road that is read near the surface where what the law reads has no bound there,
+    m, see `response.material`; None for the points themselves, which depend on the cells there.
+    reads: what the law reads, with details that the law leaves open, as the strength of a bond.
+    An extension at the top of a layer counts only where a principal stress is tensile: no crack opens elsewhere.
+    Raises InputError for a law at a place of which it does not speak: one of the bottom of the asphalt, of the
+    surface, of the top of the subgrade, of a bond.
+    """
+
+    name: str
+    law: FatigueLaw | Callable[[float], FatigueLaw]
+    layer: int = 0
+    place: Place | None = None
+    strain: Reading | None = None
+    length: float | None = MATERIAL_LENGTH
+    reads: Quantity | None = None
+
+    def __post_init__(self) -> None:
+        law = self.law_at(_ANY_TEMPERATURE)
+        where = law.reads.where
+        if self.place is None:
+            object.__setattr__(self, "place", where.places[0])
+        if self.place not in ("top", "bottom", "interface"):
+            raise InputError(
+                f'place of the criterion {self.name!r} must be "top" or "bottom" of a layer, or "interface", got '
+                f"{self.place!r}"
+            )
+        if self.strain is not None:
+            check_reading(self.strain)
+        if self.length is not None:
+            check_length(self.length)
+        if self.reads is not None and not law.reads.admits(self.reads):
+            raise InputError(
+                f"the criterion {self.name!r} reads the {self.reads}, but the numbers of its law, {law}, hold for "
+                f"the {law.reads}; take a law of what it should read"
+            )
+        if self.place not in where.places:
+            at = "an interface" if self.place == "interface" else f"the {self.place} of a layer"
+            raise InputError(
+                f"the criterion {self.name!r} reads {at}, but its law, {law}, reads the {law.reads}; give place = "
+                f'"{where.places[0]}"'
+            )
+        if self.quantity.lacks:
+            raise InputError(
+                f"the criterion {self.name!r} reads a response, but its law, {law}, reads the {law.reads}, which "
+                f"needs {self.quantity.lacks}; give reads= with it"
+            )
+
+    @classmethod
+    def of_bond(cls, name: str, strength: BondStrength, law: ShearFatigue, interface: int = 0) -> Self:
+        """The bond of an interface: after how many passes its layers part.
+
+        name: for tables and figures. strength, law: of the bond; strength at the temperature of the layer above.
+        interface: counted from the surface, 0 below the top layer, negative from the lowest.
+        Tension counts only where the strength has a limit for it; `assess_bonds` tells how much of it there is.
+        """
+        return cls(name, law, interface, "interface", reads=BondUtilisation(strength))
+
+    @property
+    def quantity(self) -> Quantity:
+        """What it reads, with all its details."""
+        quantity = self.law_at(_ANY_TEMPERATURE).reads if self.reads is None else self.reads
+        return quantity if self.strain is None else quantity.with_strain(self.strain)
+
+    def at(self, temperature: float) -> Self:
+        """The criterion at a temperature of its layer, °C, where its reading depends on it."""
+        before = self.quantity
+        quantity = before.at(temperature)
+        return self if quantity == before else replace(self, reads=quantity)
+
+    def law_at(self, temperature: float) -> FatigueLaw:
+        """The law at a temperature of the layer, °C."""
+        return self.law(temperature) if callable(self.law) else self.law
+
+    @property
+    def side(self) -> Side:
+        """Side of the interface on which it reads; what a bond bears is the same on both."""
+        return "below" if self.place == "top" else "above"
+
+    def number(self, road: Pavement) -> int:
+        """Number of the layer from the surface, 0 the top one. Raises InputError for one that is not there."""
+        if self.place == "interface":
+            return interface_number(road, self.layer)
+        count = len(road.layers)
+        if not -count <= self.layer < count:
+            raise InputError(
+                f"the criterion {self.name!r} reads layer {self.layer}, the road has {count}: "
+                f"{-count} to {count - 1} are there"
+            )
+        return self.layer % count
+
+    def depth(self, road: Pavement) -> float:
+        """Depth at which it reads, m. Raises InputError for the bottom of a layer that has none."""
+        number, where = self.number(road), self.quantity.where
+        if where.only and where.layer is not None and number != where.layer % len(road.layers):
+            raise InputError(
+                f"the criterion {self.name!r} reads layer {self.layer}, but its law, "
+                f"{self.law_at(_ANY_TEMPERATURE)}, reads the {self.quantity}; give layer {where.layer}"
+            )
+        if self.place == "top":
+            return float(road.interfaces[number - 1]) if number else 0.0
+        if number >= len(road.interfaces):
+            raise InputError(
+                f"the criterion {self.name!r} reads the bottom of the last layer, which is semi-infinite; "
+                "read its top, or a layer above it"
+            )
+        return float(road.interfaces[number])
+
+    @property
+    def mean_over(self) -> float | None:
+        """Side of the cube of road over which it reads a mean near the surface, m; None to read points."""
+        return None if self.quantity.bounded else self.length
+
+    def read(self, data: xr.Dataset) -> Array:
+        """What the law reads (y, x) of a response at the criterion's one depth, positive where it does harm."""
+        quantity = self.quantity
+        found = quantity.values(data)
+        if self.place == "top" and quantity.needs_tension:
+            return np.where(quantity.opens(data), found, np.minimum(found, 0.0))
+        return found
+
+    def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
+        """Angle of the trace and dip (y, x), rad, of the crack across what it reads; NaN for none."""
+        normal = self.quantity.crack(data)
+        if normal is None:
+            none = np.full((data.sizes["y"], data.sizes["x"]), np.nan)
+            return none, none
+        return crack_plane(normal)
+
+
+def interface_number(road: Pavement, interface: int) -> int:
+    """Number of an interface between layers from the surface. Raises InputError for one that is not there."""
+    count = len(road.layers) - 1
+    if not -count <= interface < count:
+        there = f"{-count} to {count - 1} are there" if count else "there is none"
+        raise InputError(f"the road has {count} interface(s) between layers, got interface {interface}; {there}")
+    return interface % count

@@ -1,0 +1,111 @@
+"""Quantities as fields of one response, where they peak, and the tension behind a wheel."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.damage.cracks import HasDataset, gridded
+from treadload.damage.quantity import ANYWHERE, STRESS, Quantity, part
+from treadload.errors import InputError
+from treadload.kernels import tensors
+from treadload.registry import QUANTITIES
+
+# Largest depth of the shear under the edge of a tire, m.
+NEAR_SURFACE = 0.05
+
+
+def known_quantities() -> dict[str, Quantity]:
+    """Quantities by their names that a response tells anywhere in the road, without anything else being given.
+
+    Ours, and what this session registered; those of other packages are found by their names.
+    """
+    makers = (QUANTITIES.find(name).target for name in QUANTITIES.own())
+    made = [make() for make in makers if not _needs_more(make)]
+    return {one.name: one for one in made if one.where == ANYWHERE and not one.lacks}
+
+
+def compute_quantities(response: HasDataset, quantities: Sequence[str | Quantity] | None = None) -> xr.Dataset:
+    """Quantities as fields.
+
+    response: with stress and strain over (depth, y, x). quantities: names, or quantities with
+    their details, `MazarsOnset(80e-6)`; left out, all of `known_quantities` whose fields the response has.
+    Returns a dataset of one variable each over (depth, y, x): strains, Pa, J/m³; "dissipated_energy" over (depth, y)
+    is that of one passage and belongs to responses of moving wheels on viscoelastic roads.
+    Raises InputError for an unknown name, and for a quantity whose fields the response lacks.
+    """
+    data = gridded(response)
+    if quantities is None:
+        chosen = [one for one in known_quantities().values() if not one.missing(data)]
+    else:
+        chosen = [_named(one) if isinstance(one, str) else one for one in quantities]
+    return xr.Dataset({one.name: one.field(data) for one in chosen})
+
+
+def _named(name: str) -> Quantity:
+    make = QUANTITIES.find(name).target
+    if _needs_more(make):
+        raise InputError(f"the quantity {name!r} needs more than its name; give it as an object, with its numbers")
+    made: Quantity = make()
+    return made
+
+
+def _needs_more(make: Callable[..., Quantity]) -> bool:
+    return any(one.default is one.empty for one in inspect.signature(make).parameters.values())
+
+
+def peak(fields: xr.Dataset, name: str, *, deepest: float | None = None) -> dict[str, float]:
+    """Largest value of a quantity and its place: {"value": ..., "depth": ..., "y": ..., "x": ...}, m.
+
+    deepest: m; depths below it do not count: `NEAR_SURFACE` for the shear strain at the edge of a tire.
+    Raises InputError where the quantity or all of its depths are missing.
+    """
+    if name not in fields:
+        raise InputError(f"the fields hold {', '.join(map(str, fields.data_vars))}, got {name!r}")
+    values = fields[name]
+    if deepest is not None:
+        values = values.where(values["depth"] <= deepest, drop=True)
+    if not values.size or bool(values.isnull().all()):
+        raise InputError(f"{name} has no value at depths up to {deepest} m; solve the response there")
+    at = np.unravel_index(int(np.nanargmax(values.to_numpy())), values.shape)
+    place = {str(dim): float(values[dim][int(number)]) for dim, number in zip(values.dims, at, strict=True)}
+    return {"value": float(values.to_numpy()[at]), **place}
+
+
+def tension_behind(response: HasDataset) -> xr.Dataset:
+    """Largest horizontal tension of the surface behind the load, over y: what opens cracks behind a rolling wheel.
+
+    Behind are the points of a row that come after the last one under pressure, which is read from
+    stress_zz = -pressure at the surface; rows that the load misses count behind the load's rear as a whole.
+    response: with depth 0, and x that reach behind the load. Returns tension_behind, Pa, and tension_behind_x, m.
+    An elastic road shows some too; what viscoelasticity adds is the difference to the road's elastic limits.
+    Raises InputError without the surface, a load on it, or points behind it.
+    Source: the mechanism is Tamagny's, as cited by the paper of this method; the definition is this package's.
+    """
+    data = gridded(response)
+    if not (data["depth"] == 0).any():
+        raise InputError("the tension behind the load is one of the surface; solve the response with depth 0")
+    surface = data.sel(depth=[0.0])
+    stress = np.stack([part(surface, name) for name in STRESS])[:, 0]
+    x = data["x"].to_numpy()
+    order = np.argsort(x)
+    stress, x = stress[..., order], x[order]
+    # Round-off of a free surface beside the pressure.
+    loaded = stress[2] < -1e-6 * np.abs(stress[2]).max()
+    if not loaded.any():
+        raise InputError("no pressure stands on the surface of this response; take x and y that meet the load")
+    rear = np.where(loaded.any(axis=1), np.argmax(loaded, axis=1), np.argmax(loaded.any(axis=0)))
+    if not rear.all():
+        raise InputError(f"the load reaches the first x of the response, {x[0]:g} m; let x reach behind it")
+    tension = tensors.in_plane_principal(stress)[0]
+    tension = np.where(np.arange(len(x)) < rear[:, None], tension, -np.inf)
+    at = tension.argmax(axis=1)
+    fields = {
+        "tension_behind": (("y",), np.take_along_axis(tension, at[:, None], axis=1)[:, 0]),
+        "tension_behind_x": (("y",), x[at]),
+    }
+    return variables.dataset(fields, {"y": data["y"].to_numpy()})

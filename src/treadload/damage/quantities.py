@@ -1,0 +1,340 @@
+"""The quantities that laws and criteria read: extensions, compression on the soil, tension, equivalent strains.
+
+Each is a word of a case and of `compute_quantities`; see `damage.quantity` for what one must tell.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+import xarray as xr
+
+from treadload.damage.quantity import (
+    BOTTOM,
+    STRAIN,
+    STRESS,
+    SUBGRADE,
+    SURFACE,
+    Quantity,
+    Reading,
+    check_reading,
+    ordered,
+    part,
+)
+from treadload.errors import InputError
+from treadload.kernels import tensors
+from treadload.kernels.arrays import Array
+from treadload.registry import QUANTITIES
+from treadload.units import Strain
+
+# Onset of damage of asphalt in Mazars' law: 50 to 100 microstrain, recalled.
+MAZARS_ONSET = 100e-6
+
+
+def _along(angle: Array) -> Array:
+    """Horizontal unit vectors (..., 3) at an angle from travel towards the right, rad."""
+    return np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
+
+
+@dataclass(frozen=True)
+class Extension(Quantity):
+    """Largest extension; a crack opens across it.
+
+    strain: "in-plane" reads the horizontal plane, whose cracks are vertical, "principal" space. The principal strains
+    that a response brings are taken as they are. Raises InputError.
+    """
+
+    strain: Reading = "in-plane"
+
+    words = "extension strain"
+    shown = "microstrain"
+    source = "the paper of this method"
+    needs = STRAIN
+    extends = True
+    needs_tension = True
+
+    def __post_init__(self) -> None:
+        check_reading(self.strain)
+
+    @property
+    def name(self) -> str:  # type: ignore[override]
+        """The word of the plane or of space."""
+        return "extension_strain" if self.strain == "principal" else "in_plane_extension"
+
+    def with_strain(self, strain: Reading) -> Self:
+        """The extension in space or in the plane."""
+        return replace(self, strain=strain)
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """Largest principal strain, in space or in the plane."""
+        if self.strain == "principal":
+            return np.asarray(tensors.principal(strain)[0][0])
+        return tensors.in_plane_principal(strain)[0]
+
+    def normal(self, stress: Array, strain: Array) -> Array:
+        """Its direction."""
+        if self.strain == "principal":
+            return tensors.principal(strain)[1]
+        return _along(tensors.in_plane_principal(strain)[1])
+
+    def values(self, data: xr.Dataset) -> Array:
+        """As the response tells it, or of its strain."""
+        name = "principal_strain_1" if self.strain == "principal" else "in_plane_strain_1"
+        return part(data, name) if name in data else super().values(data)
+
+    def crack(self, data: xr.Dataset) -> Array | None:
+        """Its direction as the response tells it, or of its strain."""
+        if self.strain == "principal":
+            name = "principal_direction_1"
+            return part(data, name) if name in data else super().crack(data)
+        name = "in_plane_angle_1"
+        return _along(part(data, name)) if name in data else super().crack(data)
+
+
+@QUANTITIES.register("extension_strain")
+def _in_space() -> Extension:
+    """Largest principal strain, in space."""
+    return Extension("principal")
+
+
+@QUANTITIES.register("in_plane_extension")
+def _in_plane() -> Extension:
+    """Largest principal strain of the horizontal plane."""
+    return Extension("in-plane")
+
+
+@QUANTITIES.register("surface_extension")
+@dataclass(frozen=True)
+class SurfaceExtension(Extension):
+    """Largest extension of the surface of the road. strain: "in-plane" or "principal"."""
+
+    words = "extension strain at the surface"
+    where = SURFACE
+    name = "surface_extension"
+
+
+@QUANTITIES.register("bottom_extension")
+@dataclass(frozen=True)
+class BottomExtension(Extension):
+    """Largest extension at the bottom of the asphalt. strain: "in-plane" or "principal"."""
+
+    words = "extension strain at the bottom of the asphalt"
+    where = BOTTOM
+    name = "bottom_extension"
+    bounded = True
+
+
+@QUANTITIES.register("vertical_compression")
+@dataclass(frozen=True)
+class VerticalCompression(Quantity):
+    """Vertical strain, compression positive."""
+
+    name = "vertical_compression"
+    words = "vertical compression"
+    shown = "microstrain"
+    source = "laws of rutting"
+    needs = STRAIN
+    harm = "ruts, no crack"
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """-ε_zz."""
+        return np.asarray(-strain[2])
+
+
+@QUANTITIES.register("subgrade_compression")
+@dataclass(frozen=True)
+class SubgradeCompression(VerticalCompression):
+    """Vertical strain on top of the soil, compression positive."""
+
+    name = "subgrade_compression"
+    words = "vertical strain on the subgrade"
+    where = SUBGRADE
+    bounded = True
+
+
+@QUANTITIES.register("horizontal_tension")
+@dataclass(frozen=True)
+class HorizontalTension(Quantity):
+    """Largest principal stress of the horizontal plane; a crack opens across it."""
+
+    name = "horizontal_tension"
+    words = "tensile stress"
+    unit, shown = "Pa", "MPa"
+    source = "Tamagny at the surface; Roque's input; laws of layers bound by cement"
+    needs = STRESS
+    bounded = True
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """Largest principal stress of the plane."""
+        return tensors.in_plane_principal(stress)[0]
+
+    def normal(self, stress: Array, strain: Array) -> Array:
+        """Its direction."""
+        return _along(tensors.in_plane_principal(stress)[1])
+
+
+@QUANTITIES.register("mazars_strain")
+@dataclass(frozen=True)
+class MazarsStrain(Quantity):
+    """Equivalent strain of Mazars, √Σ⟨ε⟩², of the extensions alone; its crack opens across the largest of them."""
+
+    name = "mazars_strain"
+    words = "equivalent strain of Mazars"
+    shown = "microstrain"
+    source = "Mazars (1986), Eng. Fract. Mech. 25"
+    needs = STRAIN
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """√Σ⟨ε⟩²."""
+        return tensors.mazars(tensors.principal(strain)[0])
+
+    def normal(self, stress: Array, strain: Array) -> Array:
+        """The direction of the largest extension."""
+        return tensors.principal(strain)[1]
+
+
+@QUANTITIES.register("mazars_onset_ratio")
+@dataclass(frozen=True)
+class MazarsOnset(MazarsStrain):
+    """Equivalent strain of Mazars over the strain at which damage begins.
+
+    onset: that strain, recalled: 50 to 100 microstrain. Raises InputError.
+    """
+
+    onset: Strain = MAZARS_ONSET
+
+    name = "mazars_onset_ratio"
+    words = "equivalent strain of Mazars over that at which damage begins"
+    shown = ""
+
+    def __post_init__(self) -> None:
+        if not 0 < self.onset < 0.01:
+            raise InputError(f"mazars_onset must be a plain strain in (0, 0.01), got {self.onset}; 100e-6 is usual")
+
+    @property
+    def doubt(self) -> str:
+        """The onset, where it is ours."""
+        return "the strain at which damage begins is recalled" if self.onset == MAZARS_ONSET else ""
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """√Σ⟨ε⟩² over the onset."""
+        return super().of(stress, strain) / self.onset
+
+
+@QUANTITIES.register("von_mises_strain")
+@dataclass(frozen=True)
+class VonMisesStrain(Quantity):
+    """Equivalent strain of von Mises, √(½ Σ (εᵢ - εⱼ)²)."""
+
+    name = "von_mises_strain"
+    words = "equivalent strain of von Mises"
+    shown = "microstrain"
+    source = "Sousa; the strain of a four-point beam test stands for (1 + ν) times itself"
+    needs = STRAIN
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """√(½ Σ (εᵢ - εⱼ)²)."""
+        return tensors.von_mises(strain)
+
+
+@QUANTITIES.register("octahedral_shear_stress")
+@dataclass(frozen=True)
+class OctahedralShear(Quantity):
+    """Octahedral shear stress."""
+
+    name = "octahedral_shear_stress"
+    words = "octahedral shear stress"
+    unit, shown = "Pa", "MPa"
+    source = "Lytton, with mean_stress"
+    needs = STRESS
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """√((σ₁-σ₂)² + (σ₂-σ₃)² + (σ₃-σ₁)²) / 3."""
+        return tensors.octahedral_shear(stress)
+
+
+@QUANTITIES.register("mean_stress")
+@dataclass(frozen=True)
+class MeanStress(Quantity):
+    """Mean of the three normal stresses, tension positive."""
+
+    name = "mean_stress"
+    words = "mean stress"
+    unit, shown = "Pa", "MPa"
+    source = "Lytton, with octahedral_shear_stress"
+    needs = STRESS
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """(σ_xx + σ_yy + σ_zz) / 3."""
+        return tensors.mean(stress)
+
+
+@QUANTITIES.register("distortion_energy")
+@dataclass(frozen=True)
+class DistortionEnergy(Quantity):
+    """Energy of the change of shape per volume."""
+
+    name = "distortion_energy"
+    words = "energy of the change of shape"
+    unit, shown = "J/m^3", "J/m³"
+    source = "Kunst"
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """½ s:e of the deviators."""
+        return tensors.distortion_energy(stress, strain)
+
+
+@QUANTITIES.register("vertical_shear_strain")
+@dataclass(frozen=True)
+class VerticalShear(Quantity):
+    """Largest engineering shear strain between the vertical and the horizontal."""
+
+    name = "vertical_shear_strain"
+    words = "vertical shear strain"
+    shown = "microstrain"
+    source = "Yoo"
+    needs = STRAIN
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """2 √(ε_xz² + ε_yz²)."""
+        return tensors.vertical_shear(strain)
+
+
+@QUANTITIES.register("dissipated_energy")
+@dataclass(frozen=True)
+class DissipatedEnergy(Quantity):
+    """Energy per volume that one passage of a moving wheel leaves in viscoelastic layers, the same all along x."""
+
+    name = "dissipated_energy"
+    words = "dissipated energy"
+    unit, shown = "J/m^3", "J/m³"
+    source = "responses of moving wheels"
+    needs = ("dissipated_energy",)
+    remedy = "solve a moving wheel on a viscoelastic road"
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """Not told by stress and strain of an instant: raises InputError."""
+        raise InputError("stress and strain do not tell the dissipated energy; read it of a response")
+
+    def values(self, data: xr.Dataset) -> Array:
+        """What the response tells, at every x."""
+        self.check(data)
+        shape = [data.sizes[dim] for dim in ordered(data)]
+        return np.broadcast_to(part(data, self.name)[..., None], shape)
+
+    def crack(self, data: xr.Dataset) -> None:
+        """None: energy has no direction."""
+
+    def field(self, data: xr.Dataset) -> xr.DataArray:
+        """What the response tells, over (depth, y)."""
+        self.check(data)
+        return data[self.name]
+
+
+EXTENSION = Extension()
+SURFACE_EXTENSION = SurfaceExtension()
+BOTTOM_EXTENSION = BottomExtension()
+SUBGRADE_COMPRESSION = SubgradeCompression()
+TENSION = HorizontalTension()
