@@ -122,7 +122,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
-from treadload.damage import DesignCriterion, FatigueLine, OnLayer, PowerLaw
+from treadload.damage import Criterion, FatigueLine, OnLayer, PowerLaw
 from treadload.units import Number, Strain
 
 
@@ -137,7 +137,7 @@ class Track(PowerLaw):
     power: Number
     stiffening: Number = 1.0
 
-    quantity: ClassVar = FatigueLine.quantity
+    reads = FatigueLine.reads
     source: ClassVar[str] = "the track"
     end_of_life: ClassVar[str] = "the first crack"
 
@@ -154,7 +154,7 @@ class Track(PowerLaw):
 
 
 @dataclass(frozen=True)
-class Doubled(DesignCriterion):
+class Doubled(Criterion):
     """Reads twice the extension."""
 
     def read(self, data):
