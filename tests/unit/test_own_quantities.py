@@ -1,4 +1,4 @@
-"""What is read of stress and strain: ours, and a quantity, a law and a strength of somebody else's, each in a file."""
+"""What is read of stress and strain: ours, and a quantity, a law and a strength of others, each in a file."""
 
 import json
 import sys

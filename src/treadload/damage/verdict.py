@@ -219,10 +219,10 @@ def assess(
 def _no_crack(unread: float) -> str:
     """Why nothing cracks. unread: the largest extension, whatever opens."""
     if unread <= 0:
-        return "nothing extends here; this criterion sees no crack."
+        return "nothing extends here; this law sees no crack."
     return (
         f"the road extends by up to {unread * 1e6:.1f} microstrain, but only where no principal stress is tensile; "
-        "this criterion sees no crack."
+        "this law sees no crack."
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,24 +12,23 @@ from numpy.typing import ArrayLike
 
 from treadload import variables
 from treadload.contact import Contact
+from treadload.damage import Extension, HorizontalTension, Quantity, VerticalCompression, VerticalShear
 from treadload.describing import first_line
 from treadload.errors import InputError
-from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import MATERIAL_LENGTH, GridLoad, UniformDisc, UniformRectangle, place_load, solve_response
-from treadload.response.fields import COMPONENTS
 from treadload.response.material import check_length
 
 COMPUTED, DISC, RECTANGLE = "computed contact", "uniform disc", "uniform rectangle"
 
-# Largest of a field over the plane at each depth: name → (stress (6, ny, nx), strain (6, ny, nx)) → field.
-_READINGS: Mapping[str, Callable[[Array, Array], Array]] = {
-    "largest_extension": lambda stress, strain: tensors.principal(strain)[0][0],
-    "largest_in_plane_extension": lambda stress, strain: tensors.in_plane_principal(strain)[0],
-    "largest_vertical_shear": lambda stress, strain: tensors.vertical_shear(strain),
-    "largest_vertical_compression": lambda stress, strain: -strain[2],
-    "largest_horizontal_tension": lambda stress, strain: tensors.in_plane_principal(stress)[0],
+# Largest of a quantity over the plane at each depth.
+_READINGS: Mapping[str, Quantity] = {
+    "largest_extension": Extension("principal"),
+    "largest_in_plane_extension": Extension(),
+    "largest_vertical_shear": VerticalShear(),
+    "largest_vertical_compression": VerticalCompression(),
+    "largest_horizontal_tension": HorizontalTension(),
 }
 # Points beyond the load, m, and their spacing where fields are as smooth as the depth.
 _MARGIN, _PER_DEPTH, _COARSE = 0.15, 4, 0.02
@@ -169,7 +168,4 @@ def _largest(
     x = points(grid.x, grid.dx, sorted({x for x, _ in wheels}))
     y = points(grid.y, grid.dy, sorted({y for _, y in wheels}))
     data = solve_response(loads, road, depths=[depth], x=x, y=y, mean_over=mean_over).dataset.isel(depth=0)
-    stress, strain = (
-        np.stack([data[f"{kind}_{name}"].to_numpy() for name in COMPONENTS]) for kind in ("stress", "strain")
-    )
-    return {name: float(field(stress, strain).max()) for name, field in _READINGS.items()}
+    return {name: float(quantity.values(data).max()) for name, quantity in _READINGS.items()}
