@@ -5,9 +5,9 @@ import pytest
 import xarray as xr
 
 import treadload as tl
-from treadload.damage import BondCriterion, FatigueLine, InterfaceStrength, ShearFatigue
-from treadload.damage.criteria.design import DesignCriterion
-from treadload.damage.criteria.fields import STRESS, tension_behind
+from treadload.damage import Criterion, FatigueLine, InterfaceStrength, ShearFatigue
+from treadload.damage.fields import tension_behind
+from treadload.damage.quantity import STRESS
 from treadload.damage.traffic import AxleClass, Climate, Traffic, Wander
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
@@ -119,7 +119,7 @@ def test_a_life_does_not_know_how_far_beside_the_wheels_readings_end(monkeypatch
     # A thick slab on soft soil bends over a metre: the widest bowl that a road has.
     road = Pavement([Layer(Elastic(7e9, 0.35), 0.3), Layer(Elastic(1.2e8, 0.35))])
     traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5, wander=Wander.normal(0.25))
-    base = (DesignCriterion("base", FatigueLine(90e-6, -0.2), 0),)
+    base = (Criterion("base", FatigueLine(90e-6, -0.2), 0),)
 
     def years():
         return solve_life(tire, road, traffic, Climate.constant(15.0), base, spacing=0.012, workers=1).years("base")
@@ -154,13 +154,13 @@ def test_round_off_is_no_wheel_and_a_faint_pressure_is_one(left, behind):
 
 def test_a_parted_bond_reads_a_thousand_and_round_off_nothing():
     """A law of passes has no use for infinity, and a power of round-off is no damage."""
-    bond = BondCriterion("bond", InterfaceStrength(1e6, 0.0), ShearFatigue(-0.2))
+    bond = Criterion.of_bond("bond", InterfaceStrength(1e6, 0.0), ShearFatigue(-0.2))
     shear = np.array([[0.0, 0.5, 0.9e-0, 2e6, 0.25e6, 0.999e9, 1.001e9, 1e12]])
     zero = np.zeros_like(shear)
     data = xr.Dataset({name: (("y", "x"), zero) for name in ("stress_xz", "stress_zz")})
     data["stress_yz"] = (("y", "x"), shear)
     np.testing.assert_allclose(bond.read(data), [[0, 0, 0, 2, 0.25, 999, 1000, 1000]], rtol=1e-12)
-    none = BondCriterion("none", InterfaceStrength(0.0, 0.0), ShearFatigue(-0.2))
+    none = Criterion.of_bond("none", InterfaceStrength(0.0, 0.0), ShearFatigue(-0.2))
     np.testing.assert_array_equal(none.read(data)[0, 3:], 1000.0)
     assert none.read(data)[0, 0] == 0
 

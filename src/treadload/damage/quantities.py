@@ -135,7 +135,7 @@ class VerticalCompression(Quantity):
     words = "vertical compression"
     shown = "microstrain"
     source = "laws of rutting"
-    needs = STRAIN
+    needs = ("strain_zz",)
     harm = "ruts, no crack"
 
     def of(self, stress: Array, strain: Array) -> Array:

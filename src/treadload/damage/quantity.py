@@ -111,7 +111,7 @@ class Quantity(ABC):
     def of(self, stress: Array, strain: Array) -> Array:
         """The quantity (...) of stress (6, ...), Pa, and strain (6, ...), in the order xx, yy, zz, xy, xz, yz.
 
-        A tensor that it does not need is empty.
+        A component that is not among `needs` is NaN, a tensor of which none is empty.
         """
 
     def normal(self, stress: Array, strain: Array) -> Array | None:
@@ -205,9 +205,14 @@ class Quantity(ABC):
 
     def _tensors(self, data: xr.Dataset) -> tuple[Array, Array]:
         self.check(data)
-        both = (names if set(names) & set(self.needs) else () for names in (STRESS, STRAIN))
-        stress, strain = (np.stack([part(data, name) for name in names]) if names else np.empty(0) for names in both)
-        return stress, strain
+        return self._stacked(data, STRESS), self._stacked(data, STRAIN)
+
+    def _stacked(self, data: xr.Dataset, names: tuple[str, ...]) -> Array:
+        """A tensor (6, ...), NaN for the components that it does not need; empty if it needs none of them."""
+        if not set(names) & set(self.needs):
+            return np.empty(0)
+        unasked = np.full([data.sizes[dim] for dim in ordered(data)], np.nan)
+        return np.stack([part(data, name) if name in self.needs else unasked for name in names])
 
 
 QUANTITIES.makes(Quantity)

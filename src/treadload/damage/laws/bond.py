@@ -17,7 +17,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from treadload.damage.laws.fatigue import PowerLaw
-from treadload.damage.quantity import INTERFACE, STRESS, Quantity
+from treadload.damage.quantity import INTERFACE, Quantity
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.registry import CRITERIA, QUANTITIES
@@ -205,7 +205,7 @@ class BondUtilisation(Quantity):
     words = "utilisation of the bond"
     source = "Coulomb's strength of the bond, or another"
     where = INTERFACE
-    needs = STRESS
+    needs = ("stress_zz", "stress_xz", "stress_yz")
     bounded = True
     between_layers = True
 
