@@ -18,8 +18,8 @@ from treadload.damage import (
     ShearFatigue,
     miner,
 )
-from treadload.damage.quantity import in_tension
 from treadload.damage.criterion import Criterion
+from treadload.damage.quantity import in_tension
 from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic

@@ -206,15 +206,15 @@ def test_what_is_theirs_works_in_python(road_readings, response):
     shear, pressed = np.hypot(plane["stress_xz"], plane["stress_yz"]), -plane["stress_zz"]
     used = (shear / 1e6 / np.sqrt(1 + 3e-6 * np.maximum(pressed, 0))).to_numpy()
     np.testing.assert_allclose(bond.read(plane), np.where(used < 1e-6, 0, used), rtol=1e-12)
-    fields = tl.interface_fields(response)
-    largest = tl.assess_bonds(fields, Parabola(1e6)).dataset["largest_utilisation"][1]
+    fields = tl.damage.interface_fields(response)
+    largest = tl.damage.assess_bonds(fields, Parabola(1e6)).dataset["largest_utilisation"][1]
     assert float(largest) == pytest.approx(used.max(), rel=1e-12)
 
 
 def test_what_is_theirs_works_in_a_case_and_its_report(road_readings, tmp_path):
     case = LifeCase.from_text(DESIGN)
     assert LifeCase.from_text(case.to_toml()) == case
-    result = tl.run_design(case, sensitivity=False)
+    result = tl.run_life(case, sensitivity=False)
     data = result.life.dataset
     half, theirs, bond = data["largest_reading"].to_numpy()
     # Half the shear against half the strength, by the same power.
@@ -286,13 +286,13 @@ def test_a_line_of_any_strain_and_a_power_of_anything():
 def test_a_criterion_stands_where_its_quantity_is_read():
     assert Criterion("a", FrenchSubgrade(), -1).place == "top"
     assert Criterion("a", FatigueLine(1e-4, -0.2)).place == "bottom"
-    bond = Criterion.of_bond("b", tl.InterfaceStrength(1e6), ShearFatigue(-0.2), -1)
+    bond = Criterion.of_bond("b", tl.damage.InterfaceStrength(1e6), ShearFatigue(-0.2), -1)
     assert (bond.place, bond.number(ROAD), bond.depth(ROAD), bond.side) == ("interface", 1, 0.21, "above")
     assert SUBGRADE_COMPRESSION.where.layer == -1
 
 
 def test_the_energy_ratio_reads_a_quantity(response):
-    mix = tl.EnergyRatio(1e-10, 0.5, 2e6, 2500, 1e10)
+    mix = tl.damage.EnergyRatio(1e-10, 0.5, 2e6, 2500, 1e10)
     np.testing.assert_array_equal(mix.of(response.dataset), mix.ratio(TENSION.field(response.dataset)))
 
 
