@@ -91,6 +91,10 @@ class Registry:
         """All names, ours first; nothing is loaded. Raises InputError for a name that two have."""
         return (*self._own, *sorted(self._points()))
 
+    def packages(self) -> dict[str, str]:
+        """All names and the packages that bring them, "" for ours; nothing is loaded. Raises InputError."""
+        return {**dict.fromkeys(self._own, ""), **{name: package_of(one) for name, one in self._points().items()}}
+
     def find(self, name: str) -> Entry:
         """What has this name. Raises InputError: unknown, brought twice, or its package cannot be loaded."""
         points = self._points()
@@ -103,6 +107,7 @@ class Registry:
     def unknown(self, name: object, known: Iterable[str]) -> str:
         """What to say of a name that is none of those known."""
         what = self.key if self.key != "kind" else self.noun if self.words else f"{self.noun} of the kind"
+        what = what or self.noun
         return f"no {what} {name!r}; {nearest(name, known)}"
 
     def __iter__(self) -> Iterator[Entry]:
@@ -171,6 +176,6 @@ QUANTITIES = Registry(
     "quantity", "treadload.quantities", key="quantity", words=True,
     example='{ quantity = "utilisation", cohesion = "0.85 MPa" }',
 )  # fmt: skip
-READERS = Registry("reader of meshes", "treadload.readers")
-BODIES = Registry("body", "treadload.bodies")
+READERS = Registry("reader of meshes", "treadload.readers", key="")
+BODIES = Registry("body", "treadload.bodies", key="")
 ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS, BODIES)

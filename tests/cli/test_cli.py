@@ -137,6 +137,13 @@ def test_what_the_catalogue_does_not_have():
     refused(call("catalogue", "mixes", "BBSG4"), 2, "no mix 'BBSG4'; did you mean 'BBSG")
 
 
+def test_the_catalogue_tells_what_a_table_can_be(monkeypatch):
+    monkeypatch.setattr("treadload.cli._out", Console(width=250, highlight=False))
+    told = call("catalogue").output
+    for words in ("law of friction, law = …", "anisotropic, flash, map", "half-bonded", "turning", "glb, off"):
+        assert words in told
+
+
 def test_names_of_the_catalogue_stay_whole_in_a_narrow_window(monkeypatch):
     monkeypatch.setattr("treadload.cli._out", Console(width=80, highlight=False, soft_wrap=True))
     result = call("catalogue")

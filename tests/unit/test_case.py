@@ -1,4 +1,6 @@
+import copy
 import math
+import pickle
 from pathlib import Path
 
 import pytest
@@ -79,6 +81,16 @@ def test_a_case_is_frozen_and_comparable():
     with pytest.raises(ValueError, match="frozen"):
         case.spacing = 1.0
     assert case != Case.from_text(changed("0.7", "0.6"))
+
+
+def test_a_case_goes_to_another_process_and_back(tmp_path):
+    friction = 'friction = { law = "anisotropic", along = 0.8, across = 0.6, base = 0.5 }'
+    case = Case.from_text(changed("friction       = 0.7", friction), folder=tmp_path)
+    for again in (pickle.loads(pickle.dumps(case)), copy.deepcopy(case)):
+        assert again == case
+        assert again.folder == tmp_path
+        assert again.to_toml() == case.to_toml()
+        assert again.build_rolling() == case.build_rolling()
 
 
 def test_missing_and_binary_files_are_refused(tmp_path):

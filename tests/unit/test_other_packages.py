@@ -114,6 +114,10 @@ class Zener:
 
 def nothing() -> Elastic:
     return "not a material"
+
+
+def bare(modulus, poisson: Number) -> Elastic:
+    return Elastic(modulus, poisson)
 '''
 
 CRITERIA_OF_THEIRS = '''
@@ -224,6 +228,7 @@ number = road_laws.criteria:__doc__
 soil = road_laws.materials:soil
 zener = road_laws.materials:Zener
 nothing = road_laws.materials:nothing
+bare = road_laws.materials:bare
 
 [treadload.criteria]
 track = road_laws.criteria:Track
@@ -468,7 +473,7 @@ def test_a_reader_of_meshes_is_one_file_of_theirs(road_laws, tmp_path):
 
 def test_the_schema_knows_their_things(road_laws):
     (road_laws / "road_laws-1.2.dist-info" / "entry_points.txt").write_text(
-        "\n".join(line for line in ENTRY_POINTS.splitlines() if line.split(" ")[0] not in ("torn", "number"))
+        "\n".join(line for line in ENTRY_POINTS.splitlines() if line.split(" ")[0] not in ("torn", "number", "bare"))
     )
     schema = json_schema("life")
     assert {"yielding", "track", "doubled"} <= kinds_in(schema, "law")
@@ -491,6 +496,9 @@ def test_a_broken_package_stops_no_one_else_and_is_named(road_laws):
     nothing = said(case_of('kind = "elastic", modulus = "5400 MPa", poisson = 0.35', 'kind = "nothing"'))
     assert "the material 'nothing' of the package road-laws 1.2 must be" in nothing
     assert "got 'not a material'" in nothing
+    bare = said(case_of('kind = "elastic"', 'kind = "bare"'))
+    assert "the material 'bare' of the package road-laws 1.2 cannot be read from a table" in bare
+    assert "the parameter modulus of bare has no annotation" in bare
     with pytest.raises(InputError, match=r"the package road-laws 1\.2 brings"):
         json_schema("run")
 

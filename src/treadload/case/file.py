@@ -68,6 +68,18 @@ class FilePart(Table):
         """Case from TOML text. changes: as for `from_toml`. Raises InputError."""
         return cls.from_dict(changed(parse_toml(text, name), changes), folder=folder, name=name)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Tables of kinds are made as they are read, and have no module to be found in.
+        return type(self)._again, (self._given(), self.folder)
+
+    @classmethod
+    def _again(cls, table: dict[str, Any], folder: Path) -> Self:
+        return cls.from_dict(table, folder=folder)
+
+    def _given(self) -> dict[str, Any]:
+        """What was given, as nested tables in SI units."""
+        return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)
+
     def to_toml(self) -> str:
         """The case as TOML text in SI units; what was left out stays out."""
-        return tomli_w.dumps(self.model_dump(mode="json", exclude_unset=True, exclude_none=True))
+        return tomli_w.dumps(self._given())

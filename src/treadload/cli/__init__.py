@@ -302,8 +302,24 @@ def catalogue(
             marks = " ".join(f"[{notes.setdefault(text, len(notes) + 1)}]" for text in told)
             table.add_row(item_name, Text(words), Text(marks))
         _out.print(table)
+    if not kind:
+        _out.print(_kinds())
     for text, number in notes.items():
         _out.print(f"[{number}] {text}", markup=False)
+
+
+def _kinds() -> Table:
+    """What a table of a case can be, by its kind, and which package brings it where it is not ours."""
+    import treadload.case  # its rooms register what they have
+    import treadload.tire.mesh_file  # noqa: F401
+    from treadload.registry import ALL
+
+    table = Table("key", "names", title="what a table of a case can be", title_justify="left")
+    for registry in ALL:
+        named = ", ".join(f"{name} ({package})" if package else name for name, package in registry.packages().items())
+        if named:
+            table.add_row(f"{registry.noun}, {registry.key} = …" if registry.key else registry.noun, Text(named))
+    return table
 
 
 @app.command()

@@ -72,7 +72,13 @@ class Choice(Mark):
         entry = self.registry.find(kind)
         if not self.will_do(kind):
             raise InputError(self.registry.unknown(kind, self.names()))
-        return _made(self, entry)
+        try:
+            return _made(self, entry)
+        except InputError as error:
+            if entry.package == OURS:
+                raise
+            who = f"the {self.registry.noun} {entry.name!r} of {entry.package}"
+            raise InputError(f"{who} cannot be read from a table: {error}; repair that package") from error
 
     def names(self) -> tuple[str, ...]:
         """Names that will do; of other packages, which are not loaded, all."""

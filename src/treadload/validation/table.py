@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from treadload.errors import InputError, TreadloadError
+from treadload.errors import InputError, TreadloadError, nearest
 from treadload.validation import (
     dissimilar,
     histories,
@@ -67,9 +66,7 @@ def run_checks(progress: Callable[[str], None] | None = None, names: Iterable[st
     wanted = list(GROUPS) if names is None else list(names)
     for name in wanted:
         if name not in GROUPS:
-            close = difflib.get_close_matches(name, GROUPS, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(GROUPS)}"
-            raise InputError(f"no group of checks {name!r}; {hint}")
+            raise InputError(f"no group of checks {name!r}; {nearest(name, GROUPS, 'known:')}")
     checks: list[Check] = []
     for name in wanted:
         if progress is not None:
