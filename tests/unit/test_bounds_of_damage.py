@@ -7,6 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
+from treadload.damage.criteria.design import DesignCriterion
+from treadload.damage.criteria.energy_ratio import EnergyRatio
+from treadload.damage.criteria.fields import compute_criteria
 
 import treadload as tl
 from treadload.damage import (
@@ -20,9 +23,6 @@ from treadload.damage import (
     assess_bonds,
     miner,
 )
-from treadload.damage.criteria.design import DesignCriterion
-from treadload.damage.criteria.energy_ratio import EnergyRatio
-from treadload.damage.criteria.fields import compute_criteria
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
 from treadload.damage.interface import interface_fields
 from treadload.damage.laws.american import (
