@@ -13,12 +13,13 @@ from treadload.damage.criteria.fields import compute_criteria
 
 import treadload as tl
 from treadload.damage import (
-    BondCriterion,
+    Criterion,
     FatigueLine,
     FrenchBituminous,
     FrenchHydraulic,
     FrenchSubgrade,
     InterfaceStrength,
+    MazarsOnset,
     ShearFatigue,
     assess_bonds,
     miner,
@@ -34,6 +35,7 @@ from treadload.damage.laws.american import (
     bottom_up_cracking,
     mix_factor,
 )
+from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.laws.equivalence import AGGRESSIVENESS, GROUP_FACTORS, aggressiveness, growth_factor
 from treadload.damage.laws.french import RISK, platform_factor, thickness_scatter
 from treadload.damage.laws.of_layer import OnLayer
@@ -49,12 +51,13 @@ WHEEL = tl.UniformRectangle(0.2, 0.2, 8e5, traction_x=2e5)
 X = np.array([-0.15, 0.0, 0.15])
 ONE = AxleClass("one", 1.0, 3e4, 8e5)
 LINE = FatigueLine(120e-6, -0.2)
+GLUE = InterfaceStrength(1e6)
 CLIMATE = Climate.constant(15.0)
 GB = {"epsilon_6": 90e-6, "slope": -0.2, "scatter": 0.3, "thickness": 0.15, "risk": 0.05, "calibration": 1.3}
 MIX = {
     "creep_compliance": 1e-10, "slope": 0.5, "strength": 2e6, "fracture_energy": 2500.0, "resilient_modulus": 1e10,
 }  # fmt: skip
-SOLID = tl.Prony(3e10, ((0.5, 1.0),), 0.35)
+SOLID = tl.materials.Prony(3e10, ((0.5, 1.0),), 0.35)
 HALF = tl.Pavement.half_space(Elastic(5e9, 0.35))
 FIELD = tl.solve_response(WHEEL, HALF, depths=[0.0, 0.1], x=np.linspace(-0.5, 0.5, 21), y=[0.0])
 JUST = 1e-9
@@ -82,7 +85,7 @@ def cooled(time=(0.0, 1.0), temperature=(1.0, 0.0), expansion=2e-5):
 def lived(count):
     y = 0.1 * np.arange(count)
     traffic = Traffic((ONE,), 1e5)
-    return miner(np.full((1, 1, 1, count), 1e-4), (DesignCriterion("a", LINE),), traffic, CLIMATE, y=y)
+    return miner(np.full((1, 1, 1, count), 1e-4), (Criterion("a", LINE),), traffic, CLIMATE, y=y)
 
 
 # What builds, the last number that it takes, the first that it refuses, a word of the sentence.
@@ -129,8 +132,8 @@ BOUNDS = [
     (lambda v: Traffic((ONE,), v), 0.0, -JUST, "passes_per_year"),
     (lambda v: Traffic((ONE,), 1.0, years=v), 1.0, 0.0, "years of design"),
     (lambda v: Traffic((ONE,), 1.0).years_to(v), 0.0, -JUST, "passes must"),
-    (lambda v: compute_criteria(FIELD, ["mazars_onset_ratio"], mazars_onset=v), JUST, 0.0, "mazars_onset"),
-    (lambda v: compute_criteria(FIELD, ["mazars_onset_ratio"], mazars_onset=v), 0.01 - JUST, 0.01, "mazars_onset"),
+    (lambda v: MazarsOnset(v), JUST, 0.0, "mazars_onset"),
+    (lambda v: MazarsOnset(v), 0.01 - JUST, 0.01, "mazars_onset"),
     (lambda v: ratio(slope=v), JUST, 0.0, "slope"),
     (lambda v: ratio(slope=v), 1 - JUST, 1.0, "slope"),
     (lambda v: ratio(strength=v, fracture_energy=1e5), 6.36e6 - 1, 6.36e6, "6.36"),
@@ -146,11 +149,16 @@ BOUNDS = [
     (lambda v: add_thermal_stress(FIELD, [1.0, v]), 0.0, math.nan, "finite"),
     (lambda v: add_thermal_stress(FIELD, np.zeros(v)), 2, 3, "each of 2 depths"),
     (lived, 2, 1, "evenly spaced"),
-    (lambda v: DesignCriterion("a", LINE, v).depth(ROAD), 1, 2, "semi-infinite"),
-    (lambda v: DesignCriterion("a", LINE, v, "top").depth(ROAD), -3, -4, "reads layer -4"),
-    (lambda v: DesignCriterion("a", LINE, v, "top").depth(ROAD), 2, 3, "reads layer 3"),
-    (lambda v: BondCriterion("b", InterfaceStrength(1e6), ShearFatigue(-0.2), v).depth(ROAD), 1, 2, "interface"),
-    (lambda v: BondCriterion("b", InterfaceStrength(1e6), ShearFatigue(-0.2), v).depth(ROAD), -2, -3, "interface"),
+    (lambda v: Criterion("a", LINE, v).depth(ROAD), 1, 2, "semi-infinite"),
+    (lambda v: Criterion("a", LINE, v, "top").depth(ROAD), -3, -4, "reads layer -4"),
+    (lambda v: Criterion("a", LINE, v, "top").depth(ROAD), 2, 3, "reads layer 3"),
+    (lambda v: Criterion.of_bond("b", InterfaceStrength(1e6), ShearFatigue(-0.2), v).depth(ROAD), 1, 2, "interface"),
+    (
+        lambda v: Criterion.of_bond("b", InterfaceStrength(1e6), ShearFatigue(-0.2), v).depth(ROAD),
+        -2,
+        -3,
+        "interface",
+    ),
 ]
 
 
@@ -213,11 +221,9 @@ def test_two_points_have_no_middle_and_three_have_an_edge(points, told):
 def test_attributes_of_a_life_are_read_by_people():
     """French, Greek and degrees stand as they are in a file, and are JSON still."""
     law = FrenchHydraulic(0.75e6, -1 / 15, 1.0, 0.05, 1.4)
-    life = miner(
-        np.ones((1, 1, 1, 2)), (DesignCriterion("a", law),), Traffic((ONE,), 1e5), CLIMATE, y=[0.0, 0.1]
-    ).dataset
+    life = miner(np.ones((1, 1, 1, 2)), (Criterion("a", law),), Traffic((ONE,), 1e5), CLIMATE, y=[0.0, 0.1]).dataset
     assert "σ₆" in life.attrs["laws"]
-    for name in ("laws", "sources", "doubts", "ends", "quantities"):
+    for name in ("laws", "sources", "doubts", "ends"):
         assert "\\u" not in life.attrs[name]
         assert json.loads(life.attrs[name])
 
@@ -266,7 +272,7 @@ def test_numbers_that_nobody_gives_are_the_laws_own():
 
 def test_tension_is_the_largest_of_the_plane_in_every_direction():
     """A pull of 3e5 Pa across which 1e5 Pa press, turned by any angle, is a pull of 3e5 Pa."""
-    criterion = DesignCriterion("gravel", FrenchHydraulic(0.75e6, -1 / 15, 1.0, 0.05, 1.4), 0)
+    criterion = Criterion("gravel", FrenchHydraulic(0.75e6, -1 / 15, 1.0, 0.05, 1.4), 0)
     for angle in (0.0, 0.4, math.pi / 2):
         c, s = math.cos(angle), math.sin(angle)
         xx, yy, xy = 3e5 * c * c - 1e5 * s * s, 3e5 * s * s - 1e5 * c * c, 4e5 * s * c
