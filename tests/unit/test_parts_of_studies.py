@@ -1,0 +1,318 @@
+"""The parts of a life and of a case on their own: where is read, what is solved, what stands between."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import treadload as tl
+from treadload.damage import Criterion, FatigueLine, miner
+from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.grid import Grid
+from treadload.materials import Elastic
+from treadload.pavement import Layer, Pavement
+from treadload.response import GridLoad
+from treadload.response.doubts import overlapping
+from treadload.study.climate import nodes, over_the_climate, warmth_of
+from treadload.study.groups import _harm, _one_axle, in_words
+from treadload.study.passage import _along, _between, _rows, _stride, _turns
+from treadload.study.run import map_grid, slice_depths
+from treadload.study.sensitivity import _growth, _most, _without_solves
+from treadload.study.wheels import across, moved, wheels_of
+
+DX, DY = 0.01, 0.012
+PRESSURE = np.ones((9, 7)) * 7e5
+GRID = Grid(7, 9, DX, DY, -3 * DX, -4 * DY)
+
+
+def contact(pressure=PRESSURE, grid=GRID):
+    fields = {"pressure": (("y", "x"), pressure), "traction_x": (("y", "x"), 0.1 * pressure)}
+    data = xr.Dataset(fields, {"y": grid.y, "x": grid.x}, {"dx": grid.dx, "dy": grid.dy})
+    return SimpleNamespace(dataset=data)
+
+
+TRIDEM = AxleClass("tridem", 1.0, 3e4, 8e5, tuple((x, y) for x in (1.3, 0.0, -1.31) for y in (-0.1733, 0.1733)))
+
+
+@pytest.fixture(scope="module")
+def y():
+    return across([contact()], [TRIDEM])
+
+
+@pytest.fixture(scope="module")
+def wheels(y):
+    return wheels_of([contact()], TRIDEM, y)
+
+
+def test_readings_lie_on_the_cells_between_them_and_beside_the_wheels(y):
+    steps = np.diff(y)
+    assert np.ptp(steps) < 1e-12
+    # At most 2 mm apart, on cells of 12 mm: six to a cell, and every cell's centre among them.
+    assert steps[0] == pytest.approx(2e-3)
+    assert all(np.abs(y - centre).min() < 1e-12 for centre in GRID.y)
+    edge = 0.1733 + 4 * DY
+    # A foot beside the outermost centres, to the next cell.
+    assert edge + 0.3 <= y[-1] <= edge + 0.3 + 2 * DY
+    assert -edge - 0.3 - 2 * DY <= y[0] <= -edge - 0.3
+
+
+def test_wheels_stand_where_their_class_says_within_half_a_cell(wheels, y):
+    assert len(wheels.loads) == 6
+    for load, (x, right) in zip(wheels.loads, TRIDEM.wheels, strict=True):
+        assert load.normal_load == pytest.approx(63 * 7e5 * DX * DY, rel=1e-12)
+        assert abs(load.grid.x.mean() - x) <= DX / 2 + 1e-12
+        assert abs(load.grid.y.mean() - right) <= DY / 2 + 1e-12
+        assert np.abs(y - load.grid.y[0]).min() < 1e-12
+    # From the rear to the front.
+    assert wheels.x.mean(axis=1) == pytest.approx([-1.31, 0.0, 1.3], abs=DX / 2)
+    np.testing.assert_allclose(np.diff(wheels.x, axis=1), DX, rtol=1e-9)
+    # Told as the distances between wheels, of which each moves by half a cell.
+    assert 0 < moved(wheels, TRIDEM) <= DY + 1e-12
+    assert (wheels.cell, wheels.name, wheels.speed) == (DY, "tridem", None)
+
+
+def test_an_axle_alone_has_its_own_wheels(wheels):
+    alone = _one_axle(wheels)
+    assert len(alone.loads) == 2
+    assert {round(load.grid.x.mean(), 6) for load in alone.loads} == {-1.31}
+    np.testing.assert_array_equal(alone.x, wheels.x[:1])
+
+
+@pytest.mark.parametrize(
+    ("depth", "cell", "stride"),
+    # Cells near the surface; below 50 mm a sixth of the depth, 20 mm at most, and a cell at least.
+    [(0.0, 0.004, 0), (0.05, 0.004, 0), (0.06, 0.004, 3), (0.5, 0.004, 5), (0.09, 0.04, 1), (0.06, 0.0025, 4)],
+)
+def test_strides_follow_the_depth(depth, cell, stride):
+    assert _stride(depth, cell) == stride
+
+
+def test_near_the_surface_a_passage_is_read_on_cells_and_once_between(wheels):
+    x = _along(wheels, 0)
+    assert len(x) == 3 * 7 + 2
+    assert all(np.abs(x - centre).min() < 1e-8 for centre in wheels.x.ravel())
+    between = [one for one in x if np.abs(wheels.x - one).min() > 2 * DX]
+    middles = [-0.655, 0.65]
+    assert between == pytest.approx(middles, abs=0.51 * DX + 5e-3)
+    # On the lattice of the cells.
+    assert np.allclose((between - wheels.x[0, 0]) / DX, np.round((between - wheels.x[0, 0]) / DX), atol=1e-6)
+
+
+def test_deep_down_a_passage_is_read_evenly_and_beyond_its_axles(wheels):
+    x = _along(wheels, 2)
+    np.testing.assert_allclose(np.diff(x), 2 * DX, rtol=1e-9)
+    assert wheels.x[0, 0] - 0.3 - 2 * DX <= x[0] <= wheels.x[0, 0] - 0.3 + 1e-9
+    assert wheels.x[-1, -1] + 0.3 - 2 * DX <= x[-1] <= wheels.x[-1, -1] + 0.3 + 2 * DX
+
+
+def test_rows_are_every_cell_beside_wheels_and_few_elsewhere(wheels, y):
+    near, deep = y[_rows(wheels, y, 0)], y[_rows(wheels, y, 2)]
+    for one in (near, deep):
+        assert (one[0], one[-1]) == (y[0], pytest.approx(y[-1], abs=DY))
+        # Cells, not the points between them.
+        np.testing.assert_allclose((one - y[0]) / DY, np.round((one - y[0]) / DY), atol=1e-9)
+    for load in wheels.loads:
+        beside = near[(near > load.grid.y[0] - 0.05) & (near < load.grid.y[-1] + 0.05)]
+        np.testing.assert_allclose(np.diff(beside), DY, rtol=1e-9)
+    far = near[near > 0.1733 + 4 * DY + 0.07]
+    assert np.diff(far)[:-1] == pytest.approx(2 * DY)
+    assert np.diff(deep)[:-1] == pytest.approx(2 * DY)
+
+
+@pytest.mark.parametrize("smooth", [True, False])
+def test_curves_go_through_the_peaks(smooth):
+    y = np.linspace(0, 1, 9)
+    peaks = np.array([np.sin(y), np.maximum(0, y - 0.5)])
+    np.testing.assert_allclose(_between(y, peaks, smooth=smooth)(y), peaks, atol=1e-14)
+    fine = _between(y, peaks, smooth=smooth)(np.linspace(0, 1, 65))
+    # A cubic spline follows a sine to the fourth order, (1/8)⁴; makima does not swing beside an end.
+    assert fine[0] == pytest.approx(np.sin(np.linspace(0, 1, 65)), abs=1e-4 if smooth else 2e-3)
+    if not smooth:
+        np.testing.assert_allclose(fine[1, :30], 0, atol=1e-12)
+
+
+def test_peaks_and_valleys_in_turn():
+    """Two axles of 3 and 5 over a ground of 1: the valley is what lies between, and nothing comes after."""
+    x = np.linspace(-2, 2, 81)
+    read = (1 + 2 * np.exp(-((x + 1) ** 2) / 0.02) + 4 * np.exp(-((x - 1) ** 2) / 0.02))[None]
+    found = _turns(x, read, np.array([-1.0, 1.0]), 5, smooth=False)
+    np.testing.assert_allclose(found[:, 0], [3, 1, 5, 0, 0], atol=1e-6)
+    # What is pressed together all along does no harm.
+    assert (_turns(x, -read, np.array([-1.0, 1.0]), 3, smooth=False) == 0).all()
+
+
+def readings(warmth, power):
+    """(road, criterion, turn, y) that follow a power of the warmth."""
+    return (warmth[:, None, None, None] ** power) * np.array([1.0, 0.5])[None, :, None, None] * np.ones((1, 1, 1, 3))
+
+
+def test_few_roads_tell_the_rest():
+    warmth = np.array([3.0, 1.0, 2.0, 5.0, 4.0])
+    # A straight line needs its ends; none is left out for no tolerance, nor of three roads.
+    kept, error = nodes(warmth, readings(warmth, 1.0), 1e-6)
+    assert (kept, error) == ([1, 3], pytest.approx(0, abs=1e-12))
+    assert nodes(warmth, readings(warmth, 1.0), 0) == ([0, 1, 2, 3, 4], 0.0)
+    assert nodes(None, readings(warmth, 1.0), 1e-6) == ([0, 1, 2, 3, 4], 0.0)
+    assert nodes(warmth[:3], readings(warmth[:3], 1.0), 1e-6) == ([0, 1, 2], 0.0)
+    four = warmth[:4]
+    assert nodes(four, readings(four, 1.0), 1e-6)[0] == [1, 3]
+    # A curve needs more for less error, and says the error that it has.
+    warmth = np.linspace(1, 5, 17)
+    bent = readings(warmth, 3.0)
+    few, much = nodes(warmth, bent, 0.05)
+    more, little = nodes(warmth, bent, 0.005)
+    assert len(few) < len(more)
+    assert 0 < much <= 0.05
+    assert little <= 0.005
+    assert [warmth[k] for k in few] == sorted(warmth[k] for k in few)
+    # Nothing read is nothing lost.
+    assert nodes(warmth, 0 * bent, 1e-6) == ([0, 16], 0.0)
+
+
+def test_roads_between_are_read_between_and_cracks_from_the_nearest():
+    warmth = np.array([3.0, 1.0, 2.2, 5.0, 4.0])
+    line = readings(warmth, 1.0)[None]
+    crack = np.broadcast_to(np.array([10.0, 20, 30, 40, 50])[None, :, None, None, None], (1, 5, 2, 1, 3))
+    everything = np.concatenate([line, crack], axis=3)
+    kept = [1, 0, 3]
+    found = over_the_climate(warmth, kept, everything[:, kept], 1)
+    np.testing.assert_allclose(found[:, :, :, :1], line, rtol=1e-12)
+    # 2.2 lies nearest to 3, 4 as near to 3 as to 5.
+    assert found[0, [0, 1, 2, 3], 0, 1, 0].tolist() == [10, 20, 10, 40]
+    assert found[0, 4, 0, 1, 0] in (10, 40)
+
+
+def two(modulus, below=1e8):
+    return Pavement([Layer(Elastic(modulus, 0.35), 0.1), Layer(Elastic(below, 0.35))])
+
+
+def test_warmth_orders_roads_by_the_stiffness_of_all_layers():
+    seasons = [Season("a", 0.5, 10.0), Season("b", 0.5, 30.0)]
+    found = warmth_of(seasons, [two(8e9), two(2e9)])
+    # Both layers count alike: a quarter of the modulus is half of it in each.
+    assert found[0] - found[1] == pytest.approx(math.log(4) / 2)
+    assert warmth_of(seasons, [two(8e9), two(8e9)]) is None
+    assert warmth_of([Season("a", 1.0, (10.0, 5.0)), seasons[1]], [two(8e9), two(2e9)]) is None
+    solid = Pavement([Layer(tl.materials.Prony(8e9, ((0.5, 0.1),), 0.35), 0.1), Layer(Elastic(1e8, 0.35))])
+    assert warmth_of(seasons, [solid, two(2e9)]) is None
+
+
+def test_groups_in_words():
+    names, criteria = ("single", "tandem", "tridem", "four"), ("base", "soil")
+    factors = np.array([[np.nan, 0.8, 0.7, 0.6], [np.nan, np.nan, 1.2, np.nan]])
+    said = in_words(names, criteria, factors, np.array([1, 2, 3, 4]))
+    assert said[0].startswith("tandem: each of 2 axles does K = 0.80 (base) of what")
+    assert said[0].endswith("the French method takes 0.75 for bituminous layers and 12 for hydraulic layers")
+    assert "0.70 (base), 1.20 (soil)" in said[1]
+    assert said[1].endswith("1.1 for bituminous layers and 113 for hydraulic layers")
+    assert said[2] == "four: each of 4 axles does K = 0.60 (base) of what it would do alone"
+    assert len(said) == 3
+    (unknown,) = in_words(("x",), criteria, np.full((2, 1), np.nan), np.array([2]))
+    assert "K = unknown" in unknown
+
+
+def test_harm_is_that_of_peaks_less_that_of_valleys():
+    passes = np.array([[10.0, 10.0], [np.inf, 10.0], [20.0, 10.0]])
+    np.testing.assert_allclose(_harm(passes), [0.15, 0.1], rtol=1e-12)
+    # More valley than peak is round-off of curves: no road heals.
+    assert _harm(np.array([[20.0], [10.0]])).item() == 0
+
+
+def life(growth=0.0, wander=None):
+    y = 0.05 * np.arange(-20, 21)
+    bell = np.exp(-(y**2) / 0.1)
+    values = np.stack([np.stack([[100e-6 * bell]]), np.stack([[160e-6 * bell]])])
+    criteria = (
+        Criterion("weak", FatigueLine(120e-6, -0.2)),
+        Criterion("strong", FatigueLine(120e-6, -0.25)),
+    )
+    row = AxleClass("one", 1.0, 3e4, 8e5)
+    traffic = Traffic((row,), 1e5, growth=growth, wander=wander or Wander())
+    return miner(values, criteria, traffic, Climate.constant(15.0), y=y)
+
+
+def test_strength_weighs_as_the_slope_of_its_law_says():
+    """Years follow ε₆ to the power 1/|b|, passes to the power -1, by the power law itself."""
+    found = [_without_solves(life(), number, 1.0) for number in (0, 1)]
+    assert found[0] == pytest.approx({"passes": -1.0, "strength of weak": 5.0}, rel=1e-9)
+    assert found[1] == pytest.approx({"passes": -1.0, "strength of strong": 4.0}, rel=1e-9)
+    # Half of the weight where traffic grows so that half as many more years bring all the more passes.
+    half = _without_solves(life(), 1, 0.5)
+    assert half == pytest.approx({"passes": -0.5, "strength of strong": 2.0}, rel=1e-9)
+
+
+def test_wander_as_wide_as_the_bowl_lives_longer_by_a_closed_form():
+    """A bell of harm under bells of tracks: the peak falls as 1/√(1 + s²/w²), w² that of the harm."""
+    deviation = 0.2
+    found = _without_solves(life(wander=Wander.normal(deviation)), 1, 1.0)["wander"]
+    # Harm is the fourth power of exp(-y²/0.1): variance 0.1/8.
+    assert found == pytest.approx(deviation**2 / (deviation**2 + 0.1 / 8), rel=0.01)
+
+
+def test_growth_of_traffic_shortens_what_an_input_gives():
+    row = AxleClass("one", 1.0, 3e4, 8e5)
+    assert _growth(Traffic((row,), 1e5), 1e6) == pytest.approx(1.0, rel=1e-12)
+    # n = ln(1 + g N/q) / ln(1 + g): d ln n / d ln N = u / ((1 + u) ln(1 + u)), u = g N / q.
+    u = 0.05 * 20
+    growing = _growth(Traffic((row,), 1e5, growth=0.05), 20e5)
+    assert growing == pytest.approx(u / ((1 + u) * math.log(1 + u)), rel=1e-3)
+    # Traffic that dies out before the end of life has no years to follow.
+    assert _growth(Traffic((row,), 1e5, growth=-0.5), 1.99e5) == 1.0
+
+
+def test_the_pairs_that_do_most():
+    shares = np.array([[0.1, 0.5], [0.3, 0.1]])
+    assert _most(shares, 0.5) == ([(0, 1)], pytest.approx(0.5))
+    assert _most(shares, 0.51) == ([(0, 1), (1, 0)], pytest.approx(0.8))
+    pairs, covered = _most(shares, 1.0)
+    assert sorted(pairs) == [(0, 0), (0, 1), (1, 0), (1, 1)]
+    assert covered == pytest.approx(1.0)
+
+
+def test_maps_of_layers_have_a_margin_of_a_hands_width():
+    load = GridLoad(GRID, PRESSURE)
+    bare, wide = map_grid([load], Pavement.half_space(Elastic(5e9, 0.35))), map_grid([load], two(5e9))
+    assert bare == GRID
+    assert (wide.x[0], wide.x[-1]) == pytest.approx((GRID.x[0] - 0.1, GRID.x[-1] + 0.1))
+    # 0.1 m is no whole number of cells of 12 mm: nine.
+    assert (wide.y[0], wide.y[-1]) == pytest.approx((GRID.y[0] - 9 * DY, GRID.y[-1] + 9 * DY))
+    assert (wide.dx, wide.dy) == (DX, DY)
+
+
+def test_depths_of_a_slice():
+    road = Pavement([Layer(Elastic(5e9, 0.35), 0.1), Layer(Elastic(1e9, 0.35), 0.2), Layer(Elastic(1e8, 0.35))])
+    depths = slice_depths(0.3, 0.01, road)
+    assert depths[0] == 0
+    assert depths[1] == pytest.approx(0.005)
+    assert 0.1 in depths
+    assert 0.1 + 1e-6 in depths
+    # The bottom of the slice is above its interface; nothing lies below it.
+    assert depths[-1] == pytest.approx(0.3)
+    assert (np.diff(depths) > 0.9e-6).all()
+    # Finer near the surface: each step wider than the one before, but for those at the interfaces.
+    plain = slice_depths(0.3, 0.01, Pavement.half_space(Elastic(5e9, 0.35)))
+    assert len(plain) == 31
+    ratios = plain[2:] / plain[1:-1]
+    assert np.ptp(ratios) < 1e-6
+    assert slice_depths(0.004, 0.01, road)[1] == pytest.approx(0.002)
+
+
+def test_a_dual_wheel_is_mirrored_unless_it_leans():
+    """1 % of the weight to the side is straight still."""
+    for share, turned in ((0.0099, True), (0.0101, False)):
+        load = GridLoad(GRID, PRESSURE, traction_y=-share * PRESSURE)
+        left, right = tl.dual_wheels(load, 0.35)
+        assert right.lateral_force == pytest.approx(share * load.normal_load)
+        assert left.lateral_force == pytest.approx((-1 if turned else 1) * share * load.normal_load)
+
+
+def test_wheels_that_overlap_by_a_cell_are_told():
+    """Cells reach half a cell beyond their centres, on both sides of both loads."""
+    load = GridLoad(GRID, PRESSURE)
+    for axis, size, cell in (("x", 7 * DX, DX), ("y", 9 * DY, DY)):
+        assert overlapping([load, load.moved(**{axis: size - 2 * cell})])
+        assert not overlapping([load, load.moved(**{axis: size + 0.1 * cell})])
+        assert overlapping([load, load.moved(**{axis: -(size - 2 * cell)})])
+        assert not overlapping([load, load.moved(**{axis: -(size + 0.1 * cell)})])
