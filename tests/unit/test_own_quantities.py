@@ -26,11 +26,13 @@ from treadload.damage import (
 from treadload.damage.quantities import EXTENSION, SUBGRADE_COMPRESSION, TENSION
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
+from treadload.kernels import tensors
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.registry import QUANTITIES
 from treadload.reporting import write_report
 from treadload.response import UniformRectangle, solve_response
+from treadload.response.fields import response_dataset
 
 QUANTITY = '''
 """Shear that a course bears, by Tresca."""
@@ -347,6 +349,17 @@ def test_wrong_readings_of_a_case_are_named(road_readings, old, new, words):
         LifeCase.from_text(DESIGN.replace(old, new))
     assert words in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+def test_mazars_reads_nothing_where_all_presses():
+    """Squeezed from the sides a body extends upwards, and no crack opens; pulled, one does."""
+    stress = np.zeros((6, 1, 1, 2))
+    stress[:3, 0, 0] = np.array([[-5e6, -5e6, -1e6], [2e6, 0, 0]]).T
+    strain = tensors.strain_from_stress(stress, 5e9, 0.35)
+    plane = response_dataset(stress, strain, np.zeros(1), np.zeros(1), np.arange(2.0)).isel(depth=0)
+    top, bottom = (Criterion("a", FatigueLine(1e-4, -0.2, MazarsStrain()), 0, place) for place in ("top", "bottom"))
+    assert bottom.read(plane)[0] == pytest.approx([(-1e6 + 0.35 * 10e6) / 5e9, 2e6 / 5e9], rel=1e-12)
+    assert top.read(plane)[0] == pytest.approx([0, 2e6 / 5e9], rel=1e-12)
 
 
 def test_a_law_of_the_surface_is_read_there_alone():

@@ -149,7 +149,7 @@ def test_axles_and_criteria_are_tables():
 
     assert criteria.columns == ("criterion", "law", "layer", "place", "what it reads", "parameters given")
     base, platform, surface = criteria.rows
-    plane = "in the horizontal plane"
+    plane = "extension in the horizontal plane"
     assert base == (
         "base, bottom-up", "french bituminous", "EB-GB3", "bottom", plane,
         "risk 5 %, ε₆, strain of a million passes 90 microstrain",
@@ -163,7 +163,7 @@ def test_axles_and_criteria_are_tables():
         "vertical strain on the subgrade",
         "those of the layer",
     )
-    assert surface[2:5] == ("EB-BBSG3", "top", "three-dimensional")
+    assert surface[2:5] == ("EB-BBSG3", "top", "three-dimensional extension")
 
 
 def test_a_criterion_tells_its_law_as_it_was_solved():

@@ -292,7 +292,7 @@ def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
     return [
         f"{name}: {100 * share:.0f} % of its damage is read across planes nearer to the horizontal than 45°, which "
         "part the road parallel to its surface: no crack from the surface down, nor from the bottom up; read "
-        'strain = "in-plane" for those'
+        + ('strain = "in-plane" for those' if one.quantity.extends else "in_plane_extension for those")
         for name, share, one in zip(data["criterion"].to_numpy(), shares, criteria, strict=True)
         if share > _MOSTLY and not one.quantity.between_layers
     ]

@@ -185,6 +185,7 @@ class MazarsStrain(Quantity):
     shown = "microstrain"
     source = "Mazars (1986), Eng. Fract. Mech. 25"
     needs = STRAIN
+    needs_tension = True
 
     def of(self, stress: Array, strain: Array) -> Array:
         """√Σ⟨ε⟩²."""

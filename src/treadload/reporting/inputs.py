@@ -12,7 +12,7 @@ from treadload.case.criteria import CRITERION, CriterionTable, quantity_of
 from treadload.damage.quantity import Quantity
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import MISSING, Row, Section
-from treadload.reporting.words import annotation_of, columns, entries, named_tables, part_of, worded
+from treadload.reporting.words import annotation_of, columns, entries, named_tables, part_of
 
 _HEADINGS = {
     "": "Computation",
@@ -140,7 +140,10 @@ def _read(quantity: Quantity | None, strain: Any) -> str:
     """What a criterion reads; of an extension whether in space or in the plane."""
     if quantity is None:
         return MISSING
-    return worded(strain or quantity.strain, None)[0] if quantity.extends else quantity.words
+    if not quantity.extends:
+        return quantity.words
+    space = (strain or quantity.strain) == "principal"
+    return "three-dimensional extension" if space else "extension in the horizontal plane"
 
 
 def _layer(case: ReportCase, asked: Any, usual: int | None) -> str:

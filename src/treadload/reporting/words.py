@@ -72,6 +72,7 @@ _NAMES = {
     "months": "temperature, January to December",
     "passes_per_year": "passes in the first year",
     "poisson": "Poisson's ratio",
+    "reading_6": "r₆, reading of a million passes",
     "revolve": "meridian revolved",
     "road_compliance": "compliance of the road in the contact",
     "sigma_6": "σ₆, stress of a million passes",
