@@ -7,9 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from treadload.damage.criteria.design import DesignCriterion
-from treadload.damage.criteria.energy_ratio import EnergyRatio
-from treadload.damage.criteria.fields import compute_criteria
 
 import treadload as tl
 from treadload.damage import (
