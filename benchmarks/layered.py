@@ -10,7 +10,7 @@ from timing import best_of, print_table
 
 import treadload as tl
 from treadload.grid import Grid
-from treadload.kernels.half_space.displacement import fields_on_grid
+from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.layers import synthesis, wavenumbers
 from treadload.response import GridLoad, layered
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from treadload.kernels.half_space.interior import stress_on_grid
+from half_space import stress_on_grid
 
 CELLS = (20, 40, 80)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from treadload.kernels.gridding import gridded, precorrected
-from treadload.kernels.half_space.displacement import fields_on_grid
+from treadload.kernels.half_space.interior import fields_on_grid
 
 
 def test_twelfth_order_in_the_distance_to_the_nearest_cell_interpolated(monkeypatch):

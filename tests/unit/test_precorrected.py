@@ -5,7 +5,7 @@ import pytest
 
 from treadload.kernels.gridding import gridded, precorrected
 from treadload.kernels.half_space.bilinear import bilinear_on_grid
-from treadload.kernels.half_space.displacement import fields_on_grid
+from treadload.kernels.half_space.interior import fields_on_grid
 
 DX = 0.003
 WAYS = {"constant": fields_on_grid, "bilinear": bilinear_on_grid}

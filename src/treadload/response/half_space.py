@@ -11,7 +11,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.half_space.bilinear import bilinear_on_grid
 from treadload.kernels.half_space.disc import disc_fields
-from treadload.kernels.half_space.displacement import fields_on_grid
+from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.response.loads import SurfaceLoad, UniformDisc

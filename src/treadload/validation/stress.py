@@ -8,7 +8,7 @@ import numpy as np
 
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.kernels.half_space.interior import stress_on_grid
+from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, solve_response
@@ -27,7 +27,7 @@ def _on_axis(profile: Callable[[Array], Array], depths: Array) -> tuple[Array, A
     load = np.zeros((3, _CELLS, _CELLS))
     load[0] = values.reshape(_CELLS, _FINE, _CELLS, _FINE).mean((1, 3))
     middle = np.array([1 - spacing / 2])
-    stress, _ = stress_on_grid(load, spacing, spacing, depths, _POISSON, middle, middle)
+    stress, *_ = fields_on_grid(load, spacing, spacing, depths, 1.0, _POISSON, middle, middle)
     return stress[:, 0, 0, 0], stress[:, 2, 0, 0]
 
 

@@ -26,7 +26,10 @@ Indices = NDArray[np.integer[Any]]
 Use = tuple[int, int]
 Corner = tuple[Array, tuple[Use, ...]]
 Corners = Callable[[Array, Array, float], Iterator[Corner]]
-"""(x, y, z) from a corner, m → functions, broadcast from x and y, each with the (load, component) pairs it serves."""
+"""(x, y, z) from a corner, m → functions, broadcast from x and y, each with the (load, component) pairs it serves.
+
+A plain number stands for a function that is the same everywhere, of which no cell has a field.
+"""
 Kernels = Callable[[Array, Array, tuple[int, int], float], Iterator[Corner]]
 """(x, y, (m, n), z) → fields of one cell, (b, m, a, n), each with the (load, component) pairs it serves.
 
@@ -59,6 +62,8 @@ def of_corners(corners: Corners, dx: float, dy: float) -> Kernels:
         corner_x = (x[:, None] + dx * (np.arange(n + 1) - 0.5)).reshape(1, -1)
         corner_y = (y[:, None] + dy * (np.arange(m + 1) - 0.5)).reshape(-1, 1)
         for values, uses in corners(corner_x, corner_y, z):
+            if not np.ndim(values):
+                continue
             ends = values.reshape(len(y), m + 1, len(x), n + 1)
             lines = ends[..., 1:] - ends[..., :-1]
             yield lines[:, 1:] - lines[:, :-1], uses

@@ -21,8 +21,7 @@ from scipy.signal import lfilter
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
-from treadload.kernels.half_space.displacement import displacement_on_grid
-from treadload.kernels.half_space.interior import stress_on_grid
+from treadload.kernels.half_space.interior import fields_on_grid
 
 # Cells along and across a panel of the far wake, no closer than it is long: 5.8^-8 of its field is left.
 _CELLS = 8
@@ -107,10 +106,10 @@ def delayed_fields(
 
 def _fields(cells: Cells, depths: Array, shear: float, poisson: float, x: Array, y: Array) -> Array:
     """Stress and displacement (nz, 9, my, mx)."""
-    at = cells.load, cells.dx, cells.dy, depths
-    points = x - cells.x0, y - cells.y0
-    stress, _ = stress_on_grid(*at, poisson, *points)
-    return np.concatenate([stress, displacement_on_grid(*at, shear, poisson, *points)], axis=1)
+    stress, displacement, _ = fields_on_grid(
+        cells.load, cells.dx, cells.dy, depths, shear, poisson, x - cells.x0, y - cells.y0
+    )
+    return np.concatenate([stress, displacement], axis=1)
 
 
 def _near(cells: Cells, terms: Sequence[Term], behind: int) -> tuple[Array, Array]:
