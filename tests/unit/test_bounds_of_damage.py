@@ -11,6 +11,7 @@ import xarray as xr
 import treadload as tl
 from treadload.damage import (
     Criterion,
+    Extension,
     FatigueLine,
     FrenchBituminous,
     FrenchHydraulic,
@@ -306,3 +307,28 @@ def test_neighbours_as_far_as_the_side_of_the_mean_are_near():
     """Between points as far apart as the cube is wide a mean cannot hide; further it can."""
     assert _around(0.25 * np.arange(5), 2, 0.25) is not None
     assert _around(0.25 * np.arange(5), 2, 0.2499) is None
+
+
+def test_what_is_given_stands_before_the_mix():
+    own = next(mix for mix in tl.catalogue.mixes.values() if getattr(mix, "joints", None) is not None)
+    assert FrenchHydraulic.of(own, risk=0.05, thickness_scatter=0.02).joints == own.joints
+    given = FrenchHydraulic.of(own, risk=0.05, joints=0.5 * own.joints, thickness_scatter=0.02)
+    assert given.joints == 0.5 * own.joints
+    assert given.at_a_million == pytest.approx(
+        0.5 * FrenchHydraulic.of(own, risk=0.05, thickness_scatter=0.02).at_a_million, rel=1e-12
+    )
+
+
+def test_a_crack_lies_across_the_extension_that_is_read():
+    """An extension of 1e-4 along a direction tilted by 50°: read whole in space, in part in the plane."""
+    tilt, turn = math.radians(50), math.radians(20)
+    d = np.array([math.cos(tilt) * math.cos(turn), math.cos(tilt) * math.sin(turn), math.sin(tilt)])
+    tensor = 1e-4 * np.outer(d, d)
+    strain = np.array([tensor[0, 0], tensor[1, 1], tensor[2, 2], tensor[0, 1], tensor[0, 2], tensor[1, 2]])
+    strain = strain.reshape(6, 1, 1)
+    space, plane = Extension("principal"), Extension("in-plane")
+    assert space.of(strain, strain).item() == pytest.approx(1e-4)
+    assert plane.of(strain, strain).item() == pytest.approx(1e-4 * math.cos(tilt) ** 2)
+    for quantity, wanted in ((space, d), (plane, np.array([math.cos(turn), math.sin(turn), 0.0]))):
+        normal = np.asarray(quantity.normal(strain, strain)).reshape(3)
+        assert abs(normal @ wanted) == pytest.approx(1.0)
