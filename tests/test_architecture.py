@@ -26,6 +26,7 @@ LEAVES = (
     "files",
     "describing",
     "accessors",
+    "composing",
     "registry",
     "named",
     "read",

@@ -14,7 +14,6 @@ import sys
 from pathlib import Path
 
 import treadload as tl
-from treadload.reporting import write_report
 
 DESIGN = Path(__file__).parent / "design.toml"
 
@@ -26,9 +25,8 @@ def main(folder: Path, spacing: float | None = None, workers: int | None = None)
         case = case.model_copy(update={"spacing": spacing})
     result = tl.run_life(case, workers=workers)
     print(result.summary())
-    tree = result.to_tree()
-    tl.save(tree, folder / "life.nc")
-    write_report({case.title: tree}, folder / "life.html")
+    tl.save_results(result, folder / "life.nc")
+    tl.report(result, folder / "life.html")
     check(result)
     print(f"\nthe page: {folder / 'life.html'}")
     return result

@@ -45,8 +45,8 @@ from treadload.response import UniformRectangle as UniformRectangle
 from treadload.response import dual_wheels as dual_wheels
 from treadload.response import place_load as place_load
 from treadload.response import solve_response as solve_response
-from treadload.results import load as load
-from treadload.results import save as save
+from treadload.results import open_results as open_results
+from treadload.results import save_results as save_results
 from treadload.study import LifeResult as LifeResult
 from treadload.study import compare_uniform as compare_uniform
 from treadload.study import run_case as run_case

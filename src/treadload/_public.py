@@ -29,12 +29,15 @@ _RENAMED = {
     "DesignResult": "LifeResult",
     "run_design": "run_life",
     "design_life": "study.solve_life",
+    "life_tree": "results.to_tree",
+    "load": "open_results",
     "mix": "catalogue.mixes[name]",
     "mixes": "catalogue.mixes",
     "place": "place_load",
     "published_material": "catalogue.materials[name]",
     "published_materials": "catalogue.materials",
     "read_published": "catalogue.read_materials",
+    "save": "save_results",
     "structures": "catalogue.structures",
 }
 
@@ -70,3 +73,5 @@ def _unknown(name: str) -> str:
 
 # Results offer figures; the figures are loaded when they are first asked for.
 accessors.found_in("plot", lambda: named("plots"))
+# So do classes of results that a file names.
+accessors.found_in("result", lambda: named("study"))

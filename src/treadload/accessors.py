@@ -39,3 +39,9 @@ def offered(name: str, result: object) -> Any:
         if (name, kind) in _OFFERS:
             return _OFFERS[name, kind](result)
     raise AttributeError(f"{kinds[0]!r} has no {name!r}: no room offers it")
+
+
+def room_of(name: str) -> None:
+    """Import what registers under a name, so that all of it is known."""
+    if name in _ROOMS:
+        _ROOMS[name]()

@@ -3,10 +3,32 @@
 from __future__ import annotations
 
 import dataclasses
+import html
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
+# A line of a summary that gives a key its value: after a colon, after blanks, or in a column of 14 letters.
+_KEY = re.compile(r"(?P<key>[^\W\d][^:]{0,44}?(?=:|\s{2,})|[^\W\d]\S* \S+(?<=^.{13})(?= ))(?::|\s)\s*(?P<value>\S.*)")
+# Wide blanks that make a line one of a table, and the rows that stand in a page before it is unfolded.
+_BLANKS, _TABLE = re.compile(r"\S\s{2,}(?=\S)"), 3
+_ROWS = 12
+# Colours of whatever stands around it: a notebook may be light or dark.
+_STYLE = (
+    ".tl-result{font-family:system-ui,sans-serif;font-size:13px;line-height:1.45;color:inherit;max-width:60em}"
+    ".tl-result .tl-title{font-weight:600;padding-bottom:3px;border-bottom:1px solid rgba(128,128,128,.45);"
+    "margin-bottom:4px}.tl-result .tl-said{font-weight:400;opacity:.85;margin-left:.6em}"
+    ".tl-result table.tl-rows{border-collapse:collapse;margin:2px 0 6px;border:0;background:transparent}"
+    ".tl-result table.tl-rows th,.tl-result table.tl-rows td{border:0;background:transparent;padding:1px 14px 1px 0;"
+    "text-align:left;vertical-align:top;font-size:13px;color:inherit;white-space:normal}"
+    ".tl-result table.tl-rows th{font-weight:400;opacity:.7;white-space:nowrap}"
+    ".tl-result .tl-warning{border-left:3px solid #d55e00;background:rgba(213,94,0,.12);padding:2px 8px;"
+    "margin:3px 0}"
+    ".tl-result details{margin:2px 0}.tl-result summary{cursor:pointer;opacity:.8}"
+    ".tl-result pre.tl-text{font-size:12px;white-space:pre-wrap;color:inherit;background:transparent;"
+    "margin:4px 0 4px 1em}"
+)
 # Letters of a line and of a text, members of a list and numbers of a table that are written out.
 _LINE, _TEXT, _MEMBERS, _NUMBERS = 100, 60, 8, 6
 
@@ -37,6 +59,39 @@ def first_line(result: HasSummary) -> str:
     lines = [line.strip() for line in result.summary().splitlines() if line.strip()] or [""]
     said = next((line.removeprefix("Verdict: ") for line in lines if line.startswith("Verdict: ")), lines[0])
     return f"<{kind}: {_cut(said, 2 * _LINE)}>"
+
+
+def as_html(kind: str, summary: str, warnings: Sequence[str], dataset: Any = None) -> str:
+    """A result as a notebook shows it: what it found, warnings, and folded the whole summary and the dataset.
+
+    kind: of the result. dataset: with a `_repr_html_` of its own, None for none. All texts are escaped.
+    """
+    lines = [line.strip() for line in summary.splitlines() if line.strip() and not line.startswith("warning: ")]
+    said = next((line.removeprefix("Verdict: ") for line in lines if line.startswith("Verdict: ")), "")
+    told = [line for line in lines if not line.startswith("Verdict: ") and len(_BLANKS.findall(line)) < _TABLE]
+    found = [_KEY.fullmatch(line) for line in told]
+    rows = [("" if one is None else one["key"].strip(), line if one is None else one["value"].strip())
+            for line, one in zip(told, found, strict=True)]  # fmt: skip
+    if not any(key for key, _ in rows):
+        said, rows = said or (told[0] if told else ""), []
+    escape = html.escape
+    page = [f"<style>{_STYLE}</style>", '<div class="tl-result">']
+    page.append(
+        f'<div class="tl-title">{escape(kind)}<span class="tl-said">{escape(_cut(said, 3 * _LINE))}</span></div>'
+    )
+    if rows:
+        cells = [
+            f"<tr><th>{escape(key)}</th><td>{escape(_cut(value, 3 * _LINE))}</td></tr>"
+            if key
+            else f'<tr><td colspan="2">{escape(_cut(value, 3 * _LINE))}</td></tr>'
+            for key, value in rows
+        ]
+        page.append(f'<table class="tl-rows"><tbody>{"".join(cells[:_ROWS])}</tbody></table>')
+    page += [f'<div class="tl-warning">Warning: {escape(text)}</div>' for text in warnings]
+    page.append(f'<details><summary>Summary</summary><pre class="tl-text">{escape(summary)}</pre></details>')
+    if dataset is not None:
+        page.append(f"<details><summary>Dataset</summary>{dataset._repr_html_()}</details>")
+    return "".join([*page, "</div>"])
 
 
 def _is_default(field: dataclasses.Field[Any], value: Any) -> bool:

@@ -49,6 +49,10 @@ _CONTACT = {
     "friction_work_total": ("N", "work lost by sliding per length travelled, J/m"),
     "friction_power": ("W/m^2", "power lost by sliding per area of the patch"),
     "friction_power_total": ("W", "power lost by sliding"),
+    "rolling_resistance": ("N", "force of rolling resistance"),
+    "rolling_resistance_coefficient": ("1", "force of rolling resistance over normal load"),
+    "material_loss": ("N", "energy lost in the materials per length travelled, J/m"),
+    "material_power": ("W", "power lost in the materials"),
     "flash_temperature": ("K", "rise of the interface's temperature by sliding above that of the bodies"),
 }
 

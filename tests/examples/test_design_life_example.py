@@ -26,7 +26,7 @@ def test_design_life(tmp_path, capsys):
     assert "9 contacts" in said
     page = (tmp_path / "life.html").read_text()
     assert "What the life depends on" in page
-    assert tl.load(tmp_path / "life.nc")["life"].attrs["governing"] == "base, bottom-up"
+    assert tl.open_results(tmp_path / "life.nc").life.governing == "base, bottom-up"
 
 
 def test_the_design_is_a_valid_case():

@@ -42,8 +42,8 @@ def test_dual_wheels_of_tires_strain_the_base_as_the_standard_discs_do(tmp_path)
     load = -float(surface.stress_zz.sum()) * 0.012**2
     assert load == pytest.approx(2 * 32.5e3, rel=1e-3)
     tree = result.to_tree()
-    tl.save(tree, tmp_path / "r.nc")
-    back = tl.load(tmp_path / "r.nc")
+    tl.save_results(tree, tmp_path / "r.nc")
+    back = tl.open_results(tmp_path / "r.nc").tree
     assert set(back.children) == {"contact", "response", "slice_along", "slice_across", "bowl", "damage"}
     for name, group in tree.children.items():
         xr.testing.assert_identical(back[name].to_dataset(), group.to_dataset())
@@ -101,8 +101,8 @@ def test_on_a_hot_day_strain_lies_between_the_elastic_limits_and_lags(tmp_path):
     assert float(energy.where((depth > 0.02) & (depth <= 0.06), drop=True).min()) > 0
     assert float(np.abs(energy.where(depth > 0.0601, drop=True)).max()) == 0
     tree = result.to_tree()
-    tl.save(tree, tmp_path / "r.nc")
-    back = tl.load(tmp_path / "r.nc")
+    tl.save_results(tree, tmp_path / "r.nc")
+    back = tl.open_results(tmp_path / "r.nc").tree
     for name, group in tree.children.items():
         xr.testing.assert_identical(back[name].to_dataset(), group.to_dataset())
     for name in ("Kennett", "Huet", "Sayegh", "Duhamel"):

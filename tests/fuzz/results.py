@@ -7,6 +7,7 @@ import functools
 import json
 import math
 import random
+import re
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -19,12 +20,13 @@ import xarray as xr
 
 import treadload.reporting.figures
 import treadload.reporting.life
+import treadload.reporting.others
 import treadload.reporting.pictures
 from fuzz.corpus import TABLES
 from fuzz.runner import REFUSED, TAKEN, Refusal, WrongAnswer, ask
 from treadload.case import Case, LifeCase
 from treadload.reporting import write_report
-from treadload.results import load, save
+from treadload.results import open_results, save_results
 from treadload.study import run_case, run_life
 
 # One in so many is a file, has figures, has them drawn: a drawing takes a second, the rest of a report a twentieth.
@@ -49,7 +51,7 @@ def attack(rng: random.Random, folder: Path) -> str:
         path = folder / "result.nc"
         path.write_bytes(rng.choice(_files()))
         rng.choice((_break_file, _break_file, _break_bytes))(rng, path)
-        answer = ask(lambda: _report(rng, load(path), folder))
+        answer = ask(lambda: _opened(rng, path, folder))
     return REFUSED if isinstance(answer, Refusal) else TAKEN
 
 
@@ -57,14 +59,28 @@ def _report(rng: random.Random, tree: xr.DataTree, folder: Path) -> None:
     path = folder / "report.html"
     with contextlib.ExitStack() as stack:
         if rng.randrange(FIGURES):
-            for module in (treadload.reporting.figures, treadload.reporting.life):
+            for module in (treadload.reporting.figures, treadload.reporting.life, treadload.reporting.others):
                 stack.enter_context(mock.patch.object(module, "picture", mock.Mock(return_value=[])))
         elif rng.randrange(DRAWN // FIGURES):
             blank = mock.Mock(return_value=bytes(20))
             stack.enter_context(mock.patch.object(treadload.reporting.pictures, "png", blank))
         write_report({"broken": tree}, path)
-    if "</html>" not in path.read_text(encoding="utf-8"):
+    page = path.read_text(encoding="utf-8")
+    if "</html>" not in page:
         raise WrongAnswer("the page is not whole")
+    # A page says what a figure lacks; that a program fell over is no answer.
+    fell = re.search(r"could not be drawn: (\w+), [^<]*", page)
+    if fell:
+        raise WrongAnswer(fell[0])
+
+
+def _opened(rng: random.Random, path: Path, folder: Path) -> None:
+    """Open a file, make its parts, report them."""
+    results = open_results(path)
+    for name in results:
+        # A part that cannot be made says so; the others are still there.
+        ask(lambda name=name: results[name].summary())
+    _report(rng, results.tree, folder)
 
 
 def prepare() -> None:
@@ -176,7 +192,7 @@ def _files() -> list[bytes]:
     """Files of a part of the same each: a reader takes milliseconds for every variable."""
     with tempfile.TemporaryDirectory() as folder:
         return [
-            save(
+            save_results(
                 _of(tree.attrs, {name: tree[name].to_dataset() for name in part}), Path(folder) / "result.nc"
             ).read_bytes()
             for tree in _bases()

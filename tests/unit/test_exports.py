@@ -125,7 +125,7 @@ def test_all_files_or_none(coarse_result, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["r_about.csv"]
 
 
-@pytest.mark.parametrize("write", [tl.save, tl.results.write_csv, tl.results.write_excel, exports.write])
+@pytest.mark.parametrize("write", [tl.save_results, tl.results.write_csv, tl.results.write_excel, exports.write])
 @pytest.mark.parametrize("name", ["r.pdf", "r.json", "r", "r.txt"])
 def test_other_suffixes_are_refused_with_those_known(write, name, coarse_result, tmp_path):
     with pytest.raises(tl.InputError, match=r"use \..*\("):
@@ -135,7 +135,7 @@ def test_other_suffixes_are_refused_with_those_known(write, name, coarse_result,
 
 def test_netcdf_is_not_written_under_another_name(coarse_result, tmp_path):
     with pytest.raises(tl.InputError, match=r"suffix \.csv is not known, use \.nc or \.nc4 or \.h5 \(NetCDF\)"):
-        tl.save(coarse_result.to_tree(), tmp_path / "r.csv")
+        tl.save_results(coarse_result.to_tree(), tmp_path / "r.csv")
 
 
 def test_a_workbook_without_openpyxl_is_refused_with_what_to_run(monkeypatch, coarse_result, tmp_path):
@@ -155,5 +155,5 @@ def test_a_table_longer_than_a_sheet_is_refused(monkeypatch, coarse_result, tmp_
 
 @pytest.mark.parametrize("nothing", [xr.Dataset(), xr.DataTree(), 3.0])
 def test_nothing_is_no_table(nothing, tmp_path):
-    with pytest.raises(tl.InputError, match=r"nothing to write|tables are written of results"):
+    with pytest.raises(tl.InputError, match=r"nothing to write|made of results"):
         tl.results.write_csv(nothing, tmp_path / "r.csv")

@@ -149,7 +149,7 @@ def test_depths_go_together():
 def test_thermal_stress_adds_to_that_of_the_traffic():
     road = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
     response = tl.solve_response(tl.UniformDisc(0.1, 8e5), road, depths=[0.0, 0.1], x=[0.0, 0.2], y=[0.0])
-    added = add_thermal_stress(response, [2e6, 1e6])
+    added = add_thermal_stress(response, [2e6, 1e6]).dataset
     before = response.dataset
     for name, change in {"xx": [2e6, 1e6], "yy": [2e6, 1e6], "zz": [0, 0], "xy": [0, 0]}.items():
         expected = before[f"stress_{name}"].to_numpy() + np.array(change)[:, None, None]

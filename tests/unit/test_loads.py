@@ -222,7 +222,7 @@ def test_files_that_are_not_there_or_no_text(tmp_path):
         GridLoad.from_file(tmp_path / "no.nc")
     with pytest.raises(InputError, match="as NetCDF-4"):
         GridLoad.from_file(binary)
-    empty = tl.save(xr.Dataset({"gap": ("x", [1.0])}), tmp_path / "other.nc")
+    empty = tl.save_results(xr.Dataset({"gap": ("x", [1.0])}), tmp_path / "other.nc")
     with pytest.raises(InputError, match="no contact and no pressure"):
         GridLoad.from_file(empty)
 
@@ -234,13 +234,13 @@ def test_a_saved_contact_loads_the_road_again(tmp_path):
     tire = tl.Tire.from_height_map(gap, 0.005, material=tl.Elastic(3e6, 0.49))
     road = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
     contact = tl.solve_contact(tire, road, tl.Rolling(normal_load=100.0, friction=0.5, tractive_force=20.0))
-    path = tl.save(tl.results.to_tree([contact]), tmp_path / "contact.nc")
+    path = tl.save_results(tl.results.to_tree([contact]), tmp_path / "contact.nc")
     for load in (GridLoad.from_file(path, interpolation="bilinear"), GridLoad.from_dataset(contact)):
         assert load.normal_load == pytest.approx(100.0, rel=1e-6)
         # The contact's own sign: positive when driving; the solver's tolerance.
         assert load.tractive_force == pytest.approx(20.0, rel=1e-4)
         np.testing.assert_array_equal(load.pressure, contact.dataset["pressure"])
-    flat = tl.save(contact.dataset, tmp_path / "flat.nc")
+    flat = tl.save_results(contact.dataset, tmp_path / "flat.nc")
     assert GridLoad.from_file(flat).normal_load == pytest.approx(100.0, rel=1e-6)
 
 

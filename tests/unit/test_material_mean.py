@@ -235,7 +235,7 @@ def test_a_life_says_that_it_reads_planes_parallel_to_the_surface():
     assert float(flat.sel(criterion="in-plane")) == 0
     (text,) = [text for text in life.warnings if "parallel to its surface" in text]
     assert text.startswith("principal: ")
-    assert json.loads(tl.results.life_tree(life)["life"].attrs["warnings"])
+    assert json.loads(tl.results.to_tree(life)["life"].attrs["warnings"])
 
 
 def test_the_default_is_written_down():

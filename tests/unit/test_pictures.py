@@ -1,4 +1,4 @@
-"""Pictures of a page: what cannot be drawn is left out."""
+"""Pictures of a page: what cannot be drawn leaves a sentence in its place."""
 
 import warnings
 
@@ -27,10 +27,15 @@ def nothing():
 
 
 @pytest.mark.parametrize("draw", [one_place, one_row, nothing])
-def test_a_figure_without_extent_is_left_out(draw):
+def test_a_figure_without_extent_leaves_a_sentence(draw):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert picture("title", "caption", draw) == []
+        (one,) = picture("title", "caption", draw)
+    assert not one.source
+    assert one.missing in (
+        "This figure could not be drawn: nothing to draw.",
+        "This figure could not be drawn: there is no extent to draw, a single row of cells or a single place.",
+    )
 
 
 def test_citations_too_deep_in_each_other_are_none():

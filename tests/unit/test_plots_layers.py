@@ -18,7 +18,7 @@ from treadload.pavement import FRICTIONLESS, Layer, Pavement
 from treadload.plots import ResponsePlots, both_sides, places_under, png
 from treadload.plots.kit.layers import Layers, _apart
 from treadload.response import Response, UniformDisc, solve_response
-from treadload.results import load, save, to_tree
+from treadload.results import open_results, save_results, to_tree
 
 DEPTHS = [0.0, 0.02, 0.04, 0.06, 0.1, 0.15, 0.21, 0.3]
 X = np.linspace(-0.2, 0.2, 9)
@@ -247,8 +247,8 @@ def test_figures_of_a_file_equal_those_of_the_response(above, tmp_path):
     one = above.copy()
     one.attrs["interfaces"] = np.array([0.06])
     one.attrs["layer_names"] = json.dumps(["asphalt", ""])
-    save(to_tree([Response(one)]), tmp_path / "one.nc")
-    read = load(tmp_path / "one.nc")["slice_along"].to_dataset()
+    save_results(to_tree([Response(one)]), tmp_path / "one.nc")
+    read = open_results(tmp_path / "one.nc").slice_along.dataset
     figure = ResponsePlots(read).depth_slice()
     assert isinstance(figure, Figure)
     assert _interfaces(figure.axes[0]) == [pytest.approx(60)]

@@ -11,7 +11,9 @@ from treadload.errors import InputError
 from treadload.plots import life_damage, life_inputs, life_shares, life_years
 from treadload.reporting import write_report
 from treadload.reporting.life import exhausted, life_report, sentence
-from treadload.results import life_tree, load, save
+from treadload.reporting.reading import ReportCase
+from treadload.results import open_results, save_results, to_tree
+from treadload.study import Sensitivity
 from treadload.variables import dataset
 
 LINE = FatigueLine(100e-6, -0.2)
@@ -35,7 +37,7 @@ def a_tree(**asked):
     names = ["thickness of base", "temperature (per °C)", "passes"]
     more = dataset({"elasticity": (("input",), [3.0, -0.05, -0.8])}, {"input": names}, criterion="top-down",
                    coverage=0.9, contacts=3, responses=4)  # fmt: skip
-    return life_tree(a_life(**asked), sensitivity=more, title="a road")
+    return to_tree([a_life(**asked), Sensitivity(more, "top-down", 0.9, 3, 4)], title="a road")
 
 
 def test_bars_are_as_long_as_the_lives():
@@ -66,7 +68,7 @@ def test_the_map_holds_the_shares():
 
 
 def test_inputs_are_changed_by_five_per_cent_and_a_degree():
-    bars = [patch.get_width() for patch in life_inputs(a_tree()["life"].to_dataset()).axes[0].patches]
+    bars = [patch.get_width() for patch in life_inputs(a_tree()["sensitivity"].to_dataset()).axes[0].patches]
     assert bars == pytest.approx([100 * (1.05**3 - 1), 100 * (np.exp(-0.05) - 1), 100 * (1.05**-0.8 - 1)])
     with pytest.raises(InputError, match="elasticity"):
         life_inputs(a_life())
@@ -86,9 +88,9 @@ def test_the_sentence_tells_the_margin():
 
 
 def test_the_report_holds_verdict_criteria_laws_and_solves(tmp_path):
-    save(a_tree(), tmp_path / "life.nc")
-    tree = load(tmp_path / "life.nc")
-    written = life_report("a road", tree["life"].to_dataset())
+    save_results(a_tree(), tmp_path / "life.nc")
+    tree = open_results(tmp_path / "life.nc").tree
+    written = life_report("a road", ReportCase.of("a road", tree).groups["life"])
     assert [row[0] for row in written.rows] == ["top-down", "soil"]
     assert written.rows[0][6].startswith("transverse (100 %")
     assert written.rows[1][6] == "ruts, no crack"

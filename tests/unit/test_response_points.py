@@ -9,8 +9,7 @@ from treadload.grid import Grid
 from treadload.kernels.gridding.points import Points
 from treadload.materials import Prony
 from treadload.response import GridLoad, UniformDisc, solve_response
-from treadload.results import load as load_results
-from treadload.results import save, to_tree
+from treadload.results import open_results, save_results
 from treadload.study.run import _line
 
 GRID = Grid(9, 7, 0.02, 0.02, -0.08, -0.06)
@@ -133,8 +132,8 @@ def test_the_summary_names_the_worst_point(response):
 
 
 def test_a_file_keeps_the_points(response, tmp_path):
-    save(to_tree([response]), tmp_path / "points.nc")
-    read = load_results(tmp_path / "points.nc")["points"].to_dataset()
+    save_results(response, tmp_path / "points.nc")
+    read = open_results(tmp_path / "points.nc").points.dataset
     xr.testing.assert_identical(read.drop_attrs(deep=False), response.dataset.drop_attrs(deep=False))
 
 

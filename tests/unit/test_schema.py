@@ -12,7 +12,7 @@ import xarray as xr
 
 import treadload as tl
 from treadload.reporting import write_report
-from treadload.results import load, save
+from treadload.results import open_results, save_results
 from treadload.results.schema import check_tree
 
 
@@ -107,28 +107,28 @@ def test_a_broken_root(tree, tmp_path, attrs, words):
 
 def test_the_file_of_a_broken_result_is_refused_too(tree, tmp_path):
     data = tree["contact"].to_dataset().drop_vars("pressure")
-    path = save(with_group(tree, "contact", data), tmp_path / "odd.nc")
+    path = save_results(with_group(tree, "contact", data), tmp_path / "odd.nc")
     with pytest.raises(tl.InputError, match=r"odd\.nc: the group /contact lacks 'pressure'"):
-        load(path)
+        open_results(path)
 
 
 def test_units_of_a_file_are_no_dates(tree, tmp_path):
     data = tree["contact"].to_dataset()
     data = data.assign(pressure=data["pressure"].assign_attrs(units="days since 2000-01-01"))
     with pytest.raises(tl.InputError, match="pressure is in days since 2000-01-01"):
-        load(save(with_group(tree, "contact", data), tmp_path / "odd.nc"))
+        open_results(save_results(with_group(tree, "contact", data), tmp_path / "odd.nc"))
 
 
 def test_a_torn_file_leaves_no_traceback_behind(tree, tmp_path, monkeypatch):
     """h5netcdf printed "Exception ignored in" as Python threw away what it could not open."""
-    path = save(tree, tmp_path / "torn.nc")
+    path = save_results(tree, tmp_path / "torn.nc")
     content = path.read_bytes()
     ignored = []
     monkeypatch.setattr(sys, "unraisablehook", ignored.append)
     for kept in (0, 100, len(content) // 2):
         path.write_bytes(content[:kept])
         with pytest.raises(tl.InputError) as caught:
-            load(path)
+            open_results(path)
         assert len(str(caught.value).splitlines()) == 1
     gc.collect()
     assert not ignored
@@ -136,12 +136,12 @@ def test_a_torn_file_leaves_no_traceback_behind(tree, tmp_path, monkeypatch):
 
 def test_a_variable_that_lost_its_dimensions(tree, tmp_path, monkeypatch):
     """The reader of torn files lets it through; what puts its group together does not."""
-    path = save(tree, tmp_path / "torn.nc")
+    path = save_results(tree, tmp_path / "torn.nc")
     lost = tree.copy()
     lost["contact"].variables["pressure"]._dims = ()
     monkeypatch.setattr(
         xr, "open_datatree", lambda *_, **__: contextlib.nullcontext(SimpleNamespace(load=lambda: lost))
     )
     with pytest.raises(tl.InputError, match=r"cannot read .*torn\.nc") as caught:
-        load(path)
+        open_results(path)
     assert len(str(caught.value).splitlines()) == 1

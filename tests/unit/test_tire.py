@@ -290,11 +290,11 @@ def test_units_by_keyword_where_the_file_names_none(tmp_path):
 
 
 def test_our_own_height_map_comes_back(tmp_path):
-    from treadload.results import height_map, save
+    from treadload.results import height_map, save_results
 
     tire = Tire.from_profile("315/80R22.5")
     data = height_map(tire, 6e-3)
-    back = Tire.from_height_map(save(data, tmp_path / "tread.nc"))
+    back = Tire.from_height_map(save_results(data, tmp_path / "tread.nc"))
     np.testing.assert_array_equal(back.surface.gap, data.initial_gap)
     assert 0.0 in back.fixed_grid.x
 

@@ -214,7 +214,7 @@ def report(
     """Write a self-contained HTML report with figures; several results stand side by side."""
     from treadload.files import HTML, check_suffix
     from treadload.reporting import write_report
-    from treadload.results import load
+    from treadload.results import open_results
 
     path = output or results[0].with_suffix(".html")
     check_suffix(path, HTML, "the report")
@@ -222,7 +222,7 @@ def report(
         tell("reading")
         trees = {}
         for file in results:
-            tree = load(file)
+            tree = open_results(file).tree
             label = str(tree.attrs.get("title") or file.stem)
             trees[label if label not in trees else f"{label} ({file.stem})"] = tree
         tell("drawing")

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from treadload.composing import BaseResult
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
@@ -32,7 +33,7 @@ _CURVE = (
 
 
 @dataclass(frozen=True, eq=False)
-class CreepCurve:
+class CreepCurve(BaseResult, group="creep_curve"):
     """Forces of a tire against its creepage.
 
     dataset: over `creepage`: tractive_force, lateral_force, aligning_moment, slip_fraction and the other scalars
@@ -42,6 +43,11 @@ class CreepCurve:
     dataset: xr.Dataset
     along: str
     contacts: tuple[Contact, ...]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences for the user, of all contacts."""
+        return tuple(dict.fromkeys(text for contact in self.contacts for text in contact.warnings))
 
     def summary(self) -> str:
         """A table: creepage, forces over friction times load, slip, moment."""
@@ -55,9 +61,6 @@ class CreepCurve:
                 f"  {100 * float(row.slip_fraction):8.1f}  {float(row.aligning_moment):z12.2f}"
             )
         return "\n".join(lines)
-
-    def __str__(self) -> str:
-        return self.summary()
 
     __repr__ = first_line
 

@@ -5,12 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import xarray as xr
+
+from treadload.composing import BaseResult
 from treadload.contact.solution import Contact
 from treadload.errors import InputError
+from treadload.variables import dataset
 
 
 @dataclass(frozen=True)
-class RollingResistance:
+class RollingResistance(BaseResult, group="rolling_resistance"):
     """Rolling resistance of a wheel.
 
     moment: of the pressure about the axle, N m, positive when it resists. pressure_centre_x: its arm, m, ahead of
@@ -26,7 +30,18 @@ class RollingResistance:
     material_loss: float
     material_power: float | None
 
-    def __str__(self) -> str:
+    @property
+    def dataset(self) -> xr.Dataset:
+        """The same numbers by name."""
+        told = {
+            "rolling_resistance_moment": self.moment, "pressure_centre_x": self.pressure_centre_x,
+            "rolling_resistance": self.force, "rolling_resistance_coefficient": self.coefficient,
+            "material_loss": self.material_loss, "material_power": self.material_power,
+        }  # fmt: skip
+        return dataset({name: ((), value) for name, value in told.items() if value is not None}, {})
+
+    def summary(self) -> str:
+        """What rolling costs, in a sentence."""
         power = "" if self.material_power is None else f" ({self.material_power:.4g} W)"
         return (
             f"rolling resistance {1e3 * self.coefficient:.3g} N/kN: {self.force:.4g} N, pressure "

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.accessors import offered
+from treadload.composing import BaseResult
 from treadload.contact.rolling_state import Rolling
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
+class Contact(BaseResult, group="contact"):
     """Pressure and shear between a tire and a road, with the question that was asked.
 
     dataset: fields on (y, x) and scalars, named and signed as docs/explanation/conventions.md says.
@@ -83,11 +83,6 @@ class Contact:
         how = "they are in" if self.stats["layers_solved"] else "left out"
         size = f"{change:+.2g}" if abs(change) < 10 else f"{change:+.0f}"
         return f"{line}; its layers change it by {size} %, {how}"
-
-    @property
-    def plot(self) -> Any:
-        """Figures of this contact: see treadload.plots.ContactPlots."""
-        return offered("plot", self)
 
     def __repr__(self) -> str:
         peak = float(self.dataset.pressure.max()) / 1e3

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.composing import BaseResult
 from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
 from treadload.contact.fields import Scene, tractions
@@ -36,7 +37,7 @@ from treadload.variables import dataset
 
 
 @dataclass(frozen=True, eq=False)
-class TransientResult:
+class TransientResult(BaseResult, group="transient"):
     """What happened over the distance, with the question that was asked.
 
     dataset: over (step,), step 0 being the standing wheel; fields over (step, y, x) when they were asked for.
@@ -47,6 +48,11 @@ class TransientResult:
     contact: Contact
     rolling: tuple[Rolling, ...]
     stats: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences for the user, of the contact at the end."""
+        return self.contact.warnings
 
     def summary(self) -> str:
         """A screenful: how far, what forces and creepages, how much slips at the end."""

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.composing import BaseResult
 from treadload.contact.bodies.choose import RoadCompliance
 from treadload.contact.fields import Scene
 from treadload.contact.rolling_state import Rolling
@@ -33,7 +34,7 @@ from treadload.variables import dataset
 
 
 @dataclass(frozen=True, eq=False)
-class TurnResult:
+class TurnResult(BaseResult, group="turn"):
     """What a turn on the spot took, with the question that was asked.
 
     dataset: over (step,), step 0 being the standing wheel: turn_angle, steering_torque, slip_fraction, … and
@@ -46,6 +47,11 @@ class TurnResult:
     rolling: Rolling
     pivot: tuple[float, float] | None
     stats: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences for the user, of the contact at the end."""
+        return self.contact.warnings
 
     @property
     def stiffness(self) -> float:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
+from treadload.composing import Source, dataset_of
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.quantities import Extension
 from treadload.damage.quantity import Reading
@@ -24,17 +25,9 @@ OBLIQUE_TOLERANCE = math.radians(15)
 _FLAT = math.radians(45)
 
 
-class HasDataset(Protocol):
-    """A response, or whatever else keeps its fields in a dataset."""
-
-    @property
-    def dataset(self) -> xr.Dataset:
-        """The fields."""
-
-
-def gridded(response: HasDataset) -> xr.Dataset:
+def gridded(response: Source) -> xr.Dataset:
     """A response's dataset; InputError for one at a list of points."""
-    data = response.dataset
+    data = dataset_of(response)
     if "point" in data.dims:
         raise InputError(
             f"this needs a grid, the response is one at {data.sizes['point']} points; solve_response with x and y"
@@ -72,7 +65,7 @@ def orientation(angle: Array, dip: Array, tolerance: float) -> Array:
 
 
 def envelope(
-    response: HasDataset, *, strain: Reading = "in-plane", oblique_tolerance: float = OBLIQUE_TOLERANCE
+    response: Source, *, strain: Reading = "in-plane", oblique_tolerance: float = OBLIQUE_TOLERANCE
 ) -> xr.Dataset:
     """The largest extension that every point of the road sees while the wheel rolls by, and its crack.
 
@@ -127,7 +120,7 @@ def envelope(
 
 
 def crack_rose(
-    cracks: xr.Dataset,
+    cracks: Source,
     *,
     weight: Literal["area", "damage"] = "area",
     law: FatigueLaw | None = None,
@@ -138,7 +131,7 @@ def crack_rose(
     """How the cracks run: share of each class of trace angles and of each orientation.
 
     cracks: extension_strain, crack_angle and crack_dip over y, or y and x, at one depth, as `envelope(...)` gives
-    them at one depth and the dataset of a Verdict holds them. weight: "area" counts the road (its width, for an
+    them at one depth, or a Verdict. weight: "area" counts the road (its width, for an
     envelope) that extends beyond the threshold, "damage" that road times the damage 1/N of a pass after `law`.
     threshold: strain, ≥ 0. classes: even number of classes of the trace angle; 0 and π/2 are the middle of one,
     so that longitudinal and transverse traces fall into one class each. oblique_tolerance: see `assess`.
@@ -148,6 +141,7 @@ def crack_rose(
     Raises InputError.
     """
     check_tolerance(oblique_tolerance)
+    cracks = dataset_of(cracks)
     if not set(cracks["crack_dip"].dims) <= {"y", "x"}:
         dims = ", ".join(map(str, cracks["crack_dip"].dims))
         raise InputError(

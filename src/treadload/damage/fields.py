@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.damage.cracks import HasDataset, gridded
+from treadload.composing import Source
+from treadload.damage.cracks import gridded
 from treadload.damage.quantity import ANYWHERE, STRESS, Quantity, part
 from treadload.errors import InputError
 from treadload.kernels import tensors
@@ -29,7 +30,7 @@ def known_quantities() -> dict[str, Quantity]:
     return {one.name: one for one in made if one.where == ANYWHERE and not one.lacks}
 
 
-def compute_quantities(response: HasDataset, quantities: Sequence[str | Quantity] | None = None) -> xr.Dataset:
+def compute_quantities(response: Source, quantities: Sequence[str | Quantity] | None = None) -> xr.Dataset:
     """Quantities as fields.
 
     response: with stress and strain over (depth, y, x). quantities: names, or quantities with
@@ -76,7 +77,7 @@ def peak(fields: xr.Dataset, name: str, *, deepest: float | None = None) -> dict
     return {"value": float(values.to_numpy()[at]), **place}
 
 
-def tension_behind(response: HasDataset) -> xr.Dataset:
+def tension_behind(response: Source) -> xr.Dataset:
     """Largest horizontal tension of the surface behind the load, over y: what opens cracks behind a rolling wheel.
 
     Behind are the points of a row that come after the last one under pressure, which is read from

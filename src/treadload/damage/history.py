@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from dataclasses import replace
+from typing import Literal, overload
 
 import numpy as np
 import xarray as xr
@@ -10,7 +11,8 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from treadload import variables
-from treadload.damage.cracks import HasDataset, gridded
+from treadload.composing import Source
+from treadload.damage.cracks import gridded
 from treadload.damage.quantity import STRESS, part
 from treadload.errors import InputError
 from treadload.kernels import tensors
@@ -18,11 +20,12 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.thermal import reduced_steps, restrained_stress
 from treadload.materials import Prony
 from treadload.materials.temperature import ShiftLaw
+from treadload.response import Response
 
 _DIMS = ("depth", "y", "x")
 
 
-def residual_after(response: HasDataset, *, spacing: float, passes: int) -> xr.Dataset:
+def residual_after(response: Source, *, spacing: float, passes: int) -> xr.Dataset:
     """Stress that earlier wheels have left when the next one comes, on a road of linear viscoelastic layers.
 
     Wheels follow each other at one speed and spacing. Superposition holds: the wheel n places ahead leaves at x what
@@ -115,12 +118,18 @@ def thermal_stress(
     return stress / (1 - material.poisson) if restraint == "plane" else stress
 
 
-def add_thermal_stress(response: HasDataset, stress: ArrayLike) -> xr.Dataset:
-    """A response's dataset with a thermal stress added to both horizontal normal stresses.
+@overload
+def add_thermal_stress(response: Response, stress: ArrayLike) -> Response: ...
+@overload
+def add_thermal_stress(response: xr.Dataset, stress: ArrayLike) -> xr.Dataset: ...
+def add_thermal_stress(response: Source, stress: ArrayLike) -> Response | xr.Dataset:
+    """A response with a thermal stress added to both horizontal normal stresses.
 
-    stress: Pa, tension positive, one for all depths or (depth,): an instant of `thermal_stress` with restraint
-    "plane". Invariants of the stress follow; the strains stay those of the traffic, for a restrained road that cools
-    does not strain. Linear viscoelasticity lets the two add up. Raises InputError.
+    response: of `solve_response`, or a dataset like its own. stress: Pa, tension positive, one for all depths or
+    (depth,): an instant of `thermal_stress` with restraint "plane". Invariants of the stress follow; the strains
+    stay those of the traffic, for a restrained road that cools does not strain. Linear viscoelasticity lets the two
+    add up. Returns a Response of a Response, else a dataset. A verdict on it reads tension of both together, also
+    where it solves the road again. Raises InputError.
     """
     data = gridded(response)
     given = np.asarray(stress, dtype=float)
@@ -129,8 +138,19 @@ def add_thermal_stress(response: HasDataset, stress: ArrayLike) -> xr.Dataset:
             f"stress must be one finite number of Pa or one for each of {data.sizes['depth']} depths, "
             f"got shape {given.shape}"
         )
+    each = np.broadcast_to(given, data.sizes["depth"])
+    added = with_horizontal_stress(data, each)
+    if not isinstance(response, Response):
+        return added
+    before = response.restrained or (0.0,) * len(each)
+    together = tuple(float(old + new) for old, new in zip(before, each, strict=True))
+    return replace(response, dataset=added, restrained=together)
+
+
+def with_horizontal_stress(data: xr.Dataset, stress: Array) -> xr.Dataset:
+    """Fields over (depth, y, x) with a stress, Pa, (depth,), added to both horizontal normal stresses."""
     total = np.stack([part(data, name) for name in STRESS])
-    total[:2] += np.broadcast_to(given, data.sizes["depth"])[:, None, None]
+    total[:2] += stress[:, None, None]
     known = {
         **dict(zip(STRESS, total, strict=True)),
         "von_mises_stress": tensors.von_mises(total),

@@ -12,7 +12,8 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.damage.cracks import HasDataset, gridded
+from treadload.composing import BaseResult, Source, dataset_of
+from treadload.damage.cracks import gridded
 from treadload.damage.criterion import interface_number
 from treadload.damage.laws.bond import BondStrength, ShearFatigue
 from treadload.damage.laws.fatigue import warnings_of
@@ -36,7 +37,7 @@ def delaminate(road: Pavement, interface: int, bond: BondLaw = FRICTIONLESS) -> 
     return Pavement(layers, rigid_base=road.rigid_base)
 
 
-def interface_fields(above: HasDataset, below: HasDataset | None = None) -> xr.Dataset:
+def interface_fields(above: Source, below: Source | None = None) -> xr.Dataset:
     """Shear, pressure and sliding at every interface of a layered road.
 
     above: a response that has the depth of every interface, side "above". below: the same with side "below",
@@ -96,7 +97,7 @@ def _at_depths(data: xr.Dataset, depths: Array) -> xr.Dataset:
 
 
 @dataclass(frozen=True, eq=False)
-class BondVerdict:
+class BondVerdict(BaseResult, group="bonds"):
     """What the strengths of a road's interfaces say of a load.
 
     dataset: the fields of `interface_fields`, utilisation and, with a law, bond_passes (interface, y, x), NaN where
@@ -146,14 +147,11 @@ class BondVerdict:
             )
         return "\n".join(lines)
 
-    def __str__(self) -> str:
-        return self.summary()
-
     __repr__ = first_line
 
 
 def assess_bonds(
-    fields: xr.Dataset,
+    fields: Source,
     strengths: BondStrength | Sequence[BondStrength | None],
     law: ShearFatigue | None = None,
     *,
@@ -161,12 +159,15 @@ def assess_bonds(
 ) -> BondVerdict:
     """Where, and after how many passes, the layers of a road part under a load.
 
-    fields: of `interface_fields`. strengths: one for all interfaces, or one for each from the surface down, None for
+    fields: of `interface_fields` or `solve_interfaces`, or a response that has the depth of every interface.
+    strengths: one for all interfaces, or one for each from the surface down, None for
     those that are not asked. law: fatigue of the bonds; left out, only the strength is asked. temperature: of the
     interfaces, °C, one or one each, for strengths that depend on it.
     x is where the worst place stands in the frame of the load: as a wheel rolls by, every point at that y sees it.
     Returns a BondVerdict. Raises InputError for a wrong number of strengths or temperatures, or one that is missing.
     """
+    told = dataset_of(fields)
+    fields = told if "interface_shear" in told else interface_fields(told)
     count = fields.sizes["interface"]
     given = [strengths] * count if isinstance(strengths, BondStrength) else list(strengths)
     if len(given) != count:

@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
+from treadload.composing import BaseResult
 from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
@@ -26,7 +27,7 @@ _MOSTLY = 0.2
 
 
 @dataclass(frozen=True, eq=False)
-class Life:
+class Life(BaseResult, group="life"):
     """How long a road lasts under a traffic.
 
     dataset: damage_per_year (criterion, y), of the first year, after wander unless the criterion's law holds it;
@@ -86,9 +87,6 @@ class Life:
                 "interpolated over the climate err by {interpolation_error:.1g} at most".format(**self.stats)
             )
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
-
-    def __str__(self) -> str:
-        return self.summary()
 
     __repr__ = first_line
 

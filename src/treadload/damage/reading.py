@@ -10,7 +10,9 @@ import numpy as np
 import xarray as xr
 from scipy.ndimage import maximum_filter
 
-from treadload.damage.cracks import HasDataset, crack_plane, gridded
+from treadload.composing import Source
+from treadload.damage.cracks import crack_plane, gridded
+from treadload.damage.history import with_horizontal_stress
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
@@ -72,7 +74,7 @@ def check_law(line: PowerLaw) -> None:
         raise InputError(f"a verdict reads an extension, but {line} reads the {line.reads}; take a law of extension")
 
 
-def local_field(response: HasDataset, line: PowerLaw, depth: float) -> xr.Dataset:
+def local_field(response: Source, line: PowerLaw, depth: float) -> xr.Dataset:
     """The points of a response at one of its depths, m, over (depth, y, x). Raises InputError."""
     data = gridded(response)
     depths = data["depth"].to_numpy()
@@ -84,7 +86,7 @@ def local_field(response: HasDataset, line: PowerLaw, depth: float) -> xr.Datase
     return data.isel(depth=[nearest])
 
 
-def mean_field(response: HasDataset, line: PowerLaw, length: float) -> tuple[xr.Dataset, list[str]]:
+def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Dataset, list[str]]:
     """Means over a length, m, at the depths of a response that the law speaks of; and what to say of the others.
 
     A response that is a mean is taken as it is. Raises InputError for one without its road.
@@ -107,7 +109,7 @@ def mean_field(response: HasDataset, line: PowerLaw, length: float) -> tuple[xr.
     return _solved(response, depths, length, **at), said
 
 
-def closer(response: HasDataset, field: Field) -> Field | None:
+def closer(response: Source, field: Field) -> Field | None:
     """The field on points close to each other around its worst point; None where the road cannot be asked again.
 
     field: means over (depth, y, x). The map's points lie as far apart as its cells, and the largest reading lies
@@ -157,10 +159,15 @@ def _between(at: Array, k: int) -> Array:
 
 def _solved(response: Response, depths: Array, length: float, *, x: Array, y: Array) -> xr.Dataset:
     assert response.road is not None
-    return solve_response(
+    data = solve_response(
         response.loads, response.road, depths=depths, x=x, y=y, speed=response.speed, side=response.side,
         mean_over=length,
     ).dataset  # fmt: skip
+    if not response.restrained:
+        return data
+    own = np.asarray(response.dataset["depth"].to_numpy())
+    stress = [response.restrained[int(np.argmin(np.abs(own - depth)))] for depth in data["depth"].to_numpy()]
+    return with_horizontal_stress(data, np.array(stress))
 
 
 def _around(at: Array, k: int, length: float) -> Array | None:

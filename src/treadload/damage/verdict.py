@@ -5,18 +5,16 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.accessors import offered
+from treadload.composing import BaseResult, Source
 from treadload.damage.cracks import (
     HORIZONTAL,
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
-    HasDataset,
     check_tolerance,
     orientation,
 )
@@ -33,7 +31,7 @@ _NOTABLE = 1.1
 
 
 @dataclass(frozen=True, eq=False)
-class Verdict:
+class Verdict(BaseResult, group="damage"):
     """What a law of fatigue says of a strain field.
 
     dataset: fields (y, x) extension_strain, allowable_passes, crack_angle, crack_dip, crack_orientation at the worst
@@ -45,11 +43,6 @@ class Verdict:
     dataset: xr.Dataset
     line: PowerLaw
     strain: str
-
-    @property
-    def plot(self) -> Any:
-        """Figures of this verdict: see treadload.plots.VerdictPlots."""
-        return offered("plot", self)
 
     @property
     def orientation(self) -> str:
@@ -110,14 +103,11 @@ class Verdict:
             f"of {cells:g} mm holds within {100 * error / read:.2g} %, {fewest:.2g} to {most:.2g} passes"
         ]
 
-    def __str__(self) -> str:
-        return self.summary()
-
     __repr__ = first_line
 
 
 def assess(
-    response: HasDataset,
+    response: Source,
     line: PowerLaw,
     *,
     depth: float | None = None,

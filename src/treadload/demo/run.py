@@ -13,7 +13,7 @@ from treadload.errors import InputError
 from treadload.files import replacing
 from treadload.plots import compare_pressure, compare_strain, fatigue_line, save
 from treadload.reporting import write_report
-from treadload.results import save as save_tree
+from treadload.results import save_results
 from treadload.study import Result, run_case
 
 CASES = ("free", "tractive")
@@ -59,7 +59,7 @@ def run_demo(folder: Path, progress: Progress | None = None) -> Demo:
         case = Case.from_text(text, name=f"{name}.toml")
         result = run_case(case, progress=lambda stage, title=case.title: tell(f"{title}: {stage}"))  # type: ignore[misc]
         results[name] = result
-        files += [folder / f"{name}.toml", save_tree(result.to_tree(), folder / f"{name}.nc")]
+        files += [folder / f"{name}.toml", save_results(result, folder / f"{name}.nc")]
     tell("figures")
     files += _figures(results, folder)
     tell("report")

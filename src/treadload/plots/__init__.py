@@ -5,6 +5,7 @@ from treadload.plots.bowl import deflection_bowl
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.energy import dissipated_energy
+from treadload.plots.history import transient_history, turn_history
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.files import png, save
@@ -12,6 +13,19 @@ from treadload.plots.kit.layers import both_sides
 from treadload.plots.kit.places import places_under
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
+from treadload.plots.others import (
+    BondComparisonPlots,
+    BondVerdictPlots,
+    CreepCurvePlots,
+    FieldsPlots,
+    LifePlots,
+    RollingResistancePlots,
+    SensitivityPlots,
+    TransientPlots,
+    TurnPlots,
+    UniformPlots,
+)
+from treadload.plots.plain import losses, plain_map
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.tearing import tearing
@@ -19,8 +33,18 @@ from treadload.plots.uniform import uniform_comparison
 from treadload.plots.verdict import fatigue_line
 
 __all__ = [
+    "BondComparisonPlots",
+    "BondVerdictPlots",
     "ContactPlots",
+    "CreepCurvePlots",
+    "FieldsPlots",
+    "LifePlots",
     "ResponsePlots",
+    "RollingResistancePlots",
+    "SensitivityPlots",
+    "TransientPlots",
+    "TurnPlots",
+    "UniformPlots",
     "VerdictPlots",
     "black_diagram",
     "bond_utilisation",
@@ -39,14 +63,18 @@ __all__ = [
     "life_inputs",
     "life_shares",
     "life_years",
+    "losses",
     "master_curve",
     "new_figure",
     "orientation_shares",
     "places_under",
+    "plain_map",
     "png",
     "save",
     "shift_factors",
     "tearing",
     "trace_rose",
+    "transient_history",
+    "turn_history",
     "uniform_comparison",
 ]

@@ -1,4 +1,4 @@
-"""What `contact.plot`, `response.plot` and `verdict.plot` offer."""
+"""What `contact.plot`, `response.plot` and `verdict.plot` offer; those of other results are in `others`."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.accessors import offers
+from treadload.composing import Source
 from treadload.plots import contact as contact_figures
 from treadload.plots import panels
 from treadload.plots import profile as profiles
 from treadload.plots import response as response_figures
 from treadload.plots import rose as roses
 from treadload.plots import verdict as verdict_figures
-from treadload.plots.kit.plan import Source
 from treadload.plots.response import Strain
 
 
-@offers("plot", "Contact")
+@offers("plot", "Contact", "Footprint")
 class ContactPlots:
     """Figures of a contact, or of its dataset. Each returns a matplotlib Figure."""
 

@@ -9,11 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.places import load_centre
-from treadload.plots.kit.plan import MM, X_LABEL, Source, fields_of
+from treadload.plots.kit.plan import MM, X_LABEL, fields_of
 from treadload.plots.kit.style import CASES, INK, MUTED, headline, measure, plain, signed, styled, travel_arrow
 from treadload.plots.profile import nearest
 

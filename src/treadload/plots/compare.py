@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.plots.contact import pressure_in_numbers
 from treadload.plots.kit.figure import new_figure
@@ -18,7 +19,6 @@ from treadload.plots.kit.plan import (
     MICRO,
     Limits,
     Plan,
-    Source,
     colour_bar,
     draw_cells,
     draw_outline,

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
+from treadload.composing import Source
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import (
@@ -20,7 +21,6 @@ from treadload.plots.kit.plan import (
     Y_LABEL,
     Limits,
     Plan,
-    Source,
     colour_bar,
     draw_cells,
     draw_outline,

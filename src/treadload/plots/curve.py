@@ -10,9 +10,10 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.plots.kit.figure import new_figure
-from treadload.plots.kit.plan import Source, fields_of
+from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
 
 _FORCE = {"x": ("tractive_force", "tractive force over μP (–)"), "y": ("lateral_force", "lateral force over μP (–)")}

@@ -6,20 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.layers import Layers, draw_interfaces, hatch_unknown, name_layers
-from treadload.plots.kit.plan import (
-    DEPTH_LABEL,
-    MM,
-    Y_LABEL,
-    Source,
-    colour_bar,
-    fields_of,
-    limits,
-    mark_peak,
-    peak_of,
-)
+from treadload.plots.kit.plan import DEPTH_LABEL, MM, Y_LABEL, colour_bar, fields_of, limits, mark_peak, peak_of
 from treadload.plots.kit.style import headline, measure, sequential, styled
 
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
+from treadload.composing import Source
 from treadload.damage.interface import interface_in_words
 from treadload.errors import InputError
 from treadload.plots.kit.figure import new_figure
@@ -17,7 +18,6 @@ from treadload.plots.kit.plan import (
     MM,
     Limits,
     Plan,
-    Source,
     colour_bar,
     contact_mask,
     draw_cells,

@@ -11,9 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.plots.kit.figure import figure_and_axes, new_figure
-from treadload.plots.kit.plan import Source, fields_of
+from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import (
     CASES,
     INK,
@@ -183,7 +184,7 @@ def life_shares(life: Source, criterion: str | None = None) -> Figure:
 def life_inputs(life: Source, *, ax: Axes | None = None, most: int = 10) -> Figure:
     """Bars of how much longer the governing criterion lasts as an input grows by 5 %, temperature by 1 °C.
 
-    life: a dataset with elasticity, as `life_tree` saves it, or a Sensitivity. most: inputs to draw. Returns the
+    life: a Sensitivity or its dataset. most: inputs to draw. Returns the
     figure. Raises InputError if variables are missing.
     """
     data = fields_of(life, "elasticity")

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from treadload.composing import Source
 from treadload.damage.cracks import OBLIQUE_TOLERANCE
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
@@ -18,7 +19,6 @@ from treadload.plots.kit.plan import (
     X_LABEL,
     Y_LABEL,
     Plan,
-    Source,
     colour_bar,
     draw_cells,
     empty_note,

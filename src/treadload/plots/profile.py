@@ -12,12 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.layers import Layers, draw_interfaces, name_layers
 from treadload.plots.kit.places import places_under
-from treadload.plots.kit.plan import DEPTH_LABEL, MICRO, MM, Source, fields_of, peak_of, plane
+from treadload.plots.kit.plan import DEPTH_LABEL, MICRO, MM, fields_of, peak_of, plane
 from treadload.plots.kit.style import CASES, INK, MUTED, halo, headline, legend_below, signed, styled
 
 Component = Literal["xx", "yy", "zz", "in-plane", "principal"]

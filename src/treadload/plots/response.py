@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import figure_and_axes
@@ -19,7 +20,6 @@ from treadload.plots.kit.plan import (
     MM,
     Limits,
     Plan,
-    Source,
     at_depth,
     colour_bar,
     contact_mask,

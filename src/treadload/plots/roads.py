@@ -14,12 +14,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.layers import Layers, draw_interfaces, name_layers
 from treadload.plots.kit.places import load_centre
-from treadload.plots.kit.plan import MICRO, MM, Limits, Source, colour_bar, fields_of, limits
+from treadload.plots.kit.plan import MICRO, MM, Limits, colour_bar, fields_of, limits
 from treadload.plots.kit.section import Section, draw_section
 from treadload.plots.kit.style import CASES, INK, headline, measure, plain, signed, styled
 from treadload.plots.profile import COMPONENTS, Component, draw_profile, frame_profile, nearest

@@ -12,11 +12,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.projections.polar import PolarAxes
 
+from treadload.composing import Source
 from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, crack_rose, orientation
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
-from treadload.plots.kit.plan import MICRO, Source, fields_of
+from treadload.plots.kit.plan import MICRO, fields_of
 from treadload.plots.kit.style import INK, MUTED, ORIENTATION_COLOURS, PAPER, RULE, headline, plain, styled
 
 _MOST_COLUMNS = 4

@@ -7,11 +7,12 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.contact import draw_stick_slip, shear_in_numbers
 from treadload.plots.kit.figure import new_figure
-from treadload.plots.kit.plan import KPA, MICRO, Plan, Source, colour_bar, fields_of, limits, plane
+from treadload.plots.kit.plan import KPA, MICRO, Plan, colour_bar, fields_of, limits, plane
 from treadload.plots.kit.style import INK, RULE, SLIP, headline, plain, styled
 from treadload.plots.response import VARIABLE, Strain, draw_strain, place_in_words, strain_in_numbers, strain_plane
 

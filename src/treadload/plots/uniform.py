@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from treadload.composing import Source
 from treadload.plots.kit.figure import new_figure
-from treadload.plots.kit.plan import Source, fields_of
+from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, headline, styled
 
 _PANELS = {

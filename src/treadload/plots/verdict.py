@@ -12,6 +12,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from treadload.composing import Source
 from treadload.damage.cracks import ORIENTATIONS
 from treadload.damage.laws.fatigue import FatigueLine
 from treadload.errors import InputError
@@ -20,7 +21,6 @@ from treadload.plots.kit.plan import (
     MICRO,
     Limits,
     Plan,
-    Source,
     colour_bar,
     draw_cells,
     empty_note,

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from importlib import resources
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import jinja2
 import xarray as xr
@@ -20,24 +20,22 @@ from treadload.reporting.figures import case_figures, comparison_figures
 from treadload.reporting.inputs import input_lists, input_table
 from treadload.reporting.life import COLUMNS as LIFE_COLUMNS
 from treadload.reporting.life import life_report
+from treadload.reporting.others import other_report
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.road import COLUMNS, road_tables
 from treadload.reporting.tables import result_table, statistics_table
-
-if TYPE_CHECKING:
-    from treadload.contact import Contact
-    from treadload.damage import Verdict
-    from treadload.response import Response
+from treadload.results import Study, as_tree, to_tree
 
 _TITLE = "What a tire does to a road"
 
 
-def write_report(cases: Mapping[str, xr.DataTree], path: str | PathLike[str], title: str = "") -> Path:
+def write_report(cases: Mapping[str, Any], path: str | PathLike[str], title: str = "") -> Path:
     """Write one self-contained HTML file about one or several cases.
 
-    cases: name of each case → its tree of results, with any of the groups /contact, /response, /slice_along,
-    /slice_across, /damage and /life; what is absent is left out. path: of the file. title: heading; the title of the
-    case if left out. The file needs no other file and no network. Returns the path.
+    cases: name of each case → its tree of results, or whatever `save_results` takes; several results of a kind in
+    one tree stand side by side as cases. path: of the file. title: heading; the title of the case if left out. The
+    file needs no other file and no network. A figure that cannot be drawn leaves a sentence that says why. Returns
+    the path.
     Raises InputError without a case, for a tree that holds no results, or a path that cannot be written; the
     file appears whole or not at all.
     """
@@ -46,7 +44,7 @@ def write_report(cases: Mapping[str, xr.DataTree], path: str | PathLike[str], ti
     # Found before minutes go into figures, not after.
     check_suffix(path, HTML, "the report")
     check_writable(path)
-    read = [ReportCase.of(label, tree) for label, tree in cases.items()]
+    read = [case for label, one in cases.items() for case in ReportCase.all_of(label, as_tree(one))]
     html = _template().render(_content(read, title or _title(read)))
     with replacing(path) as temporary:
         # Half a character of a torn file is no text.
@@ -54,16 +52,35 @@ def write_report(cases: Mapping[str, xr.DataTree], path: str | PathLike[str], ti
     return Path(path)
 
 
-def report(parts: Iterable[Contact | Response | Verdict], path: str | PathLike[str], *, title: str = "") -> Path:
-    """Write a self-contained HTML file about one case from its results.
+def report(results: Any, path: str | PathLike[str], *, title: str = "") -> Path:
+    """Write a self-contained HTML file about results.
 
-    parts: a Contact, Responses (maps, and slices of a single row or column) and a Verdict, those there are.
-    path: of the file. title: heading. Returns the path. Raises InputError as `write_report`.
+    results: of any verb: one, a list, or a mapping of names to them; contacts, responses, verdicts, lives, the result
+    of a case, what `open_results` read. Results of a case, trees and opened files stand side by side as cases of
+    their own. path: of the file. title: heading. Returns the path. Raises InputError as `write_report`.
     """
-    from treadload.results import to_tree
+    given = results
+    if not isinstance(given, Mapping):
+        several = isinstance(given, Iterable) and not _is_whole(given) and not isinstance(given, xr.Dataset | str)
+        given = list(given) if several else [given]
+        given = {f"{number}": one for number, one in enumerate(given)}
+    cases: dict[str, Any] = {}
+    single: dict[str, Any] = {}
+    for name, one in given.items():
+        if _is_whole(one):
+            tree = as_tree(one)
+            label = name if given is results else str(tree.attrs.get("title") or title or _TITLE)
+            cases[label if label not in cases else f"{label} ({name})"] = tree
+        else:
+            single[name] = one
+    if single:
+        cases = {title or _TITLE: to_tree(single if given is results else list(single.values()), title=title)} | cases
+    return write_report(cases, path, title)
 
-    tree = to_tree(parts, title=title)
-    return write_report({title or _TITLE: tree}, path, title)
+
+def _is_whole(one: Any) -> bool:
+    """True for what holds several results of one question."""
+    return isinstance(one, xr.DataTree | Study)
 
 
 def _title(cases: list[ReportCase]) -> str:
@@ -83,7 +100,12 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
     return {
         "title": title,
         "cases": [
-            {"case": case, "anchor": f"case-{number}", "figures": case_figures(case, alone=len(cases) == 1)}
+            {
+                "case": case,
+                "anchor": f"case-{number}",
+                "figures": case_figures(case, alone=len(cases) == 1),
+                "others": [other_report(other) for other in case.others],
+            }
             for number, case in enumerate(cases, start=1)
         ],
         "labels": [case.label for case in cases],

@@ -91,18 +91,21 @@ def _contact(case: ReportCase) -> Iterator[Picture]:
         "and blocks, and the more so the finer the grid.",
         plots.pressure,
     )
-    yield from picture(
-        "Tread before loading",
-        "Distance of the tread from the road at first contact; the line is the border of the contact under load.",
-        plots.height_map,
-    )
-    yield from picture(
-        "Shear, stick and slip",
-        "Left: size of the shear in space. Right: the same from above; hatched cells slip, there the shear has "
-        "reached friction times pressure. Arrows: shear exerted by the tire on the road.",
-        plots.shear,
-        wide=True,
-    )
+    # A footprint that was recorded knows no tread and no friction.
+    if "initial_gap" in data:
+        yield from picture(
+            "Tread before loading",
+            "Distance of the tread from the road at first contact; the line is the border of the contact under load.",
+            plots.height_map,
+        )
+    if "state" in data:
+        yield from picture(
+            "Shear, stick and slip",
+            "Left: size of the shear in space. Right: the same from above; hatched cells slip, there the shear has "
+            "reached friction times pressure. Arrows: shear exerted by the tire on the road.",
+            plots.shear,
+            wide=True,
+        )
     yield from picture(
         "Sections through the largest pressure",
         "Where the shear lies on the dashed line, friction times pressure, the tire slips.",

@@ -191,11 +191,15 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
             "Years from the opening until Miner's sum is 1 at the worst place. Orange: the criterion that governs.",
             lambda: life_years(data),
         ),
-        *picture(
-            "What the life depends on",
-            "How the governing life changes as each input grows by 5 %, temperature by 1 °C; the three that weigh "
-            "most are bold. Strength: the strain or stress that the law allows.",
-            lambda: life_inputs(data),
+        *(
+            picture(
+                "What the life depends on",
+                "How the governing life changes as each input grows by 5 %, temperature by 1 °C; the three that "
+                "weigh most are bold. Strength: the strain or stress that the law allows.",
+                lambda: life_inputs(data),
+            )
+            if "elasticity" in data
+            else []
         ),
         *picture(
             "Damage across the wheel path",

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
-from treadload.errors import InputError
+from treadload.errors import InputError, one_line
 from treadload.plots import png
 
 _DPI = 140.0
@@ -20,26 +20,38 @@ _PAGE_DPI = 98.0
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure in the page. source: data URI. width: of the page, pixels. wide: takes the full width."""
+    """A figure in the page. source: data URI. width: of the page, pixels. wide: takes the full width.
+
+    missing: why there is none, a sentence that stands in its place.
+    """
 
     title: str
     caption: str
     source: str
     width: int
     wide: bool
+    missing: str = ""
 
 
 def picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = False) -> list[Picture]:
-    """The picture, or nothing when the results lack what it draws."""
+    """The picture; where it cannot be drawn a sentence in its place that says why."""
     with warnings.catch_warnings():
         # Of a single row of cells, or a single place, matplotlib finds no extent to draw.
         for said in ("constrained_layout not applied", "Attempting to set identical low and high"):
             warnings.filterwarnings("error", said, UserWarning)
         try:
             image = png(draw(), dpi=_DPI)
-        except (InputError, UserWarning):
-            return []
+        # Minutes of other figures are not lost for one that fails, whatever it raises.
+        except Exception as error:
+            return [Picture(title, caption, "", 0, wide, f"This figure could not be drawn: {_reason(error)}.")]
     # The width stands at a fixed place of every PNG; all figures get letters of the same size.
     (pixels,) = struct.unpack(">I", image[16:20])
     encoded = base64.b64encode(image).decode("ascii")
     return [Picture(title, caption, f"data:image/png;base64,{encoded}", round(pixels * _PAGE_DPI / _DPI), wide)]
+
+
+def _reason(error: Exception) -> str:
+    if isinstance(error, UserWarning):
+        return "there is no extent to draw, a single row of cells or a single place"
+    said = one_line(str(error)).rstrip(".") or "no reason given"
+    return said if isinstance(error, InputError) else f"{type(error).__name__}, {said}"

@@ -20,7 +20,9 @@ from treadload.plots.kit.style import power_of_ten, signed
 from treadload.reporting.life import exhausted, sentence
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
 from treadload.results.schema import check_tree
+from treadload.results.tree import ASKED
 
+# Kinds that tables and figures of their own tell of; whatever else a tree holds is told by its summary and figures.
 GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
 # A number such as 1.2e+05 in a sentence.
 _POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
@@ -38,26 +40,66 @@ class Worst:
 
 
 @dataclass(frozen=True, eq=False)
+class Other:
+    """A result that has no table of its own. name: of the part. kind: of the result. inside: parts of it by kind."""
+
+    name: str
+    kind: str
+    dataset: xr.Dataset
+    inside: Mapping[str, xr.Dataset]
+
+
+@dataclass(frozen=True, eq=False)
 class ReportCase:
-    """One case: its label and its groups of results by name (`GROUPS`), those that are there."""
+    """One case: its label and its groups of results by kind (`GROUPS`), those that are there; and all others."""
 
     label: str
     groups: Mapping[str, xr.Dataset]
     attrs: Mapping[str, Any]
+    others: tuple[Other, ...] = ()
 
     @classmethod
     def of(cls, label: str, tree: xr.DataTree) -> ReportCase:
-        """The case in a tree; InputError if the tree has none of the groups, or one that cannot be read."""
+        """The first case in a tree, see `all_of`."""
+        return cls.all_of(label, tree)[0]
+
+    @classmethod
+    def all_of(cls, label: str, tree: xr.DataTree) -> list[ReportCase]:
+        """The cases in a tree: more than one where it has several results of a kind, by the names of its parts.
+
+        Raises InputError if it holds no results, or some that cannot be read.
+        """
         check_tree(tree, label)
-        groups = {
-            _ALSO.get(name, name): node.to_dataset()
-            for name, node in tree.children.items()
-            if _ALSO.get(name, name) in GROUPS and node.data_vars
-        }
-        if not groups:
+        nodes = {str(name): node for name, node in tree.children.items() if name != ASKED and node.data_vars}
+        inside: dict[str, dict[str, xr.Dataset]] = {}
+        for name, node in nodes.items():
+            owner = node.attrs.get("part_of")
+            if isinstance(owner, str) and owner:
+                inside.setdefault(owner, {}).setdefault(kind_of(name, node.attrs), node.to_dataset())
+        found: dict[str, tuple[dict[str, xr.Dataset], list[Other]]] = {}
+        for name, node in nodes.items():
+            if node.attrs.get("part_of"):
+                continue
+            kind = _ALSO.get(kind_of(name, node.attrs), kind_of(name, node.attrs))
+            groups, others = found.setdefault(_called(name, kind, label), ({}, []))
+            if kind in GROUPS and kind not in groups:
+                groups[kind] = node.to_dataset()
+            else:
+                others.append(Other(name, kind, node.to_dataset(), inside.get(name, {})))
+        if not found:
             held = ", ".join(tree.children) or "nothing"
-            raise InputError(f"the tree of {label!r} holds {held}; a report needs one of {', '.join(GROUPS)}")
-        return cls(label, groups, {str(name): value for name, value in tree.attrs.items()})
+            raise InputError(f"the tree of {label!r} holds {held}; a report needs a result such as a contact")
+        attrs = {str(name): value for name, value in tree.attrs.items()}
+        cases = []
+        for called, (groups, others) in found.items():
+            # What the life depends on is told beside it.
+            more = next((one for one in others if one.kind == "sensitivity" and "life" in groups), None)
+            if more is not None:
+                groups["life"] = _with_sensitivity(groups["life"], more.dataset)
+                others = [one for one in others if one is not more]
+            cases.append(cls(called, groups, attrs, tuple(others)))
+            attrs = {name: value for name, value in attrs.items() if name not in ("case", "title")}
+        return cases
 
     def group(self, name: str) -> xr.Dataset | None:
         """A group of results, or None."""
@@ -124,7 +166,8 @@ class ReportCase:
     @property
     def warnings(self) -> list[str]:
         """Warnings of all groups, each once."""
-        found = [str(text) for data in self.groups.values() for text in _json(data.attrs.get("warnings"), [])]
+        held = [*self.groups.values(), *(other.dataset for other in self.others)]
+        found = [str(text) for data in held for text in _json(data.attrs.get("warnings"), [])]
         return list(dict.fromkeys(found))
 
     def statistics(self, group: str) -> dict[str, Any]:
@@ -236,7 +279,9 @@ class ReportCase:
             return sentence(life)
         data = self.group("damage")
         if data is None:
-            return ""
+            said = [line for one in self.others for line in summary_of(one.dataset).splitlines()]
+            told = next((line for line in said if line.startswith("Verdict: ")), "")
+            return _POWER.sub(_raised, told.removeprefix("Verdict: "))
         if data.attrs.get("sentence"):
             return _POWER.sub(_raised, str(data.attrs["sentence"]).removeprefix("Verdict: ").strip())
         passes = float(data["worst_passes"])
@@ -247,6 +292,34 @@ class ReportCase:
             f"at its worst point the line allows {power_of_ten(passes)} passes, {few} than a million; "
             f"the first crack to expect is {self.orientation}."
         )
+
+
+def summary_of(data: xr.Dataset) -> str:
+    """The summary that a group holds; empty without one."""
+    return str(data.attrs.get("summary", ""))
+
+
+def kind_of(name: str, attrs: Mapping[Any, Any]) -> str:
+    """Kind of the result in a group: as it says, else as it is called."""
+    said = attrs.get("result")
+    return said if isinstance(said, str) and said else name
+
+
+def _called(name: str, kind: str, label: str) -> str:
+    """Name of the case that a part belongs to: "free contact" to "free", contact_2 to a second one."""
+    own = re.fullmatch(rf"(?P<case>.*?)(?:(?:^|[ _]){re.escape(kind)}(?:_(?P<number>\d+))?)?", name)
+    assert own is not None
+    case = own["case"] or label
+    return f"{case} {own['number']}" if own["number"] else case
+
+
+def _with_sensitivity(life: xr.Dataset, more: xr.Dataset) -> xr.Dataset:
+    """A life with its elasticities; as it is where it has some of its own."""
+    if "input" in life.variables or "input" in life.dims:
+        return life
+    told = {name: more.attrs[name] for name in ("contacts", "responses", "coverage") if name in more.attrs}
+    own = life.attrs | {f"sensitivity_{name}": value for name, value in told.items()}
+    return life.assign(elasticity=more["elasticity"]).assign_attrs(own)
 
 
 def _raised(found: re.Match[str]) -> str:

@@ -10,11 +10,12 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, Protocol, runtime_checkable
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
 
+from treadload.composing import HasDataset, Source, dataset_of
 from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.grid import Grid
@@ -26,15 +27,6 @@ from treadload.tables import real_array
 
 # A pressure this far below zero, as a part of the largest, is a solver's tolerance; more is a wrong sign.
 _TINY = 1e-6
-
-
-@runtime_checkable
-class HasDataset(Protocol):
-    """A result that carries its fields in `.dataset`, such as a Contact."""
-
-    @property
-    def dataset(self) -> xr.Dataset:
-        """Fields by name."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,7 +141,7 @@ class GridLoad:
     @classmethod
     def from_dataset(
         cls,
-        dataset: xr.Dataset | HasDataset,
+        dataset: Source,
         *,
         units: Mapping[str, str] | None = None,
         interpolation: Literal["constant", "bilinear"] = "constant",
@@ -161,8 +153,7 @@ class GridLoad:
         units: variable → unit where there is none; else SI, as all bare numbers.
         Raises InputError if pressure or a coordinate is missing, or the coordinates are not evenly spaced.
         """
-        data = dataset if isinstance(dataset, xr.Dataset) else dataset.dataset
-        return cls._of(measured.of_dataset(data, units=units), interpolation)
+        return cls._of(measured.of_dataset(dataset_of(dataset), units=units), interpolation)
 
     @classmethod
     def _of(
@@ -327,7 +318,7 @@ class UniformRectangle:
         return GridLoad(grid, self.pressure * one, self.traction_x * one, self.traction_y * one)
 
 
-Load = GridLoad | UniformDisc | UniformRectangle | HasDataset | xr.Dataset
+Load = GridLoad | UniformDisc | UniformRectangle | Source
 PlacedLoad = GridLoad | UniformDisc | UniformRectangle
 SurfaceLoad = GridLoad | UniformDisc
 
@@ -363,10 +354,8 @@ def _check_move(x: float, y: float) -> None:
 def _load(item: Load) -> PlacedLoad:
     if isinstance(item, (GridLoad, UniformDisc, UniformRectangle)):
         return item
-    if isinstance(item, xr.Dataset):
+    if isinstance(item, xr.Dataset | HasDataset):
         return GridLoad.from_dataset(item)
-    if isinstance(item, HasDataset):
-        return GridLoad.from_dataset(item.dataset)
     raise InputError(f"a load must be a contact, a dataset or a GridLoad, got {_kind(item)}")
 
 

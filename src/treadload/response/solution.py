@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from treadload.accessors import offered
+from treadload.composing import BaseResult
 from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
@@ -17,7 +17,7 @@ from treadload.response.loads import PlacedLoad
 
 
 @dataclass(frozen=True, eq=False)
-class Response:
+class Response(BaseResult, group="response"):
     """Stress and strain in a road.
 
     dataset: fields (depth, y, x), or (depth, point) of a list of points, with the names of `treadload.variables`;
@@ -26,7 +26,8 @@ class Response:
     "none" without load).
     warnings: sentences for the user.
     loads, road, speed, side: the question, so that more can be asked of the same road; no road for fields that
-    come from elsewhere.
+    come from elsewhere. restrained: stress that was added to both horizontal normal stresses, Pa, one a depth; empty
+    where none was, see `add_thermal_stress`.
     """
 
     dataset: xr.Dataset
@@ -36,11 +37,19 @@ class Response:
     road: Pavement | None = None
     speed: float | None = None
     side: Literal["above", "below"] = "above"
+    restrained: tuple[float, ...] = ()
 
     @property
-    def plot(self) -> Any:
-        """Figures of this response: see treadload.plots.ResponsePlots."""
-        return offered("plot", self)
+    def group_name(self) -> str:
+        """What its points are: a map, a section along or across travel, a line of the surface, a list."""
+        size = self.dataset.sizes
+        if "point" in size:
+            return "points"
+        if size["depth"] == 1 and size["y"] == 1 and size["x"] > 1:
+            return "bowl"
+        if size["y"] == 1 and size["x"] > 1:
+            return "slice_along"
+        return "slice_across" if size["x"] == 1 and size["y"] > 1 else self.group
 
     def summary(self) -> str:
         """Largest extension at each depth, three-dimensional and in the horizontal plane, with its place."""
@@ -61,9 +70,6 @@ class Response:
             words = angle_in_words(float(plane["in_plane_angle_1"].isel(where)))
             lines.append(f"  horizontal plane:  {_at(plane['in_plane_strain_1'].isel(where), words)}")
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
-
-    def __str__(self) -> str:
-        return self.summary()
 
     __repr__ = first_line
 

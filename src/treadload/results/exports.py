@@ -13,14 +13,16 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from treadload.composing import BaseResult
 from treadload.errors import InputError, how_to_install
 from treadload.files import EXCEL, NETCDF, TABLE, check_suffix, replacing
-from treadload.results.files import save
+from treadload.results.files import save_results
+from treadload.results.tree import ASKED, as_tree
 
 FORMATS = NETCDF | TABLE | EXCEL
 """Suffixes that results can be written with, and what they mean."""
@@ -28,20 +30,6 @@ FORMATS = NETCDF | TABLE | EXCEL
 # Of a sheet of Excel: rows, characters of a cell, characters of a name.
 _MOST_ROWS, _CELL, _NAME = 1_048_576, 32_000, 31
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
-
-
-@runtime_checkable
-class _HasTree(Protocol):
-    def to_tree(self) -> xr.DataTree: ...
-
-
-@runtime_checkable
-class _HasDataset(Protocol):
-    @property
-    def dataset(self) -> xr.Dataset: ...
-
-
-Exportable = xr.DataTree | xr.Dataset | _HasTree | _HasDataset
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,10 +52,10 @@ def write(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> tu
     suffix = check_suffix(path, FORMATS, "results")
     if suffix in TABLE:
         return write_csv(results, path)
-    return (write_excel(results, path) if suffix in EXCEL else save(results, path),)
+    return (write_excel(results, path) if suffix in EXCEL else save_results(results, path),)
 
 
-def write_csv(results: Exportable, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+def write_csv(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...]:
     """Write results as CSV, one table a file, UTF-8, commas between and points in the numbers.
 
     results: a contact, response, verdict, life, the result of a case, a dataset or a tree. path: of the file. Fields
@@ -91,7 +79,7 @@ def write_csv(results: Exportable, path: str | os.PathLike[str]) -> tuple[Path, 
     return tuple(files)
 
 
-def write_excel(results: Exportable, path: str | os.PathLike[str]) -> Path:
+def write_excel(results: Any, path: str | os.PathLike[str]) -> Path:
     """Write results as an Excel workbook, one sheet a table, see `write_csv`.
 
     Returns the path; the file appears whole or not at all. Raises InputError, also where openpyxl is not installed
@@ -122,21 +110,19 @@ def write_excel(results: Exportable, path: str | os.PathLike[str]) -> Path:
     return path
 
 
-def _tables(results: Exportable) -> list[Table]:
-    if isinstance(results, _HasTree) and not isinstance(results, xr.DataTree):
-        results = results.to_tree()
-    elif isinstance(results, _HasDataset) and not isinstance(results, xr.DataTree | xr.Dataset):
+def _tables(results: Any) -> list[Table]:
+    if isinstance(results, BaseResult):
         results = results.dataset
+    elif not isinstance(results, xr.Dataset):
+        results = as_tree(results)
     if isinstance(results, xr.Dataset):
         found = list(_of_group("", results))
-    elif isinstance(results, xr.DataTree):
-        groups = {str(name): node.to_dataset() for name, node in results.children.items()}
+    else:
+        groups = {str(name): node.to_dataset() for name, node in results.children.items() if name != ASKED}
         groups = {name: data for name, data in groups.items() if data.data_vars}
         single = len(groups) == 1
         found = [table for name, data in groups.items() for table in _of_group("" if single else name, data)]
         found += [_about(results)] if found else []
-    else:
-        raise InputError(f"tables are written of results, got {type(results).__name__}; give a contact or a tree")
     if not found:
         raise InputError("there is nothing to write: these results hold no fields")
     return found
@@ -209,7 +195,7 @@ def _unit(field: xr.DataArray) -> str:
 
 def _about(tree: xr.DataTree) -> Table:
     """What the tree and its groups say of themselves: title, case, warnings, versions."""
-    nodes = [("", tree), *((str(name), node) for name, node in tree.children.items())]
+    nodes = [("", tree), *((str(name), node) for name, node in tree.children.items() if name != ASKED)]
     rows = [(group, str(name), str(value)) for group, node in nodes for name, value in node.attrs.items()]
     group, name, value = zip(*rows, strict=True) if rows else ((), (), ())
     return Table("about", {"group": list(group), "name": list(name), "value": list(value)})

@@ -4,32 +4,52 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
+from treadload._version import __version__
 from treadload.errors import InputError
 from treadload.files import NETCDF, check_suffix, read_tree, replacing
+from treadload.results.opened import Results
 from treadload.results.schema import check_tree
+from treadload.results.tree import FORMAT, as_tree
 
 
-def save(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> Path:
+def save_results(results: Any, path: str | os.PathLike[str]) -> Path:
     """Write results as NetCDF-4; the file appears whole or not at all. Tables: `write_csv`, `write_excel`.
 
+    results: whatever verbs give: a result, a list or a mapping of names to results, the result of a case, a tree of
+    `to_tree`, results that were opened. A dataset alone is written as it is.
     Raises InputError if the path cannot be written, or its suffix names another format.
     """
     check_suffix(path, NETCDF, "NetCDF")
+    data = results if isinstance(results, xr.Dataset) else as_tree(results)
     with replacing(path) as temporary:
-        results.to_netcdf(temporary, engine="h5netcdf")
+        data.to_netcdf(temporary, engine="h5netcdf")
     return Path(path)
 
 
-def load(path: str | os.PathLike[str]) -> xr.DataTree:
-    """Read a tree of results into memory. Raises InputError if the file is none of ours, or broken."""
+def open_results(path: str | os.PathLike[str]) -> Results:
+    """Results from a file, read into memory, as the objects that were saved.
+
+    Parts come by their names, `open_results("x.nc").contact.plot.pressure()`, and go into every verb. What no file
+    holds, the mesh of a scan or a function, says so in a sentence when a verb asks for it.
+    Raises InputError if the file is none of ours, broken, or written by a later treadload.
+    """
     path = Path(path)
     if not os.path.isfile(path):
         raise InputError(f"there is no result file {path}; `treadload run case.toml -o {path}` makes one")
     loaded = read_tree(path, "a result in NetCDF-4")
     if "treadload_version" not in loaded.attrs:
         raise InputError(f"{path} is a NetCDF file, but no result of treadload: it lacks treadload_version")
+    written = loaded.attrs.get("results_format", 1)
+    if isinstance(written, bool) or (not isinstance(written, int) and not hasattr(written, "__index__")):
+        raise InputError(f"{path}: the attribute results_format must be a whole number, got {written!r}")
+    if int(written) > FORMAT:
+        raise InputError(
+            f"{path} was written by treadload {loaded.attrs['treadload_version']} in the format {int(written)} of "
+            f"results; this is treadload {__version__}, which reads formats up to {FORMAT}: update it"
+        )
     check_tree(loaded, str(path))
-    return loaded
+    return Results(loaded, str(path))

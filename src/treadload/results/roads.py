@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from treadload.case import Case
+from treadload.case import Case, LifeCase
 from treadload.pavement import BONDED, LayerRow, Pavement, layer_rows
 
 
@@ -26,11 +26,11 @@ def road_in_rows(road: Pavement, case: Case | None = None) -> str:
     return "\n".join(lines)
 
 
-def rows_of(road: Pavement | None, case: Case | None) -> tuple[LayerRow, ...]:
+def rows_of(road: Pavement | None, case: Case | LifeCase | None) -> tuple[LayerRow, ...]:
     """The layers of a road, at the temperatures that the case tells; none of no road."""
     if road is None:
         return ()
-    return layer_rows(road, case.pavement.layer_temperatures() if case is not None else ())
+    return layer_rows(road, case.pavement.layer_temperatures() if isinstance(case, Case) else ())
 
 
 def road_in_words(road: Pavement) -> str:

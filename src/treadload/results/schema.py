@@ -29,7 +29,8 @@ _MOST_LAYERS = 10_000
 
 @dataclass(frozen=True)
 class _Field:
-    """A variable of a group. dims: in any order. finite: "all" of its values, "some", or "any" will do, infinity too.
+    """A variable of a group. dims: in any order. finite: "all" of its values, "some", or "any" will do, infinity too;
+    "none": NaN everywhere will do, infinity not.
 
     codes: it holds whole numbers from 0, this many.
     """
@@ -61,9 +62,12 @@ _CONTACT = _Group(
     {
         **_fields("pressure traction_x traction_y", _MAP, "all"),
         **_fields("state", _MAP, codes=3),
-        **_fields("initial_gap gap slip_x slip_y displacement_x displacement_y displacement_z", _MAP, "some"),
+        **_fields("initial_gap gap displacement_x displacement_y displacement_z", _MAP, "some"),
+        # A wheel that turns on the spot slips by a distance, and has no slip over a speed.
+        **_fields("slip_x slip_y", _MAP, "none"),
         **_fields("friction_coefficient friction_work friction_power flash_temperature", _MAP),
-        **_fields("approach creepage_x creepage_y spin normal_load tractive_force lateral_force", (), "all"),
+        **_fields("approach spin normal_load tractive_force lateral_force", (), "all"),
+        **_fields("creepage_x creepage_y", (), "none"),
         **_fields("aligning_moment pressure_centre_x rolling_resistance_moment friction", ()),
         **_fields("friction_work_total friction_power_total", ()),
     },
@@ -124,11 +128,19 @@ _LIFE = _Group(
         "groups": list,
     },
 )  # fmt: skip
+_SENSITIVITY = _Group(
+    _fields("elasticity", ("input",), "all"),
+    ("elasticity",),
+    {"elasticity": "input"},
+    ("contacts", "responses", "coverage"),
+    {},
+)
 _GROUPS: Mapping[str, _Group] = {
     "contact": _CONTACT,
     **dict.fromkeys(_RESPONSES, _ROAD),
     "damage": _DAMAGE,
     "life": _LIFE,
+    "sensitivity": _SENSITIVITY,
 }
 _OF_A_CRITERION = ("laws", "sources", "doubts", "reads")
 _OF_A_QUANTITY = {"words": str, "shown": str, "factor": float, "harm": str}
@@ -138,12 +150,14 @@ _OF_A_LIFE = ("contacts", "responses", "combinations", "seconds", "interpolation
 def check_tree(tree: xr.DataTree, name: str) -> None:
     """Raise InputError that says what of a tree of results cannot be read. name: of the file or case."""
     _check_root(tree.attrs, name)
-    for group, rules in _GROUPS.items():
-        node = tree.children.get(group)
-        if node is not None and node.data_vars:
-            _check_group(node.to_dataset(), rules, f"{name}: the group /{group}")
-    if "life" in tree.children and tree["life"].data_vars:
-        _check_life(tree["life"].to_dataset(), f"{name}: the group /life")
+    for group, node in tree.children.items():
+        said = node.attrs.get("result", group)
+        kind = said if isinstance(said, str) and said else str(group)
+        where = f"{name}: the group /{group}"
+        if node.data_vars and kind in _GROUPS:
+            _check_group(node.to_dataset(), _GROUPS[kind], where)
+            if kind == "life":
+                _check_life(node.to_dataset(), where)
 
 
 def _check_root(attrs: Mapping[Any, Any], name: str) -> None:
@@ -208,7 +222,8 @@ def _check_field(field: xr.DataArray, rule: _Field, who: str) -> None:
     finite = np.isfinite(values)
     if rule.finite == "all" and not finite.all():
         raise InputError(f"{who} has {int((~finite).sum())} of {values.size} values that are NaN or infinite")
-    if rule.finite == "some" and (np.isinf(values).any() or (values.size and not finite.any())):
+    endless = rule.finite in ("some", "none") and np.isinf(values).any()
+    if endless or (rule.finite == "some" and values.size and not finite.any()):
         raise InputError(f"{who} is infinite somewhere or NaN everywhere")
     if rule.codes and not np.isin(values, np.arange(rule.codes)).all():
         raise InputError(f"{who} has values other than 0 to {rule.codes - 1}")

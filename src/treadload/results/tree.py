@@ -1,4 +1,4 @@
-"""One tree of results with its provenance.
+"""One tree of named results with its provenance, and what they were asked.
 
 Names, units and signs of the variables are said in `variables.py` and explained in
 docs/explanation/conventions.md.
@@ -9,136 +9,215 @@ from __future__ import annotations
 import datetime
 import json
 import platform
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict
 from importlib import metadata
+from typing import Any
 
 import xarray as xr
 
 from treadload._version import __version__
 from treadload.case import Case, LifeCase
+from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Life, Season, Verdict
-from treadload.pavement import LayerRow, Pavement, layer_rows
+from treadload.errors import InputError
+from treadload.pavement import Layer, LayerRow, Pavement, layer_rows
 from treadload.response import GridLoad, Response
 from treadload.results.cite import citations, life_citations
-from treadload.results.dataset import footprint
+from treadload.results.dataset import Fields, Footprint
+from treadload.results.questions import Writer
 from treadload.results.roads import road_in_words, rows_of
+
+FORMAT = 2
+"""Of the files: 1 holds fields, words and the case; 2 also what every result was asked."""
+ASKED = "asked"
+"""Name of the group that holds what the parts were asked."""
+
+Part = BaseResult | GridLoad | xr.Dataset
+
+# Sections through the road would repeat what the map says, each for its own depths.
+_QUIET = ("slice_along", "slice_across", "bowl")
+_NAME = re.compile(r"\w[\w \-+.,=%°()]*(?<! )")
 
 
 def to_tree(
-    parts: Iterable[Contact | GridLoad | Response | Verdict],
+    parts: Any,
     *,
-    case: Case | None = None,
-    road: Pavement | None = None,
-    title: str = "",
-) -> xr.DataTree:
-    """One tree of results: /contact, /response, /slice_along, /slice_across, /bowl, /damage.
-
-    A response on a single row of y becomes /slice_along, on a single column of x /slice_across, on a single line of
-    the surface /bowl, one at a list of points /points. A GridLoad, recorded in place of a contact, becomes /contact.
-    road: at its temperature; left out, that of the contact.
-    The root carries the title, the case as TOML text, the layers of the road as JSON, versions, the date and the
-    citations as JSON.
-    """
-    groups: dict[str, xr.Dataset] = {}
-    contact: Contact | None = None
-    response: Response | None = None
-    for part in parts:
-        if isinstance(part, Contact):
-            contact = part
-            about = {
-                "tire": str(part.tire),
-                "road": road_in_words(part.road),
-                "rolling": str(part.rolling),
-                "stats": json.dumps(dict(part.stats), default=float),
-                "warnings": json.dumps(list(part.warnings)),
-            }
-            groups["contact"] = part.dataset.assign_attrs(about)
-        elif isinstance(part, GridLoad):
-            groups["contact"] = footprint(part, road)
-        elif isinstance(part, Verdict):
-            sentence = part.summary().splitlines()[-1]
-            groups["damage"] = part.dataset.assign_attrs(sentence=sentence)
-        else:
-            name = _response_group(part.dataset)
-            response = part
-            about = {"stats": json.dumps(dict(part.stats), default=float)}
-            if name == "response":
-                # Slices and bowl would say it again for their own depths.
-                about["warnings"] = json.dumps(list(part.warnings), ensure_ascii=False)
-            groups[name] = part.dataset.assign_attrs(about)
-    if road is None and contact is not None:
-        road = contact.road
-    root = {
-        "title": title or (case.title if case is not None else ""),
-        "case": case.to_toml() if case is not None else "",
-        "layers": json.dumps([asdict(row) for row in rows_of(road, case)], ensure_ascii=False),
-        "citations": json.dumps(citations(contact, response, road), ensure_ascii=False),
-        **_provenance(),
-    }
-    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **{f"/{k}": v for k, v in groups.items()}})
-
-
-def life_tree(
-    life: Life,
-    *,
-    case: LifeCase | None = None,
+    case: Case | LifeCase | None = None,
     road: Pavement | None = None,
     season: Season | None = None,
-    sensitivity: xr.Dataset | None = None,
     title: str = "",
+    summary: str = "",
 ) -> xr.DataTree:
-    """The life of a road as a tree with one group, /life.
+    """One tree of named results, ready to be saved, reported, or opened again.
 
-    road: in the season, at its temperatures. sensitivity: elasticities to put beside the life. The root carries what
-    that of `to_tree` does; the group the laws with their sources and doubts, the solves, the summary and warnings.
+    parts: a result or several, of any verb: contacts, responses, verdicts, lives, curves, comparisons; a GridLoad
+    that was recorded in place of a contact; a dataset of fields. A mapping names them, {"free": r1, "braking": r2};
+    else each takes the name of its kind: /contact, /response, /damage, /bonds, /life, /sensitivity, /transient, …,
+    numbered where there are several, /response, /response_2. A response on a single row of y becomes /slice_along, on
+    a single column of x /slice_across, on a single line of the surface /bowl, one at a list of points /points.
+    case: that they answer. road: at its temperature; left out, that of the contact. season: whose temperatures the
+    road has, under a life. summary: of all of them; left out, those of the parts.
+    The root carries the title, the case as TOML text, the layers of the road as JSON, versions, the date and the
+    citations as JSON; the group /asked what every part was asked, for `open_results`.
+    Raises InputError for what is no result, and for a name that no file can hold.
     """
-    about = {
-        "summary": life.summary(),
-        "stats": json.dumps(dict(life.stats), default=float),
-        "warnings": json.dumps(list(life.warnings), ensure_ascii=False),
-        "governing": life.governing,
-    }
-    data = life.dataset.assign_attrs(about)
-    if sensitivity is not None:
-        more = {f"sensitivity_{name}": value for name, value in sensitivity.attrs.items()}
-        data = data.merge(sensitivity.drop_attrs(deep=False)).assign_attrs(data.attrs | more)
-    rows: tuple[LayerRow, ...] = ()
-    if road is not None:
-        warm = None if season is None else season.temperature
-        known = [warm] * len(road.layers) if not isinstance(warm, tuple) else list(warm)
-        rows = layer_rows(road, known)
+    named = dict(named_parts(parts))
+    names = {id(part): name for name, part in named.items()}
+    owner: dict[str, str] = {}
+    queue = list(named)
+    questions: dict[str, Any] = {}
+
+    def name_of(result: BaseResult) -> str:
+        """Of a part inside another, which becomes a part of its own."""
+        if id(result) not in names:
+            name = _free(f"{queue[0]}_{result.group_name}", named)
+            names[id(result)], named[name], owner[name] = name, result, queue[0]
+            queue.append(name)
+        return names[id(result)]
+
+    writer = Writer(name_of)
+    groups: dict[str, xr.Dataset] = {}
+    while queue:
+        part = named[queue[0]]
+        questions[queue[0]] = writer.result(part)
+        groups[queue[0]] = part.dataset.assign_attrs(_about(part, owner.get(queue[0], "")))
+        queue.pop(0)
+    own = [part for name, part in named.items() if name not in owner]
+    contact = _first(own, Contact)
+    life = _first(own, Life)
+    if road is None and contact is not None:
+        road = contact.road
+    rows = rows_of(road, case) if isinstance(case, Case) or season is None else _warm_rows(road, season)
+    used = life_citations(road) if life is not None and contact is None else []
     root = {
         "title": title or (case.title if case is not None else ""),
         "case": case.to_toml() if case is not None else "",
         "layers": json.dumps([asdict(row) for row in rows], ensure_ascii=False),
-        "season": "" if season is None else season.name,
-        "citations": json.dumps(life_citations(road), ensure_ascii=False),
+        **({} if season is None else {"season": season.name}),
+        **({"summary": summary} if summary else {}),
+        "citations": json.dumps(used or citations(contact, _last(own, Response), road), ensure_ascii=False),
         **_provenance(),
     }
-    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), "/life": data})
+    asked = {name: ([f"{name}_{k}" for k in range(one.ndim)], one) for name, one in writer.arrays.items()}
+    groups[ASKED] = xr.Dataset(asked, attrs={"questions": json.dumps(questions, ensure_ascii=False)})
+    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **{f"/{k}": v for k, v in groups.items()}})
 
 
-def _provenance() -> dict[str, str]:
+def as_tree(results: Any) -> xr.DataTree:
+    """A tree of whatever verbs give: a tree, the result of a case, results that were opened, a result or several."""
+    if isinstance(results, xr.DataTree):
+        return results
+    whole = getattr(results, "to_tree", None)
+    if callable(whole):
+        made: xr.DataTree = whole()
+        return made
+    return to_tree(results)
+
+
+def named_parts(parts: Any) -> Iterator[tuple[str, BaseResult]]:
+    """Results by name, each name once. Raises InputError for what is no result and for a wrong name."""
+    taken: dict[str, Any] = {}
+    if isinstance(parts, Mapping) and not isinstance(parts, xr.Dataset):
+        given: list[tuple[str | None, Any]] = [(_checked(name), part) for name, part in parts.items()]
+    elif isinstance(parts, BaseResult | GridLoad | xr.Dataset) or hasattr(parts, "parts"):
+        given = [(None, parts)]
+    elif isinstance(parts, Iterable) and not isinstance(parts, str | bytes):
+        given = [(None, part) for part in parts]
+    else:
+        raise InputError(_no_result(parts))
+    for name, part in given:
+        inner = getattr(part, "parts", None)
+        for inner_name, one in inner.items() if isinstance(inner, Mapping) else [(None, part)]:
+            result = _result(one)
+            wanted = " ".join(text for text in (name, inner_name) if text) or result.group_name
+            found = _free(wanted, taken)
+            taken[found] = result
+            yield found, result
+
+
+def _result(part: Any) -> BaseResult:
+    if isinstance(part, BaseResult):
+        return part
+    if isinstance(part, GridLoad):
+        return Footprint(part)
+    if isinstance(part, xr.Dataset):
+        return Fields(part)
+    raise InputError(_no_result(part))
+
+
+def _no_result(part: Any) -> str:
+    return (
+        f"a tree is made of results of treadload, got {type(part).__name__}; give what a verb such as solve_contact "
+        "returned, a list of such, or a mapping of names to them"
+    )
+
+
+def _checked(name: Any) -> str:
+    if not isinstance(name, str) or not _NAME.fullmatch(name) or name == ASKED:
+        raise InputError(
+            f"a part of results cannot be named {name!r}; begin with a letter or a digit, go on with those, "
+            f"blanks or -+.,=%°(), and leave {ASKED!r} to the file"
+        )
+    return name
+
+
+def _free(name: str, taken: Mapping[str, Any]) -> str:
+    """The name, numbered if it is taken already."""
+    found, number = name, 2
+    while found in taken:
+        found, number = f"{name}_{number}", number + 1
+    return found
+
+
+def _about(part: BaseResult, owner: str) -> dict[str, str]:
+    """What a group says of itself in words, for people and for the report."""
+    kind = part.group_name
+    about = {"result": kind, "stats": json.dumps(dict(part.stats), default=_plain)}
+    if owner:
+        return {**about, "part_of": owner}
+    if kind not in _QUIET:
+        about["warnings"] = json.dumps(list(part.warnings), ensure_ascii=False)
+        about["summary"] = part.summary()
+    if isinstance(part, Contact):
+        about |= {"tire": str(part.tire), "road": road_in_words(part.road), "rolling": str(part.rolling)}
+    elif isinstance(part, Verdict):
+        about["sentence"] = part.summary().splitlines()[-1]
+    elif isinstance(part, Life):
+        about["governing"] = part.governing
+    return about
+
+
+def _plain(value: Any) -> Any:
+    return value.tolist() if hasattr(value, "tolist") else float(value)
+
+
+def _first(parts: list[BaseResult], kind: type[Any]) -> Any:
+    return next((part for part in parts if isinstance(part, kind)), None)
+
+
+def _last(parts: list[BaseResult], kind: type[Any]) -> Any:
+    return _first(parts[::-1], kind)
+
+
+def _warm_rows(road: Pavement | None, season: Season) -> tuple[LayerRow, ...]:
+    if road is None:
+        return ()
+    warm = season.temperature
+    layers: list[Layer] = list(road.layers)
+    return layer_rows(road, list(warm) if isinstance(warm, tuple) else [warm] * len(layers))
+
+
+def _provenance() -> dict[str, Any]:
     return {
         "treadload_version": __version__,
+        "results_format": FORMAT,
         "versions": json.dumps(_versions()),
         "created": datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
         "conventions": "x: travel, y: right, z: down; tension positive; traction: by the tire on the road; SI units",
     }
-
-
-def _response_group(data: xr.Dataset) -> str:
-    if "point" in data.sizes:
-        return "points"
-    if data.sizes["depth"] == 1 and data.sizes["y"] == 1 and data.sizes["x"] > 1:
-        return "bowl"
-    if data.sizes["y"] == 1 and data.sizes["x"] > 1:
-        return "slice_along"
-    if data.sizes["x"] == 1 and data.sizes["y"] > 1:
-        return "slice_across"
-    return "response"
 
 
 def _versions() -> Mapping[str, str]:

@@ -12,6 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from treadload import variables
+from treadload.composing import BaseResult
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criterion import Criterion, interface_number
 from treadload.damage.interface import delaminate, interface_fields, interface_in_words
@@ -56,7 +57,7 @@ def solve_interfaces(
 
 
 @dataclass(frozen=True, eq=False)
-class BondComparison:
+class BondComparison(BaseResult, group="bond_comparison"):
     """The life of a road bonded, parted, and bonded until it parts.
 
     dataset: largest_reading, life_passes, life_years over (state, criterion), states "bonded", "parted" and
@@ -116,9 +117,6 @@ class BondComparison:
                 f"{_years(float(lives.sel(state=BEFORE)))}."
             )
         return "\n".join(lines)
-
-    def __str__(self) -> str:
-        return self.summary()
 
     __repr__ = first_line
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,6 +12,7 @@ import xarray as xr
 
 from treadload.case import Case
 from treadload.case.model import DamagePart
+from treadload.composing import BaseResult
 from treadload.contact import Contact, solve_contact
 from treadload.damage import Verdict, assess
 from treadload.describing import first_line
@@ -20,7 +21,7 @@ from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, Response, solve_response
 from treadload.response.superposition import common_grid
-from treadload.results import road_in_rows, to_tree
+from treadload.results import Footprint, Study, road_in_rows, to_tree
 from treadload.study.two_grids import COARSER, check_two_grids, with_error
 
 Progress = Callable[[str], None]
@@ -36,7 +37,7 @@ _BEHIND, _AHEAD, _STEP = 2.5, 1.5, 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class Result:
+class Result(Study):
     """What a case gave.
 
     road: at its temperature. contact: None if a footprint was recorded, which is then `footprint`. response: maps at
@@ -55,21 +56,25 @@ class Result:
     bowl: Response | None
     verdict: Verdict | None
 
+    @property
+    def parts(self) -> Mapping[str, BaseResult]:
+        """Its results by their names in a tree."""
+        load = Footprint(self.footprint, self.road) if self.footprint is not None else self.contact
+        found = {
+            "contact": load, "response": self.response, "slice_along": self.slice_along,
+            "slice_across": self.slice_across, "bowl": self.bowl, "damage": self.verdict,
+        }  # fmt: skip
+        return {name: part for name, part in found.items() if part is not None}
+
     def to_tree(self) -> xr.DataTree:
         """All results in one tree with provenance, ready to be saved."""
-        parts = [self.contact, self.footprint, self.response, self.slice_along, self.slice_across, self.bowl]
-        found = [part for part in (*parts, self.verdict) if part is not None]
-        return to_tree(found, case=self.case, road=self.road)
+        return to_tree(self.parts, case=self.case, road=self.road, summary=self.summary())
 
     def summary(self) -> str:
         """One screen: contact, road, response, verdict."""
-        load = self.footprint if self.contact is None else self.contact
-        assert load is not None
-        parts = [_footprint_in_words(load) if isinstance(load, GridLoad) else load.summary()]
-        parts += [road_in_rows(self.road, self.case), self.response.summary()]
-        if self.verdict is not None:
-            parts.append(self.verdict.summary())
-        return "\n\n".join(parts)
+        parts = self.parts
+        told = [parts["contact"].summary(), road_in_rows(self.road, self.case), self.response.summary()]
+        return "\n\n".join(told if self.verdict is None else [*told, self.verdict.summary()])
 
     __repr__ = first_line
 
@@ -228,11 +233,3 @@ def _centre(load: GridLoad) -> tuple[float, float]:
     pressure, grid = load.array[0], load.grid
     total = max(float(pressure.sum()), np.finfo(float).tiny)
     return float((pressure * grid.x[None]).sum() / total), float((pressure * grid.y[:, None]).sum() / total)
-
-
-def _footprint_in_words(load: GridLoad) -> str:
-    lines = [
-        f"recorded footprint: {load}",
-        f"tractive force {load.tractive_force / 1e3:z.2f} kN, lateral force {load.lateral_force / 1e3:z.2f} kN",
-    ]
-    return "\n".join(lines + ([f"read from {load.source}"] if load.source else []))

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
 from treadload.case import LifeCase
+from treadload.composing import BaseResult
 from treadload.damage.miner import Life
 from treadload.describing import first_line
 from treadload.pavement import Pavement
-from treadload.results import life_tree
+from treadload.results import Study, to_tree
 from treadload.study.life import solve_life
 from treadload.study.passages import Progress
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 
 
 @dataclass(frozen=True, eq=False)
-class LifeResult:
+class LifeResult(Study):
     """What a case of design gave.
 
     road: whose materials wait for their temperature. sensitivity: None if it was not asked for, or no criterion is
@@ -30,18 +32,17 @@ class LifeResult:
     life: Life
     sensitivity: Sensitivity | None
 
+    @property
+    def parts(self) -> Mapping[str, BaseResult]:
+        """Its results by their names in a tree."""
+        return {"life": self.life} | ({} if self.sensitivity is None else {"sensitivity": self.sensitivity})
+
     def to_tree(self) -> xr.DataTree:
-        """The life in one tree with provenance, ready to be saved."""
-        more = None if self.sensitivity is None else self.sensitivity.dataset
+        """The life in one tree with provenance, ready to be saved; the road in the season that does most damage."""
         shares = self.life.dataset["damage_share"].sel(criterion=self.life.governing).sum("axle_class")
         season = self.life.climate.seasons[int(np.argmax(shares.to_numpy()))]
-        return life_tree(
-            self.life,
-            case=self.case,
-            road=self.road.at_temperature(season.temperature),
-            season=season,
-            sensitivity=more,
-        )
+        road = self.road.at_temperature(season.temperature)
+        return to_tree(self.parts, case=self.case, road=road, season=season, summary=self.summary())
 
     def summary(self) -> str:
         """One screen: life by criterion, the governing one, what it depends on, how much was solved."""

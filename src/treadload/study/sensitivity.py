@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
+from treadload.composing import BaseResult
 from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criterion import Criterion
@@ -37,7 +38,7 @@ Change = Callable[[float], Question]
 
 
 @dataclass(frozen=True, eq=False)
-class Sensitivity:
+class Sensitivity(BaseResult, group="sensitivity"):
     """How the life by the governing criterion follows its inputs.
 
     dataset: elasticity (input), d ln(life in years) / d ln(input), of temperature d ln(life) per °C; first what
@@ -53,6 +54,11 @@ class Sensitivity:
     responses: int
     skipped: tuple[str, ...] = ()
 
+    @property
+    def stats(self) -> dict[str, float]:
+        """How much was solved, and for which share of the damage."""
+        return {"contacts": self.contacts, "responses": self.responses, "coverage": self.coverage}
+
     def summary(self) -> str:
         """The inputs by their weight, and what was solved for them."""
         rows = zip(self.dataset["input"].to_numpy(), self.dataset["elasticity"].to_numpy(), strict=True)
@@ -63,9 +69,6 @@ class Sensitivity:
             f"{100 * self.coverage:.0f} % of the damage"
         )
         return "\n".join([*lines, *(f"not asked: {text}" for text in self.skipped)])
-
-    def __str__(self) -> str:
-        return self.summary()
 
     __repr__ = first_line
 

@@ -11,6 +11,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from treadload import variables
+from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Extension, HorizontalTension, Quantity, VerticalCompression, VerticalShear
 from treadload.describing import first_line
@@ -35,7 +36,7 @@ _MARGIN, _PER_DEPTH, _COARSE = 0.15, 4, 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class UniformComparison:
+class UniformComparison(BaseResult, group="uniform"):
     """Largest strains and stress under a computed contact and under uniform loads of the same force.
 
     dataset: readings over (load, depth), see `treadload.variables`, with the loads' areas and pressures.
@@ -70,9 +71,6 @@ class UniformComparison:
             ]
             lines.append(f"{1e3 * depth:10.0f}  " + "  ".join(f"{cell:>24}" for cell in cells))
         return "\n".join(lines)
-
-    def __str__(self) -> str:
-        return self.summary()
 
     __repr__ = first_line
 

@@ -11,10 +11,11 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import SAME_DEPTH, layers_at, on_interface
-from treadload.plots.kit.plan import MM, Source, fields_of
+from treadload.plots.kit.plan import MM, fields_of
 from treadload.plots.kit.style import INK, MUTED, PAPER, RULE, figure_of, halo, plain
 
 # Depths, mm, this near to each other are one.

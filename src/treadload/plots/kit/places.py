@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import BoolArray
-from treadload.plots.kit.plan import Source, edges, fields_of, plane
+from treadload.plots.kit.plan import edges, fields_of, plane
 
 # Share of the largest pressure below which a cell does not count as touched: transforms leave a little stress.
 _TOUCHED = 5e-3

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -14,6 +14,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap
 from matplotlib.transforms import offset_copy
 
+from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.layers.depths import same_depth
@@ -32,20 +33,9 @@ _OUTSTANDING = 1.3
 _HIGHEST = 0.995
 
 
-class HasDataset(Protocol):
-    """A result that carries its fields in `.dataset`."""
-
-    @property
-    def dataset(self) -> xr.Dataset:
-        """Fields by name."""
-
-
-Source = xr.Dataset | HasDataset
-
-
 def fields_of(source: Source, *names: str) -> xr.Dataset:
     """The dataset of a source; InputError if it lacks one of the variables or a grid."""
-    data = source if isinstance(source, xr.Dataset) else source.dataset
+    data = dataset_of(source)
     if "point" in data.dims:
         count = data.sizes["point"]
         raise InputError(f"a figure needs a grid, the response is one at {count} points; solve_response with x and y")

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 
+from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.layers import Layers, draw_interfaces, hatch_unknown
@@ -19,7 +20,6 @@ from treadload.plots.kit.plan import (
     X_LABEL,
     Y_LABEL,
     Limits,
-    Source,
     edges,
     fields_of,
     mark_peak,

@@ -1,0 +1,109 @@
+"""What all results have in common, so that every verb takes what every verb gives.
+
+A result carries its fields in `.dataset`, says what it found in `.summary()` and what the user should know in
+`.warnings`, how it was solved in `.stats`, and draws itself by `.plot`. Its class names the group that it takes in a
+tree of results; whoever defines a class of results has it written, read back and reported.
+"""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
+
+import xarray as xr
+
+from treadload.accessors import offered, room_of
+from treadload.describing import as_html
+from treadload.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_CLASSES: dict[str, type[BaseResult]] = {}
+
+
+@runtime_checkable
+class HasDataset(Protocol):
+    """A result, or whatever else carries its fields in `.dataset`."""
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Fields by name."""
+
+
+class BaseResult:
+    """Base of all results: one question, one dataset, one summary.
+
+    group: of the class, its name in a tree of results; `group_name` may tell results of one class apart.
+    """
+
+    group: ClassVar[str]
+
+    if TYPE_CHECKING:
+
+        @property
+        def dataset(self) -> xr.Dataset:
+            """Fields by name, with units and long names."""
+            raise NotImplementedError
+
+        @property
+        def stats(self) -> Mapping[str, Any]:
+            """How it was solved: iterations, residuals, seconds."""
+            raise NotImplementedError
+
+        @property
+        def warnings(self) -> tuple[str, ...]:
+            """Sentences for the user."""
+            raise NotImplementedError
+    else:
+        stats = MappingProxyType({})
+        warnings = ()
+
+    def __init_subclass__(cls, *, group: str | None = None, **more: Any) -> None:
+        super().__init_subclass__(**more)
+        if group is not None:
+            cls.group = group
+            _CLASSES[cls.__name__] = cls
+
+    @property
+    def group_name(self) -> str:
+        """Name of this result in a tree, if it is not given another."""
+        return self.group
+
+    @property
+    def plot(self) -> Any:
+        """Figures of this result, see `treadload.plots`."""
+        return offered("plot", self)
+
+    def summary(self) -> str:
+        """A screenful: what was found."""
+        raise NotImplementedError
+
+    def __str__(self) -> str:
+        return self.summary()
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows."""
+        return as_html(type(self).__name__, self.summary(), self.warnings, self.dataset)
+
+
+Source = xr.Dataset | HasDataset
+"""What a verb reads fields from."""
+
+
+def dataset_of(source: Source) -> xr.Dataset:
+    """The fields of a result, or of a dataset. Raises InputError for anything else."""
+    if isinstance(source, xr.Dataset):
+        return source
+    if isinstance(source, HasDataset):
+        return source.dataset
+    raise InputError(
+        f"this takes a result of treadload or its dataset, got {type(source).__name__}; give what a verb such as "
+        "solve_response returned"
+    )
+
+
+def result_classes() -> dict[str, type[BaseResult]]:
+    """All classes of results by name, those of every room."""
+    room_of("result")
+    return dict(_CLASSES)

@@ -1,0 +1,66 @@
+"""What happens over distance or angle: forces, torque and slip of a wheel step by step."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from treadload.composing import Source
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import fields_of
+from treadload.plots.kit.style import CASES, INK, MUTED, headline, open_axes, styled
+
+
+@styled
+def transient_history(transient: Source) -> Figure:
+    """Forces of the road on the tire, and the share of the contact that slips, against the distance rolled.
+
+    transient: a TransientResult or its dataset. Returns the figure. Raises InputError for missing variables.
+    """
+    data = fields_of(transient, "distance", "tractive_force", "lateral_force", "slip_fraction")
+    far = 1e3 * data["distance"].to_numpy()
+    left, right = _panels("distance rolled (mm)")
+    forces = {"along travel": "tractive_force", "to the right": "lateral_force"}
+    for number, (label, name) in enumerate(forces.items()):
+        left.plot(far, 1e-3 * data[name].to_numpy(), color=CASES[number], label=label)
+    left.set_ylabel("force of the road on the tire (kN)")
+    left.legend()
+    headline(left, "Forces")
+    right.plot(far, 100 * data["slip_fraction"].to_numpy(), color=CASES[1])
+    headline(right, "Slip zone")
+    return left.figure  # type: ignore[return-value]
+
+
+@styled
+def turn_history(turn: Source) -> Figure:
+    """Torque that turns a standing wheel, and the share of the contact that slips, against its angle.
+
+    turn: a TurnResult or its dataset. Returns the figure. Raises InputError for missing variables.
+    """
+    data = fields_of(turn, "turn_angle", "steering_torque", "slip_fraction", "sliding_torque")
+    angle, limit = np.degrees(data["turn_angle"].to_numpy()), 1e-3 * float(data["sliding_torque"])
+    left, right = _panels("angle of the wheel (°)")
+    left.plot(angle, 1e-3 * data["steering_torque"].to_numpy(), color=CASES[0])
+    left.axhline(limit, color=INK, ls=":", lw=1)
+    left.annotate(
+        "all slides", (0, limit), (3, 3), xycoords=("axes fraction", "data"), textcoords="offset points", fontsize=8.5
+    )
+    left.set_ylim(None, max(1.12 * limit, left.get_ylim()[1]))
+    left.set_ylabel("steering torque (kN m)")
+    headline(left, "Torque")
+    right.plot(angle, 100 * data["slip_fraction"].to_numpy(), color=CASES[1])
+    headline(right, "Slip zone")
+    return left.figure  # type: ignore[return-value]
+
+
+def _panels(label: str) -> tuple[Axes, Axes]:
+    figure = new_figure(8.6, 3.9)
+    left, right = figure.subplots(1, 2)
+    open_axes(left, right)
+    for ax in (left, right):
+        ax.axhline(0, color=MUTED, lw=0.7)
+        ax.set_xlabel(label)
+    right.set_ylabel("share of the contact that slips (%)")
+    right.set_ylim(0, None)
+    return left, right

@@ -1,0 +1,127 @@
+"""What `.plot` of lives, bonds, curves, comparisons and of fields of any kind offers."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from treadload.accessors import offers
+from treadload.composing import Source, dataset_of
+from treadload.plots.curve import creep_curves
+from treadload.plots.history import transient_history, turn_history
+from treadload.plots.interface import bond_utilisation, bonded_and_parted
+from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
+from treadload.plots.plain import losses, plain_map
+from treadload.plots.uniform import uniform_comparison
+
+
+class _Plots:
+    """Figures of a result, or of its dataset. Each returns a matplotlib Figure."""
+
+    def __init__(self, result: Source) -> None:
+        self._result = result
+
+
+@offers("plot", "Life")
+class LifePlots(_Plots):
+    """Figures of a life."""
+
+    def years(self, *, ax: Axes | None = None) -> Figure:
+        """Years by criterion, with the design life."""
+        return life_years(self._result, ax=ax)
+
+    def damage(self, *, ax: Axes | None = None) -> Figure:
+        """Damage across the wheel path, by criterion."""
+        return life_damage(self._result, ax=ax)
+
+    def shares(self, criterion: str | None = None) -> Figure:
+        """Who does the damage, and when: classes of axles by seasons."""
+        return life_shares(self._result, criterion)
+
+
+@offers("plot", "Sensitivity")
+class SensitivityPlots(_Plots):
+    """Figures of a sensitivity."""
+
+    def inputs(self, *, ax: Axes | None = None, most: int = 10) -> Figure:
+        """Change of the life as each input grows by 5 %."""
+        return life_inputs(self._result, ax=ax, most=most)
+
+
+@offers("plot", "BondVerdict")
+class BondVerdictPlots(_Plots):
+    """Figures of a verdict on bonds."""
+
+    def utilisation(self, *, contact: Source | None = None) -> Figure:
+        """How far the bond of every interface is used up, in plan."""
+        return bond_utilisation(self._result, contact=contact)
+
+
+@offers("plot", "BondComparison")
+class BondComparisonPlots(_Plots):
+    """Figures of a road with its bond and without."""
+
+    def lives(self) -> Figure:
+        """Lives by criterion: bonded, parted, bonded until it parts."""
+        return bonded_and_parted(self._result)
+
+
+@offers("plot", "CreepCurve")
+class CreepCurvePlots(_Plots):
+    """Figures of a creep curve."""
+
+    def forces(self, *, along: str = "") -> Figure:
+        """Force and slip against creepage. along: "x" or "y"; left out, that of the curve."""
+        given = along or str(getattr(self._result, "along", "")) or _direction(dataset_of(self._result))
+        return creep_curves([self._result], [f"along {given}"], along=given)
+
+
+def _direction(data: object) -> str:
+    """Along which the creepage of a curve was prescribed."""
+    values = data["creepage_y"].to_numpy() if "creepage_y" in data else ()  # type: ignore[index, operator]
+    return "y" if len(values) and bool((abs(values - data["creepage"].to_numpy()) < 1e-12).all()) else "x"  # type: ignore[index]
+
+
+@offers("plot", "UniformComparison")
+class UniformPlots(_Plots):
+    """Figures of a contact beside uniform loads."""
+
+    def strains(self) -> Figure:
+        """Largest strains over depth, a line for each load."""
+        return uniform_comparison(self._result)
+
+
+@offers("plot", "TransientResult")
+class TransientPlots(_Plots):
+    """Figures of rolling from rest."""
+
+    def history(self) -> Figure:
+        """Forces and slip against the distance rolled."""
+        return transient_history(self._result)
+
+
+@offers("plot", "TurnResult")
+class TurnPlots(_Plots):
+    """Figures of a turn on the spot."""
+
+    def history(self) -> Figure:
+        """Torque and slip against the angle."""
+        return turn_history(self._result)
+
+
+@offers("plot", "RollingResistance")
+class RollingResistancePlots(_Plots):
+    """Figures of rolling resistance."""
+
+    def losses(self, *, ax: Axes | None = None) -> Figure:
+        """What resists, beside what the materials lose."""
+        return losses(self._result, ax=ax)
+
+
+@offers("plot", "Fields")
+class FieldsPlots(_Plots):
+    """Figures of fields of any kind."""
+
+    def map(self, name: str, *, depth: float | None = None, ax: Axes | None = None) -> Figure:
+        """A variable in plan. depth: m, of fields over several depths; left out, the first."""
+        return plain_map(self._result, name, depth=depth, ax=ax)

@@ -1,0 +1,70 @@
+"""Plain figures of what has none of its own: a variable in plan, a few numbers as bars."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from treadload.composing import Source
+from treadload.errors import InputError
+from treadload.plots.kit.figure import figure_and_axes
+from treadload.plots.kit.plan import Limits, Plan, at_depth, colour_bar, draw_cells, fields_of, plane
+from treadload.plots.kit.style import CASES, headline, measure, sequential, styled, travel_arrow
+
+_LETTERS = 44
+
+
+@styled
+def plain_map(fields: Source, name: str, *, depth: float | None = None, ax: Axes | None = None) -> Figure:
+    """A variable in plan, at true scale, in its own unit.
+
+    fields: a result or its dataset. name: of a variable over (y, x), or (depth, y, x) and the like. depth: m; left
+    out, the first of what it is over besides. Returns the figure. Raises InputError for a variable that is no map.
+    """
+    data = fields_of(fields, name)
+    if not {"x", "y"} <= set(data[name].dims):
+        over = ", ".join(map(str, data[name].dims)) or "no dimension"
+        raise InputError(f"a map is drawn of a variable over y and x, {name} is over {over}")
+    one = data[[name]] if depth is None else at_depth(data[[name]], depth)
+    rest = [dim for dim in one[name].dims if dim not in ("x", "y")]
+    said = [_place(one, str(dim)) for dim in rest]
+    one = one.isel(dict.fromkeys(rest, 0))
+    values, plan = plane(one, name), Plan.of(one)
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    figure, ax = figure_and_axes(ax, 6.4, min(8.0, 1.6 + 4.6 * plan.aspect))
+    scale = Limits(low, high if high > low else low + 1.0)
+    mesh = draw_cells(ax, plan, values, sequential("strain"), scale)
+    unit = str(data[name].attrs.get("units", "")) or "1"
+    colour_bar(mesh, ax, f"{name.replace('_', ' ')} ({'–' if unit == '1' else unit})", scale)
+    travel_arrow(ax)
+    words = str(data[name].attrs.get("long_name", name))
+    headline(ax, words[:1].upper() + words[1:], ", ".join(said), _LETTERS)
+    return figure
+
+
+@styled
+def losses(resistance: Source, *, ax: Axes | None = None) -> Figure:
+    """Bars of the force that resists rolling and of what the materials lose per length, N.
+
+    resistance: a RollingResistance or its dataset. Returns the figure. Raises InputError for missing variables.
+    """
+    data = fields_of(resistance, "rolling_resistance", "material_loss")
+    values = [float(data[name]) for name in ("rolling_resistance", "material_loss")]
+    figure, ax = figure_and_axes(ax, 5.4, 2.2)
+    ax.barh([1, 0], values, height=0.55, color=[CASES[0], CASES[1]])
+    for row, value in zip([1, 0], values, strict=True):
+        ax.annotate(f"{measure(value)} N", (value, row), xytext=(4, 0), textcoords="offset points", va="center")
+    ax.set_yticks([1, 0], ["resists rolling", "lost in the materials"])
+    ax.set_xlim(min(0.0, *values), 1.3 * max(*values, 1e-9))
+    ax.spines[["top", "right", "left"]].set_visible(False)
+    ax.tick_params(axis="y", length=0)
+    ax.set_xlabel("force, or energy per metre (N)")
+    headline(ax, "Rolling resistance", f"{1e3 * float(data['rolling_resistance_coefficient']):.3g} N per kN of load")
+    return figure
+
+
+def _place(data: object, dim: str) -> str:
+    first = data[dim].to_numpy()[0] if dim in data.coords else 0  # type: ignore[index, attr-defined]
+    return f"{1e3 * float(first):g} mm deep" if dim == "depth" else f"{dim} {first}"

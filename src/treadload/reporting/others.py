@@ -1,0 +1,102 @@
+"""Results without a table of their own in a report: their summary, and the figures that their class offers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from treadload.plots import (
+    BondComparisonPlots,
+    BondVerdictPlots,
+    ContactPlots,
+    CreepCurvePlots,
+    FieldsPlots,
+    LifePlots,
+    RollingResistancePlots,
+    SensitivityPlots,
+    TransientPlots,
+    TurnPlots,
+    UniformPlots,
+)
+from treadload.reporting.pictures import Picture, picture
+from treadload.reporting.reading import Other, summary_of
+
+HEADINGS = {
+    "bonds": "Bonds between layers",
+    "bond_comparison": "Road with and without its bond",
+    "creep_curve": "Creep curve",
+    "sensitivity": "What the life depends on",
+    "transient": "Rolling from rest",
+    "turn": "Turn on the spot",
+    "uniform": "Contact and uniform loads",
+    "rolling_resistance": "Rolling resistance",
+    "points": "Response at points",
+    "fields": "Fields",
+}
+
+
+@dataclass(frozen=True)
+class OtherReport:
+    """A result under its heading. text: its summary."""
+
+    heading: str
+    pictures: tuple[Picture, ...]
+    text: str
+
+
+def other_report(other: Other) -> OtherReport:
+    """What a report says of a result without a table."""
+    named = HEADINGS.get(other.kind, other.kind.replace("_", " "))
+    heading = named if other.name == other.kind else f"{named}: {other.name}"
+    return OtherReport(heading, tuple(_pictures(other)), summary_of(other.dataset))
+
+
+def _pictures(other: Other) -> list[Picture]:
+    data, inside = other.dataset, other.inside
+    match other.kind:
+        case "bonds":
+            caption = "Share of the strength that the load uses up; arrows: shear of the upper layer on the lower."
+            return picture("How far the bonds are used up", caption, BondVerdictPlots(data).utilisation, wide=True)
+        case "bond_comparison":
+            caption = "Life by every criterion with the bond, without it, and with it until it parts."
+            return picture("Life with and without the bond", caption, BondComparisonPlots(data).lives, wide=True)
+        case "creep_curve":
+            caption = "Force over friction times load, and the share of the contact that slips, against creepage."
+            return picture("Force against creepage", caption, CreepCurvePlots(data).forces, wide=True)
+        case "sensitivity":
+            caption = "Change of the governing life as each input grows by 5 %, temperature by 1 °C."
+            return picture("What the life depends on", caption, SensitivityPlots(data).inputs)
+        case "uniform":
+            caption = (
+                "Largest strains at every depth under the computed contact and under uniform loads of its force."
+            )
+            return picture("What uniform loads do not see", caption, UniformPlots(data).strains, wide=True)
+        case "rolling_resistance":
+            caption = "The force that resists, and the energy that the materials lose per metre."
+            return picture("Rolling resistance", caption, RollingResistancePlots(data).losses)
+        case "life":
+            return picture("Life by criterion", "Years until the damage is 1.", LifePlots(data).years)
+        case "transient" | "turn":
+            plots = TransientPlots(data) if other.kind == "transient" else TurnPlots(data)
+            what = "distance" if other.kind == "transient" else "angle"
+            drawn = picture(
+                f"Against the {what}", "Forces, and the share of the contact that slips.", plots.history, wide=True
+            )
+            if "contact" in inside:
+                at_end = ContactPlots(inside["contact"])
+                drawn += picture("Shear at the end", "Shear in plan; hatched cells slip.", at_end.shear, wide=True)
+            return drawn
+        case "fields":
+            maps = [str(name) for name, field in data.data_vars.items() if {"x", "y"} <= set(field.dims)][:_MOST]
+            return [
+                one
+                for name in maps
+                for one in picture(_long(data, name), "In plan.", lambda name=name: FieldsPlots(data).map(name))  # type: ignore[misc]
+            ]
+    return []
+
+
+_MOST = 6
+
+
+def _long(data: object, name: str) -> str:
+    return name.replace("_", " ")

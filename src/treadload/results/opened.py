@@ -1,0 +1,160 @@
+"""Results from a file as the objects they were: parts by name, each ready for the next verb."""
+
+from __future__ import annotations
+
+import functools
+import json
+import tomllib
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import Any
+
+import xarray as xr
+
+from treadload.case import Case, LifeCase
+from treadload.composing import BaseResult
+from treadload.errors import InputError
+from treadload.pavement import Pavement
+from treadload.results.dataset import Fields
+from treadload.results.earlier import from_case
+from treadload.results.questions import Reader
+from treadload.results.study import Study
+from treadload.results.tree import ASKED
+
+# Names that people say for a group.
+_ALSO = {"verdict": "damage", "bond_verdict": "bonds", "slice": "slice_along", "footprint": "contact"}
+
+
+class Results(Study):
+    """Named results, such as `open_results` reads from a file.
+
+    Each part is the object that a verb returned, by its name: `results.contact`, `results["response_2"]`; `in`, `len`
+    and iteration go over the names. A part is made when it is first asked for. tree: that they come from, as xarray
+    sees it. where: the file, for errors.
+    """
+
+    def __init__(self, tree: xr.DataTree, where: str = "these results") -> None:
+        self.tree, self._where = tree, where
+        self._made: dict[str, BaseResult] = {}
+        self._making: list[str] = []
+
+    @property
+    def parts(self) -> Mapping[str, BaseResult]:
+        """All parts by name, without those inside others."""
+        return MappingProxyType({name: self[name] for name in self})
+
+    def __iter__(self) -> Iterator[str]:
+        if self.tree.data_vars:
+            yield Fields.group
+        for name, node in self.tree.children.items():
+            if name != ASKED and not node.attrs.get("part_of") and node.data_vars:
+                yield str(name)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __contains__(self, name: object) -> bool:
+        return _ALSO.get(str(name), name) in list(self) or name in list(self)
+
+    def __getitem__(self, name: str) -> BaseResult:
+        """The part of this name, also one inside another. Raises InputError if there is none or it cannot be made."""
+        held = {**dict.fromkeys(self.tree.children), **dict.fromkeys(self)}
+        found = name if name in held else _ALSO.get(name, name)
+        if found not in held or found == ASKED:
+            raise InputError(f"{self._where} has no part {name!r}; it holds {', '.join(self) or 'none'}")
+        if found not in self._made:
+            if found in self._making:
+                raise InputError(f"{self._where}: the part {found!r} is asked with itself")
+            self._making.append(found)
+            try:
+                self._made[found] = self._make(found)
+            finally:
+                self._making.pop()
+        return self._made[found]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            there = name in self or name in self.tree.children
+        except RecursionError:  # before __init__ ran, as a copy does
+            raise AttributeError(name) from None
+        if not there:
+            raise AttributeError(f"these results have no part {name!r}; they hold {', '.join(self) or 'none'}")
+        return self[name]
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self, *(also for also, name in _ALSO.items() if name in list(self))})
+
+    def _make(self, name: str) -> BaseResult:
+        if name == Fields.group and self.tree.data_vars:
+            return Fields(self.tree.to_dataset())
+        data = self.tree[name].to_dataset()
+        questions = self._questions
+        if name in questions:
+            return self._reader.result(questions[name], data)
+        return from_case(name, data, self)
+
+    @functools.cached_property
+    def _questions(self) -> Mapping[str, Any]:
+        if ASKED not in self.tree.children:
+            return {}
+        told = self.tree[ASKED].attrs.get("questions", "{}")
+        try:
+            found = json.loads(told) if isinstance(told, str) else None
+        except (ValueError, RecursionError):
+            found = None
+        if not isinstance(found, dict):
+            raise InputError(f"{self._where}: what its results were asked cannot be read; compute them anew")
+        return found
+
+    @functools.cached_property
+    def _reader(self) -> Reader:
+        held = self.tree[ASKED].data_vars
+        return Reader({str(name): one.to_numpy() for name, one in held.items()}, self._part, self._where)
+
+    def _part(self, name: Any) -> BaseResult:
+        return self[str(name)]
+
+    @property
+    def title(self) -> str:
+        """Heading of the results; empty if they have none."""
+        return str(self.tree.attrs.get("title", ""))
+
+    @property
+    def where(self) -> str:
+        """The file, for errors."""
+        return self._where
+
+    @functools.cached_property
+    def case(self) -> Case | LifeCase | None:
+        """The case that they answer, whose tire and road can be built again; None without one."""
+        text = str(self.tree.attrs.get("case", ""))
+        if not text:
+            return None
+        kind = LifeCase if "traffic" in tomllib.loads(text) else Case
+        return kind.from_text(text, name=f"{self._where}: its case")
+
+    @property
+    def road(self) -> Pavement:
+        """The road at its temperature, of the contact, the response or the case. Raises InputError if none tells."""
+        for name in self:
+            road = getattr(self[name], "road", None)
+            if isinstance(road, Pavement):
+                return road
+        if self.case is None:
+            raise InputError(f"{self._where} does not tell its road; give it anew, Pavement([...])")
+        return self.case.pavement.build() if isinstance(self.case, Case) else self.case.build_road()
+
+    def to_tree(self) -> xr.DataTree:
+        """The tree that they come from."""
+        return self.tree
+
+    def summary(self) -> str:
+        """What was found: as the study told it, else part by part."""
+        whole = self.tree.attrs.get("summary")
+        return str(whole) if whole else "\n\n".join(self[name].summary() for name in self)
+
+    def __repr__(self) -> str:
+        said = f" {self.title!r}:" if self.title else ""
+        return f"<Results{said} {', '.join(self) or 'no part'}>"

@@ -1,0 +1,294 @@
+"""What results were asked, as JSON text and arrays, and back as the objects they were.
+
+Descriptions are frozen dataclasses: their fields tell all of them. A file is read without trust: it can name classes
+of this package, and those that an installed package declares as entry points, and every number passes the checks of
+its class. What a file cannot hold, a scan's mesh or a function, comes back as something that says so when it is used.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from importlib import metadata
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload.case import Case, LifeCase
+from treadload.composing import BaseResult, result_classes
+from treadload.errors import InputError, one_line
+from treadload.registry import load_point
+from treadload.tire import Tire
+from treadload.tire.recorded import RecordedSurface
+from treadload.tire.surface import Surface
+
+_OURS = "treadload"
+# At which functions of temperature are read, °C.
+_DEGREES = range(-30, 71)
+_GROUPS = "treadload."
+_CASES: Mapping[str, type[Case] | type[LifeCase]] = {"Case": Case, "LifeCase": LifeCase}
+
+
+@dataclass(frozen=True)
+class Tabulated:
+    """A function of temperature that a result was asked with, where it was read: a file holds no code.
+
+    words: its name. temperatures: °C. values: what it gave there, a number or a law.
+    """
+
+    words: str
+    temperatures: tuple[float, ...] = ()
+    values: tuple[Any, ...] = ()
+
+    def __call__(self, temperature: Any = math.nan) -> Any:
+        """What it gave at a temperature, °C. Raises InputError for one at which it was not read."""
+        if temperature in self.temperatures:
+            return self.values[self.temperatures.index(temperature)]
+        known = f", which was read at whole degrees of {min(self.temperatures):g} to {max(self.temperatures):g} °C"
+        raise InputError(
+            f"{self.words} is a function{known if self.temperatures else ''}, and no file of results holds code; "
+            "give it anew"
+        )
+
+    @classmethod
+    def of(cls, function: Any) -> Tabulated:
+        """A function as a table, empty where it is none of temperature."""
+        words = str(getattr(function, "__qualname__", type(function).__name__))
+        found = {}
+        for temperature in _DEGREES:
+            try:
+                found[float(temperature)] = function(float(temperature))
+            # Whatever a function outside its range or of something else raises: it is not known there.
+            except Exception:
+                continue
+        return cls(words, tuple(found), tuple(found.values()))
+
+    def __str__(self) -> str:
+        return self.words
+
+
+@dataclass(eq=False)
+class Writer:
+    """Turns objects into what JSON holds. arrays: met on the way, by name, equal ones once.
+
+    name_of: gives a part of the same tree its name.
+    """
+
+    name_of: Callable[[BaseResult], str]
+    arrays: dict[str, np.ndarray] = field(default_factory=dict)
+    _names: dict[tuple[Any, ...], str] = field(default_factory=dict)
+
+    def result(self, result: BaseResult) -> dict[str, Any]:
+        """The question of a result: all its fields but the dataset, whose attributes are kept as they are."""
+        told = {one.name: getattr(result, one.name) for one in _fields(result) if one.name != "dataset"}
+        return {
+            "is": type(result).__name__,
+            "with": {name: self.value(value) for name, value in told.items()},
+            "attrs": self.value(dict(result.dataset.attrs)),
+        }
+
+    def value(self, value: Any) -> Any:
+        """A value as JSON can hold it."""
+        if value is None or (isinstance(value, bool | str | int) and type(value).__module__ == "builtins"):
+            return value
+        if isinstance(value, np.generic):
+            return self.value(value.item())
+        if isinstance(value, float):
+            return value if math.isfinite(value) else {"number": repr(value)}
+        if isinstance(value, list):
+            return [self.value(one) for one in value]
+        if isinstance(value, tuple):
+            return {"tuple": [self.value(one) for one in value]}
+        if isinstance(value, Mapping | MappingProxyType):
+            return {"table": [[self.value(key), self.value(one)] for key, one in value.items()]}
+        if isinstance(value, np.ndarray):
+            return {"array": self._array(value)}
+        if isinstance(value, xr.DataArray):
+            return {"fields": {key: self.value(one) for key, one in _parts_of(value).items()}}
+        if isinstance(value, BaseResult):
+            return {"part": self.name_of(value)}
+        if isinstance(value, Case | LifeCase):
+            return {"case": value.to_toml(), "of": type(value).__name__}
+        # A tire can all that its surface can.
+        scanned = isinstance(value, Surface) and not isinstance(value, Tire | RecordedSurface)
+        if scanned and value.quality is not None:
+            own = {name: getattr(value, name) for name in ("camber", "outer_radius") if hasattr(value, name)}
+            value = RecordedSurface(str(value), value.extent, value.quality, **own)
+        if dataclasses.is_dataclass(value) and not isinstance(value, type):
+            told = {one.name: self.value(getattr(value, one.name)) for one in _fields(value)}
+            return {"is": _name_of(type(value)), "with": told}
+        if callable(value):
+            return self.value(Tabulated.of(value))
+        raise InputError(f"no file of results can hold {type(value).__name__}, which one was asked with")
+
+    def _array(self, values: np.ndarray) -> str:
+        key = (values.shape, values.dtype.str, np.ascontiguousarray(values).tobytes())
+        if key not in self._names:
+            self._names[key] = f"array_{len(self._names)}"
+            self.arrays[self._names[key]] = values
+        return self._names[key]
+
+
+@dataclass(frozen=True, eq=False)
+class Reader:
+    """Turns what JSON holds into objects. arrays: by name. part: gives a part of the same tree. where: for errors."""
+
+    arrays: Mapping[str, np.ndarray]
+    part: Callable[[str], Any]
+    where: str
+
+    def result(self, told: Any, dataset: xr.Dataset) -> BaseResult:
+        """The result that was asked this, with its dataset. Raises InputError."""
+        kinds = result_classes()
+        try:
+            kind = kinds[told["is"]]
+            given = {str(name): self.value(one) for name, one in told["with"].items()}
+            attrs = self.value(told["attrs"])
+        except (KeyError, TypeError, AttributeError) as error:
+            raise InputError(f"{self.where}: what the result was asked cannot be read: {_said(error)}") from error
+        if any(one.name == "dataset" for one in dataclasses.fields(kind)):  # type: ignore[arg-type]
+            given["dataset"] = dataset.drop_attrs(deep=False).assign_attrs(attrs)
+        return self._made(kind, given)  # type: ignore[no-any-return]
+
+    def value(self, told: Any) -> Any:
+        """The value that `Writer.value` wrote. Raises InputError."""
+        if isinstance(told, list):
+            return [self.value(one) for one in told]
+        if not isinstance(told, dict):
+            return told
+        if "is" in told:
+            given = {str(name): self.value(one) for name, one in _table(told.get("with")).items()}
+            return self._made(self._class(told["is"]), given)
+        for kind, read in _KINDS.items():
+            if kind in told:
+                return read(self, told[kind], told)
+        raise InputError(f"{self.where}: {_cut(told)} is nothing that a result can be asked with")
+
+    def array(self, name: Any, _: Any = None) -> np.ndarray:
+        """A copy of an array by its name."""
+        if not isinstance(name, str) or name not in self.arrays:
+            raise InputError(f"{self.where}: the array {_cut(name)} of a question is not there")
+        return self.arrays[name].copy()
+
+    @functools.cached_property
+    def _known(self) -> dict[str, type[Any]]:
+        return _described()
+
+    def _class(self, name: Any) -> type[Any]:
+        if isinstance(name, str) and name in self._known:
+            return self._known[name]
+        groups = [group for group in metadata.entry_points().groups if group.startswith(_GROUPS)]
+        for point in (point for group in groups for point in metadata.entry_points(group=group)):
+            if point.value == name:
+                made: type[Any] = load_point(point)
+                return made
+        raise InputError(
+            f"{self.where}: {_cut(name)} is nothing that this treadload describes; install the package that brings it"
+        )
+
+    def _made(self, kind: type[Any], given: dict[str, Any]) -> Any:
+        try:
+            return kind(**given)
+        except InputError as error:
+            raise InputError(f"{self.where}: {error}") from error
+        except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
+            raise InputError(
+                f"{self.where}: no {kind.__name__} can be made of what it holds: {_said(error)}"
+            ) from error
+
+
+def _number(reader: Reader, told: Any, _: Any) -> float:
+    if told not in ("nan", "inf", "-inf"):
+        raise InputError(f"{reader.where}: {_cut(told)} is no number")
+    return float(told)
+
+
+def _tuple(reader: Reader, told: Any, _: Any) -> tuple[Any, ...]:
+    return tuple(reader.value(one) for one in _list(reader, told))
+
+
+def _pairs(reader: Reader, told: Any, _: Any) -> dict[Any, Any]:
+    pairs = [_list(reader, pair) for pair in _list(reader, told)]
+    if any(len(pair) != 2 or not isinstance(pair[0], str | int | float) for pair in pairs):
+        raise InputError(f"{reader.where}: {_cut(told)} is no table")
+    return {key: reader.value(one) for key, one in pairs}
+
+
+def _fields_back(reader: Reader, told: Any, _: Any) -> xr.DataArray:
+    parts = {key: reader.value(one) for key, one in _table(told).items()}
+    try:
+        return xr.DataArray(**parts)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{reader.where}: a field of a question cannot be read: {_said(error)}") from error
+
+
+def _case(reader: Reader, told: Any, whole: Any) -> Case | LifeCase:
+    kind = _CASES.get(whole.get("of"), Case)
+    return kind.from_text(str(told), name=f"{reader.where}: the case")
+
+
+_KINDS: Mapping[str, Callable[[Reader, Any, Any], Any]] = {
+    "number": _number,
+    "tuple": _tuple,
+    "table": _pairs,
+    "array": Reader.array,
+    "fields": _fields_back,
+    "part": lambda reader, told, _: reader.part(told),
+    "case": _case,
+}
+
+
+def _fields(thing: Any) -> list[dataclasses.Field[Any]]:
+    return [one for one in dataclasses.fields(thing) if one.init]
+
+
+def _parts_of(array: xr.DataArray) -> dict[str, Any]:
+    coords = {str(name): (one.dims, one.to_numpy(), dict(one.attrs)) for name, one in array.coords.items()}
+    return {
+        "data": array.to_numpy(), "coords": coords, "dims": array.dims, "name": array.name,
+        "attrs": dict(array.attrs),
+    }  # fmt: skip
+
+
+def _name_of(kind: type[Any]) -> str:
+    """Name of a class in a file: its own, so that it may move between our rooms; of others where it is found."""
+    if kind.__module__.partition(".")[0] == _OURS:
+        return kind.__name__
+    return f"{kind.__module__}:{kind.__qualname__}"
+
+
+def _described() -> dict[str, type[Any]]:
+    """Dataclasses of this package by name: what describes a tire, a road, a law."""
+    found: dict[str, type[Any]] = {}
+    for name, module in list(sys.modules.items()):
+        if name.partition(".")[0] != _OURS:
+            continue
+        own = [one for one in list(vars(module).values()) if isinstance(one, type) and one.__module__ == name]
+        for one in own:
+            if dataclasses.is_dataclass(one) and not issubclass(one, BaseResult):
+                found.setdefault(one.__name__, one)
+    return found
+
+
+def _list(reader: Reader, told: Any) -> list[Any]:
+    if not isinstance(told, list):
+        raise InputError(f"{reader.where}: {_cut(told)} is no list")
+    return told
+
+
+def _table(told: Any) -> dict[Any, Any]:
+    return told if isinstance(told, dict) else {}
+
+
+def _cut(told: Any) -> str:
+    return repr(told)[:60]
+
+
+def _said(error: Exception) -> str:
+    return one_line(f"{type(error).__name__}: {error}")[:120]

@@ -1,0 +1,389 @@
+"""What is saved opens again as the objects that it was, and as nothing less."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import treadload as tl
+from cases import COARSE_CASE
+from treadload.case import Case
+from treadload.composing import BaseResult, result_classes
+from treadload.damage import Climate, Traffic, Wander
+from treadload.damage.criterion import Criterion
+from treadload.damage.miner import miner
+from treadload.results import Fields, Footprint, as_tree
+from treadload.study.two_grids import with_error
+
+RUBBER = tl.Elastic(3e6, 0.5)
+ROAD = tl.Pavement([tl.Layer(tl.Elastic(5.4e9, 0.35), 0.08, name="asphalt"), tl.Layer(tl.Elastic(2e8, 0.35))])
+WHEEL = tl.Rolling(normal_load=300, tractive_force=50, friction=0.7)
+LINE = tl.FatigueLine(epsilon_6=120e-6, slope=-0.2)
+CELL = 5e-3
+AT = np.linspace(-0.05, 0.05, 9)
+ACROSS = (np.arange(24) - 11.5) * CELL
+TIRE = tl.Tire.from_height_map(ACROSS[None, :] ** 2 + ACROSS[:, None] ** 2, CELL, material=RUBBER, name="a ball")
+
+
+def contact(**changed):
+    return tl.solve_contact(TIRE, ROAD, replace(WHEEL, **changed))
+
+
+def response():
+    return tl.solve_response(contact(), ROAD, depths=[0.0, 0.08], x=AT, y=AT)
+
+
+def bonds():
+    strength = tl.damage.InterfaceStrength(cohesion=3e5, friction_angle=0.6, doubt="made up")
+    fields = tl.study.solve_interfaces(contact(), ROAD, x=AT, y=AT)
+    return tl.damage.assess_bonds(fields, strength, tl.damage.ShearFatigue(slope=-0.2))
+
+
+def life():
+    y = np.linspace(-0.4, 0.4, 81)
+    peaks = np.array([[[150e-6, 80e-6], [100e-6, 60e-6]], [[300e-6, 250e-6], [200e-6, 150e-6]]])
+    classes = (tl.damage.AxleClass("light", 0.7, 20e3, 7e5), tl.damage.AxleClass("heavy", 0.3, 35e3, 8e5, tire=TIRE))
+    traffic = Traffic(classes, 1e5, 0.02, wander=Wander.normal(0.2), years=20.0)
+    criteria = (Criterion("top", LINE, 0, "top"), Criterion("base", tl.damage.ShellFatigue(5e9), 1))
+    values = peaks[..., None] * np.exp(-0.5 * (y / 0.1) ** 2)
+    return miner(values, criteria, traffic, Climate.equal_parts([5.0, 25.0], ["cold", "warm"]), y=y)
+
+
+def bond_comparison():
+    before = life()
+    dims = ("state", "criterion")
+    data = xr.Dataset(
+        {
+            "largest_reading": (dims, np.full((3, 2), 1e-4)), "life_passes": (dims, [[1e6, 2e6]] * 3),
+            "life_years": (dims, [[3.0, math.inf]] * 3), "parting_passes": 1e5, "parting_years": 0.5,
+        },
+        {"state": ["bonded", "parted", "bonded, then parted"], "criterion": ["top", "base"]},
+        {"interface": 0, "between": "asphalt / base", "bond": "frictionless", "parts": "none"},
+    )  # fmt: skip
+    return tl.study.BondComparison(data, before, life(), 0, tl.FRICTIONLESS, "top")
+
+
+def sensitivity():
+    data = xr.Dataset(
+        {"elasticity": ("input", [3.0, -0.05], {"units": "1"})},
+        {"input": ["thickness of base", "temperature (per °C)"]},
+        {"criterion": "top", "coverage": 0.9, "contacts": 3, "responses": 4},
+    )
+    return tl.study.Sensitivity(data, "top", 0.9, 3, 4, ("friction: it has none",))
+
+
+def footprint():
+    pressure = np.zeros((4, 5))
+    pressure[1:3, 1:4] = 7e5
+    return Footprint(tl.GridLoad.from_arrays(pressure, 0.1 * pressure, spacing=0.02), ROAD)
+
+
+def viscoelastic_tire():
+    rubber = tl.materials.Prony.standard_linear_solid(4e6, 3e6, 0.01, 0.5)
+    tire = replace(TIRE, material=rubber)
+    rolling = tl.Rolling(normal_load=300, friction=0.7, speed=10.0)
+    return tl.contact.rolling_resistance(
+        tl.solve_contact(tire, tl.Pavement.half_space(tl.Elastic(5e9, 0.35)), rolling), 0.5
+    )
+
+
+MADE = {
+    "Contact": contact,
+    "Response": response,
+    "Verdict": lambda: with_error(tl.assess(response(), LINE), tl.assess(response(), LINE), CELL),
+    "BondVerdict": bonds,
+    "Life": life,
+    "TransientResult": lambda: tl.solve_transient(
+        TIRE,
+        ROAD,
+        tl.Rolling(normal_load=300, creepage_x=-0.01, friction=0.7),
+        distances=[CELL, 2 * CELL],
+        fields=True,
+    ),
+    "TurnResult": lambda: tl.contact.turn_on_the_spot(
+        TIRE, ROAD, tl.Rolling(normal_load=300, friction=0.7), angles=[0.005, 0.01], pivot=(0.0, 0.0)
+    ),
+    "CreepCurve": lambda: tl.contact.creep_curve(
+        TIRE, ROAD, tl.Rolling(normal_load=300, friction=0.7), [-0.02, 0.01, -0.01]
+    ),
+    "BondComparison": bond_comparison,
+    "Sensitivity": sensitivity,
+    "UniformComparison": lambda: tl.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
+    "RollingResistance": viscoelastic_tire,
+    "Footprint": footprint,
+    "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
+}
+FIGURES = {
+    "Contact": "pressure", "Response": "strain_directions", "Verdict": "passes", "BondVerdict": "utilisation",
+    "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
+    "BondComparison": "lives", "Sensitivity": "inputs", "UniformComparison": "strains", "RollingResistance": "losses",
+    "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=sorted(MADE))
+def saved(request, tmp_path_factory):
+    result = MADE[request.param]()
+    path = tl.save_results(result, tmp_path_factory.mktemp("results") / "x.nc")
+    return result, tl.open_results(path)
+
+
+def test_no_class_of_results_is_missing_here():
+    known = result_classes()
+    assert set(known) == set(MADE) == set(FIGURES)
+
+    def below(kind):
+        return {one for each in kind.__subclasses__() for one in (each, *below(each))}
+
+    # Whatever says that it is a result has a name in a tree.
+    assert {one.__name__ for one in below(BaseResult) if one.__module__.startswith("treadload")} == set(known)
+
+
+def test_every_result_opens_as_what_it_was(saved):
+    result, opened = saved
+    (name,) = opened
+    back = opened[name]
+    assert name == result.group_name
+    assert type(back) is type(result)
+    xr.testing.assert_identical(back.dataset, result.dataset)
+    assert list(back.dataset.attrs) == list(result.dataset.attrs)
+    assert back.warnings == result.warnings
+    assert dict(back.stats) == dict(result.stats)
+    assert back.summary() == result.summary()
+    assert repr(back) == repr(result)
+    assert str(back) == result.summary()
+
+
+def test_every_result_draws_itself_also_from_a_file(saved):
+    result, opened = saved
+    figure = FIGURES[type(result).__name__]
+    for one in (result, next(iter(opened.parts.values()))):
+        drawn = figure(one.plot) if callable(figure) else getattr(one.plot, figure)()
+        assert drawn.axes
+
+
+def test_every_result_shows_itself_in_a_notebook(saved):
+    result, _ = saved
+    page = result._repr_html_()
+    assert page.count("<details>") >= 2
+    assert type(result).__name__ in page
+
+
+def test_every_result_is_reported(saved, tmp_path):
+    result, opened = saved
+    page = tl.report(result, tmp_path / "r.html").read_text()
+    assert "could not be drawn" not in page
+    for text in result.warnings:
+        assert text.replace("'", "&#39;") in page or text in page
+    again = tl.report(opened, tmp_path / "again.html").read_text()
+    assert page.count("<figure") == again.count("<figure") > 0
+
+
+def test_every_result_is_written_as_tables(saved, tmp_path):
+    result, opened = saved
+    assert tl.results.write_csv(result, tmp_path / "t.csv")
+    for file in tl.results.write_csv(opened, tmp_path / "u.csv"):
+        assert "asked" not in file.name
+        assert '"questions"' not in file.read_text()
+
+
+def test_what_is_opened_goes_into_every_verb(tmp_path):
+    asked = contact()
+    first = tl.solve_response(asked, ROAD, depths=[0.0, 0.08], x=AT, y=AT)
+    opened = tl.open_results(tl.save_results([asked, first], tmp_path / "x.nc"))
+    assert opened.contact.tire == TIRE
+    assert opened.contact.road == opened.road == ROAD
+    assert opened.contact.rolling == WHEEL
+    again = tl.solve_response(opened.contact, opened.road, depths=[0.0, 0.08], x=AT, y=AT)
+    xr.testing.assert_identical(again.dataset, first.dataset)
+    # Solves the road again: its loads are those of the file.
+    assert tl.assess(opened.response, LINE).summary() == tl.assess(first, LINE).summary()
+    solved = tl.solve_contact(opened.contact.tire, opened.road, replace(opened.contact.rolling, tractive_force=0))
+    np.testing.assert_array_equal(solved.dataset.pressure, contact(tractive_force=0).dataset.pressure)
+    assert tl.report([opened.contact, opened.response], tmp_path / "r.html").exists()
+    assert opened.contact.plot.pressure().axes
+
+
+def test_several_of_a_kind_have_names(tmp_path):
+    one, two = contact(), contact(tractive_force=100)
+    assert list(tl.results.to_tree([one, two]).children) == ["contact", "contact_2", "asked"]
+    opened = tl.open_results(tl.save_results({"free": one, "braking": two}, tmp_path / "x.nc"))
+    assert list(opened) == ["free", "braking"]
+    assert float(opened.braking.dataset.tractive_force) == float(two.dataset.tractive_force)
+    assert opened["free"].summary() == one.summary()
+    page = tl.report(opened, tmp_path / "r.html").read_text()
+    assert "Contact pressure, side by side" in page
+    assert ">braking<" in page
+
+
+@pytest.mark.parametrize("name", ["", "a/b", ".", "asked", " x", "x ", 3, "\x00"])
+def test_a_name_that_no_file_holds_is_refused(name):
+    with pytest.raises(tl.InputError, match="cannot be named"):
+        tl.results.to_tree({name: footprint()})
+
+
+def test_what_is_no_result_is_refused(tmp_path):
+    for wrong in ([1], 3.0, "contact", None):
+        with pytest.raises(tl.InputError, match="made of results"):
+            tl.save_results(wrong, tmp_path / "x.nc")
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_result_of_a_case_opens_whole(coarse_result, tmp_path):
+    opened = tl.open_results(tl.save_results(coarse_result, tmp_path / "x.nc"))
+    assert opened.summary() == coarse_result.summary()
+    assert opened.case == coarse_result.case
+    assert opened.warnings == coarse_result.warnings
+    assert list(opened) == list(coarse_result.parts)
+    for name, part in coarse_result.parts.items():
+        xr.testing.assert_identical(opened[name].dataset, part.dataset)
+        assert opened[name].summary() == part.summary()
+    assert opened.verdict.line == coarse_result.verdict.line
+    assert opened.plot.contact.pressure().axes
+    assert coarse_result.plot.contact.pressure().axes
+    assert "Results" not in repr(coarse_result)
+    assert coarse_result.case.title in opened._repr_html_()
+    # Its loads are kept once, though four responses were asked with them.
+    assert sum(one.nbytes for one in opened.tree["asked"].data_vars.values()) < 4 * sum(
+        opened.contact.dataset[name].nbytes for name in ("pressure", "traction_x", "traction_y")
+    )
+
+
+def test_a_scan_says_that_it_is_gone(tmp_path):
+    scanned = tl.Tire.from_scan(tl.example_mesh(), material=RUBBER)
+    asked = tl.solve_contact(scanned, ROAD, tl.Rolling(normal_load=3e4, friction=0.7), spacing=0.02)
+    opened = tl.open_results(tl.save_results(asked, tmp_path / "x.nc"))
+    tire = opened.contact.tire
+    assert str(tire) == str(scanned)
+    assert tire.camber_spin == scanned.camber_spin
+    assert tire.quality == scanned.quality
+    with pytest.raises(tl.InputError, match=r"not in the file of results.*Tire.from_scan"):
+        tl.solve_contact(tire, opened.road, opened.contact.rolling)
+    # What the sentence offers works.
+    map_of = tl.Tire.from_height_map(opened.contact.dataset["initial_gap"], material=RUBBER)
+    again = tl.solve_contact(map_of, opened.road, opened.contact.rolling)
+    # The solver's tolerance, and another way to it.
+    np.testing.assert_allclose(again.dataset.pressure, asked.dataset.pressure, rtol=1e-4, atol=1e2)
+
+
+def test_a_function_says_that_it_is_gone(tmp_path):
+    y = np.linspace(-0.4, 0.4, 21)
+    law = lambda degrees: tl.FatigueLine(1e-6 * (100 + degrees), -0.2)  # noqa: E731
+    traffic = Traffic((tl.damage.AxleClass("one", 1.0, 20e3, 7e5),), 1e5)
+    readings = np.full((1, 1, 1, 21), 1e-4)
+    whole = miner(readings, (Criterion("top", law, 0, "top"),), traffic, Climate.constant(17.0), y=y)
+    back = tl.open_results(tl.save_results(whole, tmp_path / "x.nc")).life
+    assert back.summary() == whole.summary()
+    assert back.criteria[0].law_at(17.0) == law(17.0)
+    with pytest.raises(tl.InputError, match=r"lambda.* is a function, which was read at whole degrees"):
+        back.criteria[0].law_at(17.5)
+
+
+def without_questions(tree):
+    groups = {f"/{name}": node.to_dataset() for name, node in tree.children.items() if name != "asked"}
+    for data in groups.values():
+        data.attrs = {key: value for key, value in data.attrs.items() if key not in ("result", "summary")}
+    attrs = {key: value for key, value in tree.attrs.items() if key not in ("results_format", "summary")}
+    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=attrs), **groups})
+
+
+def test_a_file_of_the_format_before_is_rebuilt_from_its_case(coarse_result, tmp_path):
+    old = without_questions(coarse_result.to_tree())
+    opened = tl.open_results(tl.save_results(old, tmp_path / "old.nc"))
+    assert opened.contact.rolling == coarse_result.contact.rolling
+    assert opened.contact.road == coarse_result.contact.road
+    assert opened.verdict.summary() == coarse_result.verdict.summary()
+    assert opened.response.summary() == coarse_result.response.summary()
+    again = tl.assess(opened.response, LINE, depth=0.0)
+    assert again.summary() == tl.assess(coarse_result.response, LINE, depth=0.0).summary()
+    assert tl.report(opened, tmp_path / "r.html").exists()
+
+
+def test_a_file_of_the_format_before_without_a_case_is_refused_part_by_part(tmp_path):
+    old = without_questions(tl.results.to_tree([contact()]))
+    opened = tl.open_results(tl.save_results(old, tmp_path / "old.nc"))
+    with pytest.raises(
+        tl.InputError, match=rf"written by treadload {tl.__version__}.*has no case.*\.tree\['contact'\]"
+    ):
+        opened.contact.summary()
+    assert opened.tree["contact"].pressure.size
+
+
+def test_a_file_of_a_later_format_is_refused(tmp_path):
+    tree = tl.results.to_tree([footprint()])
+    tree.attrs["results_format"] = 99
+    with pytest.raises(tl.InputError, match=r"format 99 of results; this is treadload .* update it"):
+        tl.open_results(tl.save_results(tree, tmp_path / "x.nc"))
+
+
+def changed(tree, change):
+    asked = tree["asked"].to_dataset()
+    questions = json.loads(asked.attrs["questions"])
+    asked.attrs["questions"] = json.dumps(change(questions))
+    groups = {f"/{name}": node.to_dataset() for name, node in tree.children.items()}
+    return xr.DataTree.from_dict({"/": xr.Dataset(attrs=tree.attrs), **groups, "/asked": asked})
+
+
+def into(questions, value, *keys):
+    inner = questions
+    for key in keys[:-1]:
+        inner = inner[key]
+    inner[keys[-1]] = value
+    return questions
+
+
+@pytest.mark.parametrize(
+    ("value", "keys", "message"),
+    [
+        ([], (), "cannot be read"),
+        (3, ("contact",), "cannot be read"),
+        ("Path", ("contact", "is"), "cannot be read"),
+        ({"is": "Popen", "with": {}}, ("contact", "with", "road"), "nothing that this treadload describes"),
+        ({"is": "os:system", "with": {}}, ("contact", "with", "road"), "nothing that this treadload describes"),
+        ({"is": "Elastic", "with": {"modulus": -1, "poisson": 0.3}}, ("contact", "with", "road"), "modulus must be"),
+        ({"is": "Elastic", "with": {"colour": 1}}, ("contact", "with", "road"), "no Elastic can be made"),
+        ({"array": "array_99"}, ("contact", "with", "road"), "array_99' of a question is not there"),
+        ({"part": "contact"}, ("contact", "with", "road"), "asked with itself"),
+        ({"number": "1e5"}, ("contact", "with", "road"), "is no number"),
+        ({"odd": 1}, ("contact", "with", "road"), "nothing that a result can be asked with"),
+    ],
+)
+def test_a_question_that_was_tampered_with_is_refused_in_a_sentence(value, keys, message, tmp_path):
+    tree = changed(
+        tl.results.to_tree([contact()]), lambda questions: into(questions, value, *keys) if keys else value
+    )
+    opened = tl.open_results(tl.save_results(tree, tmp_path / "x.nc"))
+    with pytest.raises(tl.InputError, match=message) as caught:
+        opened.contact.summary()
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_a_figure_that_fails_leaves_its_reason(coarse_result, tmp_path, monkeypatch):
+    def broken(*_, **__):
+        raise RuntimeError("the pen\nis dry")
+
+    monkeypatch.setattr("treadload.plots.contact.pressure", broken)
+    page = tl.report(coarse_result, tmp_path / "r.html").read_text()
+    assert "This figure could not be drawn: RuntimeError, the pen is dry." in page
+    whole = tl.report(coarse_result.response, tmp_path / "s.html").read_text()
+    assert "could not be drawn" not in whole
+
+
+def test_text_of_a_result_is_escaped():
+    odd = Fields(xr.Dataset({"a": ("x", [1.0])}, attrs={"note": "<script>"}))
+    odd.dataset["<b>"] = ("x", [1.0])
+    page = odd._repr_html_()
+    assert "<b>:" not in page
+    assert "&lt;b&gt;" in page
+    assert "<script>" not in page
+
+
+def test_a_case_and_its_text_make_one_report(coarse_result, tmp_path):
+    other = replace(coarse_result, case=Case.from_text(COARSE_CASE.replace('"coarse"', '"other"')))
+    page = tl.report([coarse_result, other], tmp_path / "r.html").read_text()
+    assert ">coarse<" in page
+    assert ">other<" in page
+    assert set(as_tree(coarse_result).children) == {*coarse_result.parts, "asked"}
