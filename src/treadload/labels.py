@@ -67,8 +67,8 @@ def factor_of(name: str, named: object, si: str, given: Mapping[str, str], *, wh
         own = None
     if own is None and wanted is None:
         raise InputError(
-            f"{where}: {name} is in {named!r}, which is no unit of {_KIND[si]} such as {_SUCH_AS[si]}; correct its "
-            f"attribute units, or give {example}"
+            f"{where}: {name} is in {named!r}, which is not a unit of {_KIND[si]} such as {_SUCH_AS[si]}; correct "
+            f"its attribute units, or give {example}"
         )
     if own is not None and wanted is not None and abs(wanted - own) > _ROUND_OFF * own:
         raise InputError(f"{where}: {name} names a unit of its own, {named!r}; leave it out of units")
@@ -82,7 +82,7 @@ def factor_asked(name: str, unit: object, si: str) -> float:
             return factor(unit, si)
     except InputError:
         pass
-    raise InputError(f"units has {unit!r} for {name}, which is no unit of {_KIND[si]} such as {_SUCH_AS[si]}")
+    raise InputError(f"units has {unit!r} for {name}, which is not a unit of {_KIND[si]} such as {_SUCH_AS[si]}")
 
 
 def check_names(units: Mapping[str, str], known: Collection[str], what: str) -> None:

@@ -70,7 +70,7 @@ class Catalogue(Mapping[str, Item]):
     def __getitem__(self, name: str) -> Item:
         """The one of this name. Raises UnknownName, an InputError and a KeyError, that names the nearest."""
         if not isinstance(name, str):
-            raise UnknownName(f"the name of a {self.noun} must be a text, got {name!r}")
+            raise UnknownName(f"the name of a {self.noun} must be text, got {name!r}")
         # Ours first: a broken package of others stops no one.
         item = self._among(self._own, name) or self._among(self._all(), name)
         if item is None:

@@ -1,7 +1,7 @@
 """Ranges of what tires, roads and traffic can be: outside, a sentence that names the unit that was likely meant.
 
-A number beyond its range is no error: robots and aircraft roll, too. The ranges are so wide that what falls out has
-most often lost its unit.
+A number beyond its range is not an error: robots and aircraft roll, too. The ranges are so wide that what falls out
+has most often lost its unit.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ RANGES: dict[str, Range] = {
     ),
     "inflation pressure": Range(
         "Pa", 30e3, 2.5e6, (100e3, 1.6e6), "tires usually have", _PRESSURES,
-        "Tires of fields and sand go down to 40 kPa, those of aircraft and racing bicycles up to 1.7 MPa.",
+        "Agricultural and sand tires go down to 40 kPa, those of aircraft and racing bicycles up to 1.7 MPa.",
     ),
     "modulus of the tire": Range(
         "Pa", 5e4, math.inf, (0.5e6, 100e6), "treads usually have", (("MPa", 1e6), ("kPa", 1e3), ("GPa", 1e9)),

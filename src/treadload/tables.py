@@ -165,7 +165,7 @@ def read_table(path: str | os.PathLike[str], *, decimal: str | None = None) -> T
         raise InputError(f"cannot read {path}: {error.strerror or error}") from error
     except ValueError as error:
         at = f" (byte {error.start})" if isinstance(error, UnicodeDecodeError) else ""
-        raise InputError(f"cannot read {path}: it is no UTF-8 text{at}; save it as UTF-8") from error
+        raise InputError(f"cannot read {path}: it is not UTF-8 text{at}; save it as UTF-8") from error
     numbered = list(enumerate(re.split(r"\r\n|\r|\n", text), start=1))
     comments = [(number, line) for number, line in numbered if _is_comment(line)]
     kept = [(number, line) for number, line in numbered if line.strip(" \t") and not _is_comment(line)]

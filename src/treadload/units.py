@@ -64,8 +64,8 @@ def quantity(value: object, unit: str) -> float:
     unit: the SI unit it must have; "" for a pure number; "degC" for a temperature, °C. microstrain is 1e-6.
     The number of a text has a point or a comma as its decimal mark, perhaps thousands in groups of three with a
     space, an apostrophe or an underscore between, perhaps an exponent: "32.5 kN", "32,5 kN", "1 000 kN", "1.2e6 N".
-    Raises InputError for text that is no number with a unit of this kind, for a number that can be read in two ways
-    ("1,000 kN"), for NaN and for infinity.
+    Raises InputError for text that is not a number with a unit of this kind, for a number that can be read in two
+    ways ("1,000 kN"), for NaN and for infinity.
     """
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         raise InputError(f"expected a number or a text such as {_EXAMPLES[unit]}, got {value!r}")
@@ -142,7 +142,7 @@ def _parse(text: str, unit: str) -> float:
     except Exception as error:
         kind = unit or "pure numbers"
         near = next((f'"{one}"' for one in _USUAL if one.casefold() == written.casefold() != one), "")
-        why = "it has no unit" if not written else f"{written!r} is no unit of this kind"
+        why = "it has no unit" if not written else f"{written!r} is not a unit of this kind"
         hint = f"did you mean {near}?" if near else how
         raise InputError(f"cannot read {text!r} as a quantity in {kind}: {why}; {hint}") from error
     # Fifteen digits take off the dust that factors such as bar → Pa leave.

@@ -168,7 +168,7 @@ _INTERFACES = {
     "interface_pressure": ("Pa", "normal stress at an interface, compression positive"),
     "jump_x": ("m", "displacement along travel below an interface minus that above it"),
     "jump_y": ("m", "displacement to the right below an interface minus that above it"),
-    "utilisation": ("1", "how much of the bond's strength is used up; 1 parts it"),
+    "utilisation": ("1", "how much of the bond's strength is used up; it fails at 1"),
     "bond_passes": ("1", "passes that the fatigue of the bond allows"),
     "largest_utilisation": ("1", "largest utilisation of an interface"),
     "parting_x": ("m", "position along travel, in the load's frame, where an interface is used up most"),

@@ -157,7 +157,7 @@ def test_run_shows_the_road_at_its_temperature(case, tmp_path):
     case.write_text(COARSE_CASE[:start] + road + COARSE_CASE[end:])
     ran = call("run", case)
     assert ran.exit_code == 0, ran.output
-    assert "E = 9000 MPa, ν = 0.35, 15 °C, bonded to the next" in ran.stdout
+    assert "E = 9000 MPa, ν = 0.35, 15 °C, bonded to the layer below" in ran.stdout
     layers = open_results(tmp_path / "case.nc").tree.attrs["layers"]
     assert '"temperature": 15.0' in layers
 

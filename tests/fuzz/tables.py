@@ -76,7 +76,7 @@ def _stress_as_text(rng: random.Random, folder: Path) -> str:
         return _refused(answer, broken or not plain, path)
     if broken:
         if not np.isfinite(np.asarray(answer.array)).all():
-            raise WrongAnswer("stress that is no number")
+            raise WrongAnswer("stress that is not a number")
         return "taken though changed"
     _check(np.asarray(answer.array)[0], pressure * _STRESSES[stress], np.abs(pressure).max() * _STRESSES[stress])
     return TAKEN

@@ -53,7 +53,7 @@ def test_elastic_layers_are_counted_where_they_are_known():
 
 @pytest.mark.parametrize(
     ("layer", "words"),
-    [(1, "layer 2 '' is no asphalt"), (2, "goes down for ever"), (3, "there is no layer 3"), (-4, "no layer -4")],
+    [(1, "layer 2 '' is not asphalt"), (2, "is semi-infinite"), (3, "there is no layer 3"), (-4, "no layer -4")],
 )
 def test_other_layers_are_refused(layer, words):
     with pytest.raises(InputError, match=words):

@@ -47,7 +47,7 @@ def test_a_law_of_friction_is_named_by_a_word(law):
         ),
         (", grooves = 0.3", "tire.profile.grooves: must be a list, got 0.3"),
         (", grooves = [0.3]", "tire.profile.grooves.0: must be a table of keys and values, got 0.3"),
-        (", name = 3", "tire.profile.name: must be a text, got 3"),
+        (", name = 3", "tire.profile.name: must be text, got 3"),
     ],
 )
 def test_a_tread_of_a_case_is_checked_where_it_is_read(tread, words):

@@ -32,7 +32,7 @@ def solve(**change):
         (lambda: tl.Elastic(5e9, "0.3"), r"poisson must lie in \(-1, 0.5\], got '0.3'"),
         (
             lambda: tl.Pavement([tl.Layer(ASPHALT, 0.1), tl.Layer(SOIL, bond=tl.FRICTIONLESS)]),
-            r"the last layer .* has no layer below it to hold to, got the bond frictionless",
+            r"the last layer .* has no layer below it to be bonded to, got the bond frictionless",
         ),
         (lambda: tl.Bond(-1.0), r"stiffness of a bond must be >= 0 Pa/m, got -1"),
         (lambda: tl.Bond(None), r"stiffness of a bond must be >= 0 Pa/m, got None"),
@@ -99,5 +99,5 @@ def test_what_is_no_number_is_never_returned(monkeypatch, value):
         return stress, strain, stress[:3], "layered"
 
     monkeypatch.setattr("treadload.response.solve.layered_response", broken)
-    with pytest.raises(tl.ConvergenceError, match=r"strain at 0\.02 m is no number: .* check their units"):
+    with pytest.raises(tl.ConvergenceError, match=r"strain at 0\.02 m is not a number: .* check their units"):
         solve(depths=[0.0, 0.02])

@@ -20,7 +20,7 @@ numbers_of, difference, compare, renamed = (
 class Made:
     dataset: xr.Dataset
     stats: dict
-    title: str = "words are no numbers"
+    title: str = "words are not numbers"
 
 
 @dataclass

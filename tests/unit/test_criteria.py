@@ -110,7 +110,7 @@ def test_energy_ratio_falls_with_tension_and_says_its_doubt():
     assert np.isinf(ratio[:2]).all()
     assert (np.diff(ratio[2:]) < 0).all()
     assert not MIX.verified
-    assert "recalled" in MIX.doubt
+    assert "from memory" in MIX.doubt
 
 
 PSI = 6894.757293168361
@@ -129,7 +129,7 @@ PSI = 6894.757293168361
 )
 def test_energy_ratio_warns_of_stress_that_it_was_not_made_for(tension, words):
     doubt, *said = MIX.warnings(tension)
-    assert "recalled" in doubt
+    assert "from memory" in doubt
     assert len(said) == len(words)
     for sentence, part in zip(said, words, strict=True):
         assert part in sentence

@@ -70,7 +70,7 @@ def test_unverified_numbers_are_said_where_the_law_speaks(law):
     assert len(said) == (not law.verified)
     if not law.verified:
         assert law.doubt in said[0]
-        assert "recalled" in law.doubt
+        assert "from memory" in law.doubt
         told = " ".join(type(law).__doc__.split())
         assert "ot verified" in told
 

@@ -235,5 +235,5 @@ def test_orientations_of_a_law_that_holds_wander_are_those_of_one_track():
 
 def test_the_summary_says_what_the_end_is():
     said = miner(readings(1, 1), CRITERIA, Traffic(classes(1.0), 1e5), Climate.constant(15.0), y=Y)
-    assert "damage 1 means the rut that the method bears" in said.summary()
+    assert "damage 1 means the rut that the method accepts" in said.summary()
     assert json.loads(said.dataset.attrs["ends"])[0] == LINE.end_of_life

@@ -325,7 +325,11 @@ def test_a_friction_law_is_one_file_of_theirs(road_laws):
         ("unloaded = 1.2, ", "", "'rolling.friction.unloaded' is missing"),
         ("1.2", "-1.2", "rolling.friction: unloaded must be > 0, got -1.2"),
         ('"yielding"', '"yieldin"', "rolling.friction: no law 'yieldin'; did you mean 'yielding'?"),
-        (", yield", ", kinetic = 1, yield", "'rolling.friction.kinetic'; kinetic is no key of the law of friction"),
+        (
+            ", yield",
+            ", kinetic = 1, yield",
+            "friction.kinetic'; kinetic is not a key of the law of friction",
+        ),
     ],
 )
 def test_their_laws_are_refused_in_our_words(road_laws, old, new, words):
@@ -410,7 +414,7 @@ def test_a_law_of_fatigue_and_a_criterion_are_one_file_of_theirs(road_laws):
     text = DESIGN.replace('layer = "EB-GB3"\nepsilon_6 = "100 microstrain"\npower = 5', 'layer = "EB-GB3"\npowr = 5')
     assert "unknown key 'criteria.1.powr'; did you mean 'power'?" in said(text, LifeCase)
     text = DESIGN.replace("power = 5", "risk = 5")
-    assert "risk is no key of the law of fatigue 'track'" in said(text, LifeCase)
+    assert "risk is not a key of the law of fatigue 'track'" in said(text, LifeCase)
     text = DESIGN.replace(
         '"theirs"\nlaw = "doubled"\nlayer = "EB-GB3"\nepsilon_6', '"theirs"\nlaw = "track"\nlayer = 3\nepsilon_6'
     )

@@ -100,7 +100,7 @@ def test_bars_are_the_lives():
     words = [t.get_text() for t in ax.texts]
     assert "never" in words
     assert "30 years" in words
-    assert "the bond parts, 3 years" in words
+    assert "the bond fails, 3 years" in words
     assert png(figure, dpi=40).startswith(b"\x89PNG")
 
 

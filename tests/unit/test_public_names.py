@@ -9,6 +9,8 @@ from types import ModuleType
 import pytest
 
 import treadload as tl
+from treadload import variables
+from treadload.contact.bodies import influence
 
 ROOT = Path(tl.__file__).parent
 CLONE = Path(__file__).parents[2]
@@ -106,6 +108,20 @@ def test_what_the_readme_and_the_examples_name_exists():
 def test_the_readme_needs_the_top_only():
     code = "\n".join(re.findall(r"```python\n(.*?)```", (CLONE / "README.md").read_text("utf-8"), re.DOTALL))
     assert set(re.findall(r"\btl\.(\w+)", code)) <= set(dir(tl)) - set(ROOMS)
+
+
+def test_the_glossary_names_what_there_is():
+    text = (CLONE / "docs" / "explanation" / "glossary.md").read_text("utf-8")
+    rows = [line.split(" | ") for line in text.splitlines() if line.startswith("| ")]
+    assert len(rows) > 40
+    assert {len(row) for row in rows} == {6}
+    homes = [tl, *(getattr(tl, room) for room in ROOMS), influence, tl.materials.Prony, tl.Tire]
+    for row in rows:
+        for name in re.findall(r"`\.?([A-Za-z][\w.]*[a-z\w])`", row[4]):
+            first, _, rest = name.partition(".")
+            known = [getattr(home, first) for home in homes if first in dir(home)]
+            assert known or name in variables.VARIABLES, name
+            assert not rest or hasattr(known[0], rest) or rest in known[0].__annotations__, name
 
 
 @pytest.mark.slow

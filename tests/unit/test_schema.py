@@ -95,7 +95,7 @@ def test_a_broken_group(tree, tmp_path, name):
         ({"layers": json.dumps([{"name": "a"}])}, "layer 1 of the attribute layers has no modulus"),
         ({"layers": "[1]"}, "layer 1"),
         ({"layers": "3"}, "layers must be a list as JSON"),
-        ({"case": 3}, "the attribute case must be a text"),
+        ({"case": 3}, "the attribute case must be text"),
         ({"case": "a = " + "9" * 5000}, "more than 4300 digits"),
     ],
 )

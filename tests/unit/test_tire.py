@@ -198,7 +198,7 @@ def test_netcdf_that_is_unclear_is_refused(tmp_path):
     with pytest.raises(InputError, match="not evenly spaced"):
         Tire.from_height_map(write("uneven.nc", uneven), units="m")
     litres = xr.Dataset({"a": (("y", "x"), bowl(), {"units": "l"})})
-    with pytest.raises(InputError, match="'l', which is no unit of length"):
+    with pytest.raises(InputError, match="'l', which is not a unit of length"):
         Tire.from_height_map(write("litres.nc", litres), 3e-3)
     (tmp_path / "broken.nc").write_bytes(b"not a file of that kind")
     with pytest.raises(InputError, match="NetCDF"):
@@ -256,15 +256,19 @@ def test_netcdf_is_read_in_its_own_units(tmp_path, factor, units, places, at):
     [
         (labelled(units=None), {}, "gap names no unit; write its attribute units .*, or give units="),
         (labelled(at=None), {}, 'x names no unit; .* units={"x": "mm"}'),
-        (labelled(units="furlongs/fortnight"), {}, "'furlongs/fortnight', which is no unit of length such as m, mm"),
-        (labelled(units="Pa"), {}, "'Pa', which is no unit of length"),
-        (labelled(units="1"), {}, "'1', which is no unit of length"),
-        (labelled(units=3.0), {}, "which is no unit of length"),
+        (
+            labelled(units="furlongs/fortnight"),
+            {},
+            "fortnight', which is not a unit of length such as m, mm",
+        ),
+        (labelled(units="Pa"), {}, "'Pa', which is not a unit of length"),
+        (labelled(units="1"), {}, "'1', which is not a unit of length"),
+        (labelled(units=3.0), {}, "which is not a unit of length"),
         (labelled(at="degrees_east"), {}, "x is in 'degrees_east'"),
-        (labelled(at="days since 2000-01-01"), {}, "x is in 'days since 2000-01-01', which is no unit of length"),
+        (labelled(at="days since 2000-01-01"), {}, "x is in 'days since 2000-01-01', which is not a unit of length"),
         (labelled(), {"units": {"gap": "mm"}}, "gap names a unit of its own, 'm'; leave it out of units"),
         (labelled(), {"units": {"height": "mm"}}, "units names 'height'; the names of a height map are gap, x, y"),
-        (labelled(units=None), {"units": {"gap": "kPa"}}, "units has 'kPa' for gap, which is no unit of length"),
+        (labelled(units=None), {"units": {"gap": "kPa"}}, "units has 'kPa' for gap, which is not a unit of length"),
         (labelled(1e3), {}, r"heights differ by .* more than any tread's; give units={\"gap\": \"mm\"}"),
     ],
 )

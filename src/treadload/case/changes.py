@@ -16,7 +16,7 @@ def changed(table: dict[str, Any], changes: Sequence[str]) -> dict[str, Any]:
     """A copy of the tables of a case with keys set.
 
     changes: "key=value"; parts of a key are joined by points, rows of a list are counted from 0. A value is TOML,
-    0.6 or true or [0, 0.02], or else text, 8 cm; without a value the key is taken out. Whether the case knows the
+    0.6 or true or [0, 0.02], or else text, 8 cm; without a value the key is removed. Whether the case knows the
     key is found when it is read. Raises InputError.
     """
     table = copy.deepcopy(table)
@@ -53,7 +53,7 @@ def _set(table: dict[str, Any], path: Sequence[str], value: str, change: str) ->
     elif last in here:
         del here[last]
     else:
-        raise InputError(f"cannot take out {'.'.join(path)}: the case does not give it; it has {', '.join(here)}")
+        raise InputError(f"cannot remove {'.'.join(path)}: the case does not give it; it has {', '.join(here)}")
 
 
 def _row(rows: list[Any], part: str, before: str, change: str) -> int:

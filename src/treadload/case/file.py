@@ -58,7 +58,7 @@ class FilePart(Table):
         except OSError as error:
             raise InputError(f"cannot read the case {path}: {error.strerror or error}") from error
         except UnicodeDecodeError as error:
-            raise InputError(f"{path} is not a text file in UTF-8, so it is no case; give a TOML file") from error
+            raise InputError(f"{path} is not a text file in UTF-8, so it is not a case; give a TOML file") from error
         return cls.from_text(text, folder=path.parent, name=str(path), changes=changes)
 
     @classmethod

@@ -26,7 +26,7 @@ class DesignRoadPart(RoadPart):
     def unknown(cls, key: str) -> str:
         """Which key was meant."""
         if key in PavementPart.known_keys():
-            return "it has no place here: the road takes the temperatures of [climate]"
+            return "it is not allowed here: the road takes the temperatures of [climate]"
         return super().unknown(key)
 
 

@@ -1,4 +1,4 @@
-"""The road in a case: layers or a catalogued structure, how they hold together, and how warm they are."""
+"""The road in a case: layers or a catalogued structure, how they are bonded, and how warm they are."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ _Set = Annotated[
         "--set",
         metavar="KEY=VALUE",
         help="Set a key of the case, as rolling.friction=0.6 or pavement.layers.0.thickness='8 cm'; without a value "
-        "the key is taken out. May be given several times.",
+        "the key is removed. May be given several times.",
         show_default=False,
     ),
 ]
@@ -158,7 +158,7 @@ def life(
 def init(
     kind: _Kind = "run",
     output: Annotated[Path, typer.Option("--output", "-o", help="File to write.")] = Path("case.toml"),
-    force: Annotated[bool, typer.Option("--force", help="Write over a file that is there.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
 ) -> None:
     """Write a case that runs as it is, each key with its unit, its default and its reason."""
     from treadload.case.first import first_case
@@ -167,7 +167,7 @@ def init(
 
     text = first_case(kind)
     if output.exists() and not force:
-        raise InputError(f"{output} is there already; give another name with -o, or --force to write over it")
+        raise InputError(f"{output} exists already; give another name with -o, or --force to overwrite it")
     with replacing(output) as path:
         path.write_text(text, encoding="utf-8")
     _written([output])

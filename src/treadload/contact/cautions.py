@@ -65,7 +65,7 @@ def of_numbers(tire: Tire, rolling: Rolling, grid: Grid) -> list[str]:
 
 
 def of_fields(data: xr.Dataset) -> list[str]:
-    """Results that are no numbers, by name; those that are NaN by design do not count."""
+    """Results that are not numbers, by name; those that are NaN by design do not count."""
     said = []
     infinite = [str(name) for name, part in data.data_vars.items() if np.isinf(part.values).any()]
     if infinite:

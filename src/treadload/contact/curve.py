@@ -81,7 +81,7 @@ def creep_curve(
     rolling: the rest of the rolling state; what it prescribes along `along` gives way to the creepages.
     creepages: (n,), distinct; solved from the smallest on, each from the solution before it.
     along: "x" for driving and braking, "y" for cornering. spacing, tolerance: as for `solve_contact`.
-    Returns the curve in the order of the creepages. Raises InputError for creepages that are none, and the
+    Returns the curve in the order of the creepages. Raises InputError for creepages that are not numbers, and the
     errors of solve_contact.
     """
     values = np.asarray(creepages, dtype=float)

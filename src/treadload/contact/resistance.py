@@ -56,7 +56,7 @@ def rolling_resistance(contact: Contact, radius: float) -> RollingResistance:
     contact: of a tire whose axle stands above x = 0. radius: rolling radius R of the wheel, m.
     Per metre rolled, the moment M of the pressure brings in M/R and the shear Q·creepage; what friction does not
     take is lost in the materials: M/R - W - ξ Q_x - η Q_y - φ M_z. In elastic ones that is zero, but for an error
-    that falls with the cell size. Raises InputError for a radius that is no positive number.
+    that falls with the cell size. Raises InputError for a radius that is not a positive number.
     Source: Johnson (1985), Contact Mechanics, sections 9.1 and 9.4.
     """
     if not (math.isfinite(radius) and radius > 0):

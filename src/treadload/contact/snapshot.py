@@ -39,7 +39,7 @@ def contact_at(
 
     creepages: given or found, NaN where nothing rolled; then there is no slip velocity over rolling speed
     either, and `slip_distance_x`, `slip_distance_y` tell the slip over the step, m. warnings: besides those of the
-    tire and of results that are no numbers.
+    tire and of results that are not numbers.
     """
     tangential, travel = state.tangential, state.stage.travel
     velocity = tangential.slip / travel if travel > 0 else np.full_like(tangential.slip, math.nan)

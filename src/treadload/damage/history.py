@@ -30,7 +30,7 @@ def residual_after(response: Source, *, spacing: float, passes: int) -> xr.Datas
 
     Wheels follow each other at one speed and spacing. Superposition holds: the wheel n places ahead leaves at x what
     the steady field of one wheel holds at x - n·spacing, so that N passes leave Σₙ σ(x - n·spacing), n = 1 … N.
-    What stays is not a stress for ever. Tractions are given, and where all of a road relaxes alike, stress follows
+    What stays is not permanent. Tractions are given, and where all of a road relaxes alike, stress follows
     them without memory; only layers that relax unlike keep some, and as solids they let it fade. Part of the sum is
     what the wheels ahead still press through the road: at a spacing long against the load it is small.
 

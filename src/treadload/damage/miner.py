@@ -58,7 +58,7 @@ class Life(BaseResult, group="life"):
         return float(self.dataset["life_years"].sel(criterion=criterion))
 
     def summary(self) -> str:
-        """Life of every criterion, the governing one, and what eats it."""
+        """Life of every criterion, the governing one, and what uses it up."""
         data = self.dataset
         lines = [
             f"life under {self.traffic.passes_per_year:.4g} passes in the first year, growth "
@@ -78,7 +78,7 @@ class Life(BaseResult, group="life"):
             )
         lines += [f"  {text}" for text in json.loads(data.attrs.get("groups", "[]"))]
         if math.isinf(self.years(self.governing)):
-            lines.append("Verdict: no criterion is ever used up by this traffic.")
+            lines.append("Verdict: no criterion ever fails under this traffic.")
         else:
             lines.append(f"Verdict: {self.governing} governs, after {_years(self.years(self.governing))}.")
         if self.stats:
@@ -283,7 +283,7 @@ def _cracks(
 
 
 def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
-    """Sentences on criteria of extension whose damage parts the road parallel to its surface."""
+    """Sentences on criteria of extension whose damage splits the road parallel to its surface."""
     if "orientation_damage" not in data:
         return []
     shares = data["orientation_damage"].sel(orientation=ORIENTATIONS[HORIZONTAL]).to_numpy()

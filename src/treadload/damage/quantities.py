@@ -29,7 +29,7 @@ from treadload.kernels.arrays import Array
 from treadload.registry import QUANTITIES
 from treadload.units import Strain
 
-# Onset of damage of asphalt in Mazars' law: 50 to 100 microstrain, recalled.
+# Onset of damage of asphalt in Mazars' law: 50 to 100 microstrain, from memory.
 MAZARS_ONSET = 100e-6
 
 
@@ -201,7 +201,7 @@ class MazarsStrain(Quantity):
 class MazarsOnset(MazarsStrain):
     """Equivalent strain of Mazars over the strain at which damage begins.
 
-    onset: that strain, recalled: 50 to 100 microstrain. Raises InputError.
+    onset: that strain, from memory: 50 to 100 microstrain. Raises InputError.
     """
 
     onset: Strain = MAZARS_ONSET
@@ -217,7 +217,7 @@ class MazarsOnset(MazarsStrain):
     @property
     def doubt(self) -> str:
         """The onset, where it is ours."""
-        return "the strain at which damage begins is recalled" if self.onset == MAZARS_ONSET else ""
+        return "the strain at which damage begins is from memory" if self.onset == MAZARS_ONSET else ""
 
     def of(self, stress: Array, strain: Array) -> Array:
         """√Σ⟨ε⟩² over the onset."""

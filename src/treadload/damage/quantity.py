@@ -120,7 +120,7 @@ class Quantity(ABC):
 
     @property
     def doubt(self) -> str:
-        """Which of its numbers stand on no source that could be read, in words; empty if none."""
+        """Which of its numbers have no source that could be read, in words; empty if none."""
         return ""
 
     @property

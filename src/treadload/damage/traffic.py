@@ -269,4 +269,4 @@ def _check_shares(what: str, shares: Sequence[float]) -> None:
         raise InputError(f"the shares of a {what} must lie in [0, 1], got {list(shares)}")
     total = math.fsum(shares)
     if abs(total - 1) > _ROUND_OFF:
-        raise InputError(f"the shares of a {what} must sum to 1, got {total:.6g}; they count parts, not per cent")
+        raise InputError(f"the shares of a {what} must sum to 1, got {total:.6g}; give fractions, not per cent")

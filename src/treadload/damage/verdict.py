@@ -1,4 +1,4 @@
-"""The verdict: where a road cracks first, which way, and after how many passes."""
+"""The verdict: where a road cracks first, in which direction, and after how many passes."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Verdict(BaseResult, group="damage"):
         return tuple(json.loads(self.dataset.attrs["warnings"]))
 
     def summary(self) -> str:
-        """What is read, both strains, the worst point, passes, the way of the crack, and a verdict."""
+        """What is read, both strains, the worst point, passes, the orientation of the crack, and a verdict."""
         data = self.dataset
         strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
         depths = ", ".join(f"{1e3 * float(z):g}" for z in data["depth"])
@@ -81,7 +81,7 @@ class Verdict(BaseResult, group="damage"):
         few = "fewer" if passes < 1e6 else "more"
         first = f"{_article(self.orientation)} {self.orientation} crack is the first to expect"
         if self.orientation == ORIENTATIONS[HORIZONTAL]:
-            first = "the road parts along a plane nearer to its surface than upright, and no crack runs down from it"
+            first = "the road splits along a plane closer to horizontal than to vertical; no crack runs down from it"
         lines.append(
             f"Verdict: the {self.line.noun} allows {passes:.2g} passes at the worst point, {few} than a million; "
             f"{first}."
@@ -115,7 +115,7 @@ def assess(
     mean_over: float = MATERIAL_LENGTH,
     oblique_tolerance: float = OBLIQUE_TOLERANCE,
 ) -> Verdict:
-    """Where and which way a road cracks under repeated passes of a load.
+    """Where and in which direction a road cracks under repeated passes of a load.
 
     A crack opens across the largest extension: its plane is perpendicular to that direction, and its trace
     on the surface is perpendicular to the direction's horizontal projection. None opens where no principal stress is
@@ -131,8 +131,8 @@ def assess(
     Such a local reading has no limit under finer cells near the surface: at the edges of ribs and at the rear of the
     slip zone the exact field has roots and logarithms.
     strain: "in-plane" reads the largest extension in the horizontal plane, whose cracks are vertical; "principal"
-    that in space, which near the surface is upright as a rule where the road bends, and parts it parallel to itself;
-    left out, what the line reads, by custom the plane.
+    that in space, whose cracks near the surface are usually upright where the road bends, and else part the road
+    parallel to its surface; left out, what the line reads, by custom the plane.
     oblique_tolerance: rad, in (0, π/4]. A trace within it of the direction of travel is longitudinal, within
     it of across transverse, else oblique; a plane nearer to the horizontal than 45° is horizontal.
     Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance, for a law that reads something
@@ -209,7 +209,7 @@ def assess(
 def _no_crack(unread: float) -> str:
     """Why nothing cracks. unread: the largest extension, whatever opens."""
     if unread <= 0:
-        return "nothing extends here; this law sees no crack."
+        return "no extension here; this law sees no crack."
     return (
         f"the road extends by up to {unread * 1e6:.1f} microstrain, but only where no principal stress is tensile; "
         "this law sees no crack."
@@ -218,7 +218,7 @@ def _no_crack(unread: float) -> str:
 
 def _crack_in_words(name: str, angle: float, dip: float) -> str:
     if name == ORIENTATIONS[HORIZONTAL]:
-        return f"nearer to the horizontal than upright, as when layers part (dip {math.degrees(dip):.0f}°)"
+        return f"closer to horizontal than to vertical, as when layers part (dip {math.degrees(dip):.0f}°)"
     side = "right" if angle > 0 else "left"
     turned = f"{abs(math.degrees(angle)):.0f}° from travel" + (f" to the {side}" if name == "oblique" else "")
     return f"{name}, its trace {turned}, its plane {math.degrees(dip):.0f}° from the horizontal"

@@ -18,7 +18,7 @@ from treadload.units import Modulus, Number, Time
 @MATERIALS.register("huet-sayegh")
 @dataclass(frozen=True)
 class HuetSayegh(Operational):
-    """A spring beside a branch of a spring and two parabolic dashpots in a row.
+    """A spring in parallel with a spring and two parabolic dashpots in series.
 
     E*(ω) = E₀ + (E∞ - E₀) / (1 + δ (iωτ)⁻ᵏ + (iωτ)⁻ʰ).
     glassy_modulus: E∞, Pa. static_modulus: E₀, Pa, 0 ≤ E₀ < E∞; 0 is Huet's model.
@@ -85,7 +85,7 @@ class HuetSayegh(Operational):
 @MATERIALS.register("2s2p1d")
 @dataclass(frozen=True)
 class Model2S2P1D(Operational):
-    """Two springs, two parabolic dashpots and one dashpot: Huet-Sayegh's model with viscous flow in its branch.
+    """Two springs, two parabolic dashpots and one dashpot: Huet-Sayegh's model with a viscous dashpot in that series.
 
     E*(ω) = E₀ + (E∞ - E₀) / (1 + δ (iωτ)⁻ᵏ + (iωτ)⁻ʰ + (iωβτ)⁻¹).
     glassy_modulus: E∞, Pa. static_modulus: E₀, Pa, 0 ≤ E₀ < E∞. delta: δ > 0. k, h: exponents, 0 < k < h < 1.

@@ -152,7 +152,7 @@ def _read(path: str | PathLike[str]) -> dict[str, Array]:
     try:
         numbers = np.array([[float(cell) for cell in row] for row in rows[2:]])
     except ValueError as error:
-        raise InputError(f"{path} holds a cell that is no number: {error}; the second row is for units") from error
+        raise InputError(f"{path} holds a cell that is not a number: {error}; the second row is for units") from error
     table = {}
     for name, unit, values in zip(names, units, numbers.T, strict=True):
         known = _UNITS.get(name)

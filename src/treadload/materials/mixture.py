@@ -27,7 +27,7 @@ class Mix:
     slope: b of the fatigue line. scatter: SN, of the logarithm of the fatigue life. calibration: k_c.
     source: where the numbers are from. doubts: what is not certain about them, a sentence each.
     The modulus is linear in temperature between those tabulated, and a power of frequency between those tabulated.
-    The first rule gives back the printed E(15 °C, 10 Hz) of every French mix; the second misses the printed ratios
+    The first rule reproduces the printed E(15 °C, 10 Hz) of every French mix; the second misses the printed ratios
     at 3 Hz, taken out, by 2 % on average where one linear in log f misses them by 4 %.
     Raises InputError.
     """

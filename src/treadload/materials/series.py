@@ -28,7 +28,7 @@ def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance
     and at the glassy limit; the rubbery limit, where there is one, is exact. The least number of evenly spaced
     times that serves is taken; shares are not negative. Outside the range the series is no more than bounded by
     the two limits. A Prony series is returned as it is, and so is that of a material which has one, as `prony`.
-    Raises InputError for a range that is none, and if the tolerance is not reached.
+    Raises InputError for an empty range, and if the tolerance is not reached.
     Method: non-negative least squares, after Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519.
     """
     if not 0 < lowest < highest < math.inf:

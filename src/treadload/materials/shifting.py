@@ -37,7 +37,7 @@ class MasterCurve:
 
     @property
     def shift(self) -> TabulatedShift:
-        """The shift factors as a law. Raises InputError if they do not fall as it gets warmer."""
+        """The shift factors as a law. Raises InputError if they do not fall with rising temperature."""
         return TabulatedShift(self.temperatures, self.log_factors, self.reference)
 
     def __str__(self) -> str:

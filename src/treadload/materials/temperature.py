@@ -195,8 +195,8 @@ class QuadraticShift:
         if turned.size:
             where = f"{-self.a1 / (2 * self.a2):g} °C" if self.a2 else "all temperatures"
             raise InputError(
-                f"times must fall as it gets warmer: the law a1 = {self.a1:g}, a2 = {self.a2:g} turns at {where}, "
-                f"got {turned.flat[0]:g} °C; stay on its falling side"
+                f"times must fall with rising temperature: the law a1 = {self.a1:g}, a2 = {self.a2:g} turns at "
+                f"{where}, got {turned.flat[0]:g} °C; stay on its falling side"
             )
 
     def __str__(self) -> str:
@@ -208,8 +208,8 @@ class QuadraticShift:
 class TabulatedShift:
     """Measured log₁₀ aT, interpolated over temperature by a monotone cubic.
 
-    temperatures: (n,), °C, n ≥ 2, increasing or decreasing. log_factors: (n,), log₁₀ aT, falling as it gets warmer.
-    reference: °C, inside the table; factors are relative to it. Raises InputError.
+    temperatures: (n,), °C, n ≥ 2, increasing or decreasing. log_factors: (n,), log₁₀ aT, falling with rising
+    temperature. reference: °C, inside the table; factors are relative to it. Raises InputError.
     Source: Fritsch & Carlson (1980), SIAM J. Numer. Anal. 17, 238-246 (the interpolant).
     """
 
@@ -233,7 +233,7 @@ class TabulatedShift:
         if not (np.diff(y) < 0).all():
             worst = int(np.argmax(np.diff(y)))
             raise InputError(
-                f"shift factors must fall as it gets warmer, got log aT = {y[worst]:g} at {t[worst]:g} °C and "
+                f"shift factors must fall with rising temperature, got log aT = {y[worst]:g} at {t[worst]:g} °C and "
                 f"{y[worst + 1]:g} at {t[worst + 1]:g} °C"
             )
         object.__setattr__(self, "temperatures", tuple(t.tolist()))
@@ -342,7 +342,7 @@ def _power(log: Array) -> Array:
 
 
 def _check_decades(log: Array) -> None:
-    # What is no number is refused, too.
+    # What is not a number is refused, too.
     if not (np.abs(log) <= _DECADES).all():
         raise InputError(
             f"the shift reaches {np.abs(log).max():.4g} decades of time, more than {_DECADES:.0f}; "

@@ -73,7 +73,7 @@ class Prony:
 
     @classmethod
     def maxwell(cls, modulus: float, time: float, poisson: float) -> Prony:
-        """Maxwell element: a spring and a dashpot in a row, E(t) = E₀ exp(-t/τ). It is a fluid.
+        """Maxwell element: a spring and a dashpot in series, E(t) = E₀ exp(-t/τ). It is a fluid.
 
         modulus: E₀, Pa. time: τ, s, of relaxation.
         """

@@ -8,7 +8,7 @@ from treadload.pavement.bonds import FRICTIONLESS
 from treadload.pavement.layer import Layer
 from treadload.pavement.structure import Pavement
 
-# An elastic layer softer than this, Pa, is no asphalt: the stiffest unbound material of the catalogue has 600 MPa,
+# An elastic layer softer than this, Pa, is not asphalt: the stiffest unbound material of the catalogue has 600 MPa,
 # the softest mix at 40 °C 800 MPa.
 _UNBOUND = 0.7e9
 
@@ -25,7 +25,7 @@ def bituminous_thickness(road: Pavement, layer: int) -> float:
     number = _number(road, layer)
     own = road.layers[number]
     if own.thickness is None or is_bituminous(own.material) is False:
-        why = "goes down for ever" if own.thickness is None else f"is no asphalt ({own.material})"
+        why = "is semi-infinite" if own.thickness is None else f"is not asphalt ({own.material})"
         raise InputError(f"layer {number + 1} {own.name!r} {why}; ask for a bituminous layer, or give the thickness")
     total = own.thickness
     for step in (-1, 1):
@@ -48,7 +48,7 @@ def is_bituminous(material: Material | TemperatureDependent) -> bool | None:
 
 
 def lift_below(road: Pavement, layer: int) -> bool:
-    """True where the layer below is of the same bituminous material and holds to it: two lifts of one course."""
+    """True where the layer below is of the same bituminous material and is bonded to it: two lifts of one course."""
     number = _number(road, layer)
     if number + 1 >= len(road.layers):
         return False

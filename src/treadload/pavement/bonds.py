@@ -1,4 +1,4 @@
-"""How a layer holds to the one below it."""
+"""How a layer is bonded to the one below it."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ BONDS.makes(BondLaw)
 @BONDS.register("spring")
 @dataclass(frozen=True)
 class Bond(BondLaw):
-    """How a layer holds to the one below: shear = stiffness x relative sliding; the layers never part.
+    """How a layer is bonded to the one below: shear = stiffness x relative sliding; the layers never part.
 
     stiffness: Pa/m, >= 0; infinite when bonded, 0 without friction. It matters between some 1e9 and 1e12 Pa/m.
     Raises InputError for a negative stiffness.

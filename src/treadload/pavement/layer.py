@@ -1,4 +1,4 @@
-"""A layer of a road: what it is made of, how thick it is, and how it holds to what lies below."""
+"""A layer of a road: what it is made of, how thick it is, and how it is bonded to what lies below."""
 
 from __future__ import annotations
 

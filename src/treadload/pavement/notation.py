@@ -30,7 +30,7 @@ def read_layers(text: str) -> list[tuple[RoadMaterial, float | None]]:
     last = parts[-1]
     if re.match(r"[0-9.,+\-]", last):
         raise InputError(
-            f"the last layer, {last!r}, has a thickness, but goes down without end: add what lies below it, such as "
+            f"the last layer, {last!r}, has a thickness, but must be semi-infinite: add what lies below it, such as "
             "a platform, PF3, or write the layers one by one above a rigid base"
         )
     return [*layers, (mixes[last], None)]

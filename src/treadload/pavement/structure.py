@@ -1,4 +1,4 @@
-"""The road: layers on a half-space or a rigid base, and how they hold together."""
+"""The road: layers on a half-space or a rigid base, and how they are bonded."""
 
 from __future__ import annotations
 
@@ -63,13 +63,13 @@ class Pavement:
             )
         if last.bond != BONDED:
             raise InputError(
-                f"the last layer ({last.name!r}) has no layer below it to hold to, got the bond {last.bond}; "
+                f"the last layer ({last.name!r}) has no layer below it to be bonded to, got the bond {last.bond}; "
                 "give the bond to the layer above the interface"
             )
 
     @classmethod
     def half_space(cls, material: Material | TemperatureDependent, name: str = "") -> Pavement:
-        """A road of one material, as deep as you like."""
+        """A homogeneous half-space."""
         return cls([Layer(material, name=name)])
 
     @classmethod

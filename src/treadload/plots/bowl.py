@@ -49,7 +49,7 @@ class Bowl:
         data = data.sortby("x").isel(y=nearest(data, "y", y))
         x, down = data["x"].to_numpy() * MM, data["displacement_z"].to_numpy() * MM
         if not np.isfinite(down).all():
-            raise InputError("the deflection is not finite everywhere: this road does not hold the load")
+            raise InputError("the deflection is not finite everywhere: this road does not carry the load")
         at, depth = _vertex(x, down, int(np.argmax(down)))
         speed = data.attrs.get("speed")
         return cls(x, down, (at, depth), load * MM - at, None if speed is None else float(speed))

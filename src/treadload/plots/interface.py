@@ -109,7 +109,7 @@ def _in_numbers(one: xr.Dataset, plan: Plan, row: int, column: int) -> str:
     side = f"under {pressed:.0f} kPa" if pressed >= 0 else f"with {-pressed:.0f} kPa of tension"
     text += f"shear {shear:.0f} kPa {side}"
     if "parting_passes" in one:
-        text += f"; parts after {power_of_ten(float(one['parting_passes']))} passes"
+        text += f"; fails after {power_of_ten(float(one['parting_passes']))} passes"
     return text
 
 
@@ -136,7 +136,7 @@ def bonded_and_parted(comparison: Source) -> Figure:
     """Bars of the life by every criterion: with the bond, without it, and with it until it parts.
 
     comparison: a BondComparison or its dataset, with life_years over (state, criterion) and parting_years.
-    A dashed line marks when the bond parts. Years on a logarithmic scale. Returns the figure. Raises InputError for
+    A dashed line marks when the bond fails. Years on a logarithmic scale. Returns the figure. Raises InputError for
     what is missing, and if no life ever ends.
     """
     data = fields_of(comparison, "life_years", "parting_years")
@@ -148,7 +148,7 @@ def bonded_and_parted(comparison: Source) -> Figure:
     shown = years[np.isfinite(years) & (years > 0)]
     ends = np.append(shown, parting) if 0 < parting < math.inf else shown
     if not ends.size:
-        raise InputError("no criterion is ever used up: there are no lives to compare")
+        raise InputError("no criterion ever fails: there are no lives to compare")
     low, high = 10.0 ** math.floor(math.log10(ends.min() / 1.5)), 10.0 ** (math.log10(ends.max()) + _ROOM)
     figure = new_figure(8.0, 1.5 + 0.95 * len(names))
     ax = figure.add_subplot()
@@ -166,7 +166,7 @@ def bonded_and_parted(comparison: Source) -> Figure:
     if 0 < parting < math.inf:
         ax.axvline(parting, color=INK, lw=1.0, ls=(0, (4, 2)), zorder=3)
         ax.annotate(
-            f"the bond parts, {_years(parting)}", (parting, 1), xycoords=ax.get_xaxis_transform(), xytext=(4, -3),
+            f"the bond fails, {_years(parting)}", (parting, 1), xycoords=ax.get_xaxis_transform(), xytext=(4, -3),
             textcoords="offset points", fontsize=8.5, ha="left", va="top", zorder=4,
         )  # fmt: skip
     ax.set_xscale("log")
@@ -181,7 +181,7 @@ def bonded_and_parted(comparison: Source) -> Figure:
     about = data.attrs
     details = (
         f"{interface_in_words(int(about.get('interface', 0)), str(about.get('between', '')))}; "
-        f"{about.get('bond', '')} once parted"
+        f"{about.get('bond', '')} once debonded"
     )
     headline(ax, "Life with and without the bond", plain(details))
     figure.legend(loc="outside lower center", ncols=len(states))

@@ -80,7 +80,7 @@ def strain_panels(
     if values[row, column] > 0:
         mark_peak(upper, float(plan.x[column]), float(plan.y[row]), measure(float(values[row, column])))
     else:
-        empty_note(upper, "nothing extends here")
+        empty_note(upper, "no extension here")
     upper.tick_params(labelbottom=True)
     upper.set_xlabel(X_LABEL)
     _directions(lower, data, strain, plan, values)
@@ -97,7 +97,7 @@ def _directions(ax: Axes, data: xr.Dataset, strain: Strain, plan: Plan, values: 
     ax.set_ylabel(Y_LABEL)
     largest = float(np.nanmax(values))
     if not largest > 0:
-        empty_note(ax, "nothing extends here")
+        empty_note(ax, "no extension here")
         return
     along_x, along_y = horizontal(data, strain)
     drawn = strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * largest, plan.span / _ALONG)

@@ -100,7 +100,7 @@ def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outli
         draw_strokes(ax, strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * own.high))
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(peak))
     else:
-        empty_note(ax, "nothing extends here")
+        empty_note(ax, "no extension here")
     travel_arrow(ax)
     return mesh
 

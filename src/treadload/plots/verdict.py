@@ -125,7 +125,7 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     finite = values[np.isfinite(values)]
     if not finite.size:
         frame_plan(ax, plan)
-        empty_note(ax, "nothing extends here:\nthe line sets no limit")
+        empty_note(ax, "no extension here:\nthe line sets no limit")
         headline(ax, "Allowable passes")
         return figure
     least = float(finite.min())
@@ -175,7 +175,7 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
         row, column = np.unravel_index(int(np.nanargmax(values)), values.shape)
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(float(values[row, column])))
     else:
-        empty_note(ax, "nothing extends here")
+        empty_note(ax, "no extension here")
     headline(ax, "Cracks to expect", f"traces across the largest extension, {reads}; first at the ring")
     travel_arrow(ax)
     return figure

@@ -148,7 +148,7 @@ class Made(Table):
         """Which key was meant; of one that belongs to another kind, what this one takes."""
         if cls.kinds is not None and cls.entry is not None and cls.kinds.knows(key):
             listed = ", ".join(name for name in cls.model_fields if name != cls.kinds.registry.key) or "none"
-            return f"{key} is no key of the {cls.kinds.registry.noun} {cls.entry.name!r}, which takes {listed}"
+            return f"{key} is not a key of the {cls.kinds.registry.noun} {cls.entry.name!r}, which takes {listed}"
         return super().unknown(key)
 
     @classmethod

@@ -60,7 +60,7 @@ def sentence(data: xr.Dataset) -> str:
     row = _governing(data)
     name, years = str(row["criterion"].item()), float(row["life_years"])
     if math.isinf(years):
-        return "no criterion is ever used up by this traffic."
+        return "no criterion ever fails under this traffic."
     design = data.attrs.get("design_years")
     said = f"{name} governs and ends the road's life after {measure(years)} years"
     if design is None:

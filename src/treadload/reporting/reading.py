@@ -286,7 +286,7 @@ class ReportCase:
             return _POWER.sub(_raised, str(data.attrs["sentence"]).removeprefix("Verdict: ").strip())
         passes = float(data["worst_passes"])
         if not float(data["worst_strain"]) > 0 or math.isinf(passes):
-            return "nothing extends here; this law sees no crack."
+            return "no extension here; this law sees no crack."
         few = "fewer" if passes < 1e6 else "more"
         return (
             f"at its worst point the line allows {power_of_ten(passes)} passes, {few} than a million; "

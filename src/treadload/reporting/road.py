@@ -19,7 +19,14 @@ class RoadTable:
     viscoelastic: bool
 
 
-COLUMNS = ("layer", "thickness, mm", "modulus E, MPa", "Poisson's ratio", "temperature, °C", "held to the next")
+COLUMNS = (
+    "layer",
+    "thickness, mm",
+    "modulus E, MPa",
+    "Poisson's ratio",
+    "temperature, °C",
+    "bond to the layer below",
+)
 
 
 def road_tables(cases: list[ReportCase]) -> list[RoadTable]:

@@ -52,7 +52,7 @@ _NAMES = {
     "a1": "A₁",
     "a2": "A₂",
     "beta": "β",
-    "bond": "bond to the next layer",
+    "bond": "bond to the layer below",
     "c1": "C₁",
     "c2": "C₂",
     "classes": "axles",

@@ -26,7 +26,7 @@ _SIDE = 0.01
 def place_load(load: Load, *, x: float = 0.0, y: float = 0.0, mirror: bool = False) -> PlacedLoad:
     """A load elsewhere: mirrored in the plane y = 0 if asked, then moved by x and y, m.
 
-    load: one load; a contact becomes a GridLoad. Raises InputError for several loads or a move that is no number.
+    load: one load; a contact becomes a GridLoad. Raises InputError for several loads or a move that is not a number.
     """
     one = gather(load)
     if len(one) != 1:

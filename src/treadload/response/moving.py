@@ -59,7 +59,7 @@ def at_speed(road: Pavement, speed: float | None) -> Pavement:
             f"layer {name!r} is viscoelastic ({solid}): give speed=, of the load, in m/s; or solve an elastic "
             "limit of the road, speed=0 for a load at rest and speed=math.inf for a very fast one"
         )
-    # A fluid has no limit of slow loads and would sink for ever: this refuses it.
+    # A fluid has no limit of slow loads and would sink indefinitely: this refuses it.
     at_rest = road.rubbery
     if speed == 0:
         return at_rest

@@ -201,8 +201,8 @@ def _solve(
         wrong = ~np.isfinite(part).all(axis=(0, *range(2, part.ndim)))
         if wrong.any():
             raise ConvergenceError(
-                f"stress or strain at {depths[wrong][0]:g} m is no number: loads, moduli and thicknesses lie too far "
-                "apart for double precision; check their units"
+                f"stress or strain at {depths[wrong][0]:g} m is not a number: loads, moduli and thicknesses lie too "
+                "far apart for double precision; check their units"
             )
     return found
 

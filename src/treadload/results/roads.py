@@ -21,7 +21,7 @@ def road_in_rows(road: Pavement, case: Case | None = None) -> str:
         if row.frequency is not None:
             told[0] = f"|E*| = {row.modulus / 1e6:.4g} MPa at {row.frequency:g} Hz"
         told += [f"{row.temperature:g} °C"] if row.temperature is not None else []
-        told += [f"{row.bond}{' to the next' if number < len(rows) else ''}"] if row.bond else []
+        told += [f"{row.bond}{' to the layer below' if number < len(rows) else ''}"] if row.bond else []
         lines.append(f"  {number}  {row.name:{wide}}  {thickness:>8}  " + ", ".join(told))
     return "\n".join(lines)
 

@@ -23,7 +23,7 @@ _RESPONSES = ("response", "slice", "slice_along", "slice_across", "bowl")
 # Dimensions that lie in the road, with a coordinate of numbers; the others are counted or named.
 _LENGTHS = ("x", "y", "depth")
 _COMPONENTS = 3
-# More than any road has; what is beyond is no number of a layer.
+# More than any road has; what is beyond numbers no layer.
 _MOST_LAYERS = 10_000
 
 
@@ -163,7 +163,7 @@ def check_tree(tree: xr.DataTree, name: str) -> None:
 def _check_root(attrs: Mapping[Any, Any], name: str) -> None:
     for key in ("title", "case", "treadload_version"):
         if not isinstance(attrs.get(key, ""), str):
-            raise InputError(f"{name}: the attribute {key} must be a text, got {attrs[key]!r}")
+            raise InputError(f"{name}: the attribute {key} must be text, got {attrs[key]!r}")
     parse_toml(attrs.get("case", ""), f"{name}: the case that it holds")
     held = _json_attributes(attrs, {"layers": list}, name)
     for number, layer in enumerate(held.get("layers", ()), start=1):

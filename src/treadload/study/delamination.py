@@ -86,7 +86,7 @@ class BondComparison(BaseResult, group="bond_comparison"):
         return self.bonded.criteria[min(others or range(len(years)), key=lambda k: years[k])].name
 
     def summary(self) -> str:
-        """A table of readings and lives in the three states, when the bond parts, and a verdict."""
+        """A table of readings and lives in the three states, when the bond fails, and a verdict."""
         data = self.dataset
         when = float(data["parting_passes"])
         where = interface_in_words(self.interface, data.attrs["between"])
@@ -135,7 +135,7 @@ def compare_bonds(
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> BondComparison:
-    """How long a road lasts with its bond, without it, and when the bond parts on the way.
+    """How long a road lasts with its bond, without it, and when the bond fails on the way.
 
     Arguments as in `solve_life`. criteria: that of one bond at least, `Criterion.of_bond`, and what limits the
     road's life; the bottom of the layer above the interface belongs there, as it bends alone once it is parted.

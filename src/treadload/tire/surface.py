@@ -47,7 +47,7 @@ class Surface(Protocol):
 
     @property
     def quality(self) -> ScanQuality | None:
-        """How good the scan was, or None when the surface is no scan."""
+        """How good the scan was, or None when the surface is not a scan."""
         ...
 
     def height_map(self, grid: Grid) -> Array:

@@ -266,7 +266,7 @@ class Tire:
 
 @lru_cache(maxsize=32)
 def _is_symmetric(tire: Tire) -> bool:
-    """Whether a tread that is no scan is its own mirror image."""
+    """Whether a tread that is not a scan is its own mirror image."""
     surface = tire.surface
     if surface.quality is not None:
         return False

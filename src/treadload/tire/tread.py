@@ -95,7 +95,7 @@ class TreadProfile:
         except OSError as error:
             raise InputError(f"cannot read {path.name!r}: {error.strerror or error}") from error
         except UnicodeDecodeError as error:
-            raise InputError(f"{path.name!r} is not valid TOML: it is no UTF-8 text (byte {error.start})") from error
+            raise InputError(f"{path.name!r} is not valid TOML: it is not UTF-8 text (byte {error.start})") from error
         return cls.from_dict(parse_toml(text, repr(path.name)))
 
     @classmethod

@@ -130,7 +130,7 @@ class Body(Protocol):
         ...
 
     def check_shear(self) -> None:
-        """Refuse shear on a surface that drifts under it without end. Raises InputError."""
+        """Refuse shear on a surface that drifts under it without limit. Raises InputError."""
         ...
 
     @property

@@ -70,7 +70,7 @@ class Layering:
         """Refuse shear above a frictionless interface. Raises InputError."""
         if not self.images.held:
             raise InputError(
-                "a frictionless interface lets the layers above it drift under shear without end: their compliance "
+                "a frictionless interface lets the layers above it drift under shear without limit: their compliance "
                 "has no bound; give the bond a stiffness, such as Bond(stiffness=1e8), or the contact friction = 0"
             )
 
@@ -107,7 +107,7 @@ def images_of(stack: Stack) -> Images:
 
 @dataclass(frozen=True)
 class RoadShare:
-    """Who gives way under a disc as large as the contact: mean sinking, m per Pa of uniform pressure.
+    """How much each body yields under a disc as large as the contact: mean sinking, m per Pa of uniform pressure.
 
     tire, road: of the tire and of the road with its layers. top: of the road as a half-space of its top layer's
     material.

@@ -123,7 +123,7 @@ def half_space(material: Material, *, is_tire: bool, speed: float | None = None)
     if material.is_fluid:
         raise InputError(
             f"the {name} is a fluid ({material}): its shares add up to 1, as in a Maxwell element. Rolling steadily, "
-            "it sinks without end and leaves a rut. Keep a long-term modulus: a standard linear solid, "
+            "it sinks indefinitely and leaves a rut. Keep a long-term modulus: a standard linear solid, "
             "or shares that add up to 0.99 at most"
         )
     return Fading(material, is_tire, float(speed))

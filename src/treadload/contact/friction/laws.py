@@ -314,7 +314,7 @@ def largest_force(
 
 
 def check_coefficient(name: str, value: float) -> None:
-    """Refuse what is no finite number >= 0."""
+    """Refuse what is not a finite number >= 0."""
     if not math.isfinite(value):
         raise InputError(f"{name} must be a finite number, got {value}")
     if value < 0:
@@ -322,7 +322,7 @@ def check_coefficient(name: str, value: float) -> None:
 
 
 def check_positive(name: str, value: float, unit: str) -> None:
-    """Refuse what is no finite number > 0; the unit starts with a space."""
+    """Refuse what is not a finite number > 0; the unit starts with a space."""
     if not (math.isfinite(value) and value > 0):
         raise InputError(f"{name} must be a finite number > 0{unit}, got {value:g}{unit}")
 

@@ -101,7 +101,9 @@ class FrictionMap(FrictionLaw):
             except OSError as error:
                 raise InputError(f"cannot read the friction map {path}: {error.strerror or error}") from error
             except Exception as error:
-                raise InputError(f"the friction map {path} is no table of numbers: {one_line(str(error))}") from error
+                raise InputError(
+                    f"the friction map {path} is not a table of numbers: {one_line(str(error))}"
+                ) from error
         elif path.suffix.lower() in (".csv", ".txt", ".tsv", ".dat"):
             try:
                 table = read_table(path, decimal=decimal)
@@ -110,9 +112,9 @@ class FrictionMap(FrictionLaw):
             try:
                 values, _ = table.values(name=lambda column: "the friction")
             except InputError as error:
-                raise InputError(f"the friction map is no table of numbers: {error}") from error
+                raise InputError(f"the friction map is not a table of numbers: {error}") from error
         else:
-            raise InputError(f"{path.name!r} is no friction map; use .npy, .csv, .txt, .tsv or .dat")
+            raise InputError(f"{path.name!r} is not a friction map; use .npy, .csv, .txt, .tsv or .dat")
         return cls(values, spacing, base=base)
 
     @property

@@ -131,7 +131,7 @@ class AsphaltInstitute(_Regression):
     modulus: of the asphalt, Pa. air_voids, binder_volume: Va and Vb (the effective binder), shares of the mix's
     volume in (0, 1), both or none: C = 10^(4.84 (Vb/(Va+Vb) - 0.69)), 1 if left out.
     Not verified: the exponents and C stand in U.S. Army CRREL Special Report 96-21 (1996); the constant 0.0796 is
-    recalled, public programs agree on it. The manual itself, Asphalt Institute MS-1 (1982), was not at hand.
+    from memory, public programs agree on it. The manual itself, Asphalt Institute MS-1 (1982), was not at hand.
     """
 
     air_voids: Share | None = None
@@ -153,7 +153,7 @@ class AsphaltInstitute(_Regression):
     @property
     def doubt(self) -> str:
         """The constant."""
-        return "the constant 0.0796 is recalled and was not found in a document; public programs agree on it"
+        return "the constant 0.0796 is from memory and was not found in a document; public programs agree on it"
 
     @property
     def at_a_million(self) -> float:
@@ -176,7 +176,7 @@ class AsphaltInstitute(_Regression):
 class AsphaltInstituteSubgrade(PowerLaw):
     """Passes to a rut of 12.7 mm, N = 1.365e-9 ε_z^-4.477; compression counts positive.
 
-    Not verified: recalled; public programs agree on it.
+    Not verified: from memory; public programs agree on it.
     """
 
     reads = SUBGRADE_COMPRESSION
@@ -186,7 +186,7 @@ class AsphaltInstituteSubgrade(PowerLaw):
     @property
     def doubt(self) -> str:
         """All of it."""
-        return "its numbers are recalled and were not found in a document; public programs agree on them"
+        return "its numbers are from memory and were not found in a document; public programs agree on them"
 
     @property
     def at_a_million(self) -> float:
@@ -207,7 +207,7 @@ class AsphaltInstituteSubgrade(PowerLaw):
 class ShellFatigue(_Regression):
     """Passes to fatigue, N = 0.0685 ε^-5.671 E^-2.363 (E in psi).
 
-    modulus: of the asphalt, Pa. Not verified: recalled, and found in no source.
+    modulus: of the asphalt, Pa. Not verified: from memory, and found in no source.
     """
 
     reads = BOTTOM_EXTENSION
@@ -217,7 +217,7 @@ class ShellFatigue(_Regression):
     @property
     def doubt(self) -> str:
         """All of it."""
-        return "its numbers are recalled and were not found in a source"
+        return "its numbers are from memory and were not found in a source"
 
     @property
     def at_a_million(self) -> float:
@@ -254,7 +254,7 @@ def top_down_cracking(damage: float | Array) -> Array:
     """Length of longitudinal cracks from the surface per length of lane, m/m, at most 2, after NCHRP 1-37A.
 
     FC = 10560/(1 + exp(7 - 3.5 log₁₀(100 D))) feet per mile. damage: D, Miner's sum, ≥ 0, any shape.
-    Not verified: the constants are recalled. Raises InputError.
+    Not verified: the constants are from memory. Raises InputError.
     """
     return 10560 * _FOOT / _MILE * _sigmoid(3.5 * _decades(damage))
 

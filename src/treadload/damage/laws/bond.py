@@ -26,24 +26,24 @@ from treadload.units import Angle, Number, Pressure
 Strength = float | Callable[[float], float]
 
 LEUTNER_MINIMUM: Mapping[str, float] = MappingProxyType({"wearing": 15e3, "lower": 12e3})
-"""Shear forces, N, that cores of 150 mm must reach in Leutner's test, at 20 °C, as recalled of the German rules.
+"""Shear forces, N, that cores of 150 mm must reach in Leutner's test, at 20 °C, as remembered from the German rules.
 
 "wearing": under the wearing course, "lower": between the courses below. No source with these two numbers was read.
-Read were proposals: 16 to 25 kN (Stöckert and Grätz 2001, Forschung Straßenbau 829), and 21 kN under wearing courses
-just built (Swiss project FA 12/94, as its successor VSS 2005/503 reports).
+Proposals that were read: 16 to 25 kN (Stöckert and Grätz 2001, Forschung Straßenbau 829), and 21 kN under wearing
+courses just built (Swiss project FA 12/94, as its successor VSS 2005/503 reports).
 """
 _CORE = 0.15
 # Utilisation of a bond that has parted for certain: finite, so that readings can be interpolated.
 _PARTED = 1e3
 # Utilisation below this is the solver's round-off, as on an interface that bears no shear.
 _ROUND_OFF = 1e-6
-_RECALLED = "the least force of Leutner's test is recalled, no source was read"
+_RECALLED = "the least force of Leutner's test is from memory, no source was read"
 
 
 class BondStrength(ABC):
     """What a bond bears, whichever the law: subclasses are frozen dataclasses.
 
-    doubt: which of its numbers stand on no source that was read; a field, or nothing.
+    doubt: which of its numbers have no source that was read; a field, or nothing.
     """
 
     doubt: str = ""
@@ -54,7 +54,7 @@ class BondStrength(ABC):
 
     @property
     def tension_limit(self) -> float:
-        """Tension that parts the bond without shear, Pa; infinite where the law says nothing of tension."""
+        """Tension at which the bond fails without shear, Pa; infinite where the law says nothing of tension."""
         return math.inf
 
     def at(self, temperature: float) -> Self:
@@ -68,8 +68,8 @@ class InterfaceStrength(BondStrength):
 
     cohesion: c, Pa, >= 0, or a function that gives it at a temperature, °C. friction_angle: φ, rad, in [0, π/2).
     tensile_strength: Pa, or a function of °C likewise, at most c / tan φ, where the line ends; left out, the line's
-    own end, and no limit where φ = 0. doubt: which numbers stand on no source that was read.
-    The law tells when a bond that holds would part; friction on a face that has parted is another matter.
+    own end, and no limit where φ = 0. doubt: which numbers have no source that was read.
+    The law tells when a bond that holds would fail; friction on a face that has parted is another matter.
     Raises InputError.
     """
 
@@ -105,7 +105,7 @@ class InterfaceStrength(BondStrength):
         friction_angle: float = 0.0,
         tensile_strength: Strength | None = None,
     ) -> InterfaceStrength:
-        """Strength from the largest force of Leutner's shear test, which presses no normal stress: c = F / (π d²/4).
+        """Strength from the largest force of Leutner's shear test, which applies no normal stress: c = F / (π d²/4).
 
         force: N, > 0, at the temperature of the test. diameter: of the core, m. friction_angle: rad; 0 counts on
         no help of compression. 15 kN on 150 mm is 0.85 MPa. Raises InputError.
@@ -130,7 +130,7 @@ class InterfaceStrength(BondStrength):
         return callable(self.cohesion) or callable(self.tensile_strength)
 
     def at(self, temperature: float) -> InterfaceStrength:
-        """The strength at a temperature of the interface, °C. Raises InputError for one that is none."""
+        """The strength at a temperature of the interface, °C. Raises InputError for one that is not a number."""
         if not self.depends_on_temperature:
             return self
         cohesion, tensile = (
@@ -145,7 +145,7 @@ class InterfaceStrength(BondStrength):
 
     @property
     def tension_limit(self) -> float:
-        """Tension that parts the bond without shear, Pa; infinite where the law says nothing of tension."""
+        """Tension at which the bond fails without shear, Pa; infinite where the law says nothing of tension."""
         return self._end if self.tensile_strength is None else self._number(self.tensile_strength)
 
     @property
@@ -155,7 +155,7 @@ class InterfaceStrength(BondStrength):
         return self._number(self.cohesion) / slope if slope > 0 else math.inf
 
     def shear_strength(self, normal: float | Array) -> Array:
-        """Shear that parts the bond, Pa: c + σ_n tan φ, at least 0. normal: σ_n, Pa, compression positive."""
+        """Shear at which the bond fails, Pa: c + σ_n tan φ, at least 0. normal: σ_n, Pa, compression positive."""
         resisted = self._number(self.cohesion) + np.asarray(normal, dtype=float) * math.tan(self.friction_angle)
         return np.maximum(resisted, 0.0)
 
@@ -255,7 +255,7 @@ class ShearFatigue(PowerLaw):
     """Fatigue of a bond: passes N = (u / u₁)^(1/b) that a utilisation u allows.
 
     slope: b, in (-1, 0), from cyclic shear tests of this bond at this temperature. single_pass: u₁, utilisation that
-    one pass bears; 1 ties the line to the strength itself. doubt: which numbers stand on no source that was read.
+    one pass bears; 1 ties the line to the strength itself. doubt: which numbers have no source that was read.
     reads: the utilisation of a bond, with its strength where a criterion reads it of a response.
     It reads the largest utilisation, once as each axle passes, though shear turns round under it: take a slope
     counted likewise. Straight lines in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied
@@ -270,7 +270,7 @@ class ShearFatigue(PowerLaw):
     reads: Quantity = UTILISATION
 
     source: ClassVar[str] = "a power law of the bond's utilisation with the user's numbers"
-    end_of_life: ClassVar[str] = "the bond parts"
+    end_of_life: ClassVar[str] = "the bond fails"
 
     def __post_init__(self) -> None:
         if not -1 < self.slope < 0:

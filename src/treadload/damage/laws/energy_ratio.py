@@ -34,7 +34,7 @@ class EnergyRatio:
     put in 150 psi (1.03 MPa), a thesis assumes 230 psi (1.59 MPa). It is not the peak that a computed contact leaves
     at the surface, which depends on the tread and on the cells and may exceed the strength: `warnings` says so.
     Not verified: read in a thesis of the University of Florida after Roque et al. (2004); the exponent -3.10 is
-    recalled, the copy was partly illegible.
+    from memory, the copy was partly illegible.
     """
 
     creep_compliance: float
@@ -46,7 +46,7 @@ class EnergyRatio:
     reads: ClassVar[Quantity] = TENSION
     source: ClassVar[str] = "Roque et al. (2004), as printed in a thesis of the University of Florida"
     verified: ClassVar[bool] = False
-    doubt: ClassVar[str] = "the exponent -3.10 of the energy ratio is recalled: the copy read was partly illegible"
+    doubt: ClassVar[str] = "the exponent -3.10 of the energy ratio is from memory: the copy read was partly illegible"
 
     def __post_init__(self) -> None:
         check_positive("creep_compliance", self.creep_compliance, "number of 1/Pa", "mixes are near 1e-10")

@@ -30,7 +30,7 @@ GROUP_FACTORS: Mapping[str, Mapping[int, float]] = {
     "bituminous": {1: 1.0, 2: 0.75, 3: 1.1},
     "hydraulic": {1: 1.0, 2: 12.0, 3: 113.0},
 }
-"""K of one axle by the number of axles in its group and the kind of layer; recalled, not verified in a source."""
+"""K of one axle by the number of axles in its group and the kind of layer; from memory, not verified in a source."""
 
 
 def aggressiveness_of(material: str, traffic: str) -> float:
@@ -50,7 +50,7 @@ def aggressiveness(
     axles: (load P of one axle, N; number n of such axles; K of its group). K is 1 for a single axle; in a tandem
     0.75 and in a tridem 1.1 for bituminous layers, 12 and 113 for hydraulic ones. vehicles: N, heavy vehicles
     weighed. power: α, 5 for bituminous layers, 12 for hydraulic ones. reference: P₀, N.
-    α and K are recalled, not verified in a source. Raises InputError.
+    α and K are from memory, not verified in a source. Raises InputError.
     """
     check_positive("vehicles", vehicles, "number", "count the vehicles that were weighed")
     check_positive("reference", reference, "number of N", "the French axle has 130e3")

@@ -1,4 +1,4 @@
-"""Fatigue laws: how many passes a strain or a stress allows. The common face, and Wöhler's line."""
+"""Fatigue laws: how many passes a strain or a stress allows. What they share, and Wöhler's line."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class FatigueLaw(Protocol):
 
     @property
     def source(self) -> str:
-        """Who says so."""
+        """Where its numbers come from."""
 
     @property
     def doubt(self) -> str:
-        """Which of its numbers stand on no source that could be read, in words; empty if none."""
+        """Which of its numbers have no source that could be read, in words; empty if none."""
 
     @property
     def verified(self) -> bool:
@@ -49,7 +49,7 @@ class FatigueLaw(Protocol):
 
     @property
     def end_of_life(self) -> str:
-        """What has come to pass when Miner's sum is 1, in words."""
+        """What has happened when Miner's sum is 1, in words."""
 
     @property
     def includes_wander(self) -> bool:
@@ -97,7 +97,7 @@ class PowerLaw(ABC):
 
     @property
     def doubt(self) -> str:
-        """Which of its numbers stand on no source that could be read, in words; empty if none."""
+        """Which of its numbers have no source that could be read, in words; empty if none."""
         return ""
 
     @property
@@ -156,7 +156,7 @@ class FatigueLine(PowerLaw):
     noun: ClassVar[str] = "fatigue line"
     symbol: ClassVar[str] = "ε₆"
     source: ClassVar[str] = "Wöhler's line with the user's numbers"
-    end_of_life: ClassVar[str] = "what the laboratory's test called failure, by custom half the stiffness lost"
+    end_of_life: ClassVar[str] = "what the laboratory's test called failure, by convention half the stiffness lost"
 
     def __post_init__(self) -> None:
         check_strain(self.epsilon_6)

@@ -1,6 +1,6 @@
 """The French rational method: allowable strain and stress with their probability of failure.
 
-NF P98-086. The standard itself was not at hand: formulas and tables stand as a public program codes them.
+NF P98-086. The standard itself was not at hand: formulas and tables are those that a public program codes.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class FrenchBituminous(PowerLaw):
     calibration: k_c, 1.3 for base course asphalt GB, 1.1 for BBSG, 1.0 for EME.
     modulus_ratio: E(10 °C) / E(θ_eq), both at 10 Hz; k_θ is its root. platform_modulus: of what lies below, Pa;
     left out, k_s = 1. thickness_scatter: Sh, m, in place of the rule for it.
-    The passes are those of the axle that the strain belongs to, by custom 130 kN on twin wheels.
+    The passes are those of the axle that the strain belongs to, by convention 130 kN on twin wheels.
     Source: NF P98-086 (2019) by a secondary source.
     """
 
@@ -226,7 +226,7 @@ class FrenchSubgrade(PowerLaw):
 
     reads = SUBGRADE_COMPRESSION
     source: ClassVar[str] = _SOURCE
-    end_of_life: ClassVar[str] = "the rut that the method bears; the source gives no depth"
+    end_of_life: ClassVar[str] = "the rut that the method accepts; the source gives no depth"
     includes_wander: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
@@ -283,7 +283,7 @@ def thickness_scatter(thickness: float) -> float:
 
 
 def platform_factor(modulus: float | None) -> float:
-    """k_s: reduction for a soft layer of this modulus, Pa, below the one that tires; 1 for None."""
+    """k_s: reduction for a soft layer of this modulus, Pa, below the layer that fatigues; 1 for None."""
     if modulus is None:
         return 1.0
     return next((factor for bound, factor in _PLATFORM if modulus < bound), 1.0)
