@@ -141,8 +141,8 @@ def test_maps_from_files(tmp_path):
     (tmp_path / "b.csv").write_text("0.1,wet\n")
     for name, message in (
         ("none.csv", "cannot read"),
-        ("a.png", "no friction map"),
-        ("b.csv", "no table of numbers"),
+        ("a.png", "not a friction map"),
+        ("b.csv", "not a table of numbers"),
     ):
         with pytest.raises(InputError, match=message):
             FrictionMap.from_file(tmp_path / name, 0.1)

@@ -20,7 +20,7 @@ _TOLD = 4
 HERE = Path(".")
 _KINDS = {
     "tuple_type": "a list",
-    "string_type": "a text",
+    "string_type": "text",
     "bool_type": "true or false",
     "bool_parsing": "true or false",
     "int_type": "a whole number",
