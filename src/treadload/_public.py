@@ -28,6 +28,7 @@ _RENAMED = {
     "Life": "damage.Life",
     "DesignResult": "LifeResult",
     "run_design": "run_life",
+    "DesignCriterion": "damage.Criterion",
     "design_life": "study.solve_life",
     "life_tree": "results.to_tree",
     "load": "open_results",

@@ -216,7 +216,7 @@ def test_files_that_are_not_there_or_no_text(tmp_path):
         GridLoad.from_csv(tmp_path / "no.csv")
     binary = tmp_path / "binary.csv"
     binary.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(InputError, match="no UTF-8 text"):
+    with pytest.raises(InputError, match="not UTF-8 text"):
         GridLoad.from_csv(binary)
     with pytest.raises(InputError, match="there is no file"):
         GridLoad.from_file(tmp_path / "no.nc")
