@@ -347,7 +347,7 @@ def into(questions, value, *keys):
         ({"is": "Elastic", "with": {"colour": 1}}, ("contact", "with", "road"), "no Elastic can be made"),
         ({"array": "array_99"}, ("contact", "with", "road"), "array_99' of a question is not there"),
         ({"part": "contact"}, ("contact", "with", "road"), "asked with itself"),
-        ({"number": "1e5"}, ("contact", "with", "road"), "is no number"),
+        ({"number": "1e5"}, ("contact", "with", "road"), "is not a number"),
         ({"odd": 1}, ("contact", "with", "road"), "nothing that a result can be asked with"),
     ],
 )

@@ -205,7 +205,7 @@ class Reader:
 
 def _number(reader: Reader, told: Any, _: Any) -> float:
     if told not in ("nan", "inf", "-inf"):
-        raise InputError(f"{reader.where}: {_cut(told)} is no number")
+        raise InputError(f"{reader.where}: {_cut(told)} is not a number")
     return float(told)
 
 
@@ -216,7 +216,7 @@ def _tuple(reader: Reader, told: Any, _: Any) -> tuple[Any, ...]:
 def _pairs(reader: Reader, told: Any, _: Any) -> dict[Any, Any]:
     pairs = [_list(reader, pair) for pair in _list(reader, told)]
     if any(len(pair) != 2 or not isinstance(pair[0], str | int | float) for pair in pairs):
-        raise InputError(f"{reader.where}: {_cut(told)} is no table")
+        raise InputError(f"{reader.where}: {_cut(told)} is not a table")
     return {key: reader.value(one) for key, one in pairs}
 
 

@@ -62,7 +62,7 @@ def to_tree(
     road has, under a life. summary: of all of them; left out, those of the parts.
     The root carries the title, the case as TOML text, the layers of the road as JSON, versions, the date and the
     citations as JSON; the group /asked what every part was asked, for `open_results`.
-    Raises InputError for what is no result, and for a name that no file can hold.
+    Raises InputError for what is not a result, and for a name that no file can hold.
     """
     named = dict(named_parts(parts))
     names = {id(part): name for name, part in named.items()}
@@ -118,7 +118,7 @@ def as_tree(results: Any) -> xr.DataTree:
 
 
 def named_parts(parts: Any) -> Iterator[tuple[str, BaseResult]]:
-    """Results by name, each name once. Raises InputError for what is no result and for a wrong name."""
+    """Results by name, each name once. Raises InputError for what is not a result and for a wrong name."""
     taken: dict[str, Any] = {}
     if isinstance(parts, Mapping) and not isinstance(parts, xr.Dataset):
         given: list[tuple[str | None, Any]] = [(_checked(name), part) for name, part in parts.items()]
