@@ -28,6 +28,9 @@ _LETTERS = re.compile(r"(?:[^\W\d]|[%‰°⁻/*() ])*")
 _BARE_POWER = re.compile(r"(?<=[A-Za-zµμ])([23])(?![0-9A-Za-z])")
 _TIMES = str.maketrans({"·": "*", "⋅": "*", "\u00a0": " ", "\u2009": " ", "\u202f": " "})
 
+PSI = 6894.757293168361
+"""A pound-force per square inch, Pa: of laws that are published in it."""
+
 _EXAMPLES = {
     "m": '"3 mm"',
     "Pa": '"8.2 bar" or "5400 MPa"',

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike
 
@@ -53,3 +53,10 @@ class TemperatureDependent(Protocol):
 MATERIALS.makes(Elastic, Viscoelastic, TemperatureDependent)
 Material = Elastic | Viscoelastic
 """What can be solved with."""
+
+
+def limit_of(material: Material, which: Literal["glassy", "rubbery"]) -> Elastic:
+    """The elastic limit of fast ("glassy") or slow ("rubbery") loading; an elastic material is its own."""
+    if isinstance(material, Elastic):
+        return material
+    return material.glassy if which == "glassy" else material.rubbery

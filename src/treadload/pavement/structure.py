@@ -15,6 +15,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import SAME_DEPTH, layers_at
 from treadload.materials import Elastic, Material, TemperatureDependent
 from treadload.materials.celsius import check_celsius
+from treadload.materials.kinds import limit_of
 from treadload.pavement.bonds import BONDED
 from treadload.pavement.catalogue import Structure, find_structure
 from treadload.pavement.layer import Layer
@@ -99,8 +100,7 @@ class Pavement:
 
         Raises InputError for a material that needs a temperature.
         """
-        material = self.layers[0].resolved
-        return material if isinstance(material, Elastic) else material.glassy
+        return limit_of(self.layers[0].resolved, "glassy")
 
     @property
     def distinct_layers(self) -> tuple[Layer, ...]:
@@ -158,7 +158,7 @@ class Pavement:
 
         Raises InputError for a layer that needs a temperature.
         """
-        return self._with_materials([_limit(layer.resolved, "glassy") for layer in self.layers])
+        return self._with_materials([limit_of(layer.resolved, "glassy") for layer in self.layers])
 
     @property
     def rubbery(self) -> Pavement:
@@ -166,7 +166,7 @@ class Pavement:
 
         Raises InputError for a layer that needs a temperature, and for a fluid, which has no such limit.
         """
-        return self._with_materials([_limit(layer.resolved, "rubbery") for layer in self.layers])
+        return self._with_materials([limit_of(layer.resolved, "rubbery") for layer in self.layers])
 
     @property
     def bond_limits(self) -> tuple[Pavement, ...]:
@@ -251,12 +251,6 @@ def _at(layer: Layer, temperature: float | None, extrapolate: bool) -> Layer:
         if isinstance(material, TemperatureDependent):
             material = material.at(temperature, extrapolate=extrapolate)
         return replace(layer, material=material, bond=layer.bond.at(temperature))
-
-
-def _limit(material: Material, which: Literal["glassy", "rubbery"]) -> Elastic:
-    if isinstance(material, Elastic):
-        return material
-    return material.glassy if which == "glassy" else material.rubbery
 
 
 @contextmanager

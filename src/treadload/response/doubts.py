@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic
+from treadload.materials.kinds import limit_of
 from treadload.pavement import Pavement
 from treadload.plausible import doubt
 from treadload.response.loads import GridLoad, PlacedLoad, UniformDisc
@@ -22,7 +22,7 @@ def road_doubts(road: Pavement) -> tuple[str, ...]:
     said: tuple[str, ...] = ()
     for number, layer in enumerate(road.layers):
         material = layer.resolved
-        fast = material if isinstance(material, Elastic) else material.glassy
+        fast = limit_of(material, "glassy")
         who = f"layer {number + 1}" + (f" ({layer.name})" if layer.name else "")
         said += doubt("modulus of the layer", fast.modulus, who) + doubt("Poisson's ratio", fast.poisson, who)
         if layer.thickness is not None:

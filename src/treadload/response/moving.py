@@ -17,7 +17,9 @@ from treadload.kernels.layers.moving import Body, Level, Path, dissipated_energy
 from treadload.kernels.layers.wavenumbers import Spectrum, disc_spectrum, quadrature
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic, Material, Prony, Viscoelastic, as_prony
+from treadload.materials.kinds import limit_of
 from treadload.pavement import Layer, Pavement
+from treadload.pavement.stack import stack_of
 from treadload.response.half_space import half_space_response
 from treadload.response.layered import drifting
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
@@ -155,14 +157,8 @@ class _Problem:
     ) -> _Problem:
         layers = road.distinct_layers
         materials = [layer.resolved for layer in layers]
-        glassy = [_limit(material, fast=True) for material in materials]
-        stack = Stack(
-            [material.shear_modulus for material in glassy],
-            [material.poisson for material in glassy],
-            [math.inf if layer.thickness is None else layer.thickness for layer in layers],
-            [layer.bond.stiffness for layer in layers[:-1]],
-            road.rigid_base,
-        )
+        glassy = [limit_of(material, "glassy") for material in materials]
+        stack = stack_of(road, glassy)
         bottom = float(stack.interfaces[-1]) if len(stack.interfaces) else 0.0
         depths = stack.snapped(depths)
         top = float(stack.interfaces[0]) if len(stack.interfaces) else math.inf
@@ -175,7 +171,7 @@ class _Problem:
         extent_x, extent_y = _extent(load.extent_x for load in loads), _extent(load.extent_y for load in loads)
         reach, reach_x = _reach(extent_y, y), _reach(extent_x, x)
         stiff = [material.modulus for material in glassy]
-        soft = [_limit(material, fast=False).modulus for material in materials]
+        soft = [limit_of(material, "rubbery").modulus for material in materials]
         length = max(reach, reach_x, bottom * (max(stiff) / min(soft)) ** (1 / 3), float(depths.max()))
         series = None
         if any(level.split for level in levels) and not isinstance(materials[0], Elastic):
@@ -324,12 +320,6 @@ def _cells_of_disc(disc: UniformDisc, y: Array) -> Cells:
     load = np.zeros((3, rows, _PIECES))
     load[0] = disc.pressure * covered
     return Cells(load, dx, dy, disc.x + float(edges[0]) + 0.5 * dx, first)
-
-
-def _limit(material: Material, *, fast: bool) -> Elastic:
-    if isinstance(material, Elastic):
-        return material
-    return material.glassy if fast else material.rubbery
 
 
 def _modulus(material: Material, speed: float) -> float | Callable[[Array], ComplexArray]:

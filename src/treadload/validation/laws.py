@@ -20,9 +20,10 @@ from treadload.damage.laws.american import bottom_up_cracking, top_down_cracking
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import UniformDisc, dual_wheels, solve_response
+from treadload.units import PSI
 from treadload.validation.check import Check, absolute, relative
 
-_PSI, _INCH = 6894.757293168361, 0.0254
+_INCH = 0.0254
 # Worked numbers have twelve digits; a life is a strain to the fifth power.
 _DIGITS = 1e-11
 _GUIDE = "own regression after NF P98-086, kept so that it does not move"
@@ -70,7 +71,7 @@ def law_checks() -> Iterator[Check]:
     group, source = "MEPDG fatigue", _NCHRP
     for kind, (law_of, rows) in _PASSES.items():
         for strain, modulus, air, bitumen, inches, passes in rows:
-            mepdg = law_of(modulus * _PSI, inches * _INCH, air / 100, bitumen / 100)
+            mepdg = law_of(modulus * PSI, inches * _INCH, air / 100, bitumen / 100)
             found = mepdg.allowable_passes(strain)
             where = f"{kind}, {inches} in, {1e6 * strain:.0f} microstrain: passes"
             yield relative(group, where, found, passes, _DIGITS, source)

@@ -17,9 +17,8 @@ from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.registry import CRITERIA
-from treadload.units import Length, Modulus, Number, Share
+from treadload.units import PSI, Length, Modulus, Number, Share
 
-_PSI = 6894.757293168361
 _INCH = 0.0254
 _MILE, _FOOT = 1609.344, 0.3048
 _MEPDG = (
@@ -41,7 +40,7 @@ class _Regression(PowerLaw):
 
     def _at_a_million(self, constant: float, power: float) -> float:
         """Strain of a million passes from k = constant and m = power."""
-        return float((1e6 / (constant * (self.modulus / _PSI) ** -power)) ** self.exponent)
+        return float((1e6 / (constant * (self.modulus / PSI) ** -power)) ** self.exponent)
 
 
 @dataclass(frozen=True)

@@ -14,12 +14,12 @@ from treadload.damage.quantities import TENSION
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.units import PSI
 
-_PSI = 6894.757293168361
 # Strength, Pa, at which the term of the tension vanishes in the regression.
 _STRENGTH_LIMIT = 6.36e6
 # Conventional stresses of the asphalt layer that reports put in: 150 and 230 psi.
-_USUAL = 150 * _PSI, 230 * _PSI
+_USUAL = 150 * PSI, 230 * PSI
 
 
 @dataclass(frozen=True)
@@ -71,9 +71,9 @@ class EnergyRatio:
     def needed(self, tension: float | Array | xr.DataArray) -> Array:
         """DCSE_min = m^2.98 D₁ / a, J/m³, under a conventional tension, Pa; 0 where there is none."""
         given = np.asarray(tension, dtype=float)
-        stress = np.where(given > 0, given, 1.0) / _PSI
+        stress = np.where(given > 0, given, 1.0) / PSI
         a = 0.0299 * stress**-3.10 * (_STRENGTH_LIMIT - self.strength) / 1e6 + 2.46e-8
-        return np.asarray(np.where(given > 0, 1e3 * self.slope**2.98 * self.creep_compliance * _PSI / a, 0.0))
+        return np.asarray(np.where(given > 0, 1e3 * self.slope**2.98 * self.creep_compliance * PSI / a, 0.0))
 
     @overload
     def ratio(self, tension: xr.DataArray) -> xr.DataArray: ...
