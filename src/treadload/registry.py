@@ -177,5 +177,4 @@ QUANTITIES = Registry(
     example='{ quantity = "utilisation", cohesion = "0.85 MPa" }',
 )  # fmt: skip
 READERS = Registry("reader of meshes", "treadload.readers", key="")
-BODIES = Registry("body", "treadload.bodies", key="")
-ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS, BODIES)
+ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS)

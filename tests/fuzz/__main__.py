@@ -1,7 +1,7 @@
 """`python -m fuzz cases --count 1000 --jobs 2`, in the folder tests.
 
-What was run in one go, and what it broke. Each cause was repaired and stands under a test of its own; the attacks were
-repeated, but for case 45700 and results 4665 and 4667, whose attack has changed since:
+What was run in one go, and what it broke. Each cause was repaired and stands under a test of its own; the attacks
+were repeated, but for case 45700 and results 4665 and 4667, whose attack has changed since:
 
 | kind | seed | attacks | broke |
 |---|---|---|---|
