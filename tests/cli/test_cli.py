@@ -346,7 +346,7 @@ def test_init_writes_a_case_that_can_be_run_and_spares_what_is_there(kind, tmp_p
     planned = call(kind, path, "--dry-run")
     assert planned.exit_code == 0, planned.output
     path.write_text("mine")
-    refused(call("init", kind, "-o", path), 2, "is there already", "--force")
+    refused(call("init", kind, "-o", path), 2, "exists already", "--force")
     assert path.read_text() == "mine"
     assert call("init", kind, "-o", path, "--force").exit_code == 0
     assert "title = " in path.read_text()

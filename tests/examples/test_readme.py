@@ -15,7 +15,7 @@ def run(number, folder, monkeypatch):
 def test_the_first_python_of_the_readme(tmp_path, monkeypatch, capsys):
     run(0, tmp_path, monkeypatch)
     assert "allowable passes" in capsys.readouterr().out
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["report.html", "strain.png"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["report.html", "results.nc", "strain.png"]
 
 
 def test_the_road_in_july(tmp_path, monkeypatch, capsys):

@@ -44,7 +44,7 @@ def test_dual_wheels_of_tires_strain_the_base_as_the_standard_discs_do(tmp_path)
     tree = result.to_tree()
     tl.save_results(tree, tmp_path / "r.nc")
     back = tl.open_results(tmp_path / "r.nc").tree
-    assert set(back.children) == {"contact", "response", "slice_along", "slice_across", "bowl", "damage"}
+    assert set(back.children) == {"contact", "response", "slice_along", "slice_across", "bowl", "damage", "asked"}
     for name, group in tree.children.items():
         xr.testing.assert_identical(back[name].to_dataset(), group.to_dataset())
     names = [layer["name"] for layer in json.loads(back.attrs["layers"])]

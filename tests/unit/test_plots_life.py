@@ -82,9 +82,7 @@ def test_the_sentence_tells_the_margin():
     early = a_life(passes=1e7)
     assert "before the 20 years of design are over" in sentence(early.dataset)
     assert exhausted(early.dataset)
-    assert "never used up" in sentence(a_life(passes=0.0).dataset) or "ever used up" in sentence(
-        a_life(passes=0.0).dataset
-    )
+    assert "no criterion ever fails" in sentence(a_life(passes=0.0).dataset)
 
 
 def test_the_report_holds_verdict_criteria_laws_and_solves(tmp_path):
