@@ -23,3 +23,18 @@ depths = ["0 mm", "20 mm"]
 [damage]
 fatigue = { epsilon_6 = "120 microstrain", slope = -0.2 }
 """
+
+# The life of a road under one axle, up to its criteria.
+ONE_AXLE = """
+spacing = "20 mm"
+tire = { profile = "315/80R22.5" }
+pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }
+climate = { temperature = 15 }
+[traffic]
+passes_per_year = 1e5
+[[traffic.classes]]
+name = "axle"
+share = 1
+axle_load = "100 kN"
+inflation_pressure = "8 bar"
+"""

@@ -7,7 +7,6 @@ import json
 import re
 import subprocess
 import sys
-import textwrap
 import tomllib
 from pathlib import Path
 
@@ -15,7 +14,8 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from cases import COARSE_CASE
+from cases import COARSE_CASE, ONE_AXLE
+from packages import build
 from tire_meshes import tire_mesh, write
 from treadload.case import Case, LifeCase
 from treadload.case.schema import json_schema
@@ -242,18 +242,6 @@ lab = road_laws.reader:read
 """
 
 
-def build(folder, name, entry_points, **modules):
-    """A package as an installer leaves it: its modules, and its metadata beside them."""
-    package, info = folder / name, folder / f"{name}-1.2.dist-info"
-    package.mkdir(parents=True)
-    info.mkdir()
-    (package / "__init__.py").write_text("")
-    for module, text in modules.items():
-        (package / f"{module}.py").write_text(textwrap.dedent(text), encoding="utf-8")
-    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name.replace('_', '-')}\nVersion: 1.2\n")
-    (info / "entry_points.txt").write_text(entry_points)
-
-
 @pytest.fixture
 def road_laws(tmp_path, monkeypatch):
     folder = tmp_path / "site"
@@ -367,19 +355,9 @@ def test_a_material_is_one_file_of_theirs(road_laws):
     assert "tire.material: no material of the kind 'zener'" in said(odd)
 
 
-DESIGN = """
-spacing = "20 mm"
-tire = { profile = "315/80R22.5" }
-pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }
-climate = { temperature = 15 }
-[traffic]
-passes_per_year = 1e5
-[[traffic.classes]]
-name = "axle"
-share = 1
-axle_load = "100 kN"
-inflation_pressure = "8 bar"
-[[criteria]]
+DESIGN = (
+    ONE_AXLE
+    + """[[criteria]]
 name = "ours"
 law = "fatigue-line"
 layer = "EB-GB3"
@@ -397,6 +375,7 @@ law = "doubled"
 layer = "EB-GB3"
 epsilon_6 = "100 microstrain"
 """
+)
 
 
 def test_a_law_of_fatigue_and_a_criterion_are_one_file_of_theirs(road_laws):

@@ -2,12 +2,13 @@
 
 import json
 import sys
-import textwrap
 
 import numpy as np
 import pytest
 
 import treadload as tl
+from cases import ONE_AXLE
+from packages import build
 from treadload import variables
 from treadload.case import LifeCase
 from treadload.damage import (
@@ -127,20 +128,10 @@ broken = road_readings.nowhere:Broken
 tracker = road_readings.law:Tracker
 """
 
-DESIGN = """
-title = "Readings of others"
-spacing = "20 mm"
-tire = { profile = "315/80R22.5" }
-pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }
-climate = { temperature = 15 }
-[traffic]
-passes_per_year = 1e5
-[[traffic.classes]]
-name = "axle"
-share = 1
-axle_load = "100 kN"
-inflation_pressure = "8 bar"
-[[criteria]]
+DESIGN = (
+    'title = "Readings of others"'
+    + ONE_AXLE
+    + """[[criteria]]
 name = "ours, theirs"
 law = "power-law"
 reads = { quantity = "largest_shear", counted = "50 %" }
@@ -159,6 +150,7 @@ reads = { quantity = "parabola", cohesion = "1 MPa" }
 slope = -0.2
 layer = "EB-BBSG3"
 """
+)
 
 ROAD = Pavement([Layer(Elastic(5e9, 0.35), 0.06), Layer(Elastic(9e9, 0.35), 0.15), Layer(Elastic(120e6, 0.35))])
 LINE = np.linspace(-0.2, 0.2, 9)
@@ -167,13 +159,7 @@ LINE = np.linspace(-0.2, 0.2, 9)
 @pytest.fixture
 def road_readings(tmp_path, monkeypatch):
     """A package as an installer leaves it: three modules, and its metadata beside them."""
-    package, about = tmp_path / "road_readings", tmp_path / "road_readings-0.1.dist-info"
-    for folder in (package, about):
-        folder.mkdir()
-    for name, text in (("__init__", ""), ("quantity", QUANTITY), ("law", LAW), ("strength", STRENGTH)):
-        (package / f"{name}.py").write_text(textwrap.dedent(text), encoding="utf-8")
-    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: road-readings\nVersion: 0.1\n")
-    (about / "entry_points.txt").write_text(ENTRY_POINTS)
+    build(tmp_path, "road_readings", ENTRY_POINTS, version="0.1", quantity=QUANTITY, law=LAW, strength=STRENGTH)
     monkeypatch.syspath_prepend(str(tmp_path))
     yield
     for name in [name for name in sys.modules if name.split(".")[0] == "road_readings"]:
