@@ -7,6 +7,7 @@ tree of results; whoever defines a class of results has it written, read back an
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
@@ -31,7 +32,7 @@ class HasDataset(Protocol):
         """Fields by name."""
 
 
-class BaseResult:
+class BaseResult(ABC):
     """Base of all results: one question, one dataset, one summary.
 
     group: of the class, its name in a tree of results; `group_name` may tell results of one class apart.
@@ -42,19 +43,19 @@ class BaseResult:
     if TYPE_CHECKING:
 
         @property
+        @abstractmethod
         def dataset(self) -> xr.Dataset:
             """Fields by name, with units and long names."""
-            raise NotImplementedError
 
         @property
         def stats(self) -> Mapping[str, Any]:
             """How it was solved: iterations, residuals, seconds."""
-            raise NotImplementedError
+            return MappingProxyType({})
 
         @property
         def warnings(self) -> tuple[str, ...]:
             """Sentences for the user."""
-            raise NotImplementedError
+            return ()
     else:
         stats = MappingProxyType({})
         warnings = ()
@@ -75,9 +76,9 @@ class BaseResult:
         """Figures of this result, see `treadload.plots`."""
         return offered("plot", self)
 
+    @abstractmethod
     def summary(self) -> str:
         """A screenful: what was found."""
-        raise NotImplementedError
 
     def __str__(self) -> str:
         return self.summary()

@@ -96,17 +96,11 @@ def test_memory_is_refused_between_cells():
 
 
 @dataclass(frozen=True)
-class Bristles:
+class Bristles(Body):
     """Springs side by side, Pa/m: what a brush does, as a body."""
 
     normal_stiffness: float
     shear_stiffness: float
-    symmetric = True
-    stats = {}  # noqa: RUF012
-
-    @property
-    def at_rest(self) -> "Bristles":
-        return self
 
     def normal(self, at: Offsets) -> np.ndarray:
         return self._own_cell(at) / self.normal_stiffness
@@ -124,12 +118,6 @@ class Bristles:
 
     def across(self, k: np.ndarray) -> np.ndarray:
         return np.array([k / self.normal_stiffness, 0 * k])
-
-    def check_shear(self) -> None:
-        pass
-
-    def joined(self, other: Body) -> None:
-        pass
 
     def _own_cell(self, at: Offsets) -> np.ndarray:
         return np.outer(np.abs(at.y) < at.dy / 2, np.abs(at.x) < at.dx / 2).astype(float)

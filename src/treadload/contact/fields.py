@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.tangential import TangentialSolution
@@ -50,7 +51,7 @@ class Scene:
         # u = u_tire - u_road: with a rigid tire the road moves the other way. What opens the gap lowers the road.
         return np.array([-along_x, -along_y, opening])
 
-    def _on_grid(self, body: Any) -> Influence:
+    def _on_grid(self, body: Body) -> Influence:
         return Influence(self.grid.shape, self.grid.dx, self.grid.dy, body)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,21 +12,21 @@ from treadload.composing import BaseResult
 from treadload.describing import as_html
 
 
-class Study:
+class Study(ABC):
     """Base of what holds several results by name, as the result of a case and what a file held do."""
 
     @property
+    @abstractmethod
     def parts(self) -> Mapping[str, BaseResult]:
         """Results by their names in a tree."""
-        raise NotImplementedError
 
+    @abstractmethod
     def to_tree(self) -> xr.DataTree:
         """All results in one tree with provenance, ready to be saved."""
-        raise NotImplementedError
 
+    @abstractmethod
     def summary(self) -> str:
         """What was found."""
-        raise NotImplementedError
 
     @property
     def warnings(self) -> tuple[str, ...]:

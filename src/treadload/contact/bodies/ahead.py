@@ -29,11 +29,11 @@ class Ahead:
     def __call__(self, shear: Array, pressure: Array | None = None) -> Array:
         """Displacement by shear on body 1 (2, ny, nx), Pa, and by pressure (ny, nx), Pa, of dissimilar bodies."""
         padding = self.influence.padding
-        xx, yy, xy = self._symbols[0]
+        xx, yy, xy = self._tangential
         x, y = padding.forward(shear)
         spectra = np.stack([xx * x + xy * y, xy * x + yy * y])
         if pressure is not None and self.influence.coupled:
-            spectra -= self._symbols[1] * padding.forward(pressure)
+            spectra -= self._coupling * padding.forward(pressure)
         return padding.inverse(spectra)
 
     def by_pressure(self, pressure: Array) -> Array:
@@ -41,15 +41,19 @@ class Ahead:
         if not self.influence.coupled:
             return np.zeros((2, *pressure.shape))
         padding = self.influence.padding
-        return padding.inverse(-self._symbols[1] * padding.forward(pressure))
+        return padding.inverse(-self._coupling * padding.forward(pressure))
 
     def gap(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear on body 1 (2, ny, nx), Pa: zero for like bodies."""
         if not self.influence.coupled:
             return np.zeros(shear.shape[1:])
         padding = self.influence.padding
-        return padding.inverse((self._symbols[1] * padding.forward(shear)).sum(0))
+        return padding.inverse((self._coupling * padding.forward(shear)).sum(0))
 
     @cached_property
-    def _symbols(self) -> tuple[ComplexArray, ComplexArray]:
-        return self.influence.ahead(self.distance)
+    def _tangential(self) -> ComplexArray:
+        return self.influence.tangential_ahead(self.distance)
+
+    @cached_property
+    def _coupling(self) -> ComplexArray:
+        return self.influence.coupling_ahead(self.distance)

@@ -15,10 +15,11 @@ T_xy and k_x odd there.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -90,61 +91,60 @@ class Waves:
         return 2 * np.pi * fft.rfftfreq(nx, self.dx)[None, :], 2 * np.pi * fft.fftfreq(ny, self.dy)[:, None]
 
 
-class Body(Protocol):
+class Body(ABC):
     """A surface, or the two of a pair. Displacements as in `contact.bodies.body`, m/Pa, per unit load on a cell."""
 
     @property
     def symmetric(self) -> bool:
         """True if loads work on each other's displacements alike, as in elastic bodies."""
-        ...
+        return True
 
     @property
     def at_rest(self) -> Body:
         """The body under loads that stay: itself, unless it remembers."""
-        ...
+        return self
 
+    @abstractmethod
     def normal(self, at: Offsets) -> Array:
         """N (ny, nx): u_n by p."""
-        ...
 
+    @abstractmethod
     def tangential(self, at: Offsets) -> Array:
         """T_xx, T_yy, T_xy (3, ny, nx). Raises InputError where nothing bounds it, as `check_shear`."""
-        ...
 
+    @abstractmethod
     def coupling(self, at: Offsets) -> Array:
         """k_x, k_y (2, ny, nx); zero in a body that does not couple pressure and shear."""
-        ...
 
+    @abstractmethod
     def compliance(self, waves: Waves) -> Array | ComplexArray:
         """Compliance to waves, times |k|, 1/Pa: of u_n by p; xx, yy and xy of u by q: (4, ny, nx // 2 + 1).
 
         It serves as a preconditioner: near is enough.
         """
-        ...
 
+    @abstractmethod
     def across(self, k: Array) -> Array:
         """The same of u_n by p, and of the coupling, u_k by p, to waves |k| (n,), 1/m: (2, n), 1/Pa.
 
         The size, where the response lags behind; the mean over directions, where they differ.
         """
-        ...
 
-    def check_shear(self) -> None:
+    def check_shear(self) -> None:  # noqa: B027
         """Refuse shear on a surface that drifts under it without limit. Raises InputError."""
-        ...
 
     @property
     def stats(self) -> Mapping[str, Any]:
         """What was approximated, for the statistics of a contact."""
-        ...
+        return {}
 
     def joined(self, other: Body) -> Body | None:
         """This body and another as one of the same kind, or None."""
-        ...
+        return None
 
 
 @dataclass(frozen=True)
-class Sum:
+class Sum(Body):
     """Bodies whose displacements add up: the two of a contact, or the parts of one."""
 
     parts: tuple[Body, ...]
@@ -203,7 +203,3 @@ class Sum:
     def stats(self) -> Mapping[str, Any]:
         """Of all of them."""
         return {name: value for part in self.parts for name, value in part.stats.items()}
-
-    def joined(self, other: Body) -> Body | None:
-        """None: `of` joins the parts."""
-        return None

@@ -1,8 +1,8 @@
 """Which bodies meet: a tire's and a road's, by what they are made of.
 
-A body of another kind is a class with the methods of `contact.bodies.body.Body`, and a material whose method
-`surface` makes it; it may live in somebody else's package. One that this program brings is registered for the class
-of its material with `surface_of.register`.
+A body of another kind is a subclass of `contact.bodies.body.Body`, and a material whose method `surface` makes it; it
+may live in somebody else's package. One that this program brings is registered for the class of its material with
+`surface_of.register`.
 """
 
 from __future__ import annotations

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +17,7 @@ RIGID = (math.inf, 0.0)
 
 
 @dataclass(frozen=True)
-class HalfSpaces:
+class HalfSpaces(Body):
     """Elastic half-spaces seen as one. elasticity: of both, or of one against a rigid body.
 
     Sources: those of `kernels.half_space.rectangle`; Johnson (1985), Contact Mechanics, sections 3 and 13.2 (waves).
@@ -31,16 +29,6 @@ class HalfSpaces:
     def of(cls, tire: Elastic | None, road: Elastic | None) -> HalfSpaces:
         """Of a material on each side, body 1 and body 2; None is rigid."""
         return cls(combined(tire, road))
-
-    @property
-    def symmetric(self) -> bool:
-        """True."""
-        return True
-
-    @property
-    def at_rest(self) -> HalfSpaces:
-        """Itself."""
-        return self
 
     def normal(self, at: Offsets) -> Array:
         """As in `Body`."""
@@ -76,14 +64,6 @@ class HalfSpaces:
         """As in `Body`."""
         parts = np.array([1 - self.elasticity.poisson, self.elasticity.difference])
         return np.multiply.outer(2 / self.elasticity.shear_modulus * parts, np.ones_like(k))
-
-    def check_shear(self) -> None:
-        """Nothing to refuse."""
-
-    @property
-    def stats(self) -> Mapping[str, Any]:
-        """None."""
-        return {}
 
     def joined(self, other: Body) -> HalfSpaces | None:
         """With other half-spaces: their compliances add up."""

@@ -112,10 +112,13 @@ class Influence:
             spectra += np.array([xx * x + xy * y, xy * x + yy * y, k_x * x + k_y * y])
         return self.padding.inverse(spectra)
 
-    def ahead(self, distance: float) -> tuple[ComplexArray, ComplexArray]:
-        """Symbols xx, yy, xy and k_x, k_y of the displacement at a distance ahead of the cells along x, m."""
-        tangential = self._spectra_of(self.padding, self.pair.tangential, (1, 1, -1), distance)
-        return tangential, self._spectra_of(self.padding, self.pair.coupling, (1, -1), distance)
+    def tangential_ahead(self, distance: float) -> ComplexArray:
+        """`tangential` at a distance ahead of the cells along x, m, in `padding`."""
+        return self._spectra_of(self.padding, self.pair.tangential, (1, 1, -1), distance)
+
+    def coupling_ahead(self, distance: float) -> ComplexArray:
+        """Symbols k_x, k_y at a distance ahead of the cells along x, m, in `padding`."""
+        return self._spectra_of(self.padding, self.pair.coupling, (1, -1), distance)
 
     @cached_property
     def _waves(self) -> Waves:

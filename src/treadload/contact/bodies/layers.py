@@ -28,20 +28,10 @@ _LONGEST_WAVE, _SHORTEST_WAVE = 1e-6, 200.0
 
 
 @dataclass(frozen=True)
-class Layering:
+class Layering(Body):
     """What layers of the road, body 2, change of the half-space of their top layer. images: see `images_of`."""
 
     images: Images
-
-    @property
-    def symmetric(self) -> bool:
-        """True."""
-        return True
-
-    @property
-    def at_rest(self) -> Layering:
-        """Itself."""
-        return self
 
     def normal(self, at: Offsets) -> Array:
         """As in `Body`."""
@@ -78,9 +68,6 @@ class Layering:
     def stats(self) -> Mapping[str, Any]:
         """Residual of the images' fit, relative."""
         return {"images_residual": self.images.residual}
-
-    def joined(self, other: Body) -> None:
-        """None: there is one road."""
 
     def _images(self, at: Offsets) -> Array:
         return imaging.coefficients(self.images, at.ny, at.nx, at.dx, at.dy, at.first)

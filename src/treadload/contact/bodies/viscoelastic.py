@@ -6,10 +6,9 @@ Its displacement is not symmetric along x: contact moves ahead of the axle, and 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,7 @@ Material = Elastic | Prony
 
 
 @dataclass(frozen=True)
-class Fading:
+class Fading(Body):
     """A viscoelastic half-space that rolls steadily along +x: its displacement at once, and what fades of it.
 
     material: not a fluid. is_tire: body 1, or else the road, body 2. speed: m/s, > 0.
@@ -71,17 +70,6 @@ class Fading:
     def across(self, k: Array) -> Array:
         """As in `Body`, of waves along x."""
         return np.asarray(np.abs(self._fading(k)) * self.glassy.across(k))
-
-    def check_shear(self) -> None:
-        """Nothing to refuse."""
-
-    @property
-    def stats(self) -> Mapping[str, Any]:
-        """None."""
-        return {}
-
-    def joined(self, other: Body) -> None:
-        """None: memories stay apart."""
 
     def _fading(self, kx: Array) -> ComplexArray:
         return np.asarray(
