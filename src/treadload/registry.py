@@ -1,4 +1,4 @@
-"""What a case can name, ours and what other packages bring: laws of friction, materials, criteria, readers of meshes.
+"""What a case can name, ours and what other packages bring: friction laws, materials, criteria, readers of meshes.
 
 Ours are registered where they are defined, `@FRICTION.register("coulomb")`. Another package declares an entry point
 of the registry's group, whose name is the name in the case:
@@ -169,9 +169,9 @@ def _place(target: Callable[..., Any]) -> str:
 MATERIALS = Registry("material", "treadload.materials", default="elastic")
 SHIFTS = Registry("shift", "treadload.shifts")
 BONDS = Registry("bond", "treadload.bonds", default="spring", words=True, example='{ stiffness = "1000 MPa/m" }')
-FRICTION = Registry("law of friction", "treadload.friction", key="law", number="coulomb")
+FRICTION = Registry("friction law", "treadload.friction", key="law", number="coulomb")
 MANEUVERS = Registry("maneuver", "treadload.maneuvers", words=True, example='{ kind = "braking", deceleration = 3 }')
-CRITERIA = Registry("law of fatigue", "treadload.criteria", key="law")
+CRITERIA = Registry("fatigue law", "treadload.criteria", key="law")
 QUANTITIES = Registry(
     "quantity", "treadload.quantities", key="quantity", words=True,
     example='{ quantity = "utilisation", cohesion = "0.85 MPa" }',

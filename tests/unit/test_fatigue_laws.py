@@ -1,4 +1,4 @@
-"""The laws of fatigue: what they share, what each refuses, and the traffic of the French method."""
+"""The fatigue laws: what they share, what each refuses, and the traffic of the French method."""
 
 import math
 

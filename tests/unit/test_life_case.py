@@ -213,7 +213,7 @@ material = { modulus = "60 MPa", poisson = 0.35 }
         (
             "risk = 0.05",
             "risk = 0.05\nmodulus = 5e9",
-            "modulus is not a key of the law of fatigue 'french-",
+            "modulus is not a key of the fatigue law 'french-",
         ),
         ("risk = 0.05", "risc = 0.05", "unknown key 'criteria.0.risc'; did you mean 'risk'"),
         ("passes_per_year = 1e5", "passes_per_year = -1", "passes_per_year must be >= 0"),

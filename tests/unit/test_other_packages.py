@@ -316,7 +316,7 @@ def test_a_friction_law_is_one_file_of_theirs(road_laws):
         (
             ", yield",
             ", kinetic = 1, yield",
-            "friction.kinetic'; kinetic is not a key of the law of friction",
+            "friction.kinetic'; kinetic is not a key of the friction law",
         ),
     ],
 )
@@ -393,7 +393,7 @@ def test_a_law_of_fatigue_and_a_criterion_are_one_file_of_theirs(road_laws):
     text = DESIGN.replace('layer = "EB-GB3"\nepsilon_6 = "100 microstrain"\npower = 5', 'layer = "EB-GB3"\npowr = 5')
     assert "unknown key 'criteria.1.powr'; did you mean 'power'?" in said(text, LifeCase)
     text = DESIGN.replace("power = 5", "risk = 5")
-    assert "risk is not a key of the law of fatigue 'track'" in said(text, LifeCase)
+    assert "risk is not a key of the fatigue law 'track'" in said(text, LifeCase)
     text = DESIGN.replace(
         '"theirs"\nlaw = "doubled"\nlayer = "EB-GB3"\nepsilon_6', '"theirs"\nlaw = "track"\nlayer = 3\nepsilon_6'
     )

@@ -342,7 +342,7 @@ def test_nothing_to_see_is_said(driving):
     verdict["allowable_passes"] = verdict.allowable_passes * np.inf
     assert "no limit" in _texts(VerdictPlots(verdict).passes())
     verdict["worst_strain"], verdict["worst_passes"] = -1e-6, np.inf
-    assert "nothing extends" in _texts(VerdictPlots(verdict).fatigue_line())
+    assert "no extension" in _texts(VerdictPlots(verdict).fatigue_line())
 
 
 def test_a_measured_footprint_needs_only_its_pressure(driving):

@@ -77,10 +77,10 @@ def test_inputs_are_changed_by_five_per_cent_and_a_degree():
 def test_the_sentence_tells_the_margin():
     life = a_life(years=20.0, passes=1e3)
     used = float(life.dataset["design_damage"].sel(criterion=life.governing))
-    assert f"use up {100 * used:.0f} %" in sentence(life.dataset)
+    assert f"uses up {100 * used:.0f} %" in sentence(life.dataset)
     assert not exhausted(life.dataset)
     early = a_life(passes=1e7)
-    assert "before the 20 years of design are over" in sentence(early.dataset)
+    assert "before the end of its design life of 20 years" in sentence(early.dataset)
     assert exhausted(early.dataset)
     assert "no criterion ever fails" in sentence(a_life(passes=0.0).dataset)
 

@@ -118,14 +118,14 @@ def test_every_number_of_every_table_has_a_unit_that_can_be_shown():
 
 def test_numbers_of_a_life_have_their_units():
     rows = _rows([_case(LIFE)])
-    assert rows["Traffic", "passes in the first year"] == ("a year", ("60\u202f000",))
-    assert rows["Traffic", "growth of the traffic a year"] == ("%", ("2",))
-    assert rows["Traffic", "years of design"] == ("years", ("20",))
+    assert rows["Traffic", "passes in the first year"] == ("per year", ("60\u202f000",))
+    assert rows["Traffic", "annual growth of the traffic"] == ("%", ("2",))
+    assert rows["Traffic", "design life"] == ("years", ("20",))
     assert rows["Traffic", "wander: deviation"] == ("mm", ("250",))
     assert rows["Climate", "temperature, January to December"][0] == "°C"
-    assert rows["Computation", "cells of the grid"] == ("mm", ("6",))
+    assert rows["Computation", "cell size of the grid"] == ("mm", ("6",))
     for (_, name), (unit, values) in rows.items():
-        assert unit or not re.search(r"\d", values[0]) or name in ("profile", "structure of the catalogue"), name
+        assert unit or not re.search(r"\d", values[0]) or name in ("profile", "structure from the catalogue"), name
         assert "{" not in values[0]
         assert "classe " not in name
 
@@ -152,7 +152,7 @@ def test_axles_and_criteria_are_tables():
     plane = "extension in the horizontal plane"
     assert base == (
         "base, bottom-up", "french bituminous", "EB-GB3", "bottom", plane,
-        "risk 5 %, ε₆, strain of a million passes 90 microstrain",
+        "risk 5 %, ε₆, strain at a million passes 90 microstrain",
     )  # fmt: skip
     # What a law reads by itself is said.
     assert platform == (

@@ -110,9 +110,7 @@ WHEEL = '[tire]\nprofile = "315/80R22.5"\n[pavement]\nstructure = "6 BBSG3 / PF3
 
 def test_a_case_of_another_kind_says_what_runs_it():
     design = f"{WHEEL}[climate]\ntemperature = 15\n[traffic]\npasses_per_year = 1\n"
-    with pytest.raises(
-        InputError, match=r"^road.toml has \[traffic\], so it is a case of design: use `treadload life"
-    ):
+    with pytest.raises(InputError, match=r"^road.toml has \[traffic\], so it is a design case: use `treadload life"):
         Case.from_text(design, name="road.toml")
     wheel = f"{WHEEL}temperature = 15\n[rolling]\nnormal_load = 1\nfriction = 0.7\n"
     with pytest.raises(

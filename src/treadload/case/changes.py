@@ -17,7 +17,7 @@ def changed(table: dict[str, Any], changes: Sequence[str]) -> dict[str, Any]:
 
     changes: "key=value"; parts of a key are joined by points, rows of a list are counted from 0. A value is TOML,
     0.6 or true or [0, 0.02], or else text, 8 cm; without a value the key is removed. Whether the case knows the
-    key is found when it is read. Raises InputError.
+    key is checked when it is read. Raises InputError.
     """
     table = copy.deepcopy(table)
     for change in changes:
@@ -68,9 +68,9 @@ def _row(rows: list[Any], part: str, before: str, change: str) -> int:
 def _read(value: str) -> Any:
     """A value of TOML, or the text itself."""
     try:
-        found = parse_toml(f"value = {value}", value)
+        table = parse_toml(f"value = {value}", value)
     except InputError:
         return value
-    # A date is no value of a case, and a second line would be another key.
-    plain = isinstance(found["value"], bool | int | float | str | list | dict)
-    return found["value"] if plain and len(found) == 1 else value
+    # A date is not a value of a case, and a second line would be another key.
+    plain = isinstance(table["value"], bool | int | float | str | list | dict)
+    return table["value"] if plain and len(table) == 1 else value

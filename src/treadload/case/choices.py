@@ -31,6 +31,6 @@ ManeuverTable = Annotated[Any, MANEUVER]
 
 
 def maneuver_of(table: Any) -> tuple[Maneuver, str, float | None]:
-    """A maneuver, its name for tables, and its share of the class's passes if it tells one."""
+    """A maneuver, its name for tables, and its share of the class's passes if it gives one."""
     made: Maneuver = MANEUVER.build(table)
     return made, getattr(table, "name", None) or made.name, getattr(table, "share", None)

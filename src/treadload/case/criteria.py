@@ -1,4 +1,4 @@
-"""Criteria of design in a case: a layer, a law by its name, and what the law's numbers are."""
+"""Design criteria in a case: a layer, a law by its name, and what the law's numbers are."""
 
 from __future__ import annotations
 
@@ -63,8 +63,8 @@ class CriterionTable(Made):
         if self.told_quantity:
             told: Quantity = _READS.build(table.reads)
             return told
-        found = (getattr(one, "reads", None) for one in made_by(type(self).target))
-        return next((one for one in found if isinstance(one, Quantity)), None)
+        reads = (getattr(one, "reads", None) for one in made_by(type(self).target))
+        return next((one for one in reads if isinstance(one, Quantity)), None)
 
     def _law(self, at: OnLayer) -> Any:
         target = type(self).target
@@ -98,16 +98,16 @@ Criterion = Annotated[Any, CRITERION]
 
 
 def quantity_of(table: Mapping[str, Any]) -> Quantity | None:
-    """What a table of criteria reads; None where it does not tell."""
+    """What a table of criteria reads; None where it does not say."""
     kind = CRITERION.table_for(table)
     if kind is None:
         return None
     try:
         read: Any = kind.model_validate({key: table[key] for key in ("name", "law", "reads") if key in table})
-        found: Quantity | None = read.quantity
+        quantity: Quantity | None = read.quantity
     except ValueError:
         return None
-    return found
+    return quantity
 
 
 def _number(who: str, asked: int | str | None, road: Pavement, usual: int | None) -> int:
@@ -122,9 +122,9 @@ def _number(who: str, asked: int | str | None, road: Pavement, usual: int | None
         if not 1 <= asked <= len(names):
             raise InputError(f"{who!r}: no layer {asked}; the road has {listed}")
         return asked - 1
-    found = [k for k, name in enumerate(names) if asked.casefold() == name.casefold()]
-    if len(found) != 1:
-        if found:
+    matches = [k for k, name in enumerate(names) if asked.casefold() == name.casefold()]
+    if len(matches) != 1:
+        if matches:
             raise InputError(f"{who!r}: several layers have the name {asked!r}; the road has {listed}")
         raise InputError(f"{who!r}: no layer has the name {asked!r}; {nearest(asked, names)}; the road has {listed}")
-    return found[0]
+    return matches[0]

@@ -1,4 +1,4 @@
-"""A case of design: a tire, a road, its traffic, its climate, and the criteria it must meet."""
+"""A design case: a tire, a road, its traffic, its climate, and the criteria it must meet."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from treadload.units import Length, Number
 
 
 class DesignRoadPart(RoadPart):
-    """`[pavement]` of a design: as in a case, but its temperatures are those of [climate]."""
+    """`[pavement]` of a design case: as in a case, but its temperatures are those of [climate]."""
 
     @classmethod
     def unknown(cls, key: str) -> str:
@@ -41,7 +41,7 @@ class LifeCase(FilePart):
     """
 
     own_tables: ClassVar = ("traffic", "climate", "criteria")
-    how_to_run: ClassVar = "a case of design: use `treadload life {name}`, in Python LifeCase"
+    how_to_run: ClassVar = "a design case: use `treadload life {name}`, in Python LifeCase"
 
     spacing: Length = DEFAULT_SPACING
     tolerance: Number = 5e-3

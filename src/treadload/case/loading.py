@@ -16,9 +16,9 @@ class FootprintPart(Table):
     """`[footprint]`, in place of [tire] and [rolling]: recorded contact stress.
 
     file: a CSV table or matrix, or NetCDF such as a result of this package (.nc). units: { pressure = "kPa" }, of
-    columns and variables that name none. spacing: of the cells of a matrix. missing: "error" or "zero". noise:
-    pressures this far below zero are none. decimal: "." or ",", where a CSV file can be read in two ways. shear_on:
-    the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
+    columns and variables that name no unit. spacing: of the cells of a matrix. missing: "error" or "zero". noise:
+    pressures this far below zero count as zero. decimal: "." or ",", where a CSV file can be read in two ways.
+    shear_on: the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
     """
 
     file: str
@@ -34,7 +34,7 @@ class FootprintPart(Table):
     def _of_a_table(self) -> FootprintPart:
         stray = sorted(self.model_fields_set - {"file", "units", "interpolation"}) if self.is_result else []
         if stray:
-            raise ValueError(f"{stray[0]} belongs to a CSV file; {self.file} is NetCDF and tells it itself")
+            raise ValueError(f"{stray[0]} belongs to a CSV file; {self.file} is NetCDF, which holds it")
         return self
 
     @property

@@ -31,7 +31,7 @@ class DamagePart(Table):
     fatigue: the line, with epsilon_6 and slope. strain: "in-plane", of the horizontal plane, or "principal", in
     space. mean_over: side of the cube of road whose mean strain is read; 10 mm if left out. depth: one of the
     response's depths, whose points are read instead; left out, the means of all that lie in the top layer.
-    error_estimate: solve the case on cells twice as large too, and tell how much the reading moves. See
+    error_estimate: also solve the case on cells twice as large, and report how much the reading changes. See
     `treadload.assess`.
     """
 
@@ -91,7 +91,7 @@ class Case(FilePart):
             depth = self.damage.depth
             if depth is not None and not same_depth(self.response.depths, depth).any():
                 raise ValueError(
-                    f"damage.depth {self.damage.depth:g} m is none of response.depths "
+                    f"damage.depth {self.damage.depth:g} m is not one of response.depths "
                     f"{list(self.response.depths)} m; add it there"
                 )
         return self

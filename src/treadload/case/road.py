@@ -55,8 +55,8 @@ class LayerPart(Table):
             made: Material | TemperatureDependent = ROAD_MATERIAL.build(self.material)
             return made
         assert self.mix is not None
-        found = mixes[self.mix]
-        return found.with_frequency(frequency) if frequency is not None and isinstance(found, Mix) else found
+        mix = mixes[self.mix]
+        return mix.with_frequency(frequency) if frequency is not None and isinstance(mix, Mix) else mix
 
 
 def _profile(depths: tuple[Length, ...], values: tuple[Celsius, ...]) -> TemperatureProfile:
@@ -75,7 +75,7 @@ class RoadPart(Table):
     """The road's layers, or a structure of the catalogue.
 
     layers: from the surface down. structure: a name, or layers, "6 BBSG3 / 10 GB3 / 10 GB3 / PF3", see
-    `Pavement.from_catalogue`. rigid_base: True if the last of the layers lies on rock. frequency: of loading, at
+    `Pavement.from_catalogue`. rigid_base: True if the last layer lies on rock. frequency: of loading, at
     which the catalogue's mixes are read; left out, that of their data, 10 Hz.
     """
 
@@ -110,7 +110,8 @@ def _waits(one: Any) -> bool:
 class PavementPart(RoadPart):
     """`[pavement]`: the road's layers, or a structure of the catalogue, and its temperature.
 
-    temperature: one, one a layer, or over depth. extrapolate: True to go beyond the data of the materials.
+    temperature: one for all layers, one for each, or a profile over depth. extrapolate: True to go beyond the data of
+    the materials.
     """
 
     temperature: Annotated[Any, TEMPERATURE] = None
@@ -140,10 +141,10 @@ class PavementPart(RoadPart):
         road = self.untempered()
         if self.temperature is None:
             return [None] * len(road.layers)
-        found = road.layer_temperatures(self._temperature(), extrapolate=self.extrapolate)
-        pairs = zip(road.layers, found, strict=True)
+        temperatures = road.layer_temperatures(self._temperature(), extrapolate=self.extrapolate)
+        pairs = zip(road.layers, temperatures, strict=True)
         return [value if layer.depends_on_temperature else None for layer, value in pairs]
 
     def _temperature(self) -> float | tuple[float, ...] | TemperatureProfile:
-        found: float | tuple[float, ...] | TemperatureProfile = TEMPERATURE.build(self.temperature)
-        return found
+        temperature: float | tuple[float, ...] | TemperatureProfile = TEMPERATURE.build(self.temperature)
+        return temperature

@@ -38,7 +38,7 @@ def json_schema(name: str = "run") -> dict[str, Any]:
     _gather(root, defined)
     for wanted in _wanted(root, defined):
         choice = choice_named(wanted)
-        # What is no choice is a table, whose definition comes with the one that holds it.
+        # What is not a choice is a table, whose definition comes with the one that holds it.
         assert choice is not None, wanted
         defined[wanted] = _one_of(choice)
         _gather(defined[wanted], defined)
@@ -109,18 +109,18 @@ def _plain(schema: Any, *, keys: bool = False) -> Any:
         return schema.replace(REFERENCE, _DEFINED) if isinstance(schema, str) else schema
     if keys:
         return {key: _plain(one) for key, one in schema.items()}
-    found = {key: _plain(one, keys=key in ("properties", "$defs")) for key, one in schema.items()}
-    if "$defs" not in found:
-        found.pop("title", None)
-    if found.get("default", ...) is None or isinstance(found.get("default"), dict):
-        del found["default"]
-    arms = [one for one in found.get("anyOf", ()) if one != {"type": "null"}]
+    kept = {key: _plain(one, keys=key in ("properties", "$defs")) for key, one in schema.items()}
+    if "$defs" not in kept:
+        kept.pop("title", None)
+    if kept.get("default", ...) is None or isinstance(kept.get("default"), dict):
+        del kept["default"]
+    arms = [one for one in kept.get("anyOf", ()) if one != {"type": "null"}]
     if len(arms) == 1:
-        del found["anyOf"]
-        said = sentences(*(one.get("description") for one in (found, *arms)))
-        found |= {**arms[0], "description": said}
+        del kept["anyOf"]
+        said = sentences(*(one.get("description") for one in (kept, *arms)))
+        kept |= {**arms[0], "description": said}
     elif arms:
-        found["anyOf"] = arms
-    if not found.get("description", ...):
-        del found["description"]
-    return found
+        kept["anyOf"] = arms
+    if not kept.get("description", ...):
+        del kept["description"]
+    return kept

@@ -23,14 +23,14 @@ PROFILE = As(str | TreadProfile)
 class TirePart(Table):
     """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of.
 
-    scan: a mesh, OBJ, PLY, STL, GLB, OFF or of an ending that another package reads, or "example", the mesh that
-    comes along. profile: a name of the library, a TOML file, or a table. height_map: a file of the initial gap.
-    units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names none.
+    scan: a mesh, OBJ, PLY, STL, GLB, OFF or a format that another package reads, or "example", the mesh that ships
+    with treadload. profile: a name of the library, a TOML file, or a table. height_map: a file of the initial gap.
+    units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names no unit.
     cell: of a height map without coordinates. decimal: "." or ",", of a height map as text. inflation_pressure: gives
     the modulus where there is no material. material: of the tread's half-space. Of a scan: nominal_diameter: outer,
-    which tells the unit. rotation: about the axle. camber: lean to the right. revolve: the meridian in place of the
-    facets. fill_holes: of the tread. smooth: length to smooth noise over, or "auto". outliers: "remove", "refuse" or
-    "keep" points that stick out. roundness: share of the radius by which it may vary.
+    from which the unit follows. rotation: about the axle. camber: lean to the right. revolve: the meridian in place
+    of the facets. fill_holes: of the tread. smooth: length to smooth noise over, or "auto". outliers: "remove",
+    "refuse" or "keep" points that stick out. roundness: share of the radius by which it may vary.
     """
 
     one_of: ClassVar = ("scan", "profile", "height_map")

@@ -37,7 +37,7 @@ class AxlePart(Table):
     of a group. wheels: [[x, y], ...] in place of a gear, the wheel path at y = 0. maneuver: how they roll; left out,
     straight on. maneuvers: several with their shares. friction: with the road. speed: for viscoelastic roads. tire:
     of this class, as [tire]; left out, that of the case. Of dual wheels the left one, at y < 0, has its tire turned
-    round, as on the right of a vehicle; only treads that are not symmetric feel it.
+    round, as on the right of a vehicle; it matters only for treads that are not symmetric.
     """
 
     one_of: ClassVar = ("axle_load", "wheel_load")
@@ -114,9 +114,9 @@ class AxlePart(Table):
 class TrafficPart(Table):
     """`[traffic]`: what passes over the wheel path, how that grows, and for how long.
 
-    passes_per_year: of all classes, in the first year. growth: a year. kind: of growth, "geometric" or "arithmetic".
-    years: for which the road is designed. wander: of the wheels across the road; left out, none. classes: of axles,
-    whose shares sum to 1.
+    passes_per_year: of all classes, in the first year. growth: per year. kind: of growth, "geometric" or
+    "arithmetic". years: for which the road is designed. wander: of the wheels across the road; left out, none.
+    classes: of axles, whose shares sum to 1.
     """
 
     passes_per_year: PerYear
@@ -136,8 +136,8 @@ class TrafficPart(Table):
 class ClimatePart(Table):
     """`[climate]`: temperature = 15, or months = [12 of them], or seasons, in °C.
 
-    temperature: of the road, all the year. months: of twelve months, January first. seasons: with their shares of the
-    passes.
+    temperature: of the road, all year round. months: of twelve months, January first. seasons: with their shares of
+    the passes.
     """
 
     one_of: ClassVar = ("temperature", "months", "seasons")

@@ -45,7 +45,7 @@ _Set = Annotated[
     ),
 ]
 _Kind = Annotated[str, typer.Argument(help="The command that runs the case: run or life.")]
-_DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and tell what would be solved.")]
+_DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and say what would be solved.")]
 
 
 def _name() -> Column:
@@ -109,7 +109,7 @@ def run(
     from treadload.study import plan_case, run_case
 
     path = output or case.with_suffix(".nc")
-    # A path that cannot be written is found before the computation, not after it.
+    # A path that cannot be written is refused before the computation, not after it.
     check_output(path)
     question = Case.from_toml(case, changes=changes or ())
     check_writable(path)
@@ -126,15 +126,15 @@ def run(
 @app.command()
 @_one_sentence
 def life(
-    design: Annotated[Path, typer.Argument(help="The case of design, a TOML file.")],
+    design: Annotated[Path, typer.Argument(help="The design case, a TOML file.")],
     output: _Output = None,
-    sensitivity: Annotated[bool, typer.Option(help="Ask what the life depends on most; as much work again.")] = True,
+    sensitivity: Annotated[bool, typer.Option(help="Find what the life depends on most; doubles the work.")] = True,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; all cores if left out.")] = None,
     changes: _Set = None,
     dry_run: _DryRun = False,
     quiet: _Quiet = False,
 ) -> None:
-    """Compute the life of a road under a traffic and a climate, and write it."""
+    """Compute the life of a road under its traffic and climate, and write it."""
     from treadload.case import LifeCase
     from treadload.files import check_writable
     from treadload.results.exports import check_output, write
@@ -246,7 +246,7 @@ def scan(
     spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
     quiet: _Quiet = False,
 ) -> None:
-    """Read a tire mesh, tell how good it is, and write its height map."""
+    """Read a tire mesh, report its quality, and write its height map."""
     from treadload.results import height_map
     from treadload.results.exports import check_output, write
     from treadload.tire import Tire
@@ -309,7 +309,7 @@ def catalogue(
 
 
 def _kinds() -> Table:
-    """What a table of a case can be, by its kind, and which package brings it where it is not ours."""
+    """What a table of a case can be, by its kind, and which package brings it where it is not treadload."""
     import treadload.case  # its rooms register what they have
     import treadload.tire.mesh_file  # noqa: F401
     from treadload.registry import ALL
@@ -328,7 +328,7 @@ def demo(
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder to write.")] = Path("demo"),
     quiet: _Quiet = False,
 ) -> None:
-    """A real truck tire, rolling free and driving: results, figures and a report."""
+    """A real truck tire, rolling freely and driving: results, figures and a report."""
     from treadload.demo import run_demo
 
     with stages(_err, quiet=quiet) as tell:

@@ -12,7 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 # Work shorter than this says nothing where there is no terminal, s; no two lines are closer than it.
 SHORT = 3.0
-# A stage that goes on is told again after this long, s.
+# A stage that goes on is reported again after this long, s.
 AGAIN = 10.0
 
 Stage = Callable[[str], None]
@@ -20,7 +20,7 @@ Count = Callable[[int, int, str], None]
 
 
 class Lines:
-    """Lines that tell the stage: once it has lasted a moment, and again every while, from a thread of their own."""
+    """Lines that name the stage: once it has lasted a moment, and again at intervals, from a thread of their own."""
 
     def __init__(self, write: Callable[[str], None], began: float | None = None) -> None:
         self._write, self._short, self._again = write, SHORT, AGAIN

@@ -120,7 +120,7 @@ class Maneuver:
         return cls(name, lateral=math.copysign(1, radius) * share, spin=1 / radius, load_ratio=ratio)
 
     def rolling(self, normal_load: float, friction: float | FrictionLaw, *, speed: float | None = None) -> Rolling:
-        """The rolling state under a load, N, with a coefficient or law of friction; speed in m/s.
+        """The rolling state under a load, N, with a coefficient or friction law; speed in m/s.
 
         normal_load: before `load_ratio`. Raises InputError for forces that no friction of the law could carry.
         """

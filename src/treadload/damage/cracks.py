@@ -137,7 +137,7 @@ def crack_rose(
     so that longitudinal and transverse traces fall into one class each. oblique_tolerance: see `assess`.
     Returns orientation_share over orientation, which adds up to 1, and trace_share over trace_angle, rad, in
     (-π/2, π/2], which adds up to 1 less the horizontal cracks: they have no trace to speak of. All shares are 0
-    where nothing extends; the attribute `weight_total` is the area in m² (the width in m), or the damage on it.
+    where there is no extension; the attribute `weight_total` is the area in m² (the width in m), or the damage on it.
     Raises InputError.
     """
     check_tolerance(oblique_tolerance)

@@ -29,7 +29,7 @@ _ANY_TEMPERATURE = 15.0
 class Criterion:
     """A quantity at a place of the road, and the law that says after how many passes the road fails there.
 
-    name: for tables and figures. law: a law of fatigue; or a function that gives it at a temperature of the
+    name: for tables and figures. law: a fatigue law; or a function that gives it at a temperature of the
     layer, °C. layer: counted from the surface, 0 is the top one, negative from the bottom. place: "top" or
     "bottom" of the layer, or "interface", the bond below the layer, counted as `interface_number` does; left out,
     the usual one of what the law reads. strain: "principal" reads an extension in space, "in-plane" in the horizontal

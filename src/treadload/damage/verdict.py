@@ -32,11 +32,11 @@ _NOTABLE = 1.1
 
 @dataclass(frozen=True, eq=False)
 class Verdict(BaseResult, group="damage"):
-    """What a law of fatigue says of a strain field.
+    """What a fatigue law says of a strain field.
 
     dataset: fields (y, x) extension_strain, allowable_passes, crack_angle, crack_dip, crack_orientation at the worst
     depth; extension_by_depth (depth), the largest reading of each; scalars worst_*, which stand between the points of
-    the fields where the reading is largest there; NaN angle and dip where no crack opens. line: the law of fatigue.
+    the fields where the reading is largest there; NaN angle and dip where no crack opens. line: the fatigue law.
     strain: the strain that the verdict reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
     """
 

@@ -1,4 +1,4 @@
-"""The demonstration: a real truck tire, rolling free and driving."""
+"""The demonstration: a real truck tire, rolling freely and driving."""
 
 from treadload.demo.run import Demo, run_demo
 

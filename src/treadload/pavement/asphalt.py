@@ -1,4 +1,4 @@
-"""How much asphalt lies in a road: the thickness that laws of fatigue ask for."""
+"""How much asphalt lies in a road: the thickness that fatigue laws ask for."""
 
 from __future__ import annotations
 

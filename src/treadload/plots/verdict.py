@@ -222,7 +222,7 @@ def _mark_case(ax: Axes, passes: float, strain: float, name: str, colour: str, l
     title = f"{plain(name)}: " if name else ""
     # A space first: matplotlib leaves labels that begin with an underscore out of its legends.
     if not (strain > 0 and math.isfinite(passes)):
-        ax.plot([], [], "o", color=colour, label=f" {title}nothing extends")
+        ax.plot([], [], "o", color=colour, label=f" {title}no extension")
     else:
         ax.plot([low, passes, passes], [strain, strain, 1e-3], color=colour, lw=1.0, alpha=0.75, zorder=1.5)
         words = f"{title}{strain:.3g} microstrain", f"{power_of_ten(passes)} passes"

@@ -33,7 +33,7 @@ class Choice(Mark):
     besides those of the target, all optional unless in `needed`; finish: what becomes of the made thing by them, from
     the made, its table and the folder. lenient: True if no key of the target is needed; such a table is not built
     when it is read. keeps_number: True to leave a number as it is. hidden: annotations of parameters that are no
-    keys. about: the keys in `more`, as a docstring tells them.
+    keys. about: the keys in `more`, as a docstring describes them.
     """
 
     registry: Registry
@@ -81,7 +81,7 @@ class Choice(Mark):
             raise InputError(f"{who} cannot be read from a table: {error}; repair that package") from error
 
     def names(self) -> tuple[str, ...]:
-        """Names that will do; of other packages, which are not loaded, all."""
+        """Names that are accepted; all those of other packages, which are not loaded."""
         own = self.registry.own()
         return tuple(name for name in self.registry.names() if name not in own or self.will_do(name))
 
@@ -109,7 +109,7 @@ class Choice(Mark):
         return value if value is None or self.keeps_number else self.registry.find(self.registry.number).target(value)
 
     def check(self, made: Any, entry: Entry) -> None:
-        """Refuse what another package makes if it is none of the registry's. Raises InputError."""
+        """Refuse what another package makes if it is not one of the registry's. Raises InputError."""
         faces = self.only or self.registry.faces
         if entry.package != OURS and faces and not isinstance(made, faces):
             kinds = ", ".join(face.__name__ for face in faces)
@@ -281,7 +281,7 @@ def readable(hint: Any, where: str = "") -> Any:
         return table_of(hint)
     if inspect.isclass(hint):
         return hint
-    raise InputError(f"{where or hint}: the annotation {hint} is none that a table can hold; see treadload.read")
+    raise InputError(f"{where or hint}: the annotation {hint} is not one that a table can hold; see treadload.read")
 
 
 @functools.cache

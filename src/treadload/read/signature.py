@@ -24,15 +24,15 @@ def parameters(target: Callable[..., Any], hidden: tuple[Any, ...] = ()) -> dict
         signature = inspect.signature(target)
     except (NameError, TypeError, ValueError) as error:
         raise InputError(f"the annotations of {who} cannot be read: {error}") from error
-    found: dict[str, tuple[Any, Any]] = {}
+    taken: dict[str, tuple[Any, Any]] = {}
     for name, one in signature.parameters.items():
         if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD):
             continue
         if name not in hints:
             raise InputError(f"the parameter {name} of {who} has no annotation; give it one, as Length or Number")
         if hints[name] not in hidden:
-            found[name] = hints[name], ... if one.default is one.empty else one.default
-    return found
+            taken[name] = hints[name], ... if one.default is one.empty else one.default
+    return taken
 
 
 def made_by(target: Callable[..., Any]) -> tuple[Any, ...]:
@@ -59,7 +59,7 @@ def descriptions(text: str, names: Collection[str]) -> dict[str, str]:
     known = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
     if not known:
         return {}
-    found: dict[str, str] = {}
+    words_by_name: dict[str, str] = {}
     for paragraph in re.split(r"\n\s*\n", text):
         line = " ".join(paragraph.split())
         heads = list(re.finditer(rf"(?:^|(?<=[.;:?)`] ))((?:(?:{known}), )*(?:{known})): ", line))
@@ -68,5 +68,5 @@ def descriptions(text: str, names: Collection[str]) -> dict[str, str]:
             words = line[head.end() : end]
             words = re.split(r" (?=Raises |Source: |Sources: |Build it )", words)[0].strip()
             for name in head[1].split(", "):
-                found.setdefault(name, words)
-    return found
+                words_by_name.setdefault(name, words)
+    return words_by_name

@@ -15,7 +15,7 @@ from treadload.errors import InputError, nearest
 from treadload.read.signature import descriptions, words_of
 from treadload.registry import OURS, Entry, Registry
 
-# Errors told at once: a reader repairs the first, and the rest may follow from it.
+# Errors reported at once: a reader repairs the first, and the rest may follow from it.
 _TOLD = 4
 HERE = Path(".")
 _KINDS = {
@@ -33,7 +33,7 @@ class Table(BaseModel):
     """A table: frozen, and no key that it does not know."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
-    # Keys of which a table has one and no more; told to whoever completes it.
+    # Keys of which a table has exactly one; stated in the schema for editors.
     one_of: ClassVar[tuple[str, ...]] = ()
 
     def __repr_args__(self) -> Any:
@@ -123,13 +123,13 @@ class Kinds(Protocol):
 
     @property
     def about(self) -> str:
-        """What the keys are that all of them have, as a docstring tells it."""
+        """What the keys are that all of them have, as a docstring describes them."""
 
     def knows(self, key: str) -> bool:
         """True if one of them has this key."""
 
     def check(self, made: Any, entry: Entry) -> None:
-        """Refuse what is none of them. Raises InputError."""
+        """Refuse what is not one of them. Raises InputError."""
 
 
 class Made(Table):
@@ -169,7 +169,7 @@ class Made(Table):
 
     @classmethod
     def needs_more(cls) -> bool:
-        """True if its name alone will not do."""
+        """True if its name alone is not enough."""
         key = "" if cls.kinds is None else cls.kinds.registry.key
         return any(field.is_required() for name, field in cls.model_fields.items() if name != key)
 
@@ -217,7 +217,7 @@ def _plainly(error: Any) -> str:
 
 
 def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **given: Any) -> Any:
-    """What a target returns; what goes wrong in another package is told as its own failure. Raises InputError."""
+    """What a target returns; what goes wrong in another package is reported as its failure. Raises InputError."""
     if entry is None or entry.package == OURS:
         return target(*args, **given)
     try:
@@ -231,9 +231,9 @@ def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **given
 def in_words(error: ValidationError) -> str:
     """The first errors of a table on one line, each with the path of its key."""
     # A key that was misspelt is missing, too: what was meant is said first.
-    found = sorted(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
-    told = [_one_error(item) for item in found[:_TOLD]]
-    return "; ".join([*told, f"and {len(found) - _TOLD} more"] if len(found) > _TOLD else told)
+    errors = sorted(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
+    told = [_one_error(item) for item in errors[:_TOLD]]
+    return "; ".join([*told, f"and {len(errors) - _TOLD} more"] if len(errors) > _TOLD else told)
 
 
 def _one_error(item: Any) -> str:
@@ -258,8 +258,8 @@ def arms(told: Any) -> list[Any]:
 
 
 def _marks(told: Any) -> list[Mark]:
-    found = (mark for arm in arms(told) if get_origin(arm) is Annotated for mark in get_args(arm)[1:])
-    return [mark for mark in found if isinstance(mark, Mark)]
+    marks = (mark for arm in arms(told) if get_origin(arm) is Annotated for mark in get_args(arm)[1:])
+    return [mark for mark in marks if isinstance(mark, Mark)]
 
 
 def _members(told: Any, count: int) -> list[Any]:

@@ -1,4 +1,4 @@
-"""One HTML file that tells what the cases asked, what came out, and how."""
+"""One HTML file that says what the cases asked, what came out, and how."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def write_report(cases: Mapping[str, Any], path: str | PathLike[str], title: str
     read = [case for label, one in cases.items() for case in ReportCase.all_of(label, as_tree(one))]
     html = _template().render(_content(read, title or _title(read)))
     with replacing(path) as temporary:
-        # Half a character of a torn file is no text.
+        # A file cut within a character is not valid text.
         temporary.write_text(html, encoding="utf-8", errors="replace")
     return Path(path)
 

@@ -25,7 +25,7 @@ from treadload.response.fields import layer_in_words
 
 _STROKES = (
     "Strokes lie along the largest extension; a crack opens across them. A stroke shortens to a point where the "
-    "extension turns out of the page. Paper white: nothing extends."
+    "extension turns out of the page. White: no extension."
 )
 
 
@@ -184,8 +184,8 @@ def _layered(case: ReportCase) -> Iterator[Picture]:
     if across is not None and "dissipated_energy" in across:
         yield from picture(
             "Energy dissipated in one passage",
-            "What the wheel leaves in the viscoelastic layers as heat and damage, per volume, in a section across "
-            "travel; hatched: not computed.",
+            "What the wheel leaves in the viscoelastic layers as heat and damage, per unit volume, in a section "
+            "across travel; hatched: not computed.",
             lambda: dissipated_energy(across),
             wide=True,
         )
@@ -206,38 +206,38 @@ def _verdict(case: ReportCase, alone: bool) -> Iterator[Picture]:
         )
     yield from picture(
         "Allowable passes",
-        f"From {_DRAWN[kind]}. The darkest places bear fewest passes; white ones a million times more, "
-        "or nothing extends there.",
+        f"From {_DRAWN[kind]}. The darkest places bear the fewest passes; white ones a million times "
+        "more, or have no extension.",
         plots.passes,
     )
     yield from picture(
         "Cracks to expect",
         f"Traces on the surface of cracks across the largest extension, read from {_DRAWN[kind]}: longitudinal along "
-        "travel, transverse across it, oblique between, horizontal as points (layers part). Drawn where the strain "
-        "is significant; the first crack opens at the ring.",
+        "travel, transverse across it, oblique between, horizontal as points (layers separate). Drawn where the "
+        "strain is significant; the first crack opens at the ring.",
         plots.cracks,
     )
 
 
 _KINDS: tuple[Strain, ...] = ("principal", "in-plane")
-_HOLDS = ", which at the surface holds the shear of the tire itself"
+_HOLDS = ", which at the surface includes the shear of the tire itself"
 _DRAWN = {"principal": "the three-dimensional strain", "in-plane": "the strain in the horizontal plane"}
 _WHAT = {
     "principal": _STROKES,
-    "in-plane": "It opens vertical cracks. Strokes lie along the extension; a crack opens across them. Paper white: "
-    "nothing extends in the plane.",
+    "in-plane": "It opens vertical cracks. Strokes lie along the extension; a crack opens across them. White: no "
+    "extension in the plane.",
 }
 
 
 def _with(cases: list[ReportCase], group: str, variable: str) -> tuple[list[xr.Dataset], list[str]]:
     """Datasets of the cases that have a variable in a group, and their labels."""
-    found = [(case.group(group), case.label) for case in cases]
-    kept = [(data, label) for data, label in found if data is not None and variable in data]
+    labelled = [(case.group(group), case.label) for case in cases]
+    kept = [(data, label) for data, label in labelled if data is not None and variable in data]
     return [data for data, _ in kept], [label for _, label in kept]
 
 
 def _common_depths(responses: list[xr.Dataset]) -> list[float]:
-    """Depths, m, that all responses have, the least first."""
+    """Depths, m, that all responses have, the shallowest first."""
     if not responses:
         return []
     shared = {round(float(d), 9) for d in np.atleast_1d(responses[0]["depth"].to_numpy())}

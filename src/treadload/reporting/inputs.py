@@ -62,17 +62,17 @@ def input_table(cases: list[ReportCase]) -> list[Section]:
 
 def input_lists(cases: list[ReportCase]) -> list[NamedTable]:
     """The named things that the cases ask about: axles, seasons, criteria."""
-    found = []
+    tables = []
     for case in cases:
         table = _table(case)
         of = f": {case.label}" if len(cases) > 1 else ""
         for key, items, part in named_tables(_model(table), table):
             heading = _HEADINGS.get(key, key.capitalize()) + of
             if part is not None and issubclass(part, CriterionTable):
-                found.append(NamedTable(heading, _CRITERION, tuple(_criterion(case, item) for item in items)))
+                tables.append(NamedTable(heading, _CRITERION, tuple(_criterion(case, item) for item in items)))
             else:
-                found.append(NamedTable(heading, *columns(items, part)))
-    return found
+                tables.append(NamedTable(heading, *columns(items, part)))
+    return tables
 
 
 def _table(case: ReportCase) -> dict[str, Any]:
@@ -87,22 +87,22 @@ def _model(table: Mapping[str, Any]) -> type[Case] | type[LifeCase]:
 
 
 def _asked(case: ReportCase) -> dict[Key, str]:
-    found = dict(_rows(_table(case)))
+    rows = dict(_rows(_table(case)))
     contact = case.group("contact")
     if contact is not None:
         told = {"tire": "Tire", "road": "Road", "rolling": "Rolling"}
         # The results' own words stand where the case is silent.
-        silent = {key: heading for key, heading in told.items() if not any(of == heading for of, _, _ in found)}
+        silent = {key: heading for key, heading in told.items() if not any(of == heading for of, _, _ in rows)}
         for key, heading in silent.items():
             if contact.attrs.get(key):
-                found[heading, "as solved", ""] = str(contact.attrs[key])
+                rows[heading, "as solved", ""] = str(contact.attrs[key])
         if contact.attrs.get("tire") and "tire" not in silent:
-            found["Tire", "as solved", ""] = str(contact.attrs["tire"])
+            rows["Tire", "as solved", ""] = str(contact.attrs["tire"])
         cells = f"{contact.sizes['x']} × {contact.sizes['y']}"
         if "dx" in contact.attrs and "dy" in contact.attrs:
             cells += f" of {float(contact.attrs['dx']) * 1e3:g} × {float(contact.attrs['dy']) * 1e3:g} mm"
-        found[_HEADINGS[""], "grid of the contact", ""] = cells
-    return found
+        rows[_HEADINGS[""], "contact grid", ""] = cells
+    return rows
 
 
 def _rows(table: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
@@ -112,10 +112,10 @@ def _rows(table: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
             continue
         if isinstance(value, Mapping):
             heading = _HEADINGS.get(section, section.replace("_", " ").capitalize())
-            found = entries(part_of(annotation_of(model, section), value), value)
+            given = entries(part_of(annotation_of(model, section), value), value)
         else:
-            heading, found = _HEADINGS[""], entries(model, {section: value})
-        for entry in found:
+            heading, given = _HEADINGS[""], entries(model, {section: value})
+        for entry in given:
             yield (heading, entry.name, entry.unit), entry.text
 
 

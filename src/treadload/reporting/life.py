@@ -67,8 +67,9 @@ def sentence(data: xr.Dataset) -> str:
         return f"{said}."
     used = float(row["design_damage"])
     if years >= float(design):
-        return f"{said}: the {float(design):g} years of design use up {100 * used:.0f} % of it."
-    return f"{said}, {measure(float(design) - years)} years before the {float(design):g} years of design are over."
+        return f"{said}: a design life of {float(design):g} years uses up {100 * used:.0f} % of it."
+    early = measure(float(design) - years)
+    return f"{said}, {early} years before the end of its design life of {float(design):g} years."
 
 
 def exhausted(data: xr.Dataset) -> bool:
@@ -171,14 +172,14 @@ def _solved(data: xr.Dataset) -> str:
     told = (
         f"{stats['contacts']} contacts and {stats['responses']} responses were solved for {stats['combinations']} "
         f"combinations of class and season in {measure(stats['seconds'])} s; readings interpolated over the climate "
-        f"err by {stats['interpolation_error']:.1g} of the largest at most"
+        f"are off by at most {stats['interpolation_error']:.1g} of the largest"
     )
     if stats.get("wheels_moved"):
         told += f"; wheels were moved by up to {stats['wheels_moved'] * 1e3:.1f} mm onto the common cells"
     if "sensitivity_responses" in data.attrs:
         told += (
-            f". The sensitivities took {int(data.attrs['sensitivity_contacts'])} contacts and "
-            f"{int(data.attrs['sensitivity_responses'])} responses more, of the classes and seasons that do "
+            f". The sensitivities took {int(data.attrs['sensitivity_contacts'])} more contacts and "
+            f"{int(data.attrs['sensitivity_responses'])} more responses, for the classes and seasons that do "
             f"{100 * float(data.attrs['sensitivity_coverage']):.0f} % of the governing damage"
         )
     return told + "."
@@ -188,7 +189,7 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
     return [
         *picture(
             "Life by criterion",
-            "Years from the opening until Miner's sum is 1 at the worst place. Orange: the criterion that governs.",
+            "Years from opening until Miner's sum is 1 at the worst place. Orange: the governing criterion.",
             lambda: life_years(data),
         ),
         *(
@@ -203,7 +204,7 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
         ),
         *picture(
             "Damage across the wheel path",
-            "Miner's sum of every criterion, after wander where the law does not hold it; dots mark the worst "
+            "Miner's sum of every criterion, with lateral wander unless the law includes it; dots mark the worst "
             "places. A full line above the dashed ones means that cracks start at the surface.",
             lambda: life_damage(data),
             wide=True,

@@ -55,9 +55,9 @@ def _pictures(other: Other) -> list[Picture]:
     match other.kind:
         case "bonds":
             caption = "Share of the strength that the load uses up; arrows: shear of the upper layer on the lower."
-            return picture("How far the bonds are used up", caption, BondVerdictPlots(data).utilisation, wide=True)
+            return picture("Utilisation of the bonds", caption, BondVerdictPlots(data).utilisation, wide=True)
         case "bond_comparison":
-            caption = "Life by every criterion with the bond, without it, and with it until it parts."
+            caption = "Life by every criterion with the bond, without it, and with it until it fails."
             return picture("Life with and without the bond", caption, BondComparisonPlots(data).lives, wide=True)
         case "creep_curve":
             caption = "Force over friction times load, and the share of the contact that slips, against creepage."
@@ -67,7 +67,7 @@ def _pictures(other: Other) -> list[Picture]:
             return picture("What the life depends on", caption, SensitivityPlots(data).inputs)
         case "uniform":
             caption = (
-                "Largest strains at every depth under the computed contact and under uniform loads of its force."
+                "Largest strains at every depth under the computed contact and under uniform loads of the same force."
             )
             return picture("What uniform loads do not see", caption, UniformPlots(data).strains, wide=True)
         case "rolling_resistance":

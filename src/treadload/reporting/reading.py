@@ -22,7 +22,7 @@ from treadload.response.fields import angle_in_words, direction_in_words, layer_
 from treadload.results.schema import check_tree
 from treadload.results.tree import ASKED
 
-# Kinds that tables and figures of their own tell of; whatever else a tree holds is told by its summary and figures.
+# Kinds with tables and figures of their own; whatever else a tree holds is shown by its summary and figures.
 GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
 # A number such as 1.2e+05 in a sentence.
 _POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
@@ -76,23 +76,23 @@ class ReportCase:
             owner = node.attrs.get("part_of")
             if isinstance(owner, str) and owner:
                 inside.setdefault(owner, {}).setdefault(kind_of(name, node.attrs), node.to_dataset())
-        found: dict[str, tuple[dict[str, xr.Dataset], list[Other]]] = {}
+        by_case: dict[str, tuple[dict[str, xr.Dataset], list[Other]]] = {}
         for name, node in nodes.items():
             if node.attrs.get("part_of"):
                 continue
             kind = _ALSO.get(kind_of(name, node.attrs), kind_of(name, node.attrs))
-            groups, others = found.setdefault(_called(name, kind, label), ({}, []))
+            groups, others = by_case.setdefault(_called(name, kind, label), ({}, []))
             if kind in GROUPS and kind not in groups:
                 groups[kind] = node.to_dataset()
             else:
                 others.append(Other(name, kind, node.to_dataset(), inside.get(name, {})))
-        if not found:
+        if not by_case:
             held = ", ".join(tree.children) or "nothing"
             raise InputError(f"the tree of {label!r} holds {held}; a report needs a result such as a contact")
         attrs = {str(name): value for name, value in tree.attrs.items()}
         cases = []
-        for called, (groups, others) in found.items():
-            # What the life depends on is told beside it.
+        for called, (groups, others) in by_case.items():
+            # What the life depends on is shown beside it.
             more = next((one for one in others if one.kind == "sensitivity" and "life" in groups), None)
             if more is not None:
                 groups["life"] = _with_sensitivity(groups["life"], more.dataset)
@@ -167,8 +167,8 @@ class ReportCase:
     def warnings(self) -> list[str]:
         """Warnings of all groups, each once."""
         held = [*self.groups.values(), *(other.dataset for other in self.others)]
-        found = [str(text) for data in held for text in _json(data.attrs.get("warnings"), [])]
-        return list(dict.fromkeys(found))
+        texts = [str(text) for data in held for text in _json(data.attrs.get("warnings"), [])]
+        return list(dict.fromkeys(texts))
 
     def statistics(self, group: str) -> dict[str, Any]:
         """Statistics of the solver of a group."""
@@ -177,7 +177,7 @@ class ReportCase:
 
     @property
     def surface(self) -> xr.Dataset | None:
-        """The map of the response at the verdict's depth, or its least depth; None without a response."""
+        """The map of the response at the verdict's depth, or its shallowest depth; None without a response."""
         data = self.group("response")
         if data is None:
             return None
@@ -198,7 +198,7 @@ class ReportCase:
         place = f"x = {signed(float(plan.x[column]))} mm, y = {signed(float(plan.y[row]))} mm"
         value = float(values[row, column]) * MICRO
         if not value > 0:
-            return Worst(value, place, "nothing extends")
+            return Worst(value, place, "no extension")
         if strain == "principal":
             direction = direction_in_words(here["principal_direction_1"].to_numpy())
         else:
@@ -207,7 +207,7 @@ class ReportCase:
 
     def worst_in_sections(self) -> Worst | None:
         """The largest three-dimensional strain of the vertical sections; None without them."""
-        found = None
+        largest = None
         for name in ("slice_along", "slice_across"):
             data = self.group(name)
             if data is None or "principal_strain_1" not in data:
@@ -216,11 +216,11 @@ class ReportCase:
             where = {str(dim): int(index) for dim, index in strain.argmax(...).items()}
             here = data.isel(where)
             value = float(here["principal_strain_1"]) * MICRO
-            if found is None or value > found.strain:
+            if largest is None or value > largest.strain:
                 x, y, depth = (float(here[key]) * MM for key in ("x", "y", "depth"))
                 place = f"x = {signed(x)} mm, y = {signed(y)} mm, {depth:.1f} mm deep"
-                found = Worst(value, place, direction_in_words(here["principal_direction_1"].to_numpy()))
-        return found
+                largest = Worst(value, place, direction_in_words(here["principal_direction_1"].to_numpy()))
+        return largest
 
     @property
     def depth_in_words(self) -> str:
@@ -322,8 +322,8 @@ def _with_sensitivity(life: xr.Dataset, more: xr.Dataset) -> xr.Dataset:
     return life.assign(elasticity=more["elasticity"]).assign_attrs(own)
 
 
-def _raised(found: re.Match[str]) -> str:
-    return power_of_ten(float(found[0]))
+def _raised(match: re.Match[str]) -> str:
+    return power_of_ten(float(match[0]))
 
 
 def _json(text: Any, otherwise: Any) -> Any:

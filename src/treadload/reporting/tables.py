@@ -67,13 +67,11 @@ def result_table(cases: list[ReportCase]) -> list[Section]:
             "Fatigue and cracks",
             (
                 damage(
-                    "ε₆, strain of a million passes", "microstrain", lambda d: f"{d.attrs['epsilon_6'] * MICRO:g}"
+                    "ε₆, strain at a million passes", "microstrain", lambda d: f"{d.attrs['epsilon_6'] * MICRO:g}"
                 ),
                 damage("slope of the fatigue line", "–", lambda d: signed(float(d.attrs["slope"]), 2)),
                 Row("strain that the line reads", "", tuple(case.reads or MISSING for case in cases)),
-                damage(
-                    "worst strain that is read", "microstrain", lambda d: f"{float(d['worst_strain']) * MICRO:.1f}"
-                ),
+                damage("worst strain read", "microstrain", lambda d: f"{float(d['worst_strain']) * MICRO:.1f}"),
                 damage("its place", "mm", _worst_place),
                 damage(
                     "worst strain over ε₆", "–", lambda d: f"{float(d['worst_strain']) / d.attrs['epsilon_6']:.2f}"
@@ -83,7 +81,7 @@ def result_table(cases: list[ReportCase]) -> list[Section]:
                 damage(
                     "its trace, from travel", "°", lambda d: _degrees(d, "worst_crack_angle"), "positive to the right"
                 ),
-                damage("its plane, from the horizontal", "°", lambda d: _degrees(d, "worst_crack_dip")),
+                damage("dip of its plane from the horizontal", "°", lambda d: _degrees(d, "worst_crack_dip")),
             ),
         ),
     ]
@@ -94,13 +92,13 @@ def statistics_table(cases: list[ReportCase]) -> list[Section]:
     """How it was solved: iterations, residuals, cells, seconds."""
     sections = []
     for group, heading in (("contact", "Contact solver"), ("response", "Response")):
-        found = [case.statistics(group) for case in cases]
-        names = list(dict.fromkeys(name for stats in found for name in stats))
+        statistics = [case.statistics(group) for case in cases]
+        names = list(dict.fromkeys(name for stats in statistics for name in stats))
         rows = tuple(
             Row(
                 _STATISTICS.get(name, name.replace("_", " ")),
                 "s" if name == "seconds" else "",
-                tuple(_number(stats.get(name)) for stats in found),
+                tuple(_number(stats.get(name)) for stats in statistics),
             )
             for name in names
         )
@@ -154,7 +152,7 @@ def _strain_rows(cases: list[ReportCase]) -> list[Row]:
             Row(f"{name}: direction", "", tuple(MISSING if w is None else w.direction for w in worst)),
         ]
     deepest = [case.worst_in_sections() for case in cases]
-    # Below the edges of ribs the largest extension at points can lie under the surface.
+    # Below the edges of ribs the largest extension at points can lie below the surface.
     rows += [
         Row(
             "in the vertical sections",

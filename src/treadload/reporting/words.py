@@ -1,4 +1,4 @@
-"""Keys and numbers of a case as a person says them: a name, a value, a unit, by the types of the case's fields."""
+"""Keys and numbers of a case as a person writes them: a name, a value, a unit, by the types of the case's fields."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SHOWN = {
     "strain": ("microstrain", 1e6),
     "share": ("%", 100.0),
     "years": ("years", 1.0),
-    "1/year": ("a year", 1.0),
+    "1/year": ("per year", 1.0),
     "m": ("mm", 1e3),
     "radius": ("m", 1.0),
     "Pa": ("kPa", 1e-3),
@@ -59,31 +59,31 @@ _NAMES = {
     "creepage_x": "longitudinal creepage",
     "creepage_y": "lateral creepage",
     "delta": "δ",
-    "epsilon_6": "ε₆, strain of a million passes",
-    "extrapolate": "beyond the materials' data",
+    "epsilon_6": "ε₆, strain at a million passes",
+    "extrapolate": "extrapolation beyond the materials' data",
     "fill_holes": "holes filled",
     "frequency": "frequency at which mixes are read",
     "friction": "coefficient of friction",
     "gear": "wheels",
-    "glassy_modulus": "E∞, of fast loading",
-    "growth": "growth of the traffic a year",
+    "glassy_modulus": "E∞, for fast loading",
+    "growth": "annual growth of the traffic",
     "layers": "layer",
     "modulus": "Young's modulus",
     "months": "temperature, January to December",
     "passes_per_year": "passes in the first year",
     "poisson": "Poisson's ratio",
-    "reading_6": "r₆, reading of a million passes",
+    "reading_6": "r₆, reading at a million passes",
     "revolve": "meridian revolved",
     "road_compliance": "compliance of the road in the contact",
-    "sigma_6": "σ₆, stress of a million passes",
-    "slope": "slope of the law of fatigue",
-    "spacing": "cells of the grid",
-    "static_modulus": "E₀, of slow loading",
-    "structure": "structure of the catalogue",
+    "sigma_6": "σ₆, stress at a million passes",
+    "slope": "slope of the fatigue law",
+    "spacing": "cell size of the grid",
+    "static_modulus": "E₀, for slow loading",
+    "structure": "structure from the catalogue",
     "tau": "τ at the reference of the shift",
     "terms": "terms (share, relaxation time)",
-    "values": "temperatures there",
-    "years": "years of design",
+    "values": "temperatures at those depths",
+    "years": "design life",
 }
 _VALUES = {
     "2s2p1d": "2S2P1D",
@@ -99,7 +99,7 @@ _VALUES = {
     "wlf": "WLF",
 }
 # Tables whose keys say enough without the table's name, and the name of what they are.
-_SILENT = {"material": "material", "fatigue": "law of fatigue"}
+_SILENT = {"material": "material", "fatigue": "fatigue law"}
 _KINDS = ("kind", "law")
 
 
@@ -188,7 +188,7 @@ def shown_in(annotation: Any, value: Any) -> tuple[str, float]:
     symbols = list(dict.fromkeys(units_in(annotation)))
     if not symbols:
         return PURE, 1.0
-    # A pair of unlike numbers: each tells its own unit.
+    # A pair of unlike numbers: each carries its own unit.
     return ("", 1.0) if len(symbols) > 1 and isinstance(value, list) else SHOWN[symbols[0]]
 
 
@@ -236,16 +236,16 @@ def parts_in(annotation: Any, table: Mapping[str, Any]) -> Iterator[type[Table]]
         if isinstance(arm, type) and issubclass(arm, Table):
             yield arm
         for one in get_args(arm):
-            found = one.table_for(table) if isinstance(one, Choice) else None
-            if found is not None:
-                yield found
+            part = one.table_for(table) if isinstance(one, Choice) else None
+            if part is not None:
+                yield part
             yield from parts_in(one, table)
 
 
 def part_of(annotation: Any, table: Mapping[str, Any]) -> type[Table] | None:
     """The table of a case that a table is: it knows its keys and its kind, and misses least."""
-    found = [part for part in parts_in(annotation, table) if _fits(part, table)]
-    return min(found, key=lambda part: _missing(part, table), default=None)
+    fitting = [part for part in parts_in(annotation, table) if _fits(part, table)]
+    return min(fitting, key=lambda part: _missing(part, table), default=None)
 
 
 def is_named(annotation: Any, items: list[Mapping[str, Any]]) -> bool:

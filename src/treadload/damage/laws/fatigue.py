@@ -25,7 +25,7 @@ _SEEN = (1e4, 1e8)
 
 
 class FatigueLaw(Protocol):
-    """What every law of fatigue can tell.
+    """What every fatigue law can tell.
 
     A law reads one quantity of a loading, positive where it does harm: an extension, a compression on the
     subgrade, a tensile stress.
@@ -79,7 +79,7 @@ class PowerLaw(ABC):
 
     reads: Quantity
     # What sentences call it, and its reading of a million passes.
-    noun: ClassVar[str] = "law of fatigue"
+    noun: ClassVar[str] = "fatigue law"
     symbol: ClassVar[str] = "what allows a million passes"
     source: ClassVar[str]
     end_of_life: ClassVar[str]

@@ -1,4 +1,4 @@
-"""Laws of fatigue of a layer of a road: what of their numbers the layer gives where nobody else does.
+"""Fatigue laws of a layer of a road: what of their numbers the layer gives where nobody else does.
 
 A law of `treadload.registry.CRITERIA` is a class whose arguments are its numbers, and `law_of_layer` looks for those
 that are missing; or a function with a parameter of type OnLayer, which looks itself.
