@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import sys
-from difflib import get_close_matches
 from importlib import import_module
 from types import ModuleType
 from typing import Any
@@ -68,8 +67,11 @@ def _unknown(name: str) -> str:
     places = [f"{room}.{name}" for room in rooms if name in named(room).__all__]
     if name in _RENAMED or places:
         return f"{_PACKAGE}.{name} is {_PACKAGE}.{_RENAMED.get(name) or places[0]} now"
-    near = get_close_matches(name, NAMES, n=1)
-    return f"{said}; did you mean {near[0]!r}?" if near else said
+    # Only who misspells needs it.
+    from treadload.errors import meant
+
+    near = meant(name, NAMES)
+    return said if near is None else f"{said}; did you mean {near!r}?"
 
 
 # Results offer figures; the figures are loaded when they are first asked for.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import re
 from collections.abc import Iterable
 
@@ -43,14 +44,39 @@ class ConvergenceError(TreadloadError, RuntimeError):
         self.residual = residual
 
 
+def positive(name: str, value: float | str, unit: str = "", remedy: str = "") -> None:
+    """Raise InputError unless a value is a finite number > 0; a text is none, and neither is True.
+
+    name: what it is, in the sentence. unit: of the number, as in "Pa" or "metres". remedy: what is usual, or what to
+    do, for the end of the sentence.
+    """
+    try:
+        if not isinstance(value, bool | str) and math.isfinite(value) and value > 0:
+            return
+        said = repr(value) if isinstance(value, bool | str) else f"{value:g}"
+    except (TypeError, ValueError, OverflowError):
+        said = repr(value)
+    of, end = f" of {unit}" if unit else "", f"; {remedy}" if remedy else ""
+    raise InputError(f"{name} must be a positive number{of}, got {said}{end}")
+
+
 def how_to_install(extra: str) -> str:
     """What to run for a package of an extra, such as "scan"; it works in a clone, which is all there is so far."""
     return f"in the folder of the clone, run  pip install '.[{extra}]'"
 
 
-def nearest(asked: object, known: Iterable[str], otherwise: str = "known are", cutoff: float = 0.6) -> str:
+def meant(asked: object, known: Iterable[str], cutoff: float = 0.6) -> str | None:
+    """The known name that an unknown one is most likely to mean, whatever its capitals; None where none is like it.
+
+    cutoff: least likeness, from 0 to 1.
+    """
+    by_letters = {name.casefold(): name for name in reversed(list(known))}
+    near = difflib.get_close_matches(str(asked).casefold(), by_letters, n=1, cutoff=cutoff)
+    return by_letters[near[0]] if near else None
+
+
+def nearest(asked: object, known: Iterable[str], otherwise: str = "known are") -> str:
     """What to say of an unknown name: "did you mean 'x'?", or all that are known. otherwise: words before these."""
     names = list(known)
-    by_letters = {name.casefold(): name for name in reversed(names)}
-    near = difflib.get_close_matches(str(asked).casefold(), by_letters, n=1, cutoff=cutoff)
-    return f"did you mean {by_letters[near[0]]!r}?" if near else f"{otherwise} {', '.join(names)}"
+    one = meant(asked, names)
+    return f"{otherwise} {', '.join(names)}" if one is None else f"did you mean {one!r}?"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 
 # Of a coordinate in steps, after sums and files.
@@ -35,8 +35,7 @@ class Grid:
             raise InputError(f"a grid needs at least one cell each way, got {self.nx} x {self.ny} (nx x ny)")
         for name in ("dx", "dy"):
             value = getattr(self, name)
-            if not (math.isfinite(value) and value > 0):
-                raise InputError(f"grid spacing {name} must be a positive number of metres, got {value}")
+            positive(f"grid spacing {name}", value, "metres", "3 mm is 0.003")
         if not (math.isfinite(self.x0) and math.isfinite(self.y0)):
             raise InputError(f"grid origin must be finite, got x0 = {self.x0}, y0 = {self.y0}")
 
@@ -44,10 +43,8 @@ class Grid:
     def centred(cls, length: float, width: float, dx: float, dy: float | None = None) -> Grid:
         """Smallest grid with the origin at its middle that covers length (x) by width (y), m."""
         dy = dx if dy is None else dy
-        if not (length > 0 and width > 0 and dx > 0 and dy > 0):
-            raise InputError(
-                f"a grid needs a positive length, width and spacing, got {length} m, {width} m, {dx} m, {dy} m"
-            )
+        for name, value in {"length": length, "width": width, "spacing dx": dx, "spacing dy": dy}.items():
+            positive(f"the {name} of a grid", value, "metres", "3 mm is 0.003")
         nx = max(1, math.ceil(length / dx - 1e-9))
         ny = max(1, math.ceil(width / dy - 1e-9))
         return cls(nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy)

@@ -10,7 +10,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
-from treadload.errors import InputError, nearest
+from treadload.errors import InputError, meant
 
 _DATA = Path(__file__).parent / "catalogue" / "data"
 # Letters of a line of `repr`.
@@ -75,8 +75,8 @@ class Catalogue(Mapping[str, Item]):
         item = self._among(self._own, name) or self._among(self._all(), name)
         if item is None:
             short = [known.removeprefix(self._prefix) for known in self]
-            hint = nearest(name, [*self, *short], cutoff=0.5)
-            said = hint if hint.startswith("did you mean") else f"known are {', '.join(self)}"
+            near = meant(name, [*self, *short], cutoff=0.5)
+            said = f"known are {', '.join(self)}" if near is None else f"did you mean {near!r}?"
             raise UnknownName(f"no {self.noun} {name!r}; {said}")
         return item
 

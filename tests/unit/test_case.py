@@ -52,7 +52,7 @@ def test_an_inline_profile_is_a_tread():
         ("friction       = 0.7", "", r"'rolling\.friction' is missing"),
         ("friction       = 0.7", "friction = -0.1", "friction must be >= 0, got -0.1"),
         ("friction       = 0.7", "friction = nan", "finite"),
-        ('"32.5 kN"', '"0 kN"', "normal_load must be > 0 N, got 0 N"),
+        ('"32.5 kN"', '"0 kN"', "normal_load must be a positive number of N, got 0; a truck"),
         ('"32.5 kN"', '"32.5 kPa"', "cannot read '32.5 kPa'"),
         ("poisson = 0.35", "poisson = 0.6", r"poisson must lie in \(-1, 0.5\], got 0.6"),
         ('"5400 MPa"', '"-5400 MPa"', "modulus must be a positive"),

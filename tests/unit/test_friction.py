@@ -155,7 +155,7 @@ def test_maps_from_files(tmp_path):
         (lambda: Exponential(0.5, 0.9, 1.0), "at most the static, got 0.9 > 0.5"),
         (lambda: Rational(0.5, -0.1, 1.0), "kinetic friction must be >= 0"),
         (lambda: LinearFalling(math.nan, 0.1, 1.0), "static friction must be a finite"),
-        (lambda: LinearFalling(0.5, 0.1, 0.0), "reference_speed must be a finite number > 0 m/s"),
+        (lambda: LinearFalling(0.5, 0.1, 0.0), "reference_speed must be a positive number of m/s, got 0"),
         (lambda: PressureDependent(0.5, 0.0, 0.1), "reference_pressure"),
         (lambda: PressureDependent(0.5, 1e5, 0.5), r"must lie in \[0, 1/3\], got 0.5"),
         (lambda: PressureDependent(0.5, 1e5, 0.1, 0.4), "at least the reference 0.5, got 0.4"),

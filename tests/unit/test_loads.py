@@ -190,6 +190,7 @@ def test_a_matrix_and_its_noise(tmp_path):
         ("1,2\n3,-4\n", {"spacing": 0.01}, "line 2: pressure is negative, -4 Pa"),
         ("1,2\n3,inf\n", {"spacing": 0.01}, "line 2: pressure is infinite"),
         ("x,y,presure\n0,0,1\n", {}, 'unknown column "presure"; did you mean "pressure"'),
+        ("x,y,PRESSURE\n0,0,1\n", {}, 'unknown column "PRESSURE"; did you mean "pressure"'),
         ("x,y\n0,0\n", {}, "needs x, y and pressure; pressure missing"),
         ("x,y,pressure,x\n0,0,1,0\n", {}, "x stands there twice"),
         ("x,y,pressure [furlong]\n0,0,1\n", {}, "cannot read '1 furlong'"),

@@ -129,13 +129,19 @@ def test_a_parking_turn_twists_the_road(tire):
     [
         (lambda: tl.Maneuver.turning(12, 5, track=2.0), "give centre_of_gravity too"),
         (lambda: tl.Maneuver.turning(12, 5, centre_of_gravity=2.0), "give track too"),
-        (lambda: tl.Maneuver.turning(12, 5, track=-2.0, centre_of_gravity=2.0), "track must be > 0 m, got -2"),
-        (lambda: tl.Maneuver.turning(12, 5, track=2.0, centre_of_gravity=0.0), "centre_of_gravity must be > 0 m"),
+        (
+            lambda: tl.Maneuver.turning(12, 5, track=-2.0, centre_of_gravity=2.0),
+            "track must be a positive number of metres, got -2",
+        ),
+        (
+            lambda: tl.Maneuver.turning(12, 5, track=2.0, centre_of_gravity=0.0),
+            "centre_of_gravity must be a positive",
+        ),
         (lambda: tl.Maneuver.turning(12, 10, track=2.0, centre_of_gravity=2.0), "tips: a side force of 0.849"),
         (lambda: tl.Maneuver.turning(12, 5, wheel="left"), '"outer" or "inner"'),
         (lambda: tl.Maneuver.turning(12, -5), "speed must be >= 0"),
         (lambda: tl.Maneuver.turning(12, 5, crossfall=2.5), "2.5 % is 0.025"),
-        (lambda: tl.Maneuver("x", load_ratio=0), "load_ratio of the maneuver 'x' must be > 0"),
+        (lambda: tl.Maneuver("x", load_ratio=0), "load_ratio of the maneuver 'x' must be a positive number"),
         (lambda: tl.Maneuver.braking(8.0).rolling(LOAD, MU), r"braking at 8 m/s².*lock the wheel"),
         (lambda: tl.Maneuver.uphill(0.2, 0.25).rolling(LOAD, MU), "more of the weight on driven axles"),
     ],

@@ -292,7 +292,10 @@ def test_the_energy_ratio_reads_a_quantity(response):
             "epsilon_6 is a strain, but the line reads the octahedral",
         ),
         (lambda: PowerLine(OctahedralShear(), "3 mm", -0.2), "3 mm"),
-        (lambda: PowerLine(OctahedralShear(), 0.0, -0.2), "reading_6 must be a positive reading of the octahedral"),
+        (
+            lambda: PowerLine(OctahedralShear(), 0.0, -0.2),
+            "reading_6, of the octahedral shear stress, must be a positive",
+        ),
         (
             lambda: ShearFatigue(-0.2, reads=EXTENSION),
             "the fatigue of a bond reads its utilisation, got the extension",

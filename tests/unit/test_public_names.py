@@ -81,6 +81,8 @@ def test_names_that_left_the_top_tell_where_they_are(name, place):
 def test_a_name_that_is_nowhere():
     with pytest.raises(AttributeError, match="no attribute 'solve_contacts'; did you mean 'solve_contact'"):
         _ = tl.solve_contacts
+    with pytest.raises(AttributeError, match="no attribute 'SOLVE_CONTACT'; did you mean 'solve_contact'"):
+        _ = tl.SOLVE_CONTACT
     with pytest.raises(AttributeError, match=r"no attribute 'zzz'$"):
         _ = tl.zzz
 

@@ -289,7 +289,7 @@ def test_what_changes_nothing_is_refused():
         ("wheels = [{ z = 0.1 }]", r"unknown key 'response\.wheels\.0\.z'"),
         ("speed = -1", "speed must be >= 0 m/s, got -1"),
         ('side = "under"', r"response\.side: Input should be 'above' or 'below'"),
-        ("slice_depth = 0", "slice_depth must be > 0"),
+        ("slice_depth = 0", "slice_depth must be a positive number of metres, got 0; leave it out"),
     ],
 )
 def test_bad_responses(response, message):

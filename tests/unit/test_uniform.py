@@ -92,7 +92,10 @@ def test_default_depths_hold_the_surface_and_the_interfaces(driving):
 
 @pytest.mark.parametrize(
     ("change", "words"),
-    [({"pressure": -1.0}, "pressure must be > 0"), ({"slenderness": 0.0}, "slenderness must be > 0")],
+    [
+        ({"pressure": -1.0}, "pressure must be a positive number of Pa, got -1; left out, it is the inflation"),
+        ({"slenderness": 0.0}, "slenderness must be a positive number, got 0; 1 is a square"),
+    ],
 )
 def test_bad_input_is_named(driving, change, words):
     with pytest.raises(InputError, match=words):

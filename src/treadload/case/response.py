@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import model_validator
 
+from treadload.errors import positive
 from treadload.read import Table
 from treadload.response import GridLoad, place_load
 from treadload.units import Length, Speed
@@ -51,8 +52,8 @@ class ResponsePart(Table):
             raise ValueError(f"depths must be >= 0, got {min(self.depths):g} m; depth counts downwards")
         if len(set(self.depths)) != len(self.depths):
             raise ValueError(f"depths must differ from each other, got {list(self.depths)} m")
-        if self.slice_depth is not None and self.slice_depth <= 0:
-            raise ValueError(f"slice_depth must be > 0, got {self.slice_depth:g} m")
+        if self.slice_depth is not None:
+            positive("slice_depth", self.slice_depth, "metres", "leave it out for one that suits the road")
         if not self.wheels:
             raise ValueError("wheels needs at least one wheel, got none; leave it out for one at the origin")
         if len(set(self.wheels)) != len(self.wheels):

@@ -13,7 +13,7 @@ from typing import Literal
 from treadload.contact.friction.laws import FrictionLaw
 from treadload.contact.rolling_state import Rolling
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.registry import MANEUVERS
 from treadload.units import Acceleration, Curvature, Length, Number, Radius, Share, Speed
 
@@ -45,10 +45,7 @@ class Maneuver:
             value = getattr(self, word)
             if not math.isfinite(value):
                 raise InputError(f"{word} of the maneuver {self.name!r} must be finite, got {value}")
-        if not self.load_ratio > 0:
-            raise InputError(
-                f"load_ratio of the maneuver {self.name!r} must be > 0, got {self.load_ratio}; 1 keeps the load"
-            )
+        positive(f"load_ratio of the maneuver {self.name!r}", self.load_ratio, remedy="1 keeps the load")
 
     @classmethod
     def braking(cls, deceleration: Acceleration | None = None) -> Maneuver:
@@ -58,7 +55,7 @@ class Maneuver:
         """
         if deceleration is None:
             return cls("locked", locked=True)
-        _check_positive("deceleration", deceleration, "m/s²", "a firm stop has 3")
+        positive("deceleration", deceleration, "m/s²", "a firm stop has 3")
         return cls(f"braking at {deceleration:g} m/s²", tractive=-deceleration / GRAVITY)
 
     @classmethod
@@ -67,7 +64,7 @@ class Maneuver:
 
         grade: rise over run, > 0. driven_share: part of the vehicle's weight on its driven axles, in (0, 1].
         """
-        _check_positive("grade", grade, "rise over run", "6 % is 0.06")
+        positive("grade", grade, remedy="rise over run, 6 % is 0.06")
         if not 0 < driven_share <= 1:
             raise InputError(f"driven_share must lie in (0, 1], got {driven_share}; a loaded semi-trailer has 0.25")
         return cls(f"uphill {100 * grade:g} %", tractive=grade / driven_share)
@@ -199,8 +196,8 @@ def _leaning(share: float, track: float | None, height: float | None) -> float:
     if track is None or height is None:
         missing = "track" if track is None else "centre_of_gravity"
         raise InputError(f"a vehicle leans by its track and the height of its centre of gravity; give {missing} too")
-    _check_positive("track", track, "m", "a truck has 2")
-    _check_positive("centre_of_gravity", height, "m", "a loaded truck has 1.5 to 2")
+    positive("track", track, "metres", "a truck has 2")
+    positive("centre_of_gravity", height, "metres", "a loaded truck has 1.5 to 2")
     leaning = 2 * share * height / track
     if abs(leaning) >= 1:
         raise InputError(
@@ -209,8 +206,3 @@ def _leaning(share: float, track: float | None, height: float | None) -> float:
             "wider circle"
         )
     return leaning
-
-
-def _check_positive(name: str, value: float, unit: str, usual: str) -> None:
-    if not (math.isfinite(value) and value > 0):
-        raise InputError(f"{name} must be > 0 {unit}, got {value}; {usual}")

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import xarray as xr
 
 from treadload.composing import BaseResult
 from treadload.contact.solution import Contact
-from treadload.errors import InputError
+from treadload.errors import positive
 from treadload.variables import dataset
 
 
@@ -59,8 +58,7 @@ def rolling_resistance(contact: Contact, radius: float) -> RollingResistance:
     that falls with the cell size. Raises InputError for a radius that is not a positive number.
     Source: Johnson (1985), Contact Mechanics, sections 9.1 and 9.4.
     """
-    if not (math.isfinite(radius) and radius > 0):
-        raise InputError(f"radius must be a positive number of m, got {radius}; a truck tire's is near 0.5 m")
+    positive("radius", radius, "metres", "a truck tire's is near 0.5 m")
     data = contact.dataset
     moment = float(data.rolling_resistance_moment)
     force = moment / radius

@@ -8,8 +8,15 @@ from functools import cached_property
 
 from treadload.contact.friction.laws import Coulomb, FrictionLaw, largest_force, law_of
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.units import Curvature, Force, Length, Number, Speed
+
+# Name, unit, and what is usual, of what must lie above zero.
+_ABOVE_ZERO = (
+    ("normal_load", "N", "a truck's wheel carries 20e3 to 60e3"),
+    ("approach", "metres", "1 mm is 0.001"),
+    ("speed", "m/s", "80 km/h is 22.2"),
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,10 +49,10 @@ class Rolling:
                 raise InputError(f"{name} must be a finite number, got {value}")
         if (self.normal_load is None) == (self.approach is None):
             raise InputError("give either normal_load (N) or approach (m), not both and not neither")
-        for name, unit in (("normal_load", "N"), ("approach", "m"), ("speed", "m/s")):
+        for name, unit, usual in _ABOVE_ZERO:
             value = getattr(self, name)
-            if value is not None and value <= 0:
-                raise InputError(f"{name} must be > 0 {unit}, got {value:g} {unit}")
+            if value is not None:
+                positive(name, value, unit, usual)
         if self.law.needs_speed and self.speed is None:
             raise InputError(f"friction {self.law} depends on the slip speed: give the rolling speed (m/s) too")
         for force, creepage in (("tractive_force", "creepage_x"), ("lateral_force", "creepage_y")):

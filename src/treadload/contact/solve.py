@@ -20,7 +20,7 @@ from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.coupling import Coupled, Progress, Start, solve_coupled
 from treadload.contact.solvers.normal import solve_normal
-from treadload.errors import GeometryError, InputError
+from treadload.errors import GeometryError, InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.pavement import Pavement
@@ -121,8 +121,7 @@ def place(tire: Tire, rolling: Rolling, bodies: Body, spacing: float | None) -> 
             )
         return grid, tire.height_map(grid)
     step = DEFAULT_SPACING if spacing is None else spacing
-    if not (math.isfinite(step) and step > 0):
-        raise InputError(f"spacing must be a positive number of metres, got {step}")
+    positive("spacing", step, "metres", "3 mm is 0.003")
     length, width = tire.extent
     cells = length * width / step**2
     if cells > _MOST_CELLS:

@@ -14,7 +14,7 @@ from treadload import variables
 from treadload.composing import Source
 from treadload.damage.cracks import gridded
 from treadload.damage.quantity import STRESS, part
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.kernels.thermal import reduced_steps, restrained_stress
@@ -42,8 +42,7 @@ def residual_after(response: Source, *, spacing: float, passes: int) -> xr.Datas
     Raises InputError where the response does not reach far enough.
     Source: the mechanism is Wang's, as cited by the paper of this method; the definition is this package's.
     """
-    if not (np.isfinite(spacing) and spacing > 0):
-        raise InputError(f"spacing must be a positive number of metres, got {spacing}")
+    positive("spacing", spacing, "metres", "it is speed times headway")
     if passes < 1:
         raise InputError(f"passes must be at least 1, got {passes}")
     data = gridded(response).sortby("x")

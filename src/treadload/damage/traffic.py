@@ -14,7 +14,7 @@ from treadload.contact.friction.laws import FrictionLaw
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.damage.laws.equivalence import NO_GROWTH, growth_factor
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.tire import Tire
 from treadload.units import Celsius, Length, Share
@@ -51,10 +51,8 @@ class AxleClass:
     def __post_init__(self) -> None:
         if not 0 <= self.share <= 1:
             raise InputError(f"the share of {self.name!r} must lie in [0, 1], got {self.share}; 30 % is 0.3")
-        for word in ("wheel_load", "inflation_pressure"):
-            value = getattr(self, word)
-            if not (math.isfinite(value) and value > 0):
-                raise InputError(f"{word} of {self.name!r} must be positive, got {value}")
+        positive(f"wheel_load of {self.name!r}", self.wheel_load, "N", "a truck's wheel carries 20e3 to 60e3")
+        positive(f"inflation_pressure of {self.name!r}", self.inflation_pressure, "Pa", "a truck is near 820e3")
         try:
             wheels = tuple((float(x), float(y)) for x, y in self.wheels)
         except (TypeError, ValueError) as error:
@@ -187,8 +185,8 @@ class Traffic:
         _check_shares("traffic", [row.share for row in self.classes])
         if not (math.isfinite(self.passes_per_year) and self.passes_per_year >= 0):
             raise InputError(f"passes_per_year must be >= 0, got {self.passes_per_year}")
-        if self.years is not None and not (math.isfinite(self.years) and self.years > 0):
-            raise InputError(f"years of design must be > 0, got {self.years}; leave them out for no design life")
+        if self.years is not None:
+            positive("years of design", self.years, remedy="leave them out for no design life")
         growth_factor(self.years or 1.0, self.growth, self.kind)
 
     def passes(self, years: float) -> float:

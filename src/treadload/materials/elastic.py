@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.registry import MATERIALS
 from treadload.units import Modulus, Number
 
@@ -24,8 +23,7 @@ class Elastic:
     poisson: Number
 
     def __post_init__(self) -> None:
-        if isinstance(self.modulus, str) or not (math.isfinite(self.modulus) and self.modulus > 0):
-            raise InputError(f"modulus must be a positive number of Pa, got {self.modulus!r}; asphalt is near 5.4e9")
+        positive("modulus", self.modulus, "Pa", "asphalt is near 5.4e9")
         if isinstance(self.poisson, str) or not -1 < self.poisson <= 0.5:
             raise InputError(
                 f"poisson must lie in (-1, 0.5], got {self.poisson!r}; rubber is near 0.5, asphalt near 0.35"

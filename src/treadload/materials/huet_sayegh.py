@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import ComplexArray
 from treadload.materials.elastic import Elastic
-from treadload.materials.operational import Operational, positive
+from treadload.materials.operational import Operational
 from treadload.registry import MATERIALS
 from treadload.units import Modulus, Number, Time
 
@@ -50,8 +50,8 @@ class HuetSayegh(Operational):
                 f"the exponents must satisfy 0 < k < h < 1, got k = {self.k:g} and h = {self.h:g}; "
                 "mixes are near 0.2 and 0.6"
             )
-        positive("delta", self.delta, "mixes are near 2")
-        positive("tau", self.tau, "in s, at the temperature meant")
+        positive("delta", self.delta, remedy="mixes are near 2")
+        positive("tau", self.tau, "s", "at the temperature meant")
 
     @property
     def glassy(self) -> Elastic:
@@ -108,7 +108,7 @@ class Model2S2P1D(Operational):
 
     def __post_init__(self) -> None:
         _ = self._without_dashpot
-        positive("beta", self.beta, "mixes are near 100 to 1000; use HuetSayegh for no dashpot")
+        positive("beta", self.beta, remedy="mixes are near 100 to 1000; use HuetSayegh for no dashpot")
 
     @property
     def _without_dashpot(self) -> HuetSayegh:

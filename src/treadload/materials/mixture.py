@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.materials.celsius import check_celsius
 from treadload.materials.elastic import Elastic
 
@@ -91,8 +91,7 @@ class Mix:
         """
         theta = check_celsius(temperature)
         f = self.frequency if frequency is None else float(frequency)
-        if not (math.isfinite(f) and f > 0):
-            raise InputError(f"mix {self.name!r}: frequency must be a positive number of Hz, got {frequency}")
+        positive(f"mix {self.name!r}: frequency", f, "Hz", "10 Hz is usual")
         if len(self.frequencies) == 1 and f != self.frequencies[0]:
             raise InputError(
                 f"mix {self.name!r} is tabulated at {self.frequencies[0]:g} Hz only, got {f:g} Hz; take a mix with "
@@ -210,8 +209,8 @@ RoadMaterial = Mix | HydraulicMix | Unbound
 
 def _check_positive(place: str, **values: float | None) -> None:
     for name, value in values.items():
-        if value is not None and not (math.isfinite(value) and value > 0):
-            raise InputError(f"{place}: {name} must be a positive number, got {value}")
+        if value is not None:
+            positive(f"{place}: {name}", value, remedy="tl.catalogue.mixes shows what is usual")
 
 
 def _increase(values: Sequence[float]) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 
@@ -58,12 +57,6 @@ class Operational(ABC):
     def creep_compliance(self, time: ArrayLike) -> Array:
         """J(t), 1/Pa, at times t ≥ 0, s, after a step of stress; the shape of `time`."""
         return _in_time(lambda s: 1 / self.operational_modulus(s), 1 / self.glassy.modulus, time)
-
-
-def positive(name: str, value: float, remedy: str) -> None:
-    """Raise InputError unless a value is finite and > 0."""
-    if not (math.isfinite(value) and value > 0):
-        raise InputError(f"{name} must be a positive number, got {value:g}; {remedy}")
 
 
 def check_times(time: ArrayLike) -> Array:

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.laplace import carson
 from treadload.materials.elastic import Elastic
-from treadload.materials.operational import Operational, check_times, positive
+from treadload.materials.operational import Operational, check_times
 from treadload.registry import MATERIALS
 from treadload.units import Compliance, Number, Time
 
@@ -48,7 +48,7 @@ class PowerLawCreep(Operational):
                 f"exponent must lie between 0 and 1, got {self.exponent:g}; asphalt is near 0.4, and a single "
                 "retardation is Prony.from_creep"
             )
-        positive("tau", self.tau, "in s, at the temperature meant")
+        positive("tau", self.tau, "s", "at the temperature meant")
         Elastic(1 / self.long_term_compliance, self.poisson)
 
     @property

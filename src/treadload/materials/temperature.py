@@ -17,12 +17,11 @@ from scipy.interpolate import PchipInterpolator
 from scipy.optimize import least_squares
 from typing_extensions import Protocol, runtime_checkable
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.materials.celsius import check_celsius
 from treadload.materials.huet_sayegh import HuetSayegh
 from treadload.materials.kinds import Viscoelastic
-from treadload.materials.operational import positive
 from treadload.registry import SHIFTS
 from treadload.units import Celsius, Kelvin, MolarEnergy, Number, PerDegree, PerDegreeSquared
 
@@ -76,8 +75,8 @@ class WLF:
     reference: Celsius
 
     def __post_init__(self) -> None:
-        positive("c1", self.c1, "mixes are near 15")
-        positive("c2", self.c2, "in K; mixes are near 120")
+        positive("c1", self.c1, remedy="mixes are near 15")
+        positive("c2", self.c2, "K", "mixes are near 120")
         _celsius(self.reference, "reference")
 
     @classmethod
@@ -130,7 +129,7 @@ class Arrhenius:
     reference: Celsius
 
     def __post_init__(self) -> None:
-        positive("activation_energy", self.activation_energy, "in J/mol; mixes are near 2e5")
+        positive("activation_energy", self.activation_energy, "J/mol", "mixes are near 2e5")
         _celsius(self.reference, "reference")
 
     @classmethod

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.materials.elastic import Elastic
 from treadload.registry import MATERIALS
@@ -168,10 +168,8 @@ def _checked(terms: Sequence[tuple[float, float]], strength: str) -> Terms:
     if not found:
         raise InputError("a viscoelastic material needs at least one term, got none; use Elastic instead")
     for share, time in found:
-        if not (math.isfinite(share) and share > 0):
-            raise InputError(f"{strength} must be > 0, got {share:g}; leave out terms of no strength")
-        if not (math.isfinite(time) and time > 0):
-            raise InputError(f"the time of a term must be a positive number of s, got {time:g}")
+        positive(strength, share, remedy="leave out terms of no strength")
+        positive("the time of a term", time, "s", "1 ms is 0.001")
     for (_, before), (_, after) in itertools.pairwise(found):
         if not after > before * (1 + _ROUND_OFF):
             raise InputError(f"two terms have the time {after:g} s; add their strengths up into one")

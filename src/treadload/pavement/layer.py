@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from numbers import Real
 
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.materials import Elastic, Material, TemperatureDependent
 from treadload.pavement.bonds import BONDED, BondLaw
 
@@ -37,16 +36,9 @@ class Layer:
                 f"layer {self.name!r}: material must be {_KINDS}, got {type(self.material).__name__} "
                 f"{self.material!r}"
             )
-        if self.thickness is not None and not (
-            isinstance(self.thickness, Real)
-            and not isinstance(self.thickness, bool)
-            and math.isfinite(self.thickness)
-            and self.thickness > 0
-        ):
-            raise InputError(
-                f"layer {self.name!r}: thickness must be a positive number of metres, got {self.thickness!r}; "
-                "leave it out for the last layer"
-            )
+        if self.thickness is not None:
+            thickness = self.thickness if isinstance(self.thickness, Real) else str(self.thickness)
+            positive(f"layer {self.name!r}: thickness", thickness, "metres", "leave it out for the last layer")
         if not isinstance(self.bond, BondLaw):
             raise InputError(
                 f"layer {self.name!r}: bond must be BONDED, HALF_BONDED, FRICTIONLESS or Bond(stiffness=...), "

@@ -10,13 +10,12 @@ several make a group. Every function returns a tuple of loads, so that they nest
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
 import xarray as xr
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.response.loads import GridLoad, Load, PlacedLoad, gather
 
 # Side force over the load, above which a wheel does not roll straight.
@@ -45,7 +44,7 @@ def dual_wheels(load: Load, spacing: float, *, mirrored: bool | None = None) -> 
     both. A symmetric tire that rolls straight gives two equal loads either way.
     Raises InputError for a wrong spacing.
     """
-    _check("the spacing of dual wheels", spacing)
+    positive("the spacing of dual wheels", spacing, "metres", "trucks have near 0.35")
     turned = not any(_leans(one) for one in _each(load)) if mirrored is None else mirrored
     right = gather(load)
     left = tuple(one.mirrored().moved(y=2 * _middle(one)) if turned else one for one in right)
@@ -76,7 +75,7 @@ def axle(load: Load | Sequence[Load], track: float, dual_spacing: float | None =
     wheels, m, > 0. dual_spacing: between the centres of dual wheels, m, smaller than the track; None: single
     wheels. Raises InputError for a wrong length.
     """
-    _check("the track of an axle", track)
+    positive("the track of an axle", track, "metres", "trucks have near 2")
     wheels = gather(load)
     if dual_spacing is not None:
         if dual_spacing >= track:
@@ -92,13 +91,8 @@ def tandem(loads: Load | Sequence[Load], wheelbase: float, axles: int = 2) -> tu
     loads: one axle, or one wheel. wheelbase: between neighbouring axles, m, > 0. axles: 2 a tandem, 3 a tridem.
     Raises InputError for a wrong length or number.
     """
-    _check("the wheelbase", wheelbase)
+    positive("the wheelbase", wheelbase, "metres", "a tandem has near 1.3")
     if isinstance(axles, bool) or not isinstance(axles, int) or axles < 1:
         raise InputError(f"axles must be a whole number of at least 1, got {axles!r}")
     one = gather(loads)
     return tuple(load.moved(x=((axles - 1) / 2 - k) * wheelbase) for k in range(axles) for load in one)
-
-
-def _check(name: str, value: float) -> None:
-    if not (math.isfinite(value) and value > 0):
-        raise InputError(f"{name} must be a positive number of metres, got {value}")

@@ -17,7 +17,7 @@ import xarray as xr
 
 from treadload.composing import HasDataset, Source, dataset_of
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.kernels.half_space.bilinear import bilinear_spectrum
@@ -337,8 +337,7 @@ def gather(loads: Load | Sequence[Load]) -> tuple[PlacedLoad, ...]:
 
 def _check_uniform(kind: str, sizes: dict[str, float], pressure: float, others: dict[str, float]) -> None:
     for name, value in sizes.items():
-        if not (math.isfinite(value) and value > 0):
-            raise InputError(f"the {name} of a {kind} must be a positive number of metres, got {value}")
+        positive(f"the {name} of a {kind}", value, "metres", "150 mm is 0.15")
     if not (math.isfinite(pressure) and pressure >= 0):
         raise InputError(f"the pressure of a {kind} must be >= 0 Pa, got {pressure}; compression counts positive")
     for name, value in others.items():

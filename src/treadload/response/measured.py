@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
 from collections.abc import Mapping, Sequence
@@ -14,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.errors import InputError
+from treadload.errors import InputError, meant
 from treadload.files import read_tree
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
@@ -279,8 +278,8 @@ def _columns(table: Table, units: Mapping[str, str]) -> tuple[dict[str, int], di
         if name not in _COLUMNS:
             if name in variables.VARIABLES:
                 continue
-            close = difflib.get_close_matches(name, _COLUMNS, n=1)
-            hint = f'did you mean "{close[0]}"? ' if close else ""
+            near = meant(name, _COLUMNS)
+            hint = "" if near is None else f'did you mean "{near}"? '
             raise InputError(
                 f'{path}, line {line}: unknown column "{cell}"; {hint}a table has {", ".join(_COLUMNS)}, '
                 'with units like "pressure [kPa]"'

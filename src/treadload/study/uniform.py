@@ -15,7 +15,7 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Extension, HorizontalTension, Quantity, VerticalCompression, VerticalShear
 from treadload.describing import first_line
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import MATERIAL_LENGTH, GridLoad, UniformDisc, UniformRectangle, place_load, solve_response
@@ -103,10 +103,8 @@ def compare_uniform(
         raise InputError(
             "the uniform loads need a pressure: the tire has no inflation pressure; give pressure= in Pa"
         )
-    if not (math.isfinite(uniform) and uniform > 0):
-        raise InputError(f"pressure must be > 0 Pa, got {uniform}")
-    if not (math.isfinite(slenderness) and slenderness > 0):
-        raise InputError(f"slenderness must be > 0, got {slenderness}")
+    positive("pressure", uniform, "Pa", "left out, it is the inflation pressure")
+    positive("slenderness", slenderness, remedy="1 is a square")
     force = load.normal_load
     area = force / uniform
     length = math.sqrt(area * slenderness)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 
 LOWEST_PRESSURE = 10e3
 HIGHEST_PRESSURE = 3e6
@@ -21,8 +19,7 @@ def check_inflation_pressure(inflation_pressure: float) -> float:
         raise InputError(
             f"inflation_pressure must be a number of Pa, got {inflation_pressure!r}; a truck tire is near 820e3"
         ) from None
-    if not (math.isfinite(pressure) and pressure > 0):
-        raise InputError(f"inflation_pressure must be a positive number of Pa, got {pressure}; a truck is near 820e3")
+    positive("inflation_pressure", pressure, "Pa", "a truck is near 820e3")
     if pressure < LOWEST_PRESSURE:
         hint = (
             f"{pressure:g} kPa is {pressure * 1e3:g} Pa"

@@ -14,7 +14,7 @@ import numpy as np
 
 from treadload.contact.bodies.body import Body, Offsets, Sum, Waves
 from treadload.contact.bodies.half_space import HalfSpaces
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.half_space import memory
 from treadload.materials import Elastic, Prony
@@ -103,11 +103,8 @@ def half_space(material: Material, *, is_tire: bool, speed: float | None = None)
         raise InputError(
             f"the {name} is viscoelastic ({material}): give the rolling speed (m/s), on which its stiffness depends"
         )
-    if not (math.isfinite(speed) and speed > 0):
-        raise InputError(
-            f"speed must be a positive number of m/s, got {speed}; for a viscoelastic {name} at rest use the "
-            "elastic limit material.rubbery"
-        )
+    at_rest = f"for a viscoelastic {name} at rest use the elastic limit material.rubbery"
+    positive("speed", speed, "m/s", at_rest)
     if material.is_fluid:
         raise InputError(
             f"the {name} is a fluid ({material}): its shares add up to 1, as in a Maxwell element. Rolling steadily, "

@@ -20,8 +20,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from treadload.contact.friction.laws import FrictionLaw, Interface, check_positive
-from treadload.errors import InputError
+from treadload.contact.friction.laws import FrictionLaw, Interface
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.registry import FRICTION
 from treadload.units import Conductivity, HeatCapacity, Kelvin, Number
@@ -42,8 +42,8 @@ class Heat:
     heat_capacity: HeatCapacity
 
     def __post_init__(self) -> None:
-        check_positive("conductivity", self.conductivity, " W/(m K)")
-        check_positive("heat_capacity", self.heat_capacity, " J/(m³ K)")
+        positive("conductivity", self.conductivity, "W/(m K)", "rubber is near 0.25")
+        positive("heat_capacity", self.heat_capacity, "J/(m³ K)", "rubber is near 2e6")
 
     @property
     def effusivity(self) -> float:
@@ -82,7 +82,7 @@ class FlashHeating(FrictionLaw):
         for name in ("tire", "road"):
             if not isinstance(getattr(self, name), Heat):
                 raise InputError(f"{name} of flash heating must be Heat(conductivity, heat_capacity)")
-        check_positive("span", self.span, " K")
+        positive("span", self.span, "K", "friction falls over it")
         if not (math.isfinite(self.onset) and self.onset >= 0):
             raise InputError(f"onset of flash heating must be >= 0 K, got {self.onset:g} K")
         if not 0 <= self.hot <= 1:

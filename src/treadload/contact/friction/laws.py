@@ -16,7 +16,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.registry import FRICTION
 from treadload.units import Number, Pressure, SlidingSpeed
@@ -145,7 +145,7 @@ class _Falling(FrictionLaw):
                 f"kinetic friction must be at most the static, got {self.kinetic:g} > {self.static:g}; "
                 "friction that rises with slip is not known here"
             )
-        check_positive("reference_speed", self.reference_speed, " m/s")
+        positive("reference_speed", self.reference_speed, "m/s", "without a fall, friction is a number")
 
     @property
     def needs_speed(self) -> bool:
@@ -213,7 +213,7 @@ class PressureDependent(FrictionLaw):
 
     def __post_init__(self) -> None:
         check_coefficient("reference friction", self.reference)
-        check_positive("reference_pressure", self.reference_pressure, " Pa")
+        positive("reference_pressure", self.reference_pressure, "Pa", "tires press with some 1e6")
         if not (math.isfinite(self.exponent) and 0 <= self.exponent <= 1 / 3 + 1e-12):
             raise InputError(f"exponent of the pressure must lie in [0, 1/3], got {self.exponent:g}")
         if self.upper is not None:
@@ -254,8 +254,8 @@ class Anisotropic(FrictionLaw):
     base: FrictionLaw | None = None
 
     def __post_init__(self) -> None:
-        check_positive("friction along travel", self.along, "")
-        check_positive("friction across travel", self.across, "")
+        positive("friction along travel", self.along, remedy="a dry road is near 0.7")
+        positive("friction across travel", self.across, remedy="a dry road is near 0.7")
         check_base("an ellipse", self.base)
 
     @property
@@ -319,12 +319,6 @@ def check_coefficient(name: str, value: float) -> None:
         raise InputError(f"{name} must be a finite number, got {value}")
     if value < 0:
         raise InputError(f"{name} must be >= 0, got {value:g}; a dry road is near 0.7")
-
-
-def check_positive(name: str, value: float, unit: str) -> None:
-    """Refuse what is not a finite number > 0; the unit starts with a space."""
-    if not (math.isfinite(value) and value > 0):
-        raise InputError(f"{name} must be a finite number > 0{unit}, got {value:g}{unit}")
 
 
 def check_base(what: str, base: object) -> None:

@@ -12,9 +12,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from treadload.damage.laws.fatigue import PowerLaw, check_positive
+from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, SURFACE_EXTENSION
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.registry import CRITERIA
 from treadload.units import PSI, Length, Modulus, Number, Share
@@ -34,7 +34,7 @@ class _Regression(PowerLaw):
     modulus: Modulus
 
     def __post_init__(self) -> None:
-        check_positive("modulus", self.modulus, "number of Pa", "asphalt is near 5.4e9")
+        positive("modulus", self.modulus, "Pa", "asphalt is near 5.4e9")
         if self.modulus < 1e6:
             raise InputError(f"modulus must be in Pa, got {self.modulus}; 5400 MPa is 5.4e9")
 
@@ -54,8 +54,8 @@ class _Mepdg(_Regression):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        check_positive("thickness", self.thickness, "number of metres", "6 inches are 0.1524")
-        check_positive("calibration", self.calibration, "number", "1 is the law as published")
+        positive("thickness", self.thickness, "metres", "6 inches are 0.1524")
+        positive("calibration", self.calibration, remedy="1 is the law as published")
         _check_volumes(self.air_voids, self.binder_volume)
 
     @property
@@ -244,7 +244,7 @@ def bottom_up_cracking(damage: float | Array, thickness: float) -> Array:
     damage: D, Miner's sum, ≥ 0, any shape. thickness: of the asphalt, m. Raises InputError.
     Source: NCHRP 1-37A (2004); constants agree in two public programs.
     """
-    check_positive("thickness", thickness, "number of metres", "6 inches are 0.1524")
+    positive("thickness", thickness, "metres", "6 inches are 0.1524")
     slope = -2.40874 - 39.748 * (1 + thickness / _INCH) ** -2.856
     return _sigmoid(-slope * _decades(damage))
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantity import INTERFACE, Quantity
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.registry import CRITERIA, QUANTITIES
 from treadload.units import Angle, Number, Pressure
@@ -110,9 +110,8 @@ class InterfaceStrength(BondStrength):
         force: N, > 0, at the temperature of the test. diameter: of the core, m. friction_angle: rad; 0 counts on
         no help of compression. 15 kN on 150 mm is 0.85 MPa. Raises InputError.
         """
-        for name, value in (("force", force), ("diameter", diameter)):
-            if not (math.isfinite(value) and value > 0):
-                raise InputError(f"the {name} of a Leutner test must be positive (N, m), got {value}")
+        positive("the force of a Leutner test", force, "N", "15 kN is 15e3")
+        positive("the diameter of a core", diameter, "metres", "150 mm is 0.15")
         if diameter > 1:
             raise InputError(f"the diameter of a core must be in m, got {diameter}; 150 mm is 0.15")
         return cls(force / (math.pi * diameter**2 / 4), friction_angle, tensile_strength)
@@ -277,8 +276,7 @@ class ShearFatigue(PowerLaw):
             raise InputError(
                 f"the slope of a bond's fatigue must lie in (-1, 0), got {self.slope}; take it from tests of the bond"
             )
-        if not (math.isfinite(self.single_pass) and self.single_pass > 0):
-            raise InputError(f"single_pass must be a positive utilisation, got {self.single_pass}; 1 is the strength")
+        positive("single_pass", self.single_pass, remedy="1 is the strength")
         if not self.reads.between_layers:
             raise InputError(f"the fatigue of a bond reads its utilisation, got the {self.reads}; take a law of that")
 

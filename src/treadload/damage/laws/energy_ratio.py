@@ -9,10 +9,9 @@ from typing import ClassVar, overload
 import numpy as np
 import xarray as xr
 
-from treadload.damage.laws.fatigue import check_positive
 from treadload.damage.quantities import TENSION
 from treadload.damage.quantity import Quantity
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.units import PSI
 
@@ -49,10 +48,10 @@ class EnergyRatio:
     doubt: ClassVar[str] = "the exponent -3.10 of the energy ratio is from memory: the copy read was partly illegible"
 
     def __post_init__(self) -> None:
-        check_positive("creep_compliance", self.creep_compliance, "number of 1/Pa", "mixes are near 1e-10")
-        check_positive("strength", self.strength, "number of Pa", "mixes are near 2e6")
-        check_positive("fracture_energy", self.fracture_energy, "number of J/m³", "mixes are near 2000")
-        check_positive("resilient_modulus", self.resilient_modulus, "number of Pa", "mixes are near 1e10")
+        positive("creep_compliance", self.creep_compliance, "1/Pa", "mixes are near 1e-10")
+        positive("strength", self.strength, "Pa", "mixes are near 2e6")
+        positive("fracture_energy", self.fracture_energy, "J/m³", "mixes are near 2000")
+        positive("resilient_modulus", self.resilient_modulus, "Pa", "mixes are near 1e10")
         if not 0 < self.slope < 1:
             raise InputError(f"slope must lie in (0, 1), got {self.slope}; m is near 0.5")
         if self.strength >= _STRENGTH_LIMIT:

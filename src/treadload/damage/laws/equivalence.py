@@ -9,8 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Literal
 
-from treadload.damage.laws.fatigue import check_positive
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 
 _DAYS = 365
 # Growth a year that no sum of years feels; far below it the quotient loses its digits.
@@ -52,8 +51,8 @@ def aggressiveness(
     weighed. power: α, 5 for bituminous layers, 12 for hydraulic ones. reference: P₀, N.
     α and K are from memory, not verified in a source. Raises InputError.
     """
-    check_positive("vehicles", vehicles, "number", "count the vehicles that were weighed")
-    check_positive("reference", reference, "number of N", "the French axle has 130e3")
+    positive("vehicles", vehicles, remedy="count the vehicles that were weighed")
+    positive("reference", reference, "N", "the French axle has 130e3")
     if not len(axles):
         raise InputError("axles is empty; give (load in N, number, K) of at least one kind of axle")
     for load, number, group in axles:
@@ -80,7 +79,7 @@ def equivalent_axles(
         "years": years,
         "aggressiveness": aggressiveness,
     }.items():
-        check_positive(name, value, "number", "leave out a traffic that does not run")
+        positive(name, value, remedy="leave out a traffic that does not run")
     total = growth_factor(years, growth, kind)
     return _DAYS * vehicles_per_day * total * aggressiveness
 

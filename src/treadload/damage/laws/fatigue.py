@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, overload
@@ -11,7 +10,7 @@ import numpy as np
 
 from treadload.damage.quantities import EXTENSION
 from treadload.damage.quantity import Quantity
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.registry import CRITERIA
 from treadload.units import Number, Strain
@@ -200,7 +199,7 @@ class PowerLine(PowerLaw):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "reading_6", self.reads.number(self.reading_6))
-        check_positive("reading_6", self.at_a_million, f"reading of the {self.reads}", "it allows a million passes")
+        positive(f"reading_6, of the {self.reads},", self.at_a_million, remedy="it allows a million passes")
         check_slope(self.slope)
 
     @property
@@ -237,8 +236,7 @@ def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
 
 def check_strain(epsilon_6: float) -> None:
     """Raise InputError unless epsilon_6 is a plain strain that a road material can bear a million times."""
-    if not (math.isfinite(epsilon_6) and epsilon_6 > 0):
-        raise InputError(f"epsilon_6 must be a positive strain, got {epsilon_6}; 120 microstrain is 120e-6")
+    positive("epsilon_6", epsilon_6, remedy="120 microstrain is 120e-6")
     if epsilon_6 > _LARGEST:
         raise InputError(
             f"epsilon_6 must be a plain strain below {_LARGEST}, got {epsilon_6}; write "
@@ -250,9 +248,3 @@ def check_slope(slope: float) -> None:
     """Raise InputError unless a fatigue line falls with this slope."""
     if not -1 < slope < 0:
         raise InputError(f"slope must lie in (-1, 0), got {slope}; -0.2 is usual for bituminous mixes")
-
-
-def check_positive(name: str, value: float, unit: str, usual: str) -> None:
-    """Raise InputError unless a number is finite and positive."""
-    if not (math.isfinite(value) and value > 0):
-        raise InputError(f"{name} must be a positive {unit}, got {value}; {usual}")

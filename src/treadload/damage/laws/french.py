@@ -13,9 +13,9 @@ from typing import ClassVar, Literal
 from scipy.special import ndtri
 
 from treadload.damage.laws.equivalence import look_up
-from treadload.damage.laws.fatigue import PowerLaw, check_positive, check_slope, check_strain
+from treadload.damage.laws.fatigue import PowerLaw, check_slope, check_strain
 from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, TENSION
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.materials import HydraulicMix, Mix, Unbound
 
 _SOURCE = (
@@ -70,10 +70,10 @@ class FrenchBituminous(PowerLaw):
     def __post_init__(self) -> None:
         check_strain(self.epsilon_6)
         check_slope(self.slope)
-        check_positive("scatter", self.scatter, "number", "SN is 0.25 to 0.3 for bituminous mixes")
-        check_positive("thickness", self.thickness, "number of metres", "20 cm is 0.2")
-        check_positive("calibration", self.calibration, "number", "k_c is 1 to 1.3")
-        check_positive("modulus_ratio", self.modulus_ratio, "number", "E(10 °C)/E(15 °C) is near 1.3")
+        positive("scatter", self.scatter, remedy="SN is 0.25 to 0.3 for bituminous mixes")
+        positive("thickness", self.thickness, "metres", "20 cm is 0.2")
+        positive("calibration", self.calibration, remedy="k_c is 1 to 1.3")
+        positive("modulus_ratio", self.modulus_ratio, remedy="E(10 °C)/E(15 °C) is near 1.3")
         _check_rest(self.risk, self.platform_modulus, self.thickness_scatter)
 
     @classmethod
@@ -182,11 +182,11 @@ class FrenchHydraulic(PowerLaw):
         return cls(mix.sigma_6, mix.slope, mix.scatter, risk, mix.calibration, k_d, platform_modulus, spread)
 
     def __post_init__(self) -> None:
-        check_positive("sigma_6", self.sigma_6, "number of Pa", "0.75 MPa is 0.75e6")
+        positive("sigma_6", self.sigma_6, "Pa", "0.75 MPa is 0.75e6")
         check_slope(self.slope)
-        check_positive("scatter", self.scatter, "number", "SN is 1 for treated layers")
-        check_positive("calibration", self.calibration, "number", "k_c is 1.3 to 1.5")
-        check_positive("joints", self.joints, "number", "k_d is 0.8 or 1")
+        positive("scatter", self.scatter, remedy="SN is 1 for treated layers")
+        positive("calibration", self.calibration, remedy="k_c is 1.3 to 1.5")
+        positive("joints", self.joints, remedy="k_d is 0.8 or 1")
         _check_rest(self.risk, self.platform_modulus, self.thickness_scatter)
 
     @property
@@ -230,7 +230,7 @@ class FrenchSubgrade(PowerLaw):
     includes_wander: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        check_positive("constant", self.constant, "strain", "12000 microstrain is 0.012")
+        positive("constant", self.constant, remedy="12000 microstrain is 0.012")
         if self.constant > 1:
             raise InputError(f"constant must be a plain strain, got {self.constant}; 12000 microstrain is 0.012")
         check_slope(self.slope)
@@ -298,6 +298,6 @@ def _check_rest(risk: float, platform_modulus: float | None, spread: float | Non
     if not 0 < risk < 1:
         raise InputError(f"risk must lie in (0, 1), got {risk}; 5 % is 0.05")
     if platform_modulus is not None:
-        check_positive("platform_modulus", platform_modulus, "number of Pa", "a platform PF3 has 120e6")
+        positive("platform_modulus", platform_modulus, "Pa", "a platform PF3 has 120e6")
     if spread is not None and not (math.isfinite(spread) and 0 <= spread < 0.5):
         raise InputError(f"thickness_scatter must lie in [0, 0.5) m, got {spread}; 25 mm is 0.025")
