@@ -41,6 +41,8 @@ _EXAMPLES = {
     "m/s^2": '"3 m/s^2"',
     "rad": '"2 deg"',
     "rad/m": '"0.05 1/m"',
+    "1/m": '"4.9 1/m"',
+    "N m": '"80 N m"',
     "K": '"50 K"',
     "degC": '"35 degC" or 35, in °C',
     "1/K": "-0.4",
@@ -251,6 +253,8 @@ Pressure = Annotated[float, Unit("Pa")]
 Modulus = Annotated[float, Unit("Pa", "modulus")]
 Stiffness = Annotated[float, Unit("Pa/m")]
 Force = Annotated[float, Unit("N")]
+PerLength = Annotated[float, Unit("1/m")]
+BendingStiffness = Annotated[float, Unit("N m")]
 Speed = Annotated[float, Unit("m/s")]
 SlidingSpeed = Annotated[float, Unit("m/s", "sliding speed")]
 Acceleration = Annotated[float, Unit("m/s^2")]

@@ -98,7 +98,15 @@ def solve_contact(
         check = partial(check_border, grid=grid)
         try:
             pair = solve_coupled(
-                scene.influence, grid, gap, rolling, check=check, start=near, tolerance=tolerance, tell=tell
+                scene.influence,
+                grid,
+                gap,
+                rolling,
+                check=check,
+                rows=tire.row_slip(grid),
+                start=near,
+                tolerance=tolerance,
+                tell=tell,
             )
         except BorderError as error:
             wider = _widened(tire, grid, error)

@@ -113,6 +113,7 @@ def solve_transient(
     stages = [standing(scene, wanted[0])]
     for given, travel in zip(wanted, np.diff(ends, prepend=0.0), strict=True):
         slip = rigid_slip(scene.grid.x, scene.grid.y, float(travel), given.creepages, given.spin)
+        slip[0] += tire.row_slip(scene.grid)
         stages.append(stage_of(scene, given, slip * travel, given.forces, float(travel)))
     rows: list[dict[str, Any]] = []
     newton = products = 0

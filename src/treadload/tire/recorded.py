@@ -14,7 +14,7 @@ from treadload.tire.quality import ScanQuality
 class RecordedSurface:
     """What was said of a surface whose mesh is not at hand.
 
-    words: of the surface. extent: m. quality: of the scan. camber: rad. outer_radius: m, or None.
+    words: of the surface. extent: m. quality: of the scan. camber: rad. outer_radius, crown_arc_radius: m, or None.
     Its gap cannot be asked again: `height_map` raises InputError that says how to go on.
     """
 
@@ -23,6 +23,7 @@ class RecordedSurface:
     quality: ScanQuality | None = None
     camber: float = 0.0
     outer_radius: float | None = None
+    crown_arc_radius: float | None = None
 
     @property
     def fixed_grid(self) -> Grid | None:

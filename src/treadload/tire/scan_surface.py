@@ -15,6 +15,7 @@ from treadload.errors import GeometryError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire import meridian as unrolling
+from treadload.tire.crown import arc_radius
 from treadload.tire.quality import ScanQuality
 from treadload.tire.rays import Caster, revolved, vertical
 from treadload.tire.surface import fingerprint
@@ -96,6 +97,13 @@ class ScanSurface:
     def outer_radius(self) -> float:
         """Radius of the crown, m."""
         return self.report.crown_radius
+
+    @cached_property
+    def crown_arc_radius(self) -> float | None:
+        """Radius of the tread across, over the tops of its ribs, m; see `crown.arc_radius`."""
+        drop = self.report.crown_radius - self.envelope
+        with np.errstate(invalid="ignore"):
+            return arc_radius(self.across, np.where(drop < EXTENT_DROP, drop, np.nan))
 
     @property
     def extent(self) -> tuple[float, float]:

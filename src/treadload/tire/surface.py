@@ -19,6 +19,7 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.labels import check_names, factor_asked, factor_of
 from treadload.tables import read_table, real_array
+from treadload.tire.crown import arc_radius
 from treadload.tire.quality import ScanQuality
 
 if TYPE_CHECKING:
@@ -159,6 +160,13 @@ class HeightMapSurface:
         # In cells, so that the fit is well conditioned at any scale.
         bend = float(np.polyfit((x - x.mean()) / self.grid.dx, low, 2)[0]) / self.grid.dx**2
         return 0.5 / bend if bend > 0.5 / FLATTEST else None
+
+    @property
+    def crown_arc_radius(self) -> float | None:
+        """Radius across, m, of the arc through the lowest point of every row; see `crown.arc_radius`."""
+        low = np.fmin.reduce(self.gap, axis=1)
+        with np.errstate(invalid="ignore"):
+            return arc_radius(self.grid.y, np.where(low < _DEEP, low, np.nan))
 
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap, m. Raises InputError for any grid but the map's own (there is no interpolation)."""

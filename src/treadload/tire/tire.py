@@ -20,6 +20,7 @@ from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
+from treadload.tire.belt import Belt, InflatedBelt
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
@@ -47,8 +48,8 @@ class Tire:
     """A tire, as the road meets it.
 
     surface: of the tread. material: of the half-space that stands for the tire, elastic or, for steady rolling,
-    viscoelastic; or one that makes a surface of its own (`materials.kinds.Surfaced`). inflation_pressure: Pa, gives
-    the modulus when there is no material. name: free text.
+    viscoelastic; or one that makes a surface of its own (`materials.kinds.Surfaced`). belt: in its place, a tread on
+    an inflated belt. inflation_pressure: Pa, gives the modulus when there is neither; a belt needs it. name: free text.
     Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
     """
 
@@ -56,6 +57,7 @@ class Tire:
     material: TireMaterial | None = None
     inflation_pressure: float | None = None
     name: str = ""
+    belt: Belt | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.surface, Surface):
@@ -69,6 +71,18 @@ class Tire:
             )
         if self.inflation_pressure is not None:
             object.__setattr__(self, "inflation_pressure", check_inflation_pressure(self.inflation_pressure))
+        if self.belt is not None:
+            if not isinstance(self.belt, Belt):
+                raise InputError(f'belt must be a Belt, such as Belt.from_library("315/80R22.5"), got {self.belt!r}')
+            if self.material is not None:
+                raise InputError(
+                    "give either material, of a half-space, or belt, not both; the material of the tread is "
+                    "Belt(tread=...)"
+                )
+            if self.inflation_pressure is None:
+                raise InputError(
+                    "a belt carries by its inflation: give inflation_pressure in Pa, a truck tire is near 820e3"
+                )
 
     @classmethod
     def from_height_map(
@@ -81,6 +95,7 @@ class Tire:
         material: TireMaterial | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
+        belt: Belt | None = None,
     ) -> Tire:
         """Tire of a map of its initial gap.
 
@@ -97,15 +112,15 @@ class Tire:
         cell = _cell(spacing)
         if isinstance(gap, str | PathLike):
             surface = read_height_map(Path(gap), cell, units, decimal)
-            return cls(surface, material, inflation_pressure, name or Path(gap).name)
+            return cls(surface, material, inflation_pressure, name or Path(gap).name, belt)
         asked = asked_units(units)
         if hasattr(gap, "dims") and hasattr(gap, "coords"):
             labelled: Any = gap
-            return cls(of_variable(labelled, cell, asked), material, inflation_pressure, name)
+            return cls(of_variable(labelled, cell, asked), material, inflation_pressure, name, belt)
         if cell is None:
             raise InputError("a height map needs the spacing of its cells in m, e.g. spacing=3e-3")
         values = in_metres(real_array(gap, "a height map"), asked)
-        return cls(centred_height_map(values, cell), material, inflation_pressure, name)
+        return cls(centred_height_map(values, cell), material, inflation_pressure, name, belt)
 
     @classmethod
     def from_profile(
@@ -115,6 +130,7 @@ class Tire:
         material: TireMaterial | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
+        belt: Belt | None = None,
     ) -> Tire:
         """Tire of a parametric tread.
 
@@ -124,7 +140,7 @@ class Tire:
         tread = tread_named(profile) if isinstance(profile, str) else profile
         if not isinstance(tread, TreadProfile):
             raise InputError(f"profile must be a TreadProfile or the name of one, got {profile!r}")
-        return cls(ProfileSurface(tread), material, inflation_pressure, name or tread.name)
+        return cls(ProfileSurface(tread), material, inflation_pressure, name or tread.name, belt)
 
     @classmethod
     def from_scan(
@@ -143,6 +159,7 @@ class Tire:
         material: TireMaterial | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
+        belt: Belt | None = None,
     ) -> Tire:
         """Tire of a scanned mesh in any pose.
 
@@ -174,11 +191,16 @@ class Tire:
             roundness=roundness,
         )
         surface = read_scan(Path(path), options)
-        return cls(surface, material, inflation_pressure, name or Path(path).stem)
+        return cls(surface, material, inflation_pressure, name or Path(path).stem, belt)
 
     @property
-    def half_space(self) -> TireMaterial:
-        """Half-space that stands for the tire: the material, or else from the inflation pressure, ν = 0.5."""
+    def carcass(self) -> TireMaterial | InflatedBelt:
+        """What gives way under the tread: the belt under its inflation, or a half-space that stands for the tire.
+
+        That of the material, or else from the inflation pressure, ν = 0.5. Raises InputError as `Belt.inflated`.
+        """
+        if self.belt is not None and self.inflation_pressure is not None:
+            return self.belt.inflated(self.inflation_pressure, self.outer_radius, self.crown_arc_radius)
         if self.material is not None:
             return self.material
         if self.inflation_pressure is None:
@@ -189,15 +211,25 @@ class Tire:
         return Elastic(modulus_from_inflation(self.inflation_pressure), POISSON_OF_RUBBER)
 
     @property
-    def elastic(self) -> Elastic | Surfaced:
+    def elastic(self) -> Elastic | Surfaced | InflatedBelt:
         """The same, of a tire without memory. Raises InputError for a viscoelastic one."""
-        material = self.half_space
+        carcass = self.carcass
+        material = carcass.belt.tread if isinstance(carcass, InflatedBelt) else carcass
         if isinstance(material, Prony):
             raise InputError(
                 f"this problem knows elastic tires only, got a viscoelastic one ({material}); "
                 "give one of its limits, material.glassy or material.rubbery"
             )
-        return material
+        assert not isinstance(carcass, Prony)
+        return carcass
+
+    def row_slip(self, grid: Grid) -> Array:
+        """Rigid slip along x of rows of the tread that roll on other radii, over rolling speed: (ny, 1); see `Belt`."""
+        if self.belt is None or self.belt.belt_radius is None:
+            return np.zeros((grid.ny, 1))
+        carcass = self.carcass
+        assert isinstance(carcass, InflatedBelt)
+        return carcass.row_slip(grid.y)[:, None]
 
     @property
     def fixed_grid(self) -> Grid | None:
@@ -223,6 +255,12 @@ class Tire:
     def outer_radius(self) -> float | None:
         """Radius of the unloaded crown, m, of a height map by its curvature along travel; None where it has none."""
         radius = getattr(self.surface, "outer_radius", None)
+        return None if radius is None else float(radius)
+
+    @property
+    def crown_arc_radius(self) -> float | None:
+        """Radius of the unloaded tread across, m, over the tops of its ribs; inf if it is flat, None if unknown."""
+        radius = getattr(self.surface, "crown_arc_radius", None)
         return None if radius is None else float(radius)
 
     @property
@@ -255,7 +293,9 @@ class Tire:
             parts.append(self.material)
         if self.inflation_pressure is not None:
             parts.append(f"inflated to {self.inflation_pressure / 1e3:g} kPa")
-            if self.material is None:
+            if self.belt is not None:
+                parts.append(self.belt)
+            elif self.material is None:
                 # What the contact will be solved with.
                 modulus = modulus_from_inflation(self.inflation_pressure) / 1e6
                 parts.append(f"E = {modulus:.4g} MPa by the inflation pressure, ν = {POISSON_OF_RUBBER:g}")

@@ -240,6 +240,11 @@ class ProfileSurface:
         """Radius of the unloaded crown, m."""
         return self.profile.rolling_radius
 
+    @property
+    def crown_arc_radius(self) -> float:
+        """Radius of the tread arc across, m."""
+        return self.profile.crown_radius
+
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap at the cell centres, m; NaN beside the tread. Raises GeometryError if no cell meets it."""
         gap = self.profile.gap(grid.x, grid.y)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property, singledispatch
 from typing import Any, Literal, get_args
 
+from treadload.contact.bodies.belt import belt_surface
 from treadload.contact.bodies.body import Body, Sum
 from treadload.contact.bodies.layers import layered_road
 from treadload.contact.bodies.viscoelastic import half_space
@@ -20,6 +21,7 @@ from treadload.materials.kinds import Surfaced
 from treadload.pavement import Pavement
 from treadload.pavement.stack import stack_of
 from treadload.tire import Tire
+from treadload.tire.belt import InflatedBelt
 
 RoadCompliance = Literal["half_space", "layers"]
 
@@ -46,6 +48,13 @@ def _(material: Elastic | Prony, *, is_tire: bool, speed: float | None = None) -
     return half_space(material, is_tire=is_tire, speed=speed)
 
 
+@surface_of.register
+def _(material: InflatedBelt, *, is_tire: bool, speed: float | None = None) -> Body:
+    if not is_tire:
+        raise InputError("an inflated belt is a tire; give the road an Elastic or a Prony")
+    return belt_surface(material, speed)
+
+
 @dataclass(frozen=True)
 class Pair:
     """The two bodies of a contact. tire: body 1. road: body 2, with its layers where they are asked for."""
@@ -61,7 +70,7 @@ class Pair:
 
         speed: of rolling, m/s, for bodies that remember. Raises InputError for what they refuse.
         """
-        return cls(surface_of(tire.half_space, is_tire=True, speed=speed), road_surface(road, road_compliance))
+        return cls(surface_of(tire.carcass, is_tire=True, speed=speed), road_surface(road, road_compliance))
 
     @cached_property
     def both(self) -> Body:

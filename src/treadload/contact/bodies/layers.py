@@ -29,9 +29,10 @@ _LONGEST_WAVE, _SHORTEST_WAVE = 1e-6, 200.0
 
 @dataclass(frozen=True)
 class Layering(Body):
-    """What layers of the road, body 2, change of the half-space of their top layer. images: see `images_of`."""
+    """What layers change of the half-space of their top one. images: see `images_of`. is_tire: body 1, or the road."""
 
     images: Images
+    is_tire: bool = False
 
     def normal(self, at: Offsets) -> Array:
         """As in `Body`."""
@@ -44,7 +45,7 @@ class Layering(Body):
 
     def coupling(self, at: Offsets) -> Array:
         """As in `Body`: u = u1 - u2, so that the road's own displacement by pressure counts against the tire's."""
-        return self._images(at)[4:]
+        return np.asarray(self._side * self._images(at)[4:])
 
     def compliance(self, waves: Waves) -> Array:
         """As in `Body`."""
@@ -54,7 +55,8 @@ class Layering(Body):
 
     def across(self, k: Array) -> Array:
         """As in `Body`."""
-        return np.asarray(self.images.at(k)[:2])
+        normal, coupling = self.images.at(k)[:2]
+        return np.array([normal, self._side * coupling])
 
     def check_shear(self) -> None:
         """Refuse shear above a frictionless interface. Raises InputError."""
@@ -68,6 +70,10 @@ class Layering(Body):
     def stats(self) -> Mapping[str, Any]:
         """Residual of the images' fit, relative."""
         return {"images_residual": self.images.residual}
+
+    @property
+    def _side(self) -> int:
+        return -1 if self.is_tire else 1
 
     def _images(self, at: Offsets) -> Array:
         return imaging.coefficients(self.images, at.ny, at.nx, at.dx, at.dy, at.first)

@@ -1,4 +1,4 @@
-"""A half-space that remembers, in steady rolling: what enters the patch is undeformed, what leaves it still recovers.
+"""A body that remembers, in steady rolling: what enters the patch is undeformed, what leaves it still recovers.
 
 Its displacement is not symmetric along x: contact moves ahead of the axle, and rolling costs work.
 """
@@ -6,9 +6,9 @@ Its displacement is not symmetric along x: contact moves ahead of the axle, and 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -24,14 +24,15 @@ Material = Elastic | Prony
 
 @dataclass(frozen=True)
 class Fading(Body):
-    """A viscoelastic half-space that rolls steadily along +x: its displacement at once, and what fades of it.
+    """A viscoelastic body that rolls steadily along +x: its displacement at once, and what fades of it.
 
-    material: not a fluid. is_tire: body 1, or else the road, body 2. speed: m/s, > 0.
-    Build it with `half_space`, which checks.
+    glassy: its surface of the instantaneous modulus, elastic; all of its compliance goes with one modulus, as that of
+    a half-space or of a layer on a rigid base does. material: not a fluid. speed: m/s, > 0.
+    Build it with `fading`, which checks.
     """
 
+    glassy: Body
     material: Prony
-    is_tire: bool
     speed: float
 
     @property
@@ -40,14 +41,18 @@ class Fading(Body):
         return False
 
     @property
-    def at_rest(self) -> HalfSpaces:
-        """The half-space of the long-term modulus."""
-        return _elastic(self.material.rubbery, self.is_tire)
+    def at_rest(self) -> Body:
+        """That of the long-term modulus."""
+        return Scaled(self.glassy, self.material.glassy.modulus / self.material.rubbery.modulus)
 
-    @cached_property
-    def glassy(self) -> HalfSpaces:
-        """The half-space of the instantaneous modulus."""
-        return _elastic(self.material.glassy, self.is_tire)
+    def check_shear(self) -> None:
+        """As in `Body`."""
+        self.glassy.check_shear()
+
+    @property
+    def stats(self) -> Mapping[str, Any]:
+        """Of the body at once."""
+        return self.glassy.stats
 
     def normal(self, at: Offsets) -> Array:
         """As in `Body`."""
@@ -83,7 +88,7 @@ class Fading(Body):
         behind = round(-at.first / at.dx)
         if behind < 0 or not math.isclose(-at.first, behind * at.dx, abs_tol=1e-9 * at.dx):
             raise InputError(
-                f"a viscoelastic half-space in steady rolling is known at whole cells, asked for {at.first:g} m on "
+                f"a viscoelastic body in steady rolling is known at whole cells, asked for {at.first:g} m on "
                 f"cells of {at.dx:g} m; a history takes an elastic one, material.glassy or material.rubbery"
             )
         strengths, times = np.array(self.material.creep_terms).T
@@ -91,13 +96,51 @@ class Fading(Body):
         return np.asarray(sample(at.first, at.nx) + np.tensordot(strengths, faded, 1))
 
 
+@dataclass(frozen=True)
+class Scaled(Body):
+    """A body that gives way more by a factor. body: symmetric. factor: of every displacement, > 0."""
+
+    body: Body
+    factor: float
+
+    def normal(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        return np.asarray(self.factor * self.body.normal(at))
+
+    def tangential(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        return np.asarray(self.factor * self.body.tangential(at))
+
+    def coupling(self, at: Offsets) -> Array:
+        """As in `Body`."""
+        return np.asarray(self.factor * self.body.coupling(at))
+
+    def compliance(self, waves: Waves) -> Array | ComplexArray:
+        """As in `Body`."""
+        return np.asarray(self.factor * self.body.compliance(waves))
+
+    def across(self, k: Array) -> Array:
+        """As in `Body`."""
+        return np.asarray(self.factor * self.body.across(k))
+
+
 def half_space(material: Material, *, is_tire: bool, speed: float | None = None) -> Body:
     """A half-space of a material on one side of a contact, rolling at a speed, m/s.
 
     Raises InputError for a viscoelastic one without a positive speed, and for a fluid.
     """
+    return of_material(material, lambda elastic: _elastic(elastic, is_tire), is_tire=is_tire, speed=speed)
+
+
+def of_material(
+    material: Material, surface: Callable[[Elastic], Body], *, is_tire: bool, speed: float | None = None
+) -> Body:
+    """A body of one material, whose compliance goes with its modulus, rolling at a speed, m/s.
+
+    surface: the body of an elastic material. Raises InputError as `half_space`.
+    """
     if isinstance(material, Elastic):
-        return _elastic(material, is_tire)
+        return surface(material)
     name = "tire" if is_tire else "road"
     if speed is None:
         raise InputError(
@@ -111,7 +154,7 @@ def half_space(material: Material, *, is_tire: bool, speed: float | None = None)
             "it sinks indefinitely and leaves a rut. Keep a long-term modulus: a standard linear solid, "
             "or shares that add up to 0.99 at most"
         )
-    return Fading(material, is_tire, float(speed))
+    return Fading(surface(material.glassy), material, float(speed))
 
 
 def rolling_pair(tire: Material, road: Material, speed: float | None) -> Body:

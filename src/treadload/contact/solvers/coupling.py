@@ -64,6 +64,7 @@ def solve_coupled(
     rolling: Rolling,
     *,
     check: Callable[[Array], None],
+    rows: Array | None = None,
     start: Start | None = None,
     tolerance: float = 1e-6,
     tell: Progress = lambda text: None,
@@ -71,7 +72,8 @@ def solve_coupled(
     """Pressure, shear, slip and creepages of two bodies on a grid.
 
     gap: initial (ny, nx), m. check: called with the first pressure, to refuse it early, and with the one returned,
-    which shear may have widened. start: a solution near this one. tolerance: of the normal and the tangential
+    which shear may have widened. rows: rigid slip along x (ny, 1) of rows that roll on other radii, `Tire.row_slip`.
+    start: a solution near this one. tolerance: of the normal and the tangential
     conditions, and of the relative change of pressure.
     Bodies whose Dundurs' β is below the tolerance count as alike. Raises InputError where nothing touches or
     friction cannot carry the forces, ConvergenceError with the residual reached.
@@ -91,6 +93,8 @@ def solve_coupled(
     check(normal.pressure)
     at_rest = _at_rest(normal.pressure, grid, rolling)
     rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
+    if rows is not None:
+        rigid[0] += rows
     last = None if start is None else start.tangential
     mixing = _Anderson()
     iterations, newton, krylov, change = normal.iterations, 0, 0, 0.0

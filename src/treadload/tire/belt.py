@@ -1,0 +1,211 @@
+"""A tire as a tread on an inflated belt: what pressure makes of its stiffness, and the data of known ones."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from treadload.describing import as_call
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.kernels.belt import Sheet
+from treadload.materials import Elastic, Prony
+from treadload.named import Catalogue, read_tables
+from treadload.units import BendingStiffness, Length, PerLength, Pressure, Radius, Stiffness
+
+# Thinner than any worn tread with its undertread, thicker than any new one, m.
+_THINNEST, _THICKEST = 1e-3, 1.0
+
+
+@dataclass(frozen=True)
+class LateralBelt:
+    """The belt as a string that gives way sideways as a whole.
+
+    stiffness: of its lateral foundation, N/m per m of length, > 0. length: over which a deflection fades, m, > 0.
+    Under a lateral force the tire shifts by about force / (2 stiffness (length + half the contact length)).
+    Source: Pacejka (2012), Tire and Vehicle Dynamics, chapter 5 (stretched string).
+    """
+
+    stiffness: Pressure
+    length: Length
+
+    def __post_init__(self) -> None:
+        for name, unit in (("stiffness", "N/m per m"), ("length", "m")):
+            _positive("lateral belt", name, getattr(self, name), unit)
+
+    __repr__ = as_call
+
+
+@dataclass(frozen=True, kw_only=True)
+class Belt:
+    """A tread layer bonded to a tensioned, bending belt on sidewalls.
+
+    tread: of the layer between the road and the belt, elastic or, for steady rolling, viscoelastic.
+    tread_thickness: m, ribs and undertread. foundation: what the sidewalls hold against a deflection of the belt, per
+    unit of inflation pressure, 1/m; sidewall_stiffness: the part without inflation, Pa/m.
+    meridional: tension across per inflation pressure, m: (ρ² - ρ_w²)/(2ρ) of the crown's and the widest radius.
+    bending: (D_x, D_xy, D_y), N m, along, of twist, and across. arm: from the surface of the tread to the neutral
+    line of the belt, m; shear acts at it. crown_radius: of the tread arc across that inflation has to flatten, m;
+    left out, that of the tire's surface. belt_radius: of the belt's own arc across, m, by which its rows roll on
+    different radii; left out, none. lateral: sideways motion of the belt as a whole; left out, none.
+
+    Defaults: those of a 315/80R22.5, see `Belt.from_library` for where each comes from.
+    Raises InputError when a number is out of bounds, for an arm longer than the tread is thick, and for a belt with
+    neither tension nor bending across.
+    """
+
+    tread: Elastic | Prony = Elastic(5e6, 0.47)
+    tread_thickness: Length = 0.020
+    foundation: PerLength = 4.9
+    sidewall_stiffness: Stiffness = 0.0
+    meridional: Length = 0.098
+    bending: tuple[BendingStiffness, BendingStiffness, BendingStiffness] = (80.0, 150.0, 100.0)
+    arm: Length = 0.020
+    crown_radius: Radius | None = None
+    belt_radius: Radius | None = None
+    lateral: LateralBelt | None = None
+    name: str = ""
+    source: str = field(default="", repr=False)
+    doubts: tuple[str, ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "bending", tuple(float(value) for value in self.bending))
+        object.__setattr__(self, "doubts", tuple(self.doubts))
+        if not isinstance(self.tread, Elastic | Prony):
+            raise InputError(f"belt: the tread must be an Elastic or a Prony, got {self.tread!r}")
+        if not _THINNEST <= self.tread_thickness <= _THICKEST:
+            raise InputError(
+                f"belt: tread_thickness must lie between {_THINNEST * 1e3:g} mm and {_THICKEST:g} m, got "
+                f"{self.tread_thickness:g} m; lengths are in metres"
+            )
+        for name, unit in (("foundation", "1/m"), ("sidewall_stiffness", "Pa/m"), ("meridional", "m"), ("arm", "m")):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0):
+                raise InputError(f"belt: {name} must be a number of {unit} and not negative, got {value:g}")
+        if self.foundation == 0 and self.sidewall_stiffness == 0:
+            raise InputError("belt: nothing holds it; give foundation (1/m) or sidewall_stiffness (Pa/m) above 0")
+        if len(self.bending) != 3 or not all(math.isfinite(value) and value >= 0 for value in self.bending):
+            raise InputError(
+                f"belt: bending must be three stiffnesses in N m, along, of twist and across, ≥ 0, got {self.bending}"
+            )
+        if self.arm > self.tread_thickness:
+            raise InputError(
+                f"belt: the arm of {self.arm * 1e3:g} mm is longer than the tread is thick, "
+                f"{self.tread_thickness * 1e3:g} mm; it reaches from the surface of the tread to the neutral line of "
+                "the belt, and the tread's thickness is counted down to that"
+            )
+        if self.arm > 0 and not (self.bending[0] > 0 and self.bending[2] > 0):
+            raise InputError(
+                "belt: with an arm it needs bending stiffness along and across; one that bends freely turns without "
+                "limit under the edge of a load. Give bending such as (80, 150, 100) N m, or arm = 0"
+            )
+        if self.meridional == 0 and self.bending[2] == 0:
+            raise InputError(
+                "belt: neither tension nor bending across; its rows would not feel each other. Give meridional, "
+                "about 0.1 m for a truck tire, or bending across"
+            )
+        for name in ("crown_radius", "belt_radius"):
+            if getattr(self, name) is not None:
+                _positive("belt", name, getattr(self, name), "m")
+
+    @classmethod
+    def from_library(cls, name: str) -> Belt:
+        """The belt of this name in the catalogue, e.g. "315/80R22.5". Raises InputError when it is not there."""
+        return belts[name]
+
+    def inflated(
+        self, inflation_pressure: float, rolling_radius: float | None, crown_radius: float | None
+    ) -> InflatedBelt:
+        """The belt under an inflation pressure, Pa, on a tire of these radii, m, along and across; None: unknown.
+
+        Tension: T_y = meridional p, and T_x = R (p - T_y/r_y) by Laplace's law, so that flattening it takes exactly p.
+        An endless crown_radius, inf, is a tread that is flat across.
+        Raises InputError where a radius is missing, or where the tension across carries more than the pressure.
+        """
+        if rolling_radius is None:
+            raise InputError(
+                "a belt needs the radius of the tire, and this surface does not bend along travel; give a height "
+                "map with its curvature, a profile or a scan, or a material in place of the belt"
+            )
+        across = self.crown_radius if self.crown_radius is not None else crown_radius
+        if across is None:
+            raise InputError("a belt needs the radius of the tread across: give crown_radius to Belt, in m")
+        tension_y = self.meridional * inflation_pressure
+        tension_x = rolling_radius * (inflation_pressure - tension_y / across)
+        if not tension_x > 0:
+            raise InputError(
+                f"belt: with a crown radius of {across:g} m and meridional = {self.meridional:g} m, tension across "
+                f"carries {self.meridional / across:.3g} times the inflation pressure and leaves none along; "
+                f"meridional must be below the crown radius, it is about 0.1 m"
+            )
+        sheet = Sheet(
+            tension_x,
+            tension_y,
+            (self.bending[0], self.bending[1], self.bending[2]),
+            self.foundation * inflation_pressure + self.sidewall_stiffness,
+            self.arm,
+            2 * math.pi * rolling_radius,
+        )
+        return InflatedBelt(self, sheet, rolling_radius, across, inflation_pressure)
+
+    def __str__(self) -> str:
+        return (
+            f"belt {self.name}".rstrip() + f": tread {self.tread_thickness * 1e3:g} mm of {self.tread}, sidewalls "
+            f"{self.foundation:g} /m, arm {self.arm * 1e3:g} mm"
+        )
+
+    __repr__ = as_call
+
+
+@dataclass(frozen=True)
+class InflatedBelt:
+    """A belt under its inflation pressure, on a tire of known radii; see `Belt.inflated`.
+
+    sheet: tensions, bending and foundation. rolling_radius, crown_radius: of the unloaded tread, along and across, m.
+    inflation_pressure: Pa.
+    """
+
+    belt: Belt
+    sheet: Sheet
+    rolling_radius: float
+    crown_radius: float
+    inflation_pressure: float
+
+    def row_slip(self, y: Array) -> Array:
+        """Rigid slip along x of the rows of the belt that roll on smaller radii, over rolling speed: (ny,).
+
+        y: across, m. Zero where the belt's own radius is not given.
+        """
+        radius = self.belt.belt_radius
+        if radius is None:
+            return np.zeros_like(y)
+        return np.asarray(np.square(y) / (2 * radius * self.rolling_radius))
+
+
+def read_belts(path: str | Path) -> list[Belt]:
+    """The belt of a TOML file, in a list: the keys are the arguments of Belt. Raises InputError with file and key."""
+    # pydantic is loaded when a file is read, not before.
+    from treadload.read import read
+
+    file = Path(path)
+    return [read(Belt, read_tables(file), str(file))]
+
+
+def _positive(what: str, name: str, value: float, unit: str) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise InputError(f"{what}: {name} must be a positive number of {unit}, got {value:g}")
+
+
+belts: Catalogue[Belt] = Catalogue(
+    "belt",
+    (Belt,),
+    folder="belts",
+    read=read_belts,
+    words=str,
+    group="treadload.belts",
+    use='belt = "315/80R22.5" in [tire] of a case',
+)
+"""Belts of inflated tires, for `Tire(belt=...)`."""
