@@ -51,5 +51,6 @@ from treadload.study import LifeResult as LifeResult
 from treadload.study import compare_uniform as compare_uniform
 from treadload.study import run_case as run_case
 from treadload.study import run_life as run_life
+from treadload.tire import Belt as Belt
 from treadload.tire import Tire as Tire
 from treadload.tire import example_mesh as example_mesh

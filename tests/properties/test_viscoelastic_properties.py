@@ -67,7 +67,7 @@ def work_on_the_material(contact):
     """
     d, dx = contact.dataset, contact.dataset.attrs["dx"]
     ny, nx = d.pressure.shape
-    tire, road = contact.tire.half_space, contact.road.surface_material
+    tire, road = contact.tire.carcass, contact.road.surface_material
     influence = Influence((ny, nx + 1), dx, d.attrs["dy"], rolling_pair(tire, road, contact.rolling.speed))
     loads = np.stack([-d.traction_x.values, -d.traction_y.values, d.pressure.values])
     wide = np.pad(loads, [(0, 0), (0, 0), (0, 1)])

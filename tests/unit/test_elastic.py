@@ -35,3 +35,10 @@ def test_poisson_has_bounds(poisson):
 @pytest.mark.parametrize("poisson", [0.5, 0.0, -0.99])
 def test_poisson_within_bounds(poisson):
     assert Elastic(1e6, poisson).poisson == poisson
+
+
+def test_a_modulus_whose_inverse_is_no_number_is_refused():
+    # The smallest number has half of itself at zero: its shear modulus was zero, and contacts divided by it.
+    with pytest.raises(InputError, match="below 1e-300 Pa"):
+        Elastic(5e-324, 0.45)
+    assert Elastic(1e-300, 0.5).shear_modulus > 0

@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from treadload.case.choices import TIRE_MATERIAL, TireMaterial
 from treadload.read import As, Table
-from treadload.tire import Tire, TreadProfile, example_mesh
+from treadload.tire import Belt, Tire, TreadProfile, example_mesh
 from treadload.units import Angle, Length, Number, Pressure
 
 # The word that stands for the tire mesh that ships with the package.
@@ -18,6 +18,8 @@ EXAMPLE = "example"
 
 # A name, a file, or a table.
 PROFILE = As(str | TreadProfile)
+# A name of the catalogue, or a table.
+BELT = As(str | Belt)
 
 
 class TirePart(Table):
@@ -27,10 +29,11 @@ class TirePart(Table):
     with treadload. profile: a name of the library, a TOML file, or a table. height_map: a file of the initial gap.
     units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names no unit.
     cell: of a height map without coordinates. decimal: "." or ",", of a height map as text. inflation_pressure: gives
-    the modulus where there is no material. material: of the tread's half-space. Of a scan: nominal_diameter: outer,
-    from which the unit follows. rotation: about the axle. camber: lean to the right. revolve: the meridian in place
-    of the facets. fill_holes: of the tread. smooth: length to smooth noise over, or "auto". outliers: "remove",
-    "refuse" or "keep" points that stick out. roundness: share of the radius by which it may vary.
+    the modulus where there is no material. material: of the tread's half-space. belt: in its place, a name of the
+    catalogue or a table; inflation carries it. Of a scan: nominal_diameter: outer, from which the unit follows.
+    rotation: about the axle. camber: lean to the right. revolve: the meridian in place of the facets. fill_holes: of
+    the tread. smooth: length to smooth noise over, or "auto". outliers: "remove", "refuse" or "keep" points that stick
+    out. roundness: share of the radius by which it may vary.
     """
 
     one_of: ClassVar = ("scan", "profile", "height_map")
@@ -51,6 +54,7 @@ class TirePart(Table):
     cell: Length | None = None
     inflation_pressure: Pressure | None = None
     material: TireMaterial | None = None
+    belt: Annotated[Any, BELT] = None
 
     @model_validator(mode="after")
     def _one_surface(self) -> TirePart:
@@ -59,6 +63,10 @@ class TirePart(Table):
             raise ValueError(
                 f"give exactly one of scan, profile and height_map, got {' and '.join(given) or 'none of them'}"
             )
+        if self.belt is not None and self.material is not None:
+            raise ValueError("give either material, of a half-space, or belt; the tread's material is tread in belt")
+        if self.belt is not None and self.inflation_pressure is None:
+            raise ValueError('a belt carries by its inflation: give inflation_pressure, such as "8.2 bar"')
         if self.profile is not None and self.units is not None:
             raise ValueError("units belongs to a scan or a height_map; this tire is a profile")
         if self.scan is not None and isinstance(self.units, dict):
@@ -78,11 +86,16 @@ class TirePart(Table):
             )
         return self
 
+    def _belt(self) -> Belt | None:
+        made = BELT.build(self.belt)
+        return Belt.from_library(made) if isinstance(made, str) else made
+
     def build(self, folder: Path) -> Tire:
         """The tire; relative paths start from the folder."""
         body: dict[str, Any] = {
             "material": TIRE_MATERIAL.build(self.material),
             "inflation_pressure": self.inflation_pressure,
+            "belt": self._belt(),
         }
         if self.scan is not None:
             path = example_mesh() if self.scan == EXAMPLE else folder / self.scan

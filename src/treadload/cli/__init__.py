@@ -281,15 +281,15 @@ def scan(
 def catalogue(
     kind: Annotated[
         str,
-        typer.Argument(help="structures, mixes, materials or tires; all if left out.", show_default=False),
+        typer.Argument(help="structures, mixes, materials, tires or belts; all if left out.", show_default=False),
     ] = "",
     name: Annotated[str, typer.Argument(help="One of them, in full.", show_default=False)] = "",
 ) -> None:
-    """Structures, mixes, viscoelastic materials and tires that a case can name, with sources and doubts."""
+    """Structures, mixes, viscoelastic materials, tires and belts that a case can name, with sources and doubts."""
     from treadload import catalogue as catalogues
     from treadload.errors import InputError, nearest
 
-    kinds = {one: getattr(catalogues, one) for one in ("structures", "mixes", "materials", "tires")}
+    kinds = {one: getattr(catalogues, one) for one in ("structures", "mixes", "materials", "tires", "belts")}
     if kind and kind not in kinds:
         raise InputError(f"no catalogue of {kind!r}; {nearest(kind, kinds)}")
     if name:

@@ -62,8 +62,9 @@ class Sheet:
         for tension, bend in ((self.tension_x, self.bending[0]), (self.tension_y, self.bending[2])):
             # The slower of the roots of D s⁴ - T s² + k_f, or the size of complex ones.
             root = math.sqrt(max(tension**2 - 4 * bend * self.foundation, 0.0))
-            lengths.append(math.sqrt((tension + root) / (2 * self.foundation)) if root else
-                           (4 * bend / self.foundation) ** 0.25)
+            lengths.append(
+                math.sqrt((tension + root) / (2 * self.foundation)) if root else (4 * bend / self.foundation) ** 0.25
+            )
         return lengths[0], lengths[1]
 
 
@@ -108,8 +109,8 @@ def _coefficients(sheet: Sheet, ny: int, nx: int, dx: float, dy: float, first: f
 def string(stiffness: float, length: float, x: Array, dx: float, dy: float) -> Array:
     """u_y of a string on a lateral foundation by a unit q_y on a cell of dx by dy, at distances x: (n,), m/Pa.
 
-    stiffness: of the foundation, N/m per m of length. length: σ, m, over which deflection fades; g = e^{-|x|/σ}/(2 k σ).
-    The same at every y: the string moves as a whole.
+    stiffness: of the foundation, k, N/m per m of length. length: σ, m, over which deflection fades: a unit force
+    makes e^{-|x|/σ}/(2 k σ). The same at every y: the string moves as a whole.
     """
     near, far = np.abs(x) - 0.5 * dx, np.abs(x) + 0.5 * dx
     outside = np.exp(-np.maximum(near, 0.0) / length) - np.exp(-far / length)

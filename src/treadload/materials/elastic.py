@@ -9,6 +9,9 @@ from treadload.errors import InputError, positive
 from treadload.registry import MATERIALS
 from treadload.units import Modulus, Number
 
+# Compliances of bodies add up, and must stay below the largest number.
+_SOFTEST = 1e-300
+
 
 @MATERIALS.register("elastic")
 @dataclass(frozen=True)
@@ -24,6 +27,11 @@ class Elastic:
 
     def __post_init__(self) -> None:
         positive("modulus", self.modulus, "Pa", "asphalt is near 5.4e9")
+        if self.modulus < _SOFTEST:
+            raise InputError(
+                f"modulus is {self.modulus:g} Pa, below {_SOFTEST:g} Pa, where its inverse is beyond all numbers of "
+                "this machine; asphalt is near 5.4e9"
+            )
         if isinstance(self.poisson, str) or not -1 < self.poisson <= 0.5:
             raise InputError(
                 f"poisson must lie in (-1, 0.5], got {self.poisson!r}; rubber is near 0.5, asphalt near 0.35"

@@ -118,7 +118,11 @@ class Writer:
         # A tire can all that its surface can.
         scanned = isinstance(value, Surface) and not isinstance(value, Tire | RecordedSurface)
         if scanned and value.quality is not None:
-            own = {name: getattr(value, name) for name in ("camber", "outer_radius") if hasattr(value, name)}
+            own = {
+                name: getattr(value, name)
+                for name in ("camber", "outer_radius", "crown_arc_radius")
+                if hasattr(value, name)
+            }
             value = RecordedSurface(str(value), value.extent, value.quality, **own)
         if dataclasses.is_dataclass(value) and not isinstance(value, type):
             told = {one.name: self.value(getattr(value, one.name)) for one in _fields(value)}

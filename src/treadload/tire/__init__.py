@@ -1,5 +1,6 @@
 """The tire: scans, height maps and parametric treads to the gap that the contact solver takes."""
 
+from treadload.tire.belt import Belt, InflatedBelt, LateralBelt
 from treadload.tire.grooves import Groove, LateralGrooves, equal_ribs
 from treadload.tire.library import TireMesh, example_mesh
 from treadload.tire.modulus import modulus_from_inflation
@@ -9,9 +10,12 @@ from treadload.tire.tire import Tire
 from treadload.tire.tread import ProfileSurface, TreadProfile
 
 __all__ = [
+    "Belt",
     "Groove",
     "GrooveMeasure",
     "HeightMapSurface",
+    "InflatedBelt",
+    "LateralBelt",
     "LateralGrooves",
     "ProfileSurface",
     "ScanQuality",

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.kernels.belt import Sheet
 from treadload.materials import Elastic, Prony
@@ -18,6 +18,7 @@ from treadload.units import BendingStiffness, Length, PerLength, Pressure, Radiu
 
 # Thinner than any worn tread with its undertread, thicker than any new one, m.
 _THINNEST, _THICKEST = 1e-3, 1.0
+TREAD = Elastic(5.5e6, 0.47)
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class LateralBelt:
 
     def __post_init__(self) -> None:
         for name, unit in (("stiffness", "N/m per m"), ("length", "m")):
-            _positive("lateral belt", name, getattr(self, name), unit)
+            positive(f"{name} of the lateral belt", getattr(self, name), unit)
 
     __repr__ = as_call
 
@@ -51,15 +52,16 @@ class Belt:
     line of the belt, m; shear acts at it. crown_radius: of the tread arc across that inflation has to flatten, m;
     left out, that of the tire's surface. belt_radius: of the belt's own arc across, m, by which its rows roll on
     different radii; left out, none. lateral: sideways motion of the belt as a whole; left out, none.
+    name, source: free text. doubts: what is not certain about it, a sentence each.
 
     Defaults: those of a 315/80R22.5, see `Belt.from_library` for where each comes from.
     Raises InputError when a number is out of bounds, for an arm longer than the tread is thick, and for a belt with
     neither tension nor bending across.
     """
 
-    tread: Elastic | Prony = Elastic(5e6, 0.47)
+    tread: Elastic | Prony = TREAD
     tread_thickness: Length = 0.020
-    foundation: PerLength = 4.9
+    foundation: PerLength = 3.6
     sidewall_stiffness: Stiffness = 0.0
     meridional: Length = 0.098
     bending: tuple[BendingStiffness, BendingStiffness, BendingStiffness] = (80.0, 150.0, 100.0)
@@ -109,7 +111,7 @@ class Belt:
             )
         for name in ("crown_radius", "belt_radius"):
             if getattr(self, name) is not None:
-                _positive("belt", name, getattr(self, name), "m")
+                positive(f"{name} of the belt", getattr(self, name), "m")
 
     @classmethod
     def from_library(cls, name: str) -> Belt:
@@ -121,7 +123,7 @@ class Belt:
     ) -> InflatedBelt:
         """The belt under an inflation pressure, Pa, on a tire of these radii, m, along and across; None: unknown.
 
-        Tension: T_y = meridional p, and T_x = R (p - T_y/r_y) by Laplace's law, so that flattening it takes exactly p.
+        Tension: T_y = meridional p, and T_x = R (p - T_y/r_y) by Laplace's law, so that flattening it takes just p.
         An endless crown_radius, inf, is a tread that is flat across.
         Raises InputError where a radius is missing, or where the tension across carries more than the pressure.
         """
@@ -192,11 +194,6 @@ def read_belts(path: str | Path) -> list[Belt]:
 
     file = Path(path)
     return [read(Belt, read_tables(file), str(file))]
-
-
-def _positive(what: str, name: str, value: float, unit: str) -> None:
-    if not (math.isfinite(value) and value > 0):
-        raise InputError(f"{what}: {name} must be a positive number of {unit}, got {value:g}")
 
 
 belts: Catalogue[Belt] = Catalogue(

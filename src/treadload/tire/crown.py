@@ -10,8 +10,8 @@ from treadload.kernels.arrays import Array
 
 # Shoulders fall off steeply, and inflation flattens what lies between them.
 _BETWEEN_SHOULDERS = 0.8
-# What lies deeper than this under the arc of the rest is a groove, m.
-_GROOVE = 1e-3
+# What lies deeper than this under the arc of the rest, m, or than this many of its deviations, is a groove.
+_GROOVE, _DEVIATIONS = 0.2e-3, 2.0
 # Of an arc whose ends rise by less than a hundredth of a millimetre over a tread's width, m: it is flat.
 _FLATTEST = 1e3
 _FEWEST, _MOST_ROUNDS = 8, 20
@@ -33,7 +33,8 @@ def arc_radius(y: Array, drop: Array) -> float | None:
         if kept.sum() < _FEWEST:
             return None
         fit = np.polynomial.Polynomial.fit(y[kept], drop[kept], 2)
-        deep = kept & (drop > fit(y) + _GROOVE)
+        over = drop - fit(y)
+        deep = kept & (over > max(_GROOVE, _DEVIATIONS * float(np.std(over[kept]))))
         if not deep.any():
             break
         kept &= ~deep

@@ -49,7 +49,8 @@ class Tire:
 
     surface: of the tread. material: of the half-space that stands for the tire, elastic or, for steady rolling,
     viscoelastic; or one that makes a surface of its own (`materials.kinds.Surfaced`). belt: in its place, a tread on
-    an inflated belt. inflation_pressure: Pa, gives the modulus when there is neither; a belt needs it. name: free text.
+    an inflated belt. inflation_pressure: Pa, gives the modulus when there is neither; a belt needs it. name: free
+    text.
     Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
     """
 
@@ -224,7 +225,7 @@ class Tire:
         return carcass
 
     def row_slip(self, grid: Grid) -> Array:
-        """Rigid slip along x of rows of the tread that roll on other radii, over rolling speed: (ny, 1); see `Belt`."""
+        """Rigid slip along x of rows that roll on other radii, over rolling speed (ny, 1); see `InflatedBelt`."""
         if self.belt is None or self.belt.belt_radius is None:
             return np.zeros((grid.ny, 1))
         carcass = self.carcass

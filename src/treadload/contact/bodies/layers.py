@@ -29,7 +29,10 @@ _LONGEST_WAVE, _SHORTEST_WAVE = 1e-6, 200.0
 
 @dataclass(frozen=True)
 class Layering(Body):
-    """What layers change of the half-space of their top one. images: see `images_of`. is_tire: body 1, or the road."""
+    """What layers change of the half-space of their top one.
+
+    images: see `images_of`. is_tire: True of body 1, False of the road, body 2.
+    """
 
     images: Images
     is_tire: bool = False

@@ -26,12 +26,13 @@ Material = Elastic | Prony
 class Fading(Body):
     """A viscoelastic body that rolls steadily along +x: its displacement at once, and what fades of it.
 
-    glassy: its surface of the instantaneous modulus, elastic; all of its compliance goes with one modulus, as that of
-    a half-space or of a layer on a rigid base does. material: not a fluid. speed: m/s, > 0.
-    Build it with `fading`, which checks.
+    glassy, rubbery: its surface of the instantaneous and of the long-term modulus, elastic; all of its compliance
+    goes with that one modulus, as that of a half-space or of a layer on a rigid base does. material: not a fluid.
+    speed: m/s, > 0. Build it with `of_material`, which checks.
     """
 
     glassy: Body
+    rubbery: Body
     material: Prony
     speed: float
 
@@ -43,7 +44,7 @@ class Fading(Body):
     @property
     def at_rest(self) -> Body:
         """That of the long-term modulus."""
-        return Scaled(self.glassy, self.material.glassy.modulus / self.material.rubbery.modulus)
+        return self.rubbery
 
     def check_shear(self) -> None:
         """As in `Body`."""
@@ -96,34 +97,6 @@ class Fading(Body):
         return np.asarray(sample(at.first, at.nx) + np.tensordot(strengths, faded, 1))
 
 
-@dataclass(frozen=True)
-class Scaled(Body):
-    """A body that gives way more by a factor. body: symmetric. factor: of every displacement, > 0."""
-
-    body: Body
-    factor: float
-
-    def normal(self, at: Offsets) -> Array:
-        """As in `Body`."""
-        return np.asarray(self.factor * self.body.normal(at))
-
-    def tangential(self, at: Offsets) -> Array:
-        """As in `Body`."""
-        return np.asarray(self.factor * self.body.tangential(at))
-
-    def coupling(self, at: Offsets) -> Array:
-        """As in `Body`."""
-        return np.asarray(self.factor * self.body.coupling(at))
-
-    def compliance(self, waves: Waves) -> Array | ComplexArray:
-        """As in `Body`."""
-        return np.asarray(self.factor * self.body.compliance(waves))
-
-    def across(self, k: Array) -> Array:
-        """As in `Body`."""
-        return np.asarray(self.factor * self.body.across(k))
-
-
 def half_space(material: Material, *, is_tire: bool, speed: float | None = None) -> Body:
     """A half-space of a material on one side of a contact, rolling at a speed, m/s.
 
@@ -154,7 +127,7 @@ def of_material(
             "it sinks indefinitely and leaves a rut. Keep a long-term modulus: a standard linear solid, "
             "or shares that add up to 0.99 at most"
         )
-    return Fading(surface(material.glassy), material, float(speed))
+    return Fading(surface(material.glassy), surface(material.rubbery), material, float(speed))
 
 
 def rolling_pair(tire: Material, road: Material, speed: float | None) -> Body:

@@ -43,7 +43,8 @@ _FLOOR, _FLOOR_ON_ROCK = 1e-3, 1e-2
 # Longest wave on a rigid base, times that length: longer ones feel the limit alone, and their samples take images
 # from where they are needed; a tenth of it fits worse.
 _LONGEST_ON_ROCK = 0.03
-# Coefficients are kept for whole multiples of these many cells, which neighbouring shapes share.
+# Coefficients are kept for whole multiples of these many cells, which neighbouring shapes share; fewer cells are not
+# worth a place.
 _ROUND = 32
 
 
@@ -126,12 +127,18 @@ def coefficients(images: Images, ny: int, nx: int, dx: float, dy: float, first: 
     u_z by p (even in x and y); u_x by q_x, u_y by q_y (even), u_x by q_y = u_y by q_x (odd in both); k_x (odd in
     x), k_y (odd in y): u_x = k_x ∗ p, u_z = -(k_x ∗ q_x + k_y ∗ q_y). Positive along +x, +y and down.
     """
+    if nx < _ROUND:
+        return _sums(images, ny, nx, dx, dy, first)
     rows, columns = -(-ny // _ROUND) * _ROUND, -(-nx // _ROUND) * _ROUND
     return _coefficients(images, rows, columns, dx, dy, first)[:, :ny, :nx]
 
 
 @lru_cache(maxsize=8)
 def _coefficients(images: Images, ny: int, nx: int, dx: float, dy: float, first: float) -> Array:
+    return _sums(images, ny, nx, dx, dy, first)
+
+
+def _sums(images: Images, ny: int, nx: int, dx: float, dy: float, first: float) -> Array:
     x, y = first + dx * (np.arange(nx + 1) - 0.5)[None, :], dy * (np.arange(ny + 1) - 0.5)[:, None]
     total = np.zeros((6, ny + 1, nx + 1))
     xy, squared = x * y, x**2 + y**2
