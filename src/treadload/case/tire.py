@@ -32,8 +32,8 @@ class TirePart(Table):
     the modulus where there is no material. material: of the tread's half-space. belt: in its place, a name of the
     catalogue or a table; inflation carries it. Of a scan: nominal_diameter: outer, from which the unit follows.
     rotation: about the axle. camber: lean to the right. revolve: the meridian in place of the facets. fill_holes: of
-    the tread. smooth: length to smooth noise over, or "auto". outliers: "remove", "refuse" or "keep" points that stick
-    out. roundness: share of the radius by which it may vary.
+    the tread. smooth: length to smooth noise over, or "auto". outliers: "remove", "refuse" or "keep" points that
+    stick out. roundness: share of the radius by which it may vary.
     """
 
     one_of: ClassVar = ("scan", "profile", "height_map")
