@@ -1,18 +1,19 @@
-"""Rigid punches on layers by an integral equation on their radius: no cells, no images, no Fourier grid.
+"""Rigid punches on layers by Ritz's method on the pressure: no integral equation, no cells, no images.
 
-N(k) is k times the displacement under a pressure wave, N∞ its limit. With p̄(k) = ∫ φ(t) cos kt dt the pressure
-vanishes outside of the radius a; the displacement u(r) inside asks for
+With ρ = r/a and x = √(1 - ρ²) the pressure is p = Σ bₙ P₂ₙ(x)/(wₙ x), wₙ = |P₂ₙ(0)|. The plane wave's expansion in
+Legendre polynomials gives its Hankel transform ∫ ρ p J₀(κρ) dρ = Σ bₙ j₂ₙ(κ) in spherical Bessel functions, and the
+displacement a ∫ N(κ/a) (Σ bₙ j₂ₙ) J₀(κρ) dκ, weighted by each term of the pressure, is to be that of the punch:
 
-    φ(t) + 1/π ∫ φ(s) [K(t - s) + K(t + s)] ds = 2/(π N∞) d/dt ∫ r u(r)/√(t² - r²) dr,  K(u) = ∫ (N/N∞ - 1) cos ku dk
+    a Σ bₙ ∫ N(κ/a) j₂ₘ j₂ₙ dκ = 1/wₘ ∫ P₂ₘ(x) u dx,    ∫ j₂ₘ j₂ₙ dκ = δₘₙ π/(8n + 2)
 
-and the load is 2π ∫ φ dt. Contact is taken to be whole: the pressure may turn out negative.
-
-Source: Lebedev & Ufliand (1958), J. Appl. Math. Mech. 22, 442-450.
+N(k) is k times the displacement under a pressure wave; the load is 2π a² b₀. Contact is taken to be whole: the
+pressure may turn out negative.
 """
 
 import numpy as np
+from scipy import special
 
-NODES = 48
+TERMS = 24
 
 
 def compliance_of_bonded_layer(shear, poisson, thickness):
@@ -28,31 +29,32 @@ def compliance_of_bonded_layer(shear, poisson, thickness):
 
 
 def _solve(compliance, top, first, radius, sides):
-    """∫ φ dt and φ(a) for every side(t), t in radii. first: depth of the first interface, m."""
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
-    t, w = (nodes + 1) / 2, weights / 2
-    # N/N∞ - 1 is gone at k h = 20; panels graded towards k = 0 hold what happens at long waves.
-    edges = np.concatenate([[0], np.geomspace(1e-9, 1, 60), np.arange(1.5, max(2.0, 20 * radius / first) + 1, 0.5)])
-    half = np.diff(edges) / 2
-    k = (edges[:-1, None] + half[:, None] * (1 + nodes[None])).ravel()
-    weight = (half[:, None] * weights).ravel() * (compliance(k / radius) / top - 1)
-    wave = np.cos(np.outer(np.append(t, 1.0), k))
-    kernel = (wave * weight) @ wave[:-1].T  # ½[K(t - s) + K(t + s)]
-    right = np.stack([side(np.append(t, 1.0)) for side in sides], axis=1)
-    phi = np.linalg.solve(np.eye(NODES) + 2 / np.pi * kernel[:-1] * w, right[:-1])
-    rim = right[-1] - 2 / np.pi * (kernel[-1] * w) @ phi
-    return w @ phi, rim
+    """Coefficients bₙ (TERMS, sides) for ∫ P₂ₘ(x) u dx of each side. first: depth of the first interface, m."""
+    # N - N(∞) is gone at k h = 20; towards k = 0 panels that halve hold what happens at long waves.
+    edges = np.concatenate([[0], 2.0 ** np.arange(-30, 1), np.arange(2, max(3.0, 20 * radius / first + 2))])
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    half = np.diff(edges)[:, None] / 2
+    k = (edges[:-1, None] + half * (1 + nodes)).ravel()
+    n = 2 * np.arange(TERMS)
+    wave = special.spherical_jn(n[:, None], k)
+    change = (half * weights).ravel() * (compliance(k / radius) - top)
+    stiffness = radius * (np.diag(top * np.pi / (4 * n + 2)) + (wave * change) @ wave.T)
+    return np.linalg.solve(stiffness, sides / np.abs(special.eval_legendre(n, 0.0))[:, None])
 
 
 def flat_punch_stiffness(compliance, top, first, radius):
     """Load over settlement, N/m, of a rigid disc without friction. top: N(∞), 1/Pa."""
-    (phi,), _ = _solve(compliance, top, first, radius, [lambda t: 0 * t + 2 / (np.pi * top)])
-    return 2 * np.pi * radius * phi
+    return 2 * np.pi * radius**2 * _solve(compliance, top, first, radius, np.eye(TERMS, 1))[0, 0]
 
 
 def sphere(compliance, top, first, radius, curvature):
     """Load, N, and approach, m, of a rigid paraboloid r²/2R that touches within a radius, m; curvature: R, m."""
-    unit, bowl = (lambda t: 0 * t + 2 / (np.pi * top)), (lambda t: -2 / (np.pi * top) * (radius * t) ** 2 / curvature)
-    phi, rim = _solve(compliance, top, first, radius, [unit, bowl])
-    approach = -rim[1] / rim[0]  # φ = 0 at the rim: the pressure there is finite
-    return 2 * np.pi * radius * (approach * phi[0] + phi[1]), approach
+    # ρ² = 2/3 (P₀ - P₂), and ∫ P₂² dx = 1/5.
+    sides = np.zeros((TERMS, 2))
+    sides[0, 0] = 1.0
+    sides[:2, 1] = -(radius**2) / (3 * curvature), radius**2 / (15 * curvature)
+    unit, bowl = _solve(compliance, top, first, radius, sides).T
+    # Σ bₙ P₂ₙ(0)/wₙ = 0: the pressure at the rim is finite.
+    sign = (-1.0) ** np.arange(TERMS)
+    approach = -(sign @ bowl) / (sign @ unit)
+    return 2 * np.pi * radius**2 * (approach * unit[0] + bowl[0]), approach

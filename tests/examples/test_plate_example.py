@@ -1,4 +1,4 @@
-"""The plate test ends in moduli that an integral equation confirms."""
+"""The plate test ends in moduli that Ritz's method confirms."""
 
 import runpy
 from pathlib import Path
