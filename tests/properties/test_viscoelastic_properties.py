@@ -11,10 +11,10 @@ from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.viscoelastic import rolling_pair
 from treadload.errors import InputError
 from treadload.materials import Prony
-from treadload.validation.viscoelastic import smooth_tire
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 RUBBER = Prony(10e6, ((0.3, 1e-3), (0.4, 2e-2)), 0.45)
+SOLID = Prony.standard_linear_solid(10e6, 3e6, 0.01, 0.45)
 CELL, LOAD = 0.012, 10e3
 
 
@@ -33,6 +33,11 @@ def solve(material, speed, gap, tractive=2e3, **rolling):
     tire = tl.Tire.from_height_map(gap, CELL, material=material)
     wheel = tl.Rolling(normal_load=LOAD, friction=0.7, tractive_force=tractive, speed=speed, **rolling)
     return tl.solve_contact(tire, ROAD, wheel)
+
+
+def smooth_tire(speed):
+    x = (np.arange(30) - 14.5) * CELL
+    return solve(SOLID, speed, x[None, :] ** 2 + x[:, None] ** 2 / 1.2)
 
 
 @given(
@@ -90,7 +95,7 @@ def test_slow_and_fast_rolling_are_elastic():
 def test_pressure_moves_ahead_and_rolling_costs_work():
     previous = None
     for speed in (0.3, 3.0, 30.0):
-        resistance = tl.contact.rolling_resistance(smooth_tire(speed, 0.012), 0.5)
+        resistance = tl.contact.rolling_resistance(smooth_tire(speed), 0.5)
         assert resistance.pressure_centre_x > 1e-3
         assert resistance.force > 0
         # Driven: creep in the rubber costs more than the pressure alone.
@@ -165,7 +170,7 @@ def test_two_viscoelastic_bodies_are_softer_than_one():
     ("material", "speed", "word"),
     [
         (RUBBER, None, "speed"),
-        (Prony.maxwell(3e6, 0.1, 0.5), 10.0, "rut"),
+        (Prony(3e6, ((1.0, 0.1),), 0.5), 10.0, "rut"),
     ],
 )
 def test_refused(material, speed, word):
@@ -180,4 +185,4 @@ def test_speed_must_be_positive():
         with pytest.raises(InputError, match="speed"):
             Influence((3, 3), 0.01, 0.01, rolling_pair(RUBBER, ROAD.surface_material, speed))
     with pytest.raises(InputError, match="radius"):
-        tl.contact.rolling_resistance(smooth_tire(3.0, 0.012), 0.0)
+        tl.contact.rolling_resistance(smooth_tire(3.0), 0.0)

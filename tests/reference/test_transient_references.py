@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from sliding import sliding_shear
 from treadload.contact.solvers.marching import Stage, roll_transient
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
-from treadload.contact.solvers.sliding import sliding_pole, sliding_shear, sliding_torque
+from treadload.contact.solvers.sliding import sliding_pole, sliding_torque
 from treadload.validation.histories import (
     ONSET_CREEPAGES,
     ONSET_LAST,

@@ -156,8 +156,6 @@ def test_aggressiveness_of_a_vehicle():
     # (1 + 2 · 0.75 / 2⁵) axles a vehicle.
     assert equivalence.aggressiveness([single, tandem], vehicles=1, power=5) == pytest.approx(1 + 1.5 / 32, rel=1e-14)
     assert equivalence.aggressiveness([single], vehicles=4, power=12) == 0.25
-    assert equivalence.aggressiveness_of("hydraulic", "motorway") == 1.3
-    assert french.risk_of("bituminous", "T1") == 0.05
 
 
 def test_mix_factor_of_the_neutral_mix_is_one():
@@ -233,8 +231,6 @@ def test_laws_of_catalogued_materials():
         (lambda: equivalent_axles(1, 20, 0.8, kind="weekly"), '"geometric" or "arithmetic", got \'weekly\''),
         (lambda: equivalence.aggressiveness([], vehicles=1, power=5), "axles is empty"),
         (lambda: equivalence.aggressiveness([(-1, 1, 1)], vehicles=1, power=5), "load > 0 N"),
-        (lambda: french.risk_of("concrete", "T1"), "bituminous, hydraulic, got 'concrete'"),
-        (lambda: equivalence.aggressiveness_of("bituminous", "T9"), "got 'T9'"),
         (lambda: american.top_down_cracking(-0.1), "damage must be ≥ 0, got -0.1"),
     ],
 )

@@ -50,7 +50,7 @@ class Mix:
         (road(), math.nan, r"speed must be >= 0 m/s, got nan"),
         (road(SOIL), -1.0, r"speed must be >= 0 m/s, got -1.0"),
         (road(Mix()), 10.0, r"layer 'asphalt' depends on temperature \(mix\).*Pavement.at_temperature"),
-        (road(Prony.maxwell(1e9, 0.1, 0.3)), 10.0, r"a fluid has no elastic limit of slow loading"),
+        (road(Prony(1e9, ((1.0, 0.1),), 0.3)), 10.0, r"a fluid has no elastic limit of slow loading"),
         (tl.Pavement.half_space(SOLID), None, r"give speed="),
     ],
 )

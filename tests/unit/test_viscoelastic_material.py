@@ -62,7 +62,7 @@ def test_standard_linear_solid_and_its_creep():
 
 
 def test_a_maxwell_element_is_a_fluid():
-    fluid = Prony.maxwell(1e6, 0.1, 0.5)
+    fluid = Prony(1e6, ((1.0, 0.1),), 0.5)
     assert fluid.is_fluid
     assert fluid.creep_terms == ()
     assert fluid.creep_compliance(1.0) == pytest.approx((1 + 10) / 1e6)

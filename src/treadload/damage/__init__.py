@@ -14,9 +14,9 @@ from treadload.damage.laws.american import (
 )
 from treadload.damage.laws.bond import LEUTNER_MINIMUM, BondStrength, BondUtilisation, InterfaceStrength, ShearFatigue
 from treadload.damage.laws.energy_ratio import EnergyRatio
-from treadload.damage.laws.equivalence import equivalent_axles
+from treadload.damage.laws.equivalence import AGGRESSIVENESS, aggressiveness, equivalent_axles
 from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine, PowerLaw, PowerLine
-from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.damage.laws.of_layer import OnLayer
 from treadload.damage.miner import Life, miner
 from treadload.damage.quantities import (
@@ -40,7 +40,9 @@ from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
 from treadload.damage.verdict import Verdict, assess
 
 __all__ = [
+    "AGGRESSIVENESS",
     "LEUTNER_MINIMUM",
+    "RISK",
     "AsphaltInstitute",
     "AsphaltInstituteSubgrade",
     "AxleClass",
@@ -84,6 +86,7 @@ __all__ = [
     "VonMisesStrain",
     "Wander",
     "add_thermal_stress",
+    "aggressiveness",
     "assess",
     "assess_bonds",
     "compute_quantities",

@@ -72,14 +72,6 @@ class Prony:
         return cls(instantaneous, ((1 - long_term / instantaneous, time),), poisson)
 
     @classmethod
-    def maxwell(cls, modulus: float, time: float, poisson: float) -> Prony:
-        """Maxwell element: a spring and a dashpot in series, E(t) = E₀ exp(-t/τ). It is a fluid.
-
-        modulus: E₀, Pa. time: τ, s, of relaxation.
-        """
-        return cls(modulus, ((1.0, time),), poisson)
-
-    @classmethod
     def from_creep(cls, modulus: float, terms: Sequence[tuple[float, float]], poisson: float) -> Prony:
         """The solid whose creep compliance is J(t) = (1 + Σ fⱼ (1 - exp(-t/Tⱼ))) / E₀.
 

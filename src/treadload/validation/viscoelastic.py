@@ -10,15 +10,12 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import i0e, i1e, k0e, k1e
 
-from treadload.contact import Contact, Rolling, solve_contact
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.viscoelastic import Material, rolling_pair
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.solvers.rolling import rigid_slip, solve_rolling
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Prony
-from treadload.pavement import Pavement
-from treadload.tire import Tire
 from treadload.validation.check import Check, absolute, relative
 from treadload.validation.patches import LONG, Patch, centres
 
@@ -121,17 +118,6 @@ def hunter_strip(cells: int, length: float = 2.0, share: float = 1.5) -> tuple[P
     spacing = 2 * exact.half_width / cells
     x = centres(cells + 8, spacing, exact.centre)
     return cylinder((material, _RIGID), 1.0, 100.0, 1.0, x, LONG * exact.half_width), exact
-
-
-def smooth_tire(speed: float, spacing: float = 6e-3) -> Contact:
-    """A smooth viscoelastic tire, driven, on asphalt: 10 kN, ν = 0.45, speed in m/s, R = 0.5 m."""
-    x, y = centres(round(0.36 / spacing), spacing), centres(round(0.36 / spacing), spacing)
-    gap = x[None, :] ** 2 + y[:, None] ** 2 / 1.2
-    tire = Tire.from_height_map(
-        gap, spacing, material=Prony.standard_linear_solid(10e6, 3e6, 0.01, 0.45), name="smooth"
-    )
-    road = Pavement.half_space(Elastic(5.4e9, 0.35))
-    return solve_contact(tire, road, Rolling(normal_load=10e3, friction=0.7, tractive_force=2e3, speed=speed))
 
 
 def cylinder_checks() -> Iterator[Check]:

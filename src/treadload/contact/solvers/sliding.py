@@ -1,4 +1,4 @@
-"""Gross sliding: every cell slips, and the shear opposes the rigid slip wherever it points."""
+"""Gross sliding: the point about which a contact turns where every cell slips, and the moment that friction gives."""
 
 from __future__ import annotations
 
@@ -8,21 +8,6 @@ from treadload.contact.solvers.tangential import Axes
 from treadload.kernels.arrays import Array
 
 _MOST_STEPS = 500
-
-
-def sliding_shear(bound: Array, rigid: Array, axes: Axes = (1.0, 1.0)) -> Array:
-    """Shear (2, ny, nx) on body 1, Pa, where the whole contact slides: q = -μp w/|w|.
-
-    bound: μp (ny, nx), Pa. rigid: direction of the slip w (2, ny, nx), of any size; no shear where it vanishes.
-    axes: of the friction ellipse, as in `contact.solvers.tangential`; then q = -μp D² w/|D w|, D = diag(axes).
-    The limit of rolling, shifting and turning when the rigid slip outgrows what the bodies can give way.
-    """
-    stretched = np.reshape(axes, (2, 1, 1)) * rigid
-    size = np.hypot(stretched[0], stretched[1])
-    shear: Array = (
-        -np.reshape(axes, (2, 1, 1)) * stretched * np.divide(bound, size, out=np.zeros_like(bound), where=size > 0)
-    )
-    return shear
 
 
 def sliding_pole(bound: Array, x: Array, y: Array, axes: Axes = (1.0, 1.0)) -> tuple[float, float]:

@@ -32,11 +32,6 @@ GROUP_FACTORS: Mapping[str, Mapping[int, float]] = {
 """K of one axle by the number of axles in its group and the kind of layer; from memory, not verified in a source."""
 
 
-def aggressiveness_of(material: str, traffic: str) -> float:
-    """CAM of the method's table; see `AGGRESSIVENESS` for the words. Raises InputError."""
-    return look_up("aggressiveness", AGGRESSIVENESS, material, traffic)
-
-
 def aggressiveness(
     axles: Sequence[tuple[float, float, float]],
     *,
@@ -71,7 +66,8 @@ def equivalent_axles(
 ) -> float:
     """NE = 365 MJA C CAM: reference axles over the design life.
 
-    vehicles_per_day: MJA, heavy vehicles a day and direction in the first year. years: n. aggressiveness: CAM.
+    vehicles_per_day: MJA, heavy vehicles a day and direction in the first year. years: n. aggressiveness: CAM,
+    as in `AGGRESSIVENESS`, or of axles that were weighed, see the function `aggressiveness`.
     growth: t, a year. kind: C = ((1+t)^n - 1)/t "geometric", or n (1 + (n-1) t/2) "arithmetic". Raises InputError.
     """
     for name, value in {
@@ -108,12 +104,3 @@ def growth_factor(years: float, growth: float, kind: Literal["geometric", "arith
     if not total > 0:
         raise InputError(f"a growth of {growth:g} a year leaves no traffic over {years:g} years")
     return total
-
-
-def look_up(what: str, table: Mapping[str, Mapping[str, float]], material: str, traffic: str) -> float:
-    """A number of a table by material and class of traffic. Raises InputError that lists what it knows."""
-    if material not in table:
-        raise InputError(f"the table of {what} knows {', '.join(table)}, got {material!r}")
-    if traffic not in table[material]:
-        raise InputError(f"the table of {what} knows the traffic {', '.join(table[material])}, got {traffic!r}")
-    return table[material][traffic]

@@ -12,7 +12,6 @@ from typing import ClassVar, Literal
 
 from scipy.special import ndtri
 
-from treadload.damage.laws.equivalence import look_up
 from treadload.damage.laws.fatigue import PowerLaw, check_slope, check_strain
 from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, TENSION
 from treadload.errors import InputError, positive
@@ -44,7 +43,7 @@ class FrenchBituminous(PowerLaw):
     epsilon_6: strain of a million cycles at 10 °C and 25 Hz, plain strain. slope: b, near -0.2.
     scatter: SN, of the logarithm of the fatigue life. thickness: of all bituminous layers, m, the wearing course
     and every lift included, see `bituminous_thickness`; it gives the scatter Sh of the thickness. risk: probability
-    of failure over the design life, in (0, 1).
+    of failure over the design life, in (0, 1); `RISK` has what the method accepts.
     calibration: k_c, 1.3 for base course asphalt GB, 1.1 for BBSG, 1.0 for EME.
     modulus_ratio: E(10 °C) / E(θ_eq), both at 10 Hz; k_θ is its root. platform_modulus: of what lies below, Pa;
     left out, k_s = 1. thickness_scatter: Sh, m, in place of the rule for it.
@@ -287,11 +286,6 @@ def platform_factor(modulus: float | None) -> float:
     if modulus is None:
         return 1.0
     return next((factor for bound, factor in _PLATFORM if modulus < bound), 1.0)
-
-
-def risk_of(material: str, traffic: str) -> float:
-    """Probability of failure that the method accepts; see `RISK` for the words. Raises InputError."""
-    return look_up("risk", RISK, material, traffic)
 
 
 def _check_rest(risk: float, platform_modulus: float | None, spread: float | None) -> None:

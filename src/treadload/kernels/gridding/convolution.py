@@ -20,7 +20,8 @@ class Padding:
     """Zero-padded Fourier space in which a product of spectra is a linear convolution.
 
     load_shape: (ny, nx) of the load. field_shape: (ny, nx) of the result.
-    Where the field lies relative to the load is said by the kernel, sampled at `offsets`.
+    Where the field lies relative to the load is said by the kernel. Along each axis it is sampled at the offsets
+    0 … n_field - 1 of a field cell from a load cell, then at whatever no pair has, then at -(n_load - 1) … -1.
     """
 
     load_shape: tuple[int, int]
@@ -36,17 +37,6 @@ class Padding:
         """Padded shape: load + field each way, rounded up to a fast FFT length."""
         (ny, nx), (my, mx) = self.load_shape, self.field_shape
         return int(fft.next_fast_len(ny + my)), int(fft.next_fast_len(nx + mx, real=True))
-
-    def offsets(self, dx: float, dy: float, x0: float = 0.0, y0: float = 0.0) -> tuple[Array, Array]:
-        """Distances field cell minus load cell, wrapped: X (1, mx), Y (my, 1), m.
-
-        x0, y0: position of the first field cell minus that of the first load cell, m.
-        Offsets that no pair of cells has are NaN; `spectrum` sets the kernel to zero there.
-        """
-        (my, mx) = self.shape
-        y = _wrapped(self.load_shape[0], self.field_shape[0], my)
-        x = _wrapped(self.load_shape[1], self.field_shape[1], mx)
-        return x0 + dx * x[None, :], y0 + dy * y[:, None]
 
     @property
     def quadrant(self) -> tuple[int, int]:
@@ -68,8 +58,8 @@ class Padding:
         return kernel
 
     def spectrum(self, kernel: Array) -> ComplexArray:
-        """Spectrum (my, mx // 2 + 1) of a kernel sampled at `offsets`; NaN counts as zero."""
-        spectrum: ComplexArray = fft.rfft2(np.nan_to_num(kernel, copy=True, nan=0.0))
+        """Spectrum (my, mx // 2 + 1) of a kernel (my, mx)."""
+        spectrum: ComplexArray = fft.rfft2(kernel)
         return spectrum
 
     def forward(self, load: Array) -> ComplexArray:
@@ -96,29 +86,11 @@ class Convolution:
     padding: Padding
     spectrum: ComplexArray | Array
 
-    @classmethod
-    def of_kernel(cls, padding: Padding, kernel: Array, *, even: bool = False) -> Convolution:
-        """Operator of a kernel sampled at `padding.offsets`.
-
-        even: the kernel is even in x and in y, so that its spectrum is real and is stored so.
-        """
-        spectrum = padding.spectrum(kernel)
-        return cls(padding, np.ascontiguousarray(spectrum.real) if even else spectrum)
-
     def __call__(self, load: Array) -> Array:
         """Field (ny, nx) under a load (ny, nx)."""
         transformed = self.padding.forward(load)
         transformed *= self.spectrum
         return self.padding.inverse(transformed)
-
-
-def _wrapped(n_load: int, n_field: int, n_padded: int) -> Array:
-    """Offsets 0 … n_field - 1, then NaN, then -(n_load - 1) … -1."""
-    offsets = np.full(n_padded, np.nan)
-    offsets[:n_field] = np.arange(n_field)
-    if n_load > 1:
-        offsets[-(n_load - 1) :] = np.arange(-(n_load - 1), 0)
-    return offsets
 
 
 def _mirrored(n_padded: int, parity: int) -> tuple[Array, Array]:
