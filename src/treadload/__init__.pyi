@@ -7,6 +7,7 @@ first used; type checkers and editors read it too. One name a line.
 from treadload import catalogue as catalogue
 from treadload import contact as contact
 from treadload import damage as damage
+from treadload import footprint as footprint
 from treadload import materials as materials
 from treadload import pavement as pavement
 from treadload import plots as plots
@@ -30,6 +31,8 @@ from treadload.errors import ConvergenceError as ConvergenceError
 from treadload.errors import GeometryError as GeometryError
 from treadload.errors import InputError as InputError
 from treadload.errors import TreadloadError as TreadloadError
+from treadload.footprint import compare as compare
+from treadload.footprint import read_footprint as read_footprint
 from treadload.grid import Grid as Grid
 from treadload.materials import Elastic as Elastic
 from treadload.pavement import BONDED as BONDED

@@ -177,4 +177,5 @@ QUANTITIES = Registry(
     example='{ quantity = "utilisation", cohesion = "0.85 MPa" }',
 )  # fmt: skip
 READERS = Registry("reader of meshes", "treadload.readers", key="")
-ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS)
+FOOTPRINTS = Registry("reader of footprints", "treadload.footprints", key="format")
+ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS, FOOTPRINTS)

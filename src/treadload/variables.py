@@ -177,6 +177,34 @@ _INTERFACES = {
     "parting_years": ("1", "years until an interface parts"),
 }
 
+_FOOTPRINT = {
+    "computed_pressure": ("Pa", "computed contact pressure as the sensor tells it: a mean over each sensel"),
+    "measured_pressure": ("Pa", "contact pressure that was measured"),
+    "pressure_difference": ("Pa", "computed contact pressure, as the sensor tells it, less the measured one"),
+    "print_load": ("N", "load that a footprint carries"),
+    "net_area": ("m^2", "area of the loaded cells of a footprint"),
+    "gross_area": ("m^2", "area inside the convex outline of a footprint"),
+    "print_length": ("m", "from the first to the last loaded cell along travel"),
+    "print_width": ("m", "from the first to the last loaded cell across travel"),
+    "mean_pressure": ("Pa", "load over net area"),
+    "largest_pressure": ("Pa", "largest contact pressure of a cell"),
+    "print_centre_x": ("m", "centre of pressure along travel"),
+    "print_centre_y": ("m", "centre of pressure to the right of travel"),
+    "print_spread_x": ("m", "standard deviation of x under the pressure"),
+    "print_spread_y": ("m", "standard deviation of y under the pressure"),
+    "rib": ("1", "number of a rib, from left to right"),
+    "rib_share": ("1", "share of the load that a rib carries"),
+    "rib_left": ("m", "left edge of a rib: the middle of the groove beside it"),
+    "rib_right": ("m", "right edge of a rib: the middle of the groove beside it"),
+    "overlap_of_pressure": ("1", "sum of the lesser of two pressures over that of the larger"),
+    "overlap_of_area": ("1", "area that both maps load over area that either does"),
+    "rms_difference": ("Pa", "root of the mean square of the difference where either map is loaded"),
+    "correlation": ("1", "correlation of two maps over all sensels"),
+    "registered_x": ("m", "shift of the footprint's middle along its first axis"),
+    "registered_y": ("m", "shift of the footprint's middle along its second axis"),
+    "registered_angle": ("rad", "angle of the footprint's first axis from travel towards the right"),
+}
+
 VARIABLES: Mapping[str, tuple[str, str]] = {
     **_COORDINATES,
     **_CONTACT,
@@ -188,6 +216,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_LIFE,
     **_INTERFACES,
     **_UNIFORM,
+    **_FOOTPRINT,
 }
 
 

@@ -81,6 +81,11 @@ def footprint():
     return Footprint(tl.GridLoad.from_arrays(pressure, 0.1 * pressure, spacing=0.02), ROAD)
 
 
+def footprint_comparison():
+    small = tl.GridLoad.from_arrays(np.outer([0, 2, 3, 2, 0], [0, 5e5, 7e5, 0, 0]), spacing=0.02)
+    return tl.compare(small, Footprint(small, threshold=1e3, saturation=2e6), registration="shift")
+
+
 def viscoelastic_tire():
     rubber = tl.materials.Prony.standard_linear_solid(4e6, 3e6, 0.01, 0.5)
     tire = replace(TIRE, material=rubber)
@@ -114,6 +119,7 @@ MADE = {
     "UniformComparison": lambda: tl.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
     "RollingResistance": viscoelastic_tire,
     "Footprint": footprint,
+    "FootprintComparison": footprint_comparison,
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
 FIGURES = {
@@ -121,6 +127,7 @@ FIGURES = {
     "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
     "BondComparison": "lives", "Sensitivity": "inputs", "UniformComparison": "strains", "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
+    "FootprintComparison": "maps",
 }  # fmt: skip
 
 

@@ -16,7 +16,7 @@ ROOT = Path(tl.__file__).parent
 CLONE = Path(__file__).parents[2]
 STUB = (ROOT / "__init__.pyi").read_text(encoding="utf-8")
 ROOMS = (
-    *("catalogue", "contact", "damage", "friction", "materials", "pavement"),
+    *("catalogue", "contact", "damage", "footprint", "friction", "materials", "pavement"),
     *("plots", "response", "results", "study", "tire"),
 )
 

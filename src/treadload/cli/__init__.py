@@ -1,4 +1,4 @@
-"""The command line: `treadload init | schema | run | life | report | scan | catalogue | demo | validate`."""
+"""The command line: `treadload init | schema | run | life | report | compare | scan | catalogue | demo | …`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from treadload._version import __version__
+from treadload.cli import compare as asked
 from treadload.cli.progress import counts, stages
 from treadload.errors import ConvergenceError, TreadloadError
 
@@ -228,6 +229,57 @@ def report(
         tell("drawing")
         write_report(trees, path, title=title or " and ".join(trees))
     _out.print(f"written: {path}", markup=False)
+
+
+@app.command()
+@_one_sentence
+def compare(
+    result: Annotated[Path, typer.Argument(help="Result file of `treadload run`, with a contact.")],
+    footprint: asked.Footprint,
+    output: _Output = None,
+    report: Annotated[Path | None, typer.Option(help="Page to write, .html.", show_default=False)] = None,
+    units: asked.Units = None,
+    spacing: asked.Spacing = None,
+    frame: asked.Frame = "peak",
+    travel: asked.Travel = "right",
+    seen_from: asked.SeenFrom = "above",
+    calibration: asked.Calibration = None,
+    load: asked.Load = None,
+    threshold: asked.Threshold = None,
+    saturation: asked.Saturation = None,
+    dead: asked.Dead = "leave",
+    colours: asked.Colours = None,
+    scale: asked.Scale = None,
+    registration: asked.Registration = "full",
+    load_tolerance: asked.Tolerance = "25 %",
+    quiet: _Quiet = False,
+) -> None:
+    """Lay a measured footprint onto a computed contact, and tell how they agree."""
+    from treadload.files import HTML, check_suffix
+    from treadload.results import to_tree
+    from treadload.results.exports import check_output, write
+
+    if output is not None:
+        check_output(output)
+    if report is not None:
+        check_suffix(report, HTML, "the report")
+    files: list[Path] = []
+    with stages(_err, quiet=quiet) as tell:
+        found = asked.compare_files(
+            result, footprint, tell, units=units, spacing=spacing, frame=frame, travel=travel, seen_from=seen_from,
+            calibration=calibration, load=load, threshold=threshold, saturation=saturation, dead=dead,
+            colours=colours, scale=scale, registration=registration, load_tolerance=load_tolerance,
+        )  # fmt: skip
+        if output is not None:
+            files += write(to_tree(found), output)
+        if report is not None:
+            from treadload.reporting import report as write_page
+
+            tell("drawing")
+            files.append(write_page(found, report, title=f"{result.name} and {footprint.name}"))
+    _out.print(found.summary(), markup=False)
+    if files:
+        _written(files)
 
 
 @app.command()

@@ -4,7 +4,7 @@ from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded
 from treadload.pavement.catalogue import Structure
 from treadload.pavement.layer import Layer
-from treadload.pavement.rows import LayerRow, layer_rows
+from treadload.pavement.rows import LayerRow, layer_rows, road_in_words
 from treadload.pavement.structure import Pavement
 from treadload.pavement.temperature import TemperatureProfile
 
@@ -24,4 +24,5 @@ __all__ = [
     "is_bituminous",
     "layer_rows",
     "lift_below",
+    "road_in_words",
 ]

@@ -1,4 +1,4 @@
-"""The layers of a road as rows: what a table of a summary or a report shows."""
+"""The layers of a road as rows, what a table of a summary or a report shows, and in words."""
 
 from __future__ import annotations
 
@@ -47,6 +47,16 @@ def layer_rows(road: Pavement, temperatures: Sequence[float | None] = ()) -> tup
         _row(layer, temperature, _held(road, number))
         for number, (layer, temperature) in enumerate(zip(road.layers, known, strict=True))
     )
+
+
+def road_in_words(road: Pavement) -> str:
+    """The layers of a road in one line."""
+    layers = []
+    for layer in road.layers:
+        depth = "half-space" if layer.thickness is None else f"{layer.thickness * 1e3:g} mm"
+        bond = "" if layer.bond == BONDED else f", {layer.bond} below"
+        layers.append(f"{layer.name or 'layer'} ({depth}): {layer.material}{bond}")
+    return "; ".join([*layers, "rigid base"] if road.rigid_base else layers)
 
 
 def _row(layer: Layer, temperature: float | None, bond: str) -> LayerRow:

@@ -5,6 +5,7 @@ from treadload.plots.bowl import deflection_bowl
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.energy import dissipated_energy
+from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.kit.figure import new_figure
@@ -18,6 +19,7 @@ from treadload.plots.others import (
     BondVerdictPlots,
     CreepCurvePlots,
     FieldsPlots,
+    FootprintComparisonPlots,
     LifePlots,
     RollingResistancePlots,
     SensitivityPlots,
@@ -38,6 +40,7 @@ __all__ = [
     "ContactPlots",
     "CreepCurvePlots",
     "FieldsPlots",
+    "FootprintComparisonPlots",
     "LifePlots",
     "ResponsePlots",
     "RollingResistancePlots",
@@ -55,6 +58,8 @@ __all__ = [
     "compare_roads",
     "compare_strain",
     "compare_temperatures",
+    "comparison_cuts",
+    "comparison_maps",
     "creep_curves",
     "deflection_bowl",
     "dissipated_energy",
@@ -70,6 +75,7 @@ __all__ = [
     "places_under",
     "plain_map",
     "png",
+    "rib_shares",
     "save",
     "shift_factors",
     "tearing",

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from treadload.accessors import offers
 from treadload.composing import Source, dataset_of
 from treadload.plots.curve import creep_curves
+from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
@@ -64,6 +65,23 @@ class BondComparisonPlots(_Plots):
     def lives(self) -> Figure:
         """Lives by criterion: bonded, parted, bonded until it parts."""
         return bonded_and_parted(self._result)
+
+
+@offers("plot", "FootprintComparison")
+class FootprintComparisonPlots(_Plots):
+    """Figures of a computed contact beside a measured footprint."""
+
+    def maps(self) -> Figure:
+        """Both maps as the sensor tells them on one scale, and their difference, kPa."""
+        return comparison_maps(self._result)
+
+    def cuts(self, *, x: float | None = None, y: float | None = None) -> Figure:
+        """Both pressures along travel at y, m, and across it at x, m; through the heaviest rib if left out; kPa."""
+        return comparison_cuts(self._result, x=x, y=y)
+
+    def ribs(self, *, ax: Axes | None = None) -> Figure:
+        """Share of the load on each rib, %."""
+        return rib_shares(self._result, ax=ax)
 
 
 @offers("plot", "CreepCurve")

@@ -10,6 +10,7 @@ from treadload.plots import (
     ContactPlots,
     CreepCurvePlots,
     FieldsPlots,
+    FootprintComparisonPlots,
     LifePlots,
     RollingResistancePlots,
     SensitivityPlots,
@@ -23,6 +24,7 @@ from treadload.reporting.reading import Other, summary_of
 HEADINGS = {
     "bonds": "Bonds between layers",
     "bond_comparison": "Road with and without its bond",
+    "comparison": "Computed and measured footprint",
     "creep_curve": "Creep curve",
     "sensitivity": "What the life depends on",
     "transient": "Rolling from rest",
@@ -59,6 +61,18 @@ def _pictures(other: Other) -> list[Picture]:
         case "bond_comparison":
             caption = "Life by every criterion with the bond, without it, and with it until it fails."
             return picture("Life with and without the bond", caption, BondComparisonPlots(data).lives, wide=True)
+        case "comparison":
+            plots = FootprintComparisonPlots(data)
+            drawn = picture(
+                "Computed, measured, and their difference",
+                "Means over the sensels of the sensor, on one scale; red: more was computed than measured.",
+                plots.maps,
+                wide=True,
+            )
+            drawn += picture("Cuts", "Pressure along travel and across it, sensel by sensel.", plots.cuts, wide=True)
+            if data.sizes.get("rib", 0) > 1:
+                drawn += picture("Ribs", "Share of the load that each rib carries, from left to right.", plots.ribs)
+            return drawn
         case "creep_curve":
             caption = "Force over friction times load, and the share of the contact that slips, against creepage."
             return picture("Force against creepage", caption, CreepCurvePlots(data).forces, wide=True)
@@ -76,10 +90,10 @@ def _pictures(other: Other) -> list[Picture]:
         case "life":
             return picture("Life by criterion", "Years until the damage is 1.", LifePlots(data).years)
         case "transient" | "turn":
-            plots = TransientPlots(data) if other.kind == "transient" else TurnPlots(data)
+            history = TransientPlots(data) if other.kind == "transient" else TurnPlots(data)
             what = "distance" if other.kind == "transient" else "angle"
             drawn = picture(
-                f"Against the {what}", "Forces, and the share of the contact that slips.", plots.history, wide=True
+                f"Against the {what}", "Forces, and the share of the contact that slips.", history.history, wide=True
             )
             if "contact" in inside:
                 at_end = ContactPlots(inside["contact"])

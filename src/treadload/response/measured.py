@@ -53,9 +53,10 @@ def read_csv(
     x0: float | None = None,
     y0: float | None = None,
     units: Mapping[str, str] | None = None,
-    missing: Literal["error", "zero"] = "error",
+    missing: Literal["error", "zero", "keep"] = "error",
     noise: float | str = 0.0,
     decimal: str | None = None,
+    strict: bool = False,
 ) -> Recorded:
     """Cells and stress from a text file in one of two forms.
 
@@ -68,22 +69,23 @@ def read_csv(
     spacing: of the cells, m or a text with a unit, or (dx, dy); a matrix needs it, a table where its coordinates
     do not tell. x0, y0: of a matrix, centre of the first cell, m; None: the origin lies in the middle.
     units: column → unit where the header names none, {"pressure": "kPa"}; otherwise SI. missing: what stands where
-    a cell is empty, says NaN or NoData, or is absent: "error" or "zero". noise: pressures this far below zero, Pa or
-    a text with a unit, are set to zero. decimal: "." or ",", where the file can be read in two ways.
+    a cell is empty, says NaN or NoData, or is absent: "error", "zero", or "keep" for NaN. noise: pressures this far
+    below zero, Pa or a text with a unit, are set to zero. decimal: "." or ",", where the file can be read in two
+    ways. strict: refuse what names no unit, which is SI otherwise.
     Raises InputError that names the line for what cannot be read.
     """
     path = Path(path)
-    if missing not in ("error", "zero"):
-        raise InputError(f'missing must be "error" or "zero", got {missing!r}')
+    if missing not in ("error", "zero", "keep"):
+        raise InputError(f'missing must be "error" or "zero", or "keep" for NaN, got {missing!r}')
     floor = quantity(noise, "Pa")
     units = dict(units or {})
     check_names(units, _COLUMNS, "the columns")
     table = read_table(path, decimal=decimal)
     if not table.has_header:
-        return _matrix(table, spacing, x0, y0, units, missing, floor)
+        return _matrix(table, spacing, x0, y0, units, missing, floor, strict)
     if x0 is not None or y0 is not None:
         raise InputError(f"{path} is a table with coordinates of its own: leave out x0 and y0, and move the load")
-    return _table(table, spacing, units, missing, floor)
+    return _table(table, spacing, units, missing, floor, strict)
 
 
 def read_netcdf(path: str | os.PathLike[str], units: Mapping[str, str] | None = None) -> Recorded:
@@ -181,12 +183,12 @@ def _checked(table: Table, first: int, name: str, values: Array, missing: str, f
     """Stress (rows, …), Pa: what is missing and what is noise as asked for."""
     values = values.copy()
     unknown = np.isnan(values)
-    if unknown.any() and missing != "zero":
+    if unknown.any() and missing == "error":
         line = table.lines[first + int(np.argwhere(unknown)[0][0])]
         raise InputError(
             f'{table.path}, line {line}: {name} is missing; give missing="zero" if nothing pressed there'
         )
-    values[unknown] = 0.0
+    values[unknown] = np.nan if missing == "keep" else 0.0
     if name == "pressure":
         values[(values < 0) & (values >= -floor)] = 0.0
         below = np.argwhere(values < 0)
@@ -207,6 +209,7 @@ def _matrix(
     units: Mapping[str, str],
     missing: str,
     floor: float,
+    strict: bool,
 ) -> Recorded:
     if spacing is None:
         raise InputError(
@@ -215,15 +218,22 @@ def _matrix(
         )
     values, how = table.values(name=lambda column: "pressure")
     unit = units.get("pressure")
+    if unit is None and strict:
+        raise InputError(_no_unit(table.path, "pressure"))
     scaled: Array = values * (1.0 if unit is None else factor_asked("pressure", unit, "Pa"))
     pressure = _checked(table, 0, "pressure", scaled, missing, floor)
     grid = grid_of(pressure.shape, spacing, x0, y0)
     return Recorded(grid, pressure, None, None, f"{table.path.name}: {how}, pressure in {unit or 'Pa'}")
 
 
-def _table(table: Table, spacing: Any, units: Mapping[str, str], missing: str, floor: float) -> Recorded:
+def _table(
+    table: Table, spacing: Any, units: Mapping[str, str], missing: str, floor: float, strict: bool
+) -> Recorded:
     path, lines = table.path, table.lines[1:]
     columns, named = _columns(table, units)
+    bare = [name for name, unit in named.items() if unit is None]
+    if bare and strict:
+        raise InputError(_no_unit(path, bare[0]))
     if not lines:
         raise InputError(f"{path} has a header and no points")
     heads = {place: name for name, place in columns.items()}
@@ -259,12 +269,17 @@ def _table(table: Table, spacing: Any, units: Mapping[str, str], missing: str, f
         )
     fields: dict[str, Array] = {}
     for name in set(columns) & set(_STRESS):
-        fields[name] = np.zeros((ny, nx))
+        fields[name] = np.full((ny, nx), np.nan if missing == "keep" else 0.0)
         fields[name][j, i] = at[name]
     grid = Grid(nx, ny, dx, dy, x0, y0)
     said = ", ".join(f"{name} in {unit or _COLUMNS[name]}" for name, unit in named.items())
     source = f"{path.name}: {how}, {said}"
     return Recorded(grid, fields["pressure"], fields.get("traction_x"), fields.get("traction_y"), source)
+
+
+def _no_unit(path: Path, name: str) -> str:
+    unit = "mm" if _COLUMNS[name] == "m" else "kPa"
+    return f'{path}: {name} names no unit; give units={{"{name}": "{unit}"}}, or write {name} [{unit}] in a header'
 
 
 def _columns(table: Table, units: Mapping[str, str]) -> tuple[dict[str, int], dict[str, str | None]]:

@@ -1,7 +1,8 @@
 """Results together: one tree of named parts, its citations, NetCDF that others can open, and tables."""
 
+from treadload.footprint import Footprint
 from treadload.results.cite import citations
-from treadload.results.dataset import Fields, Footprint, height_map
+from treadload.results.dataset import Fields, height_map
 from treadload.results.exports import write_csv, write_excel
 from treadload.results.files import open_results, save_results
 from treadload.results.opened import Results

@@ -1,4 +1,4 @@
-"""Results that no solver made: a footprint that was recorded, fields of any verb, the height map of a tire."""
+"""Results that no solver made: fields of any verb, the height map of a tire."""
 
 from __future__ import annotations
 
@@ -11,41 +11,11 @@ from treadload._version import __version__
 from treadload.composing import BaseResult
 from treadload.describing import first_line
 from treadload.grid import Grid
-from treadload.pavement import Pavement
-from treadload.response import GridLoad
-from treadload.results.roads import road_in_words
 from treadload.tire import Tire
 from treadload.variables import dataset
 
 # Variables that a summary of fields tells.
 _TOLD = 24
-
-
-@dataclass(frozen=True, eq=False)
-class Footprint(BaseResult, group="contact"):
-    """A footprint that was recorded in place of a contact that is computed.
-
-    load: as it was read. road: that it stands on, or None.
-    """
-
-    load: GridLoad
-    road: Pavement | None = None
-
-    @property
-    def dataset(self) -> xr.Dataset:
-        """The footprint with the names that a contact has."""
-        return footprint(self.load, self.road)
-
-    def summary(self) -> str:
-        """What presses where, the forces, and where it was read."""
-        load = self.load
-        lines = [
-            f"recorded footprint: {load}",
-            f"tractive force {load.tractive_force / 1e3:z.2f} kN, lateral force {load.lateral_force / 1e3:z.2f} kN",
-        ]
-        return "\n".join(lines + ([f"read from {load.source}"] if load.source else []))
-
-    __repr__ = first_line
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,21 +61,3 @@ def height_map(tire: Tire, spacing: float) -> xr.Dataset:
     gap = {"initial_gap": (("y", "x"), tire.height_map(grid))}
     about = {"tire": str(tire), "treadload_version": __version__}
     return dataset(gap, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy, **about)
-
-
-def footprint(load: GridLoad, road: Pavement | None) -> xr.Dataset:
-    """A recorded footprint with the names that a contact has."""
-    plane = ("y", "x")
-    pressure, along, across = load.array
-    fields: dict[str, tuple[tuple[str, ...], object]] = {
-        "pressure": (plane, pressure),
-        "traction_x": (plane, along),
-        "traction_y": (plane, across),
-        "normal_load": ((), load.normal_load),
-        "tractive_force": ((), load.tractive_force),
-        "lateral_force": ((), load.lateral_force),
-    }
-    words = {} if road is None else {"road": road_in_words(road)}
-    cell = {"dx": load.grid.dx, "dy": load.grid.dy}
-    told = f"recorded footprint{f', read from {load.source}' if load.source else ''}: {load}"
-    return dataset(fields, {"x": load.grid.x, "y": load.grid.y}, **cell, tire=told, **words)

@@ -13,9 +13,9 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Verdict
 from treadload.errors import InputError
+from treadload.footprint import Footprint
 from treadload.grid import Grid
 from treadload.response import GridLoad, Response
-from treadload.results.dataset import Footprint
 from treadload.tire import Tire
 from treadload.tire.recorded import RecordedSurface
 

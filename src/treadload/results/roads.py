@@ -1,9 +1,9 @@
-"""A road as rows of a table and in words, as results tell it."""
+"""A road as rows of a table, as results tell it."""
 
 from __future__ import annotations
 
 from treadload.case import Case, LifeCase
-from treadload.pavement import BONDED, LayerRow, Pavement, layer_rows
+from treadload.pavement import LayerRow, Pavement, layer_rows
 
 
 def road_in_rows(road: Pavement, case: Case | None = None) -> str:
@@ -31,13 +31,3 @@ def rows_of(road: Pavement | None, case: Case | LifeCase | None) -> tuple[LayerR
     if road is None:
         return ()
     return layer_rows(road, case.pavement.layer_temperatures() if isinstance(case, Case) else ())
-
-
-def road_in_words(road: Pavement) -> str:
-    """The layers of a road in one line."""
-    layers = []
-    for layer in road.layers:
-        depth = "half-space" if layer.thickness is None else f"{layer.thickness * 1e3:g} mm"
-        bond = "" if layer.bond == BONDED else f", {layer.bond} below"
-        layers.append(f"{layer.name or 'layer'} ({depth}): {layer.material}{bond}")
-    return "; ".join([*layers, "rigid base"] if road.rigid_base else layers)

@@ -23,12 +23,13 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
-from treadload.pavement import Layer, LayerRow, Pavement, layer_rows
+from treadload.footprint import Footprint
+from treadload.pavement import Layer, LayerRow, Pavement, layer_rows, road_in_words
 from treadload.response import GridLoad, Response
 from treadload.results.cite import citations, life_citations
-from treadload.results.dataset import Fields, Footprint
+from treadload.results.dataset import Fields
 from treadload.results.questions import Writer
-from treadload.results.roads import road_in_words, rows_of
+from treadload.results.roads import rows_of
 
 FORMAT = 2
 """Of the files: 1 holds fields, words and the case; 2 also what every result was asked."""

@@ -18,7 +18,8 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import offset_copy
 
-from treadload.errors import InputError
+from treadload.accessors import offers
+from treadload.errors import InputError, nearest
 
 INK = "#1b1f24"
 MUTED = "#5b6470"
@@ -100,6 +101,16 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
             return draw(*args, **kwargs)
 
     return inside
+
+
+@offers("colour_map", "str")
+def named_map(name: str) -> Colormap:
+    """A colour map of matplotlib by its name. Raises InputError for one that is not known."""
+    if name not in mpl.colormaps:
+        said = nearest(name, list(mpl.colormaps))
+        known = said if said.startswith("did") else "known are jet, turbo, viridis, gray and others of matplotlib"
+        raise InputError(f"no colour map {name!r}; {known}")
+    return mpl.colormaps[name]
 
 
 @functools.cache

@@ -1,0 +1,65 @@
+"""`treadload compare`: a computed contact beside a measured footprint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+Told = Callable[[str], None]
+Footprint = Annotated[
+    Path, typer.Argument(help="Tekscan ASCII, a table x, y, pressure, a matrix, NetCDF, or a picture.")
+]
+Units = Annotated[str | None, typer.Option(help="Unit of pressure where the file names none: kPa, kgf/cm2, psi.")]
+Spacing = Annotated[str | None, typer.Option(help='Spacing of the cells where the file tells none, "5 mm".')]
+Frame = Annotated[str, typer.Option(help="Of several frames: peak, mean, or a number.")]
+Travel = Annotated[str, typer.Option(help="Travel on the page of the file: right, left, up or down.")]
+SeenFrom = Annotated[str, typer.Option(help="Side of the sensor that the file shows: above or below.")]
+Calibration = Annotated[str | None, typer.Option(help='Pressure of one raw count, "3.2 kPa".')]
+Load = Annotated[str | None, typer.Option(help='Known load that the footprint is scaled to, "35 kN".')]
+Threshold = Annotated[str | None, typer.Option(help='Pressures below it are none, "10 kPa".')]
+Saturation = Annotated[str | None, typer.Option(help='What a sensel reads at most, "1700 kPa".')]
+Dead = Annotated[str, typer.Option(help="Sensels that read nothing amid loaded ones: leave or fill.")]
+Colours = Annotated[str | None, typer.Option(help="Colour map of a picture, jet.")]
+Scale = Annotated[str | None, typer.Option(help='Pressures at its ends, "0 kPa to 1000 kPa".')]
+Registration = Annotated[str, typer.Option(help="How the footprint is laid: full, shift or none.")]
+Tolerance = Annotated[str, typer.Option(help="Share by which the loads may differ.")]
+
+
+def compare_files(
+    result: Path,
+    footprint: Path,
+    tell: Told,
+    *,
+    frame: str,
+    colours: str | None,
+    scale: str | None,
+    registration: str,
+    load_tolerance: str,
+    **told: Any,
+) -> Any:
+    """The comparison of a result file with a footprint file. told: options of `read_footprint` as they were typed."""
+    from treadload.errors import InputError
+    from treadload.footprint import compare, read_footprint
+    from treadload.results import open_results
+    from treadload.units import quantity
+
+    tell(f"reading {footprint}")
+    given = {name: value for name, value in told.items() if value is not None}
+    given["frame"] = int(frame) if frame.isdigit() else frame
+    if colours is not None:
+        given["colours"] = colours
+    if scale is not None:
+        ends = scale.split(" to ")
+        if len(ends) != 2:
+            raise InputError(f'the scale is written like "0 kPa to 1000 kPa", got {scale!r}')
+        given["scale"] = tuple(ends)
+    measured = read_footprint(footprint, **given)
+    results = open_results(result)
+    if "contact" not in results:
+        raise InputError(f"{result} has no contact to compare with; it holds {', '.join(results) or 'no result'}")
+    tell("laying the footprint onto the contact")
+    how: Any = registration
+    return compare(results.contact, measured, registration=how, load_tolerance=quantity(load_tolerance, ""))

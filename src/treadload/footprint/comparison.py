@@ -1,0 +1,316 @@
+"""A computed contact beside a footprint, both as the sensor tells them."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.composing import BaseResult, HasDataset
+from treadload.describing import first_line
+from treadload.errors import InputError
+from treadload.footprint.footprint import Footprint
+from treadload.footprint.measures import Measures, check_ribs, find_ribs, measure, shares, turn
+from treadload.footprint.reading import read_footprint
+from treadload.footprint.registration import Registration, cut_off, laid, overlap, register, seen
+from treadload.footprint.spelling import KGF_CM2
+from treadload.kernels.arrays import Array
+from treadload.response import GridLoad
+from treadload.units import PSI
+
+MAPS = ("computed", "seen", "measured")
+"""A contact on its own cells; as the sensor would tell it; what the sensor told."""
+
+# Loads that differ by more are told: what mats of sensors repeat a load to, after calibration.
+_LOAD_TOLD = 0.05
+# Judgement: share of the pressure that overlaps, and difference of the areas. Two prints of one tire on a mat reach
+# the first, prints of tires with other grooves stay below the second.
+_AGREES, _ROUGHLY = (0.85, 0.05), (0.70, 0.15)
+# A print askew by more is told, rad: over 300 mm a sensel of 5 mm.
+_ASKEW = 0.017
+# A share of the contact beyond the sensor that is told.
+_BEYOND = 0.01
+# What a pressure may have been written in, over what it was read in.
+_UNITS = {"kPa": 1e3, "MPa": 1e6, "kgf/cm2": KGF_CM2, "bar": 1e5, "psi": PSI, "Pa": 1.0}
+_UNIT_FITS = 0.12
+
+
+@dataclass(frozen=True, eq=False)
+class FootprintComparison(BaseResult, group="comparison"):
+    """A computed contact and a measured footprint, sensel by sensel.
+
+    dataset: maps over the sensels (y, x), their measures over `map` (computed on its own cells, seen by the sensor,
+    measured), shares of the ribs, and how well they agree; see `treadload.variables`. footprint: as it was laid.
+    registration: how. warnings: sentences for the user.
+    """
+
+    dataset: xr.Dataset
+    footprint: Footprint
+    registration: Registration
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def sentence(self) -> str:
+        """The judgement."""
+        return str(self.dataset.attrs["sentence"])
+
+    def difference(self, name: str) -> float:
+        """Relative difference of a measure: seen by the sensor over measured, less one."""
+        row = self.dataset[name]
+        return float(row.sel(map="seen") / row.sel(map="measured")) - 1
+
+    def summary(self) -> str:
+        """Measures side by side, shares of the ribs, agreement, and the judgement."""
+        d = self.dataset
+        lines = [
+            f"footprint      {self.footprint.source or 'of arrays'}",
+            f"registration   {self.registration}",
+            f"{'':15}{'computed':>12}{'through sensor':>16}{'measured':>12}{'difference':>12}",
+        ]
+        for name, (words, scale, digits) in _ROWS.items():
+            cells = [f"{scale * float(d[name].sel(map=one)):.{digits}f}" for one in MAPS]
+            lines.append(
+                f"{words:15}{cells[0]:>12}{cells[1]:>16}{cells[2]:>12}{100 * self.difference(name):>+z10.1f} %"
+            )
+        for rib in d["rib"].to_numpy() if d.sizes["rib"] > 1 else ():
+            one = 100 * d["rib_share"].sel(rib=rib).to_numpy()
+            lines.append(
+                f"{f'rib {rib}, %':15}{one[0]:>12.1f}{one[1]:>16.1f}{one[2]:>12.1f}{one[1] - one[2]:>+z10.1f} pt"
+            )
+        lines.append(
+            f"overlap        {100 * float(d.overlap_of_pressure):.1f} % of the pressure, "
+            f"{100 * float(d.overlap_of_area):.1f} % of the area; rms difference "
+            f"{float(d.rms_difference) / 1e3:.0f} kPa, correlation {float(d.correlation):.3f}"
+        )
+        return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings), f"Verdict: {self.sentence}"])
+
+    __repr__ = first_line
+
+
+# Words, factor and digits of the measures in a summary.
+_ROWS: Mapping[str, tuple[str, float, int]] = {
+    "print_load": ("load, kN", 1e-3, 2),
+    "net_area": ("net area, mm²", 1e6, 0),
+    "gross_area": ("gross area, mm²", 1e6, 0),
+    "print_length": ("length, mm", 1e3, 0),
+    "print_width": ("width, mm", 1e3, 0),
+    "mean_pressure": ("mean, kPa", 1e-3, 0),
+    "largest_pressure": ("peak, kPa", 1e-3, 0),
+}
+_MEASURES = {
+    "print_load": "load", "net_area": "net_area", "gross_area": "gross_area", "print_length": "length",
+    "print_width": "width", "mean_pressure": "mean", "largest_pressure": "peak", "print_centre_x": "centre_x",
+    "print_centre_y": "centre_y", "print_spread_x": "spread_x", "print_spread_y": "spread_y",
+}  # fmt: skip
+
+
+def compare(
+    result: Any,
+    footprint: Any,
+    *,
+    registration: Literal["full", "shift", "none"] | Registration = "full",
+    ribs: Sequence[float] | None = None,
+    load_tolerance: float = 0.25,
+) -> FootprintComparison:
+    """A computed contact beside a measured footprint.
+
+    The footprint is laid onto the contact, which is then seen through its sensor: averaged over the sensels, exactly
+    by area; nothing below the threshold, no more than the saturation, nothing where no sensel works.
+
+    result: a contact, a `GridLoad`, or what has one, such as the result of a case or of `open_results`. footprint: a
+    `Footprint`, a `GridLoad`, or the path of a file that `read_footprint` reads without being told more.
+    registration: "full" shifts, turns and mirrors; "shift" shifts and turns a little, for a print whose sides are
+    known; "none" takes the coordinates as they are; or one of another comparison. ribs: edges across the tread, m;
+    None: found from the grooves of the computed contact. load_tolerance: share by which the loads may differ.
+    Returns measures, overlap, difference and one sentence. Raises InputError for loads that differ by more, for a
+    footprint that does not meet the contact, and for what is neither.
+    """
+    load, sensor = _load(result), _footprint(footprint)
+    if not load_tolerance > 0:
+        raise InputError(f"load_tolerance must be above 0, got {load_tolerance}")
+    warnings = [*sensor.warnings, *_check_loads(load, sensor, load_tolerance)]
+    found = registration if isinstance(registration, Registration) else _registered(load, sensor, registration)
+    # Arrays that nothing turned keep their own coordinates.
+    sensor = sensor if registration == "none" else laid(sensor, found.quarter_turns, found.mirrored)
+    sensor = sensor.moved(found.shift_x, found.shift_y)
+    data, more = _maps(load, sensor, found, ribs)
+    warnings += [*_pose_doubts(found), *more]
+    told = replace(sensor, warnings=())
+    return FootprintComparison(data, told, found, {"candidates": dict(found.candidates)}, tuple(warnings))
+
+
+def _load(result: Any) -> GridLoad:
+    one = getattr(result, "contact", None)
+    given = result if one is None else one
+    load = given.load if isinstance(given, Footprint) else given
+    if not isinstance(load, GridLoad):
+        if not isinstance(load, xr.Dataset | HasDataset):
+            raise InputError(
+                f"compare takes a contact or a result that has one, got {type(result).__name__}; give what "
+                "solve_contact or run_case returned, or open_results of a file"
+            )
+        load = GridLoad.from_dataset(load)
+    if not load.normal_load > 0:
+        raise InputError("the computed contact carries no load, so that there is nothing to compare")
+    return load
+
+
+def _footprint(given: Any) -> Footprint:
+    if isinstance(given, str | os.PathLike):
+        given = read_footprint(given)
+    if isinstance(given, xr.Dataset | HasDataset) and not isinstance(given, Footprint):
+        given = GridLoad.from_dataset(given)
+    sensor = Footprint(given) if isinstance(given, GridLoad) else given
+    if not isinstance(sensor, Footprint):
+        raise InputError(f"compare takes a footprint, a GridLoad or the path of a file, got {type(given).__name__}")
+    if not sensor.normal_load > 0:
+        raise InputError("the footprint carries no load, so that there is nothing to compare")
+    return sensor
+
+
+def _check_loads(load: GridLoad, sensor: Footprint, tolerance: float) -> list[str]:
+    """A sentence about loads that differ. Raises InputError where they differ by more than the tolerance."""
+    ratio = sensor.normal_load / load.normal_load
+    off = abs(ratio - 1)
+    if off <= _LOAD_TOLD:
+        return []
+    said = (
+        f"the footprint carries {sensor.normal_load / 1e3:.4g} kN and the contact {load.normal_load / 1e3:.4g} kN, "
+        f"{abs(100 * (ratio - 1)):.3g} % {'more' if ratio > 1 else 'less'}"
+    )
+    full = int(sensor.saturated.sum())
+    if full:
+        said += f"; {full} of its sensels are saturated"
+    if off <= tolerance:
+        return [f"{said}; areas and pressures differ for that alone"]
+    fits = {
+        f"{name} and not {other}": abs(ratio * worth / was - 1)
+        for name, worth in _UNITS.items()
+        for other, was in _UNITS.items()
+        if abs(math.log(worth / was)) > 1
+    }
+    meant = sorted((pair for pair, error in fits.items() if error < _UNIT_FITS), key=fits.__getitem__)
+    hint = f"; it would fit if its pressures were in {' or in '.join(meant[:2])}" if meant else ""
+    raise InputError(
+        f"{said}, and at most {100 * tolerance:g} % will do{hint}; compute at its load, scale it to a load that you "
+        "know, read_footprint(…, load=), or raise load_tolerance"
+    )
+
+
+def _registered(load: GridLoad, sensor: Footprint, how: str) -> Registration:
+    if how not in ("full", "shift", "none"):
+        raise InputError(f'registration must be "full", "shift", "none" or a Registration, got {how!r}')
+    return Registration() if how == "none" else register(load, sensor, turns=how == "full")
+
+
+def _pose_doubts(found: Registration) -> list[str]:
+    said = []
+    if found.quarter_turns or found.mirrored:
+        as_is = found.candidates.get("as it stands")
+        other = f", {100 * as_is:.0f} % as it stands" if as_is is not None else ""
+        remedy = 'seen_from="below"' if found.mirrored else "travel="
+        said.append(
+            f"the footprint was {found.words}: so {100 * found.overlap:.0f} % of the pressure overlaps{other}; if "
+            f"that is how it was taken, read it with {remedy}, else the computed tire is the wrong way round"
+        )
+    if abs(found.angle) > _ASKEW:
+        said.append(
+            f"the footprint lies askew by {abs(math.degrees(found.angle)):.1f}°; length, width and ribs are read "
+            "along travel, the maps along the sensor"
+        )
+    return said
+
+
+def _maps(
+    load: GridLoad, sensor: Footprint, found: Registration, ribs: Sequence[float] | None
+) -> tuple[xr.Dataset, list[str]]:
+    grid, there, measured = sensor.grid, sensor.sensels, np.maximum(sensor.pressure, 0.0)
+    own = np.maximum(load.array[0], 0.0)
+    whole = seen(load, grid, found.angle)
+    told = np.where(there, cut_off(whole, sensor.threshold, sensor.saturation), 0.0)
+    if not (told * measured).any():
+        raise InputError(
+            'the footprint does not meet the computed contact anywhere; compare with registration="full", or move it'
+        )
+    cells = (grid.x, grid.y, grid.dx, grid.dy)
+    of_maps = [
+        measure(own, load.grid.x, load.grid.y, load.grid.dx, load.grid.dy),
+        measure(told, *cells, found.angle),
+        measure(measured, *cells, found.angle),
+    ]
+    edges = find_ribs(own, load.grid.y, load.grid.dy) if ribs is None else check_ribs(ribs)
+    _, across = turn(*np.meshgrid(grid.x, grid.y), found.angle)
+    share = [
+        shares(own, np.broadcast_to(load.grid.y[:, None], own.shape), edges),
+        shares(told, across, edges),
+        shares(measured, across, edges),
+    ]
+    difference = told - measured
+    both, either = (told > 0) & (measured > 0), (told > 0) | (measured > 0)
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+        "computed_pressure": (("y", "x"), np.where(there, told, np.nan)),
+        "measured_pressure": (("y", "x"), np.where(there, measured, np.nan)),
+        "pressure_difference": (("y", "x"), np.where(there, difference, np.nan)),
+        **{name: (("map",), [getattr(one, key) for one in of_maps]) for name, key in _MEASURES.items()},
+        "rib_share": (("map", "rib"), np.array(share)),
+        "rib_left": (("rib",), edges[:-1]),
+        "rib_right": (("rib",), edges[1:]),
+        "overlap_of_pressure": ((), overlap(told[there], measured[there])),
+        "overlap_of_area": ((), float(both.sum() / either.sum())),
+        "rms_difference": ((), float(np.sqrt(np.mean(difference[either] ** 2)))),
+        "correlation": ((), _correlation(told[there], measured[there])),
+        "registered_x": ((), found.shift_x),
+        "registered_y": ((), found.shift_y),
+        "registered_angle": ((), found.angle),
+    }
+    coordinates = {"x": grid.x, "y": grid.y, "map": list(MAPS), "rib": np.arange(1, len(edges))}
+    sentence = _judgement(of_maps, np.array(share), fields)
+    attrs = {"pose": found.words, "sentence": sentence, "footprint": sensor.source, "dx": grid.dx, "dy": grid.dy}
+    attrs |= {"candidates": json.dumps(found.candidates)}
+    beyond = 1 - float(whole.sum()) * grid.cell_area / load.normal_load
+    doubts = []
+    if beyond > _BEYOND:
+        doubts.append(
+            f"{100 * beyond:.2g} % of the computed load lies beyond the sensor's cells; areas and shares are of what "
+            "lies on it"
+        )
+    return variables.dataset(fields, coordinates, **attrs), doubts
+
+
+def _correlation(first: Array, second: Array) -> float:
+    if not (np.ptp(first) > 0 and np.ptp(second) > 0):
+        return math.nan
+    return float(np.corrcoef(first, second)[0, 1])
+
+
+def _judgement(maps: Sequence[Measures], share: Array, fields: Mapping[str, tuple[Any, Any]]) -> str:
+    """One sentence: how well they agree, area, peak, overlap, and where they differ most."""
+    _, told, measured = maps
+    common, area = float(fields["overlap_of_pressure"][1]), told.net_area / measured.net_area - 1
+    peak = told.peak / measured.peak - 1
+    if common >= _AGREES[0] and abs(area) <= _AGREES[1]:
+        word = "agrees with"
+    elif common >= _ROUGHLY[0] and abs(area) <= _ROUGHLY[1]:
+        word = "agrees roughly with"
+    else:
+        word = "differs from"
+    said = (
+        f"the computed contact {word} the footprint: area {told.net_area * 1e6:.0f} against "
+        f"{measured.net_area * 1e6:.0f} mm² ({100 * area:+z.1f} %), peak {told.peak / 1e3:.0f} against "
+        f"{measured.peak / 1e3:.0f} kPa ({100 * peak:+z.1f} %), {100 * common:.0f} % of the pressure overlaps"
+    )
+    if share.shape[1] > 1:
+        rib = int(np.abs(share[1] - share[2]).argmax())
+        said += (
+            f"; of the ribs number {rib + 1} is off most, {100 * share[1, rib]:.1f} against "
+            f"{100 * share[2, rib]:.1f} % of the load"
+        )
+    return f"{said}."

@@ -1,0 +1,243 @@
+"""A footprint that was recorded: a load with what is known of its sensor, and what it measures."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+
+from treadload.composing import BaseResult
+from treadload.describing import first_line
+from treadload.errors import InputError
+from treadload.footprint.measures import Measures, check_ribs, find_ribs, measure, shares
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.gridding.overlap import means_over_cells
+from treadload.pavement import Pavement, road_in_words
+from treadload.response import GridLoad
+from treadload.units import quantity
+from treadload.variables import dataset
+
+
+@dataclass(frozen=True, eq=False)
+class Footprint(BaseResult, group="contact"):
+    """A footprint that was recorded in place of a contact that is computed; a load of `solve_response` like one.
+
+    load: pressure, and shear if it was recorded, on the sensels; zero where there is none. road: that it stands on,
+    or None. threshold: pressures below it are not seen, Pa. saturation: what a sensel reads at most, Pa. missing:
+    (ny, nx), True where there is no sensel or a dead one; None for none. warnings: sentences for the user.
+    Raises InputError for a wrong value.
+    """
+
+    load: GridLoad
+    road: Pavement | None = None
+    threshold: float = 0.0
+    saturation: float = math.inf
+    missing: BoolArray | None = None
+    warnings: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.threshold) and self.threshold >= 0):
+            raise InputError(f"the threshold of a footprint must be >= 0 Pa, got {self.threshold}")
+        if not self.saturation > self.threshold:
+            raise InputError(
+                f"the saturation of a footprint must lie above its threshold of {self.threshold:g} Pa, got "
+                f"{self.saturation:g}"
+            )
+        if self.missing is not None:
+            holes = np.array(self.missing, dtype=bool)
+            if holes.shape != self.load.grid.shape:
+                raise InputError(f"missing has shape {holes.shape}, the footprint {self.load.grid.shape} (ny, nx)")
+            holes.setflags(write=False)
+            object.__setattr__(self, "missing", holes if holes.any() else None)
+
+    @property
+    def pressure(self) -> Array:
+        """(ny, nx), Pa."""
+        pressure: Array = self.load.array[0]
+        return pressure
+
+    @property
+    def grid(self) -> Grid:
+        """The sensels."""
+        return self.load.grid
+
+    @property
+    def pitch(self) -> tuple[float, float]:
+        """Distance of the sensels along x and y, m."""
+        return self.grid.dx, self.grid.dy
+
+    @property
+    def source(self) -> str:
+        """Where it was read and how it was understood, in words."""
+        return self.load.source
+
+    @property
+    def sensels(self) -> BoolArray:
+        """(ny, nx), True where a sensel is that works."""
+        return np.ones(self.grid.shape, dtype=bool) if self.missing is None else ~self.missing
+
+    @property
+    def saturated(self) -> BoolArray:
+        """(ny, nx), True where a sensel reads all that it can: the pressure there is a lower bound."""
+        full: BoolArray = self.pressure >= self.saturation * (1 - 1e-9)
+        return full
+
+    @functools.cached_property
+    def measures(self) -> Measures:
+        """Load, areas, extents, mean, peak, centre and spread; see `footprint.Measures`."""
+        grid = self.grid
+        return measure(np.maximum(self.pressure, 0.0), grid.x, grid.y, grid.dx, grid.dy)
+
+    @property
+    def normal_load(self) -> float:
+        """Force on the road, N."""
+        return self.load.normal_load
+
+    @property
+    def net_area(self) -> float:
+        """Area of the loaded sensels, m²."""
+        return self.measures.net_area
+
+    @property
+    def gross_area(self) -> float:
+        """Area inside the convex outline of the loaded sensels, grooves with it, m²."""
+        return self.measures.gross_area
+
+    @property
+    def length(self) -> float:
+        """From the first to the last loaded sensel along x, m."""
+        return self.measures.length
+
+    @property
+    def width(self) -> float:
+        """From the first to the last loaded sensel along y, m."""
+        return self.measures.width
+
+    @property
+    def mean_pressure(self) -> float:
+        """Load over net area, Pa."""
+        return self.measures.mean
+
+    @property
+    def peak_pressure(self) -> float:
+        """Largest pressure, Pa: a mean over a sensel."""
+        return self.measures.peak
+
+    @property
+    def centroid(self) -> tuple[float, float]:
+        """Centre of pressure, x and y, m."""
+        return self.measures.centre_x, self.measures.centre_y
+
+    def find_ribs(self) -> Array:
+        """Edges (ribs + 1,) of the ribs across the tread, m, found from the grooves between them."""
+        return find_ribs(self.pressure, self.grid.y, self.grid.dy)
+
+    def rib_shares(self, ribs: Sequence[float] | Array | None = None) -> Array:
+        """Share (ribs,) of the load on each rib, from left to right. ribs: edges, m; None: as `find_ribs`."""
+        edges = self.find_ribs() if ribs is None else check_ribs(ribs)
+        across = np.broadcast_to(self.grid.y[:, None], self.grid.shape)
+        return shares(self.pressure, across, edges)
+
+    def moved(self, x: float = 0.0, y: float = 0.0) -> Footprint:
+        """The same footprint moved by x and y, m."""
+        return replace(self, load=self.load.moved(x, y))
+
+    def mirrored(self) -> Footprint:
+        """Its image in the plane y = 0."""
+        return replace(self, load=self.load.mirrored(), missing=None if self.missing is None else self.missing[::-1])
+
+    def scaled_to(self, load: float | str) -> Footprint:
+        """All stress times one number, so that it carries a known load, N or a text such as "35 kN".
+
+        Raises InputError for a footprint that carries none, or a load that is not above zero.
+        """
+        wanted = quantity(load, "N")
+        if not (wanted > 0 and self.normal_load > 0):
+            raise InputError(
+                f"a footprint of {self.normal_load:g} N cannot be scaled to {wanted:g} N; both must be above 0"
+            )
+        return self._scaled(wanted / self.normal_load)
+
+    def _scaled(self, by: float) -> Footprint:
+        pressure, along, across = self.load.array * by
+        stress = replace(self.load, pressure=pressure, traction_x=along, traction_y=across)
+        return replace(self, load=stress, threshold=self.threshold * by, saturation=self.saturation * by)
+
+    def resampled(self, spacing: float | str) -> Footprint:
+        """The same stress as means over other cells, exact by area: the load stays. spacing: m or a text with a unit.
+
+        Threshold and saturation are those of sensels and do not go with it; cells whose larger part is missing are.
+        """
+        size, old = quantity(spacing, "m"), self.grid
+        edges = edges_of(old)
+        grid = Grid.centred(old.nx * old.dx, old.ny * old.dy, size)
+        middle_x, middle_y = (0.5 * float(one[0] + one[-1]) for one in edges)
+        grid = replace(grid, x0=grid.x0 + middle_x, y0=grid.y0 + middle_y)
+        new = edges_of(grid)
+        stress = [means_over_cells(part, *edges, *new) for part in self.load.array]
+        holes = None if self.missing is None else means_over_cells(self.missing.astype(float), *edges, *new) > 0.5
+        load = replace(
+            self.load, grid=grid, pressure=np.maximum(stress[0], 0.0), traction_x=stress[1], traction_y=stress[2]
+        )
+        return replace(self, load=load, missing=holes, threshold=0.0, saturation=math.inf)
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """The footprint with the names that a contact has."""
+        plane, load = ("y", "x"), self.load
+        pressure, along, across = load.array
+        fields: dict[str, tuple[tuple[str, ...], object]] = {
+            "pressure": (plane, pressure),
+            "traction_x": (plane, along),
+            "traction_y": (plane, across),
+            "normal_load": ((), load.normal_load),
+            "tractive_force": ((), load.tractive_force),
+            "lateral_force": ((), load.lateral_force),
+        }
+        words = {} if self.road is None else {"road": road_in_words(self.road)}
+        cell = {"dx": load.grid.dx, "dy": load.grid.dy}
+        told = f"recorded footprint{f', read from {load.source}' if load.source else ''}: {load}"
+        return dataset(fields, {"x": load.grid.x, "y": load.grid.y}, **cell, tire=told, **words)
+
+    def summary(self) -> str:
+        """What presses where, what it measures, and where it was read."""
+        load, found = self.load, self.measures
+        lines = [
+            f"recorded footprint: {load}",
+            f"tractive force {load.tractive_force / 1e3:z.2f} kN, lateral force {load.lateral_force / 1e3:z.2f} kN",
+        ]
+        if found.net_area > 0:
+            ribs = self.rib_shares()
+            lines += [
+                f"length {found.length * 1e3:.0f} mm, width {found.width * 1e3:.0f} mm; net area "
+                f"{found.net_area * 1e6:.0f} mm², gross {found.gross_area * 1e6:.0f} mm², mean pressure "
+                f"{found.mean / 1e3:.0f} kPa",
+                f"ribs carry {' / '.join(f'{100 * share:.1f}' for share in ribs)} % of the load"
+                if len(ribs) > 1
+                else "no groove along travel divides it into ribs",
+            ]
+        sensor = [f"threshold {self.threshold / 1e3:.3g} kPa"] if self.threshold else []
+        if math.isfinite(self.saturation):
+            full = int(self.saturated.sum())
+            sensor.append(f"saturation {self.saturation / 1e3:.4g} kPa, reached by {full} sensels")
+        if self.missing is not None:
+            sensor.append(f"{int(self.missing.sum())} cells without a sensel that works")
+        lines += ["sensor: " + ", ".join(sensor)] if sensor else []
+        lines += [f"read from {load.source}"] if load.source else []
+        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+
+    __repr__ = first_line
+
+
+def edges_of(grid: Grid) -> tuple[Array, Array]:
+    """Edges of the cells along x (nx + 1,) and y (ny + 1,), m."""
+    x, y = grid.x, grid.y
+    return (
+        np.concatenate([x - 0.5 * grid.dx, [x[-1] + 0.5 * grid.dx]]),
+        np.concatenate([y - 0.5 * grid.dy, [y[-1] + 0.5 * grid.dy]]),
+    )

@@ -1,0 +1,36 @@
+"""What a reader of footprints returns: the map of a file, or several, as they stand there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from treadload.kernels.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """Maps of a sensor in the order of its file: rows down the page, columns to the right.
+
+    values: (frames, rows, columns) in the unit of the file, NaN where there is no sensel. row_spacing,
+    column_spacing: between rows and between columns, m; None if the file does not tell. law: (scale, exponent):
+    pressure, Pa, is scale times a value to the power of the exponent; None if nothing tells. calibrated: False for
+    counts of a sensor, whose law somebody may know better. saturation, threshold: in the unit of the file; None if
+    it does not tell. traction_x, traction_y: of the one frame, Pa. x0, y0: of the first cell, where the file has
+    coordinates of its own, m. numbers: of the frames, as the file counts them. source: what was read and how, in
+    words. warnings: sentences for the user.
+    """
+
+    values: Array
+    row_spacing: float | None = None
+    column_spacing: float | None = None
+    law: tuple[float, float] | None = None
+    calibrated: bool = True
+    saturation: float | None = None
+    threshold: float | None = None
+    traction_x: Array | None = None
+    traction_y: Array | None = None
+    x0: float | None = None
+    y0: float | None = None
+    numbers: tuple[int, ...] = field(default=())
+    source: str = ""
+    warnings: tuple[str, ...] = ()

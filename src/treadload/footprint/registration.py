@@ -1,0 +1,217 @@
+"""Where a sensor lay under a tire: shift, turn and mirror that bring a measured map onto a computed one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.signal import correlate
+
+from treadload.footprint.footprint import Footprint, edges_of
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.gridding.overlap import means_over_cells
+from treadload.response import GridLoad
+
+# Angles, rad, from which the search starts, and beyond which a print is taken for one of another quarter.
+_STARTS = np.radians([-8.0, -4.0, 0.0, 4.0, 8.0])
+# Cells along the longer side of the maps that candidates are compared on: ribs and grooves are still seen.
+_COARSE = 40
+# Candidates whose correlation on coarse maps lies this far below the best are none.
+_PROMISING = 0.08
+# A print that is turned or mirrored overlaps more than it does as it stands by this share of the pressure, or it is
+# not: treads are near enough symmetric for noise to choose between their images.
+CLEAR = 0.02
+# Step of the derivatives, in pitches.
+_STEP = 0.1
+# Accuracy of the pose, in pitches, and looks at the map: of candidates and of the one that is taken.
+_RUGGED, _FINE = (1e-2, 6), (1e-6, 40)
+
+
+@dataclass(frozen=True)
+class Registration:
+    """How a footprint was laid onto a contact.
+
+    quarter_turns: anticlockwise on the page with travel to the right, after it was mirrored (y to -y) or not.
+    shift_x, shift_y: by which its middle was then moved, m. angle: rad, by which its axes are turned from travel
+    towards the right. overlap: share of the pressure that overlaps. candidates: overlap of poses by their
+    words, on coarse maps.
+    """
+
+    quarter_turns: int = 0
+    mirrored: bool = False
+    shift_x: float = 0.0
+    shift_y: float = 0.0
+    angle: float = 0.0
+    overlap: float = math.nan
+    candidates: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def words(self) -> str:
+        """What was done, "mirrored left to right" or "as it stands"."""
+        return pose_in_words(self.quarter_turns, self.mirrored)
+
+    def __str__(self) -> str:
+        return (
+            f"{self.words}, moved by {self.shift_x * 1e3:.1f} and {self.shift_y * 1e3:.1f} mm, turned by "
+            f"{math.degrees(self.angle):.2f}°"
+        )
+
+
+def pose_in_words(quarter_turns: int, mirrored: bool) -> str:
+    """A turn by quarters and a mirror image in words."""
+    if mirrored and quarter_turns % 2 == 0:
+        return "mirrored front to back" if quarter_turns % 4 else "mirrored left to right"
+    turned = f"turned by {90 * (quarter_turns % 4)}°"
+    if quarter_turns % 4 == 0:
+        return "as it stands"
+    return f"mirrored and {turned}" if mirrored else turned
+
+
+def laid(footprint: Footprint, quarter_turns: int, mirrored: bool) -> Footprint:
+    """A footprint mirrored and turned by quarters, its middle at the origin; shear is left out."""
+    pressure, holes, grid = footprint.pressure, ~footprint.sensels, footprint.grid
+    if mirrored:
+        pressure, holes = pressure[::-1], holes[::-1]
+    pressure, holes = np.rot90(pressure, quarter_turns), np.rot90(holes, quarter_turns)
+    dx, dy = (grid.dy, grid.dx) if quarter_turns % 2 else (grid.dx, grid.dy)
+    ny, nx = pressure.shape
+    middle = Grid(nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy)
+    return replace(footprint, load=GridLoad(middle, pressure, source=footprint.source), missing=holes)
+
+
+def seen(load: GridLoad, sensels: Grid, angle: float) -> Array:
+    """Pressure (ny, nx), Pa, of a load as means over sensels, exact by area. angle: of the sensels' axes, rad."""
+    return means_over_cells(np.maximum(load.array[0], 0.0), *edges_of(load.grid), *edges_of(sensels), angle)
+
+
+def cut_off(pressure: Array, threshold: float, saturation: float) -> Array:
+    """Pressure as a sensor tells it: none below its threshold, no more than its saturation."""
+    told: Array = np.where(pressure < threshold, 0.0, np.minimum(pressure, saturation))
+    return told
+
+
+def overlap(first: Array, second: Array) -> float:
+    """Share of the pressure of two maps that overlaps: the sum of the lesser over that of the larger."""
+    larger = float(np.maximum(first, second).sum())
+    return float(np.minimum(first, second).sum()) / larger if larger > 0 else math.nan
+
+
+def register(load: GridLoad, footprint: Footprint, *, turns: bool = True) -> Registration:
+    """The pose in which a footprint fits a load best, in the sense of least squares of the pressures.
+
+    The load is seen through the sensor at every pose, scaled to the footprint's pressures: a wrong calibration does
+    not move it. turns: False leaves quarter turns and mirror images out. A pose other than as it stands is taken
+    where it overlaps clearly more.
+    """
+    poses = [(k, m) for m in (False, True) for k in range(4)] if turns else [(0, False)]
+    coarse = _coarse(load, footprint)
+    starts = {pose: _start(coarse, laid(_coarsened(footprint), *pose)) for pose in poses}
+    best = max(score for score, _ in starts.values())
+    found: dict[tuple[int, bool], tuple[float, Array]] = {}
+    for pose, (score, start) in starts.items():
+        if score >= best - _PROMISING or pose == (0, False):
+            print_ = laid(_coarsened(footprint), *pose)
+            found[pose] = _refined(coarse, print_, start, *_RUGGED)
+    chosen = max(found, key=lambda pose: found[pose][0])
+    if found[chosen][0] < found[0, False][0] + CLEAR:
+        chosen = (0, False)
+    share, pose_at = _refined(load, laid(footprint, *chosen), found[chosen][1], *_FINE)
+    told = {pose_in_words(*pose): value for pose, (value, _) in found.items()}
+    x, y, angle = (float(one) for one in pose_at)
+    return Registration(*chosen, x, y, angle, share, told)
+
+
+def _coarse(load: GridLoad, footprint: Footprint) -> GridLoad:
+    """A load on cells as fine as candidates need."""
+    size = _size(footprint)
+    if max(load.grid.dx, load.grid.dy) >= 0.7 * size:
+        return load
+    return Footprint(GridLoad(load.grid, load.pressure)).resampled(0.7 * size).load
+
+
+def _size(footprint: Footprint) -> float:
+    grid = footprint.grid
+    return max(grid.dx, grid.dy, max(grid.nx * grid.dx, grid.ny * grid.dy) / _COARSE)
+
+
+def _coarsened(footprint: Footprint) -> Footprint:
+    grid, size = footprint.grid, _size(footprint)
+    if size <= 1.5 * max(grid.dx, grid.dy):
+        return footprint
+    coarse = footprint.resampled(size)
+    return replace(coarse, saturation=footprint.saturation)
+
+
+def _start(load: GridLoad, print_: Footprint) -> tuple[float, Array]:
+    """Largest correlation of the maps over all shifts and a few angles, and its pose (x, y, angle)."""
+    grid, pressure = print_.grid, print_.pressure
+    length, width = load.grid.nx * load.grid.dx, load.grid.ny * load.grid.dy
+    side = math.hypot(length, width)
+    window = Grid.on_lattice(side, side, grid.dx, grid.dy)
+    centre_x, centre_y = _centre(load)
+    best, pose = -1.0, np.zeros(3)
+    for angle in _STARTS:
+        # The window lies about the centre of the load.
+        cos, sin = math.cos(angle), math.sin(angle)
+        x, y = centre_x * cos + centre_y * sin, -centre_x * sin + centre_y * cos
+        placed = replace(window, x0=window.x0 + x, y0=window.y0 + y)
+        computed = seen(load, placed, float(angle))
+        size = math.sqrt(float((computed**2).sum() * (pressure**2).sum()))
+        if size == 0:
+            continue
+        scores = correlate(computed, pressure, mode="full") / size
+        j, i = (int(k) for k in np.unravel_index(int(scores.argmax()), scores.shape))
+        if scores[j, i] > best + 1e-9:
+            # Lag of the print's first cell behind the window's.
+            ahead, right = i - (grid.nx - 1), j - (grid.ny - 1)
+            best = float(scores[j, i])
+            pose = np.array([placed.x0 + ahead * grid.dx - grid.x0, placed.y0 + right * grid.dy - grid.y0, angle])
+    return best, pose
+
+
+def _refined(load: GridLoad, print_: Footprint, start: Array, accuracy: float, most: int) -> tuple[float, Array]:
+    """Overlap and pose (x, y, angle) of least squares, from a start."""
+    grid, measured, there = print_.grid, print_.pressure, print_.sensels
+    reach = 0.5 * math.hypot(grid.nx * grid.dx, grid.ny * grid.dy)
+    scale = np.array([grid.dx, grid.dy, min(grid.dx, grid.dy) / reach])
+    floor = print_.threshold
+    full = measured >= print_.saturation * (1 - 1e-9)
+    size = float(np.sqrt((measured[there] ** 2).sum()))
+    wanted = np.maximum(measured, floor)
+
+    def residual(pose: Array) -> Array:
+        x, y, angle = start + pose * scale
+        computed = seen(load, replace(grid, x0=grid.x0 + x, y0=grid.y0 + y), angle)
+        by = _ratio(computed, measured, there & ~full)
+        told = np.maximum(np.minimum(by * computed, print_.saturation), floor)
+        difference: Array = ((told - wanted)[there]) / size
+        return difference
+
+    def slopes(pose: Array) -> Array:
+        steps = _STEP * np.eye(3)
+        columns: Array = np.stack([(residual(pose + s) - residual(pose - s)) / (2 * _STEP) for s in steps], axis=1)
+        return columns
+
+    found = least_squares(residual, np.zeros(3), jac=slopes, xtol=accuracy, ftol=accuracy**2, max_nfev=most)
+    x, y, angle = start + found.x * scale
+    computed = seen(load, replace(grid, x0=grid.x0 + x, y0=grid.y0 + y), angle)
+    by = _ratio(computed, measured, there & ~full)
+    told = cut_off(by * computed, floor, print_.saturation)
+    return overlap(told[there], measured[there]), np.array([x, y, angle])
+
+
+def _ratio(computed: Array, measured: Array, where: BoolArray) -> float:
+    """What computed pressures are multiplied by to fit the measured ones best."""
+    size = float((computed[where] ** 2).sum())
+    by = float((computed[where] * measured[where]).sum()) / size if size > 0 else 1.0
+    return by if by > 0 else 1.0
+
+
+def _centre(load: GridLoad) -> tuple[float, float]:
+    pressure, grid = np.maximum(load.array[0], 0.0), load.grid
+    total = float(pressure.sum())
+    return float((pressure.sum(axis=0) * grid.x).sum()) / total, float((pressure.sum(axis=1) * grid.y).sum()) / total
