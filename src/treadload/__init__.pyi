@@ -32,7 +32,6 @@ from treadload.errors import GeometryError as GeometryError
 from treadload.errors import InputError as InputError
 from treadload.errors import TreadloadError as TreadloadError
 from treadload.footprint import compare as compare
-from treadload.footprint import read_footprint as read_footprint
 from treadload.grid import Grid as Grid
 from treadload.materials import Elastic as Elastic
 from treadload.pavement import BONDED as BONDED

@@ -81,7 +81,7 @@ def test_a_print_that_is_mirrored_or_turned_is_found_and_told(turns, mirrored, w
     )
     found = made.registration
     assert found.words == words
-    # Noise of 3 % on 900 loaded sensels with gradients of 5 % a sensel: 0.015 pitches by the rule of least squares, x 4.
+    # Noise of 3 % on 900 loaded sensels with gradients of 5 % a sensel: 0.015 pitches by least squares, times 4.
     assert (found.shift_x, found.shift_y) == pytest.approx((0.01, 0.004), abs=0.06 * PITCH)
     assert found.angle == pytest.approx(-0.02, abs=0.06 * PITCH / 0.15)
     told = next(text for text in made.warnings if text.startswith(f"the footprint was {words}"))
