@@ -38,6 +38,13 @@ def test_the_truck_tires_of_the_readme_are_not():
     assert modulus_doubt(900e3, 1.072) is None
 
 
+def test_a_belt_has_no_modulus_from_its_inflation():
+    tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=300e3, belt=tl.Belt())
+    wheel = tl.Rolling(normal_load=20e3, friction=0.0)
+    contact = tl.solve_contact(tire, ROAD, wheel, spacing=12e-3)
+    assert not [text for text in contact.warnings if "modulus" in text]
+
+
 def test_a_material_of_its_own_is_nobodys_default():
     tire = tl.Tire.from_profile(SEDAN, inflation_pressure=230e3, material=tl.Elastic(1.5e6, 0.5))
     assert not said(tire, 4e3)[1]

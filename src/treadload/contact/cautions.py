@@ -29,7 +29,7 @@ def of_tire(tire: Tire) -> list[str]:
             f"the heights of the tread differ by {surface.relief:.4g} m on a map of {length:.3g} x {width:.3g} m; if "
             'they are in mm, give units={"gap": "mm"}'
         )
-    if tire.material is None and tire.inflation_pressure is not None:
+    if tire.material is None and tire.belt is None and tire.inflation_pressure is not None:
         radius = tire.outer_radius
         told = modulus_doubt(tire.inflation_pressure, None if radius is None else 2 * radius)
         said += [] if told is None else [told]
