@@ -189,6 +189,17 @@ def test_tables_of_the_french_method():
         assert table["T1"] == 0.05
 
 
+def test_tables_of_the_french_method_row_by_row():
+    """By class of traffic, as the method prints them: in per cent the risk, then CAM of each kind of layer."""
+    risk = {"T5": (30, 25), "T4": (30, 25), "T3": (25, 12), "T2": (12, 7.5), "T1": (5, 5), "T0": (2, 2.5)}
+    for traffic, row in {**risk, "TS": (1, 1), "TEX": (1, 1)}.items():
+        assert [100 * RISK[kind][traffic] for kind in ("bituminous", "hydraulic")] == pytest.approx(row), traffic
+    cam = {"T5": (0.3, 0.4, 0.4, 0.4), "T4": (0.3, 0.5, 0.5, 0.5), "T3-": (0.4, 0.6, 0.7, 0.6)}
+    for traffic, row in {**cam, "T3+": (0.5, 0.6, 0.7, 0.75)}.items():
+        kinds = ("bituminous", "hydraulic", "treated soil", "subgrade")
+        assert tuple(AGGRESSIVENESS[kind][traffic] for kind in kinds) == row, traffic
+
+
 def test_a_stiffer_platform_takes_off_the_reduction_in_three_steps():
     bounds = np.array([50e6, 80e6, 120e6])
     below, at = ([platform_factor(v) for v in values] for values in (bounds - 1, bounds))

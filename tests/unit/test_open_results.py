@@ -3,6 +3,7 @@
 import json
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -28,10 +29,12 @@ ACROSS = (np.arange(24) - 11.5) * CELL
 TIRE = tl.Tire.from_height_map(ACROSS[None, :] ** 2 + ACROSS[:, None] ** 2, CELL, material=RUBBER, name="a ball")
 
 
+@cache
 def contact(**changed):
     return tl.solve_contact(TIRE, ROAD, replace(WHEEL, **changed))
 
 
+@cache
 def response():
     return tl.solve_response(contact(), ROAD, depths=[0.0, 0.08], x=AT, y=AT)
 
@@ -129,6 +132,12 @@ FIGURES = {
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps",
 }  # fmt: skip
+
+
+@pytest.fixture
+def without_figures(monkeypatch):
+    """Pages of cases without their figures, which other tests draw: seconds each."""
+    monkeypatch.setattr("treadload.reporting.figures.picture", lambda *_, **__: [])
 
 
 @pytest.fixture(scope="module", params=sorted(MADE))
@@ -297,7 +306,7 @@ def without_questions(tree):
     return xr.DataTree.from_dict({"/": xr.Dataset(attrs=attrs), **groups})
 
 
-def test_a_file_of_the_format_before_is_rebuilt_from_its_case(coarse_result, tmp_path):
+def test_a_file_of_the_format_before_is_rebuilt_from_its_case(coarse_result, tmp_path, without_figures):
     old = without_questions(coarse_result.to_tree())
     opened = tl.open_results(tl.save_results(old, tmp_path / "old.nc"))
     assert opened.contact.rolling == coarse_result.contact.rolling
@@ -373,9 +382,9 @@ def test_a_figure_that_fails_leaves_its_reason(coarse_result, tmp_path, monkeypa
         raise RuntimeError("the pen\nis dry")
 
     monkeypatch.setattr("treadload.plots.contact.pressure", broken)
-    page = tl.report(coarse_result, tmp_path / "r.html").read_text()
+    page = tl.report(coarse_result.contact, tmp_path / "r.html").read_text()
     assert "This figure could not be drawn: RuntimeError, the pen is dry." in page
-    whole = tl.report(coarse_result.response, tmp_path / "s.html").read_text()
+    whole = tl.report(coarse_result.verdict, tmp_path / "s.html").read_text()
     assert "could not be drawn" not in whole
 
 
@@ -388,7 +397,7 @@ def test_text_of_a_result_is_escaped():
     assert "<script>" not in page
 
 
-def test_a_case_and_its_text_make_one_report(coarse_result, tmp_path):
+def test_a_case_and_its_text_make_one_report(coarse_result, tmp_path, without_figures):
     other = replace(coarse_result, case=Case.from_text(COARSE_CASE.replace('"coarse"', '"other"')))
     page = tl.report([coarse_result, other], tmp_path / "r.html").read_text()
     assert ">coarse<" in page

@@ -392,7 +392,7 @@ def test_without_embree_the_map_is_the_same(tmp_path, monkeypatch):
     pytest.importorskip("rtree")
     vertices, faces = tire_mesh(replace(RIB_TREAD, grooves=()), around=60, across=12)
     path = write(tmp_path / "tire.ply", vertices, faces)
-    few = Grid.centred(0.1, 0.2, 0.02)
+    few = Grid.centred(0.04, 0.12, 0.02)
     fast = Tire.from_scan(path, revolve=False).height_map(few)
     monkeypatch.setattr(trimesh.ray, "has_embree", False)
     slow = Tire.from_scan(path, revolve=False).height_map(few)

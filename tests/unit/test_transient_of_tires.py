@@ -204,3 +204,118 @@ def test_states_refused():
         solve_transient(TIRE, ROAD, wheel(tractive_force=2 * MU * LOAD), distances=[0.01])
     with pytest.raises(GeometryError, match="border"):
         solve_transient(TIRE, ROAD, tl.Rolling(normal_load=1e6, friction=MU), distances=[0.01])
+
+
+def test_a_wheel_beside_the_origin_turns_about_its_own_middle():
+    """What happens does not depend on where the axes have their origin; the pole moves along."""
+    shift, angles = (3, -2), [0.02, 0.1, 0.05]
+    moved = np.roll(height_map(), (shift[1], shift[0]), axis=(0, 1))
+    aside = tl.Tire.from_height_map(moved, SPACING, material=TIRE.material)
+    light = tl.Rolling(normal_load=1000.0, friction=MU)
+    one, other = (turn_on_the_spot(tire, ROAD, light, angles=angles).dataset for tire in (TIRE, aside))
+    np.testing.assert_allclose(other.steering_torque, one.steering_torque, rtol=1e-4, atol=1e-4 * MU * LOAD * SPACING)
+    np.testing.assert_allclose(other.slip_fraction, one.slip_fraction, atol=1e-12)
+    # Also in the first increment, and on the way back.
+    np.testing.assert_allclose(other.pole_x[1:], SPACING * shift[0], atol=1e-5)
+    np.testing.assert_allclose(other.pole_y[1:], SPACING * shift[1], atol=1e-5)
+    assert np.isnan(other.pole_x[0])
+    assert np.isnan(other.pole_y[0])
+    # To the first order a turn about that pole is a turn about the origin and a shift.
+    np.testing.assert_allclose(other.shift_x[1:], SPACING * shift[1] * np.diff([0, *angles]), atol=1e-6)
+    np.testing.assert_allclose(other.shift_y[1:], -SPACING * shift[0] * np.diff([0, *angles]), atol=1e-6)
+
+
+def rows(text, heading):
+    lines = text.splitlines()
+    return np.array([line.split() for line in lines[lines.index(heading) + 1 :]], dtype=float)
+
+
+def test_the_summary_of_a_turn_is_that_of_its_increments():
+    angles = np.linspace(0, 0.3, 13)[1:]
+    found = turn_on_the_spot(TIRE, ROAD, wheel(), angles=angles)
+    table = rows(found.summary(), "angle (°)  torque (Nm)  slip %")
+    d = found.dataset
+    assert len(table) == 9
+    np.testing.assert_allclose(table[[0, -1], 0], [0.0, math.degrees(0.3)], atol=5e-3)
+    told = np.searchsorted(np.degrees(d.turn_angle.to_numpy()), table[:, 0] - 0.01)
+    assert (np.diff(told) > 0).all()
+    np.testing.assert_allclose(table[:, 1], d.steering_torque[told], atol=0.05)
+    np.testing.assert_allclose(table[:, 2], 100 * d.slip_fraction[told], atol=0.05)
+    assert f"at {float(d.sliding_torque):.1f} N m" in found.summary()
+    assert f"{math.radians(found.stiffness):.1f} N m per degree" in found.summary()
+    assert f"{float(d.friction_energy.sum()):.3f} J" in found.summary()
+    assert f"{table[-1, 1]:.1f} N m at {table[-1, 0]:.2f}°" in repr(found)
+    assert found.stats["increments"] == 12
+    assert found.stats["cells"] == 24 * 26
+    assert 0 < found.stats["seconds"] < 600
+    assert found.stats["newton_iterations"] >= 12
+
+
+def test_the_summary_of_a_history_is_that_of_its_steps():
+    found = solve_transient(
+        TIRE, ROAD, wheel(creepage_x=-0.02, lateral_force=300.0), distances=SPACING * np.arange(1, 12)
+    )
+    table = rows(found.summary(), "  travel  Qx (kN)  Qy (kN)  creep x    creep y    slip %")
+    d = found.dataset
+    assert len(table) == 8
+    told = np.round(table[:, 0] / (1e3 * SPACING)).astype(int)
+    assert told[0] == 0
+    assert told[-1] == 11
+    np.testing.assert_allclose(table[:, 0], 1e3 * d.distance[told], atol=0.05)
+    np.testing.assert_allclose(table[:, 1], 1e-3 * d.tractive_force[told], atol=5e-4)
+    np.testing.assert_allclose(table[:, 2], 1e-3 * d.lateral_force[told], atol=5e-4)
+    np.testing.assert_allclose(table[:, 3], d.creepage_x[told], atol=5e-6)
+    np.testing.assert_allclose(table[:, 4], d.creepage_y[told], atol=5e-6)
+    np.testing.assert_allclose(table[:, 5], 100 * d.slip_fraction[told], atol=0.05)
+    assert f"{1e3 * 11 * SPACING:.1f} mm in 11 steps" in found.summary()
+    assert f"{1e3 * 11 * SPACING:.1f} mm in 11 steps" in repr(found)
+    assert f"{float(d.friction_energy.sum()):.3f} J" in found.summary()
+    assert (found.stats["steps"], found.stats["cells"]) == (11, 24 * 26)
+    assert 0 < found.stats["seconds"] < 600
+
+
+def test_work_of_a_slide_is_force_times_way():
+    """A wheel that is dragged with all of its contact sliding loses μP a metre."""
+    way = [0.05, 0.056, 0.062]
+    found = solve_transient(TIRE, ROAD, wheel(creepage_x=1.0), distances=way)
+    d = found.dataset
+    # Pressure moves the tread aside by a hundredth of the way, and its square counts.
+    np.testing.assert_allclose(d.tractive_force[1:], -MU * LOAD, rtol=2e-4)
+    # What a particle gives way on entering it takes back on leaving, but for a per cent with steps this long.
+    np.testing.assert_allclose(d.friction_energy[2:], MU * LOAD * np.diff(way), rtol=0.012)
+    # In the first step, from rest, the tread follows as far as it bends.
+    assert 0 < float(d.friction_energy[1]) < MU * LOAD * 0.05
+    assert float(d.friction_energy[0]) == 0
+    np.testing.assert_array_equal(d.slip_fraction[1:], 1.0)
+    last = found.contact.dataset
+    touching = last.pressure.to_numpy() > 0
+    assert float((last.slip_x * last.pressure).sum() / last.pressure.sum()) == pytest.approx(1.0, rel=0.012)
+    np.testing.assert_allclose(last.slip_distance_x, 0.006 * last.slip_x, rtol=1e-12)
+    np.testing.assert_allclose(last.slip_distance_y, 0.006 * last.slip_y, rtol=1e-12)
+    np.testing.assert_allclose(last.friction_coefficient.to_numpy()[touching], MU, rtol=1e-12)
+    assert not last.friction_coefficient.to_numpy()[~touching].any()
+    assert float(last.friction) == pytest.approx(MU, rel=1e-12)
+
+
+def test_an_approach_that_does_not_touch_is_refused_in_its_step():
+    tire = tl.Tire.from_height_map(height_map() + 0.01, SPACING, material=TIRE.material)
+    touching = tl.Rolling(approach=2e-3, friction=MU)
+    assert float(solve_transient(tire, ROAD, touching, distances=[SPACING]).dataset.normal_load[-1]) > 0
+    with pytest.raises(InputError, match=r"approach here|normal_load here"):
+        solve_transient(tire, ROAD, [touching, wheel()], distances=[SPACING, 2 * SPACING])
+
+
+def test_what_runs_back_is_named_with_where_it_was():
+    for distances, got in (([0.01, 0.03, 0.02], "got 0.02 m after 0.03 m"), ([-0.01], "got -0.01 m after 0 m")):
+        with pytest.raises(InputError, match=got):
+            solve_transient(TIRE, ROAD, wheel(), distances=distances)
+    with pytest.raises(InputError, match="increment 3 turns by nothing"):
+        turn_on_the_spot(TIRE, ROAD, wheel(), angles=[0.1, 0.2, 0.2, 0.3])
+    with pytest.raises(InputError, match=r"got 3\.2; for degrees"):
+        turn_on_the_spot(TIRE, ROAD, wheel(), angles=[0.1, -3.2])
+    with pytest.raises(InputError, match="list of finite numbers in rad"):
+        turn_on_the_spot(TIRE, ROAD, wheel(), angles=[[0.1, 0.2], [0.3, 0.4]])
+    with pytest.raises(InputError, match="list of finite numbers in m"):
+        solve_transient(TIRE, ROAD, wheel(), distances=[[0.1, 0.2], [0.3, 0.4]])
+    with pytest.raises(InputError, match="one for each of the 2 distances; got 3"):
+        solve_transient(TIRE, ROAD, [wheel()] * 3, distances=[0.1, 0.2])

@@ -260,7 +260,7 @@ def _contact(
         "normal_residual": normal.residual,
         "newton_iterations": pair.newton,
         "krylov_iterations": pair.krylov,
-        "splitting_iterations": tangential.splitting,
+        "splitting_iterations": pair.splitting,
         "rolling_residual": tangential.residual,
         "friction_rounds": slipping.rounds,
         "friction_change": slipping.change,
@@ -276,8 +276,8 @@ def _contact(
         *cautions.of_rolling(tire, rolling),
         *cautions.of_numbers(tire, rolling, grid),
     ]
-    if tangential.splitting:
-        warnings.append(f"Newton's method stalled; {tangential.splitting} steps of the slower splitting helped it on")
+    if pair.splitting:
+        warnings.append(f"Newton's method stalled; {pair.splitting} steps of the slower splitting helped it on")
     share = _share(scene, float((normal.pressure > 0).sum()) * grid.cell_area)
     layered = road_compliance == "layers" and not road.is_homogeneous
     if share is not None:

@@ -322,8 +322,9 @@ class DissipatedEnergy(Quantity):
     def values(self, data: xr.Dataset) -> Array:
         """What the response tells, at every x."""
         self.check(data)
-        shape = [data.sizes[dim] for dim in ordered(data)]
-        return np.broadcast_to(part(data, self.name)[..., None], shape)
+        told, dims = data[self.name], ordered(data)
+        whole = told.expand_dims({dim: data.sizes[dim] for dim in dims if dim not in told.dims})
+        return np.asarray(whole.transpose(*dims).to_numpy())
 
     def crack(self, data: xr.Dataset) -> None:
         """None: energy has no direction."""

@@ -44,8 +44,8 @@ class Start:
 class Coupled:
     """Normal and tangential solutions that fit each other.
 
-    rounds: of the loop. change: of the pressure in the last round, relative. normal_iterations, newton, krylov:
-    of all rounds.
+    rounds: of the loop. change: of the pressure in the last round, relative. normal_iterations, newton, krylov,
+    splitting: of all rounds.
     """
 
     normal: NormalSolution
@@ -55,6 +55,7 @@ class Coupled:
     normal_iterations: int
     newton: int
     krylov: int
+    splitting: int
 
 
 def solve_coupled(
@@ -97,7 +98,7 @@ def solve_coupled(
         rigid[0] += rows
     last = None if start is None else start.tangential
     mixing = _Anderson()
-    iterations, newton, krylov, change = normal.iterations, 0, 0, 0.0
+    iterations, newton, krylov, splitting, change = normal.iterations, 0, 0, 0, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
         known = rigid + influence.slip_by_pressure(normal.pressure) / grid.dx if coupled else rigid
@@ -106,9 +107,10 @@ def solve_coupled(
         slipping = solve_slipping(influence, rolling.law, at, known, rolling.forces, start=last, tolerance=tolerance)
         last = slipping.tangential
         newton, krylov = newton + slipping.newton, krylov + slipping.krylov
+        splitting += slipping.splitting
         if not coupled or not last.shear.any() or (rounds > 1 and change <= tolerance):
             check(normal.pressure)
-            return Coupled(normal, slipping, rounds, change, iterations, newton, krylov)
+            return Coupled(normal, slipping, rounds, change, iterations, newton, krylov, splitting)
         before = normal.pressure
         offset = mixing.next(offset, influence.gap_by_shear(last.shear))
         normal = press(offset, before)

@@ -32,7 +32,7 @@ class SlippingSolution:
 
     tangential: shear, slip, creepages, stick. bound: μp (ny, nx), Pa. coefficient: μ (ny, nx), zero outside the
     contact. temperature: flash temperature (ny, nx), K, or None. rounds: of friction and slip.
-    change: of the bound in the last round, relative. newton, krylov: iterations of all rounds.
+    change: of the bound in the last round, relative. newton, krylov, splitting: iterations of all rounds.
     """
 
     tangential: TangentialSolution
@@ -43,6 +43,7 @@ class SlippingSolution:
     change: float
     newton: int
     krylov: int
+    splitting: int
 
 
 def solve_slipping(
@@ -63,7 +64,7 @@ def solve_slipping(
     """
     bound = law.bound(at)
     found = solve_rolling(influence, bound, rigid, forces, axes=law.axes, start=start, tolerance=tolerance)
-    newton, krylov = found.newton, found.krylov
+    newton, krylov, splitting = found.newton, found.krylov, found.splitting
     share, before, change = _RELAXATION, np.inf, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         if law.needs_speed:
@@ -72,7 +73,9 @@ def solve_slipping(
         if change <= tolerance:
             here = replace(at, slip=found.slip)
             mu = np.divide(bound, at.pressure, out=np.zeros_like(bound), where=at.pressure > 0)
-            return SlippingSolution(found, bound, mu, law.temperature(here), rounds, change, newton, krylov)
+            return SlippingSolution(
+                found, bound, mu, law.temperature(here), rounds, change, newton, krylov, splitting
+            )
         if change > before:
             share = max(0.5 * share, _LEAST_RELAXATION)
         before = change
@@ -81,6 +84,7 @@ def solve_slipping(
         _check_fallen(influence, law, bound, forces)
         found = solve_rolling(influence, bound, rigid, forces, axes=law.axes, start=found, tolerance=tolerance)
         newton, krylov = newton + found.newton, krylov + found.krylov
+        splitting += found.splitting
     raise ConvergenceError(
         f"friction and slip did not settle in {_MOST_ROUNDS} rounds: the bound still changes by {change:.2e}, "
         f"above the tolerance of {tolerance:.2e}; friction that falls steeply makes stick and slip alternate in "

@@ -1,0 +1,184 @@
+"""The grid that a contact is solved on: how much it holds, when it grows, when that of a start serves again."""
+
+import re
+
+import numpy as np
+import pytest
+
+from treadload.contact import Rolling, solve_contact
+from treadload.contact import solve as solving
+from treadload.contact.bodies.choose import Pair
+from treadload.contact.solve import BorderError
+from treadload.contact.solvers import tangential
+from treadload.errors import InputError
+from treadload.grid import Grid
+from treadload.materials import Elastic
+from treadload.pavement import Pavement
+from treadload.tire import Groove, Tire, TreadProfile
+
+ROAD = Pavement.half_space(Elastic(5.4e9, 0.35))
+RUBBER = Elastic(3e6, 0.5)
+PROFILE = TreadProfile(0.3, 0.4, 0.12, 0.01, grooves=(Groove(-0.025, 0.008, 0.006), Groove(0.025, 0.008, 0.006)))
+TIRE = Tire.from_profile(PROFILE, material=RUBBER)
+MAP = Tire.from_height_map(np.add.outer(np.linspace(-1, 1, 30) ** 2, np.linspace(-1, 1, 30) ** 2) * 0.01, 4e-3)
+CELL = 6e-3
+# What `place` leaves beside the patch, as the two sentences of its docstring and of the margin say.
+MARGIN = 0.024
+
+
+def wheel(load=1e3, **given):
+    return Rolling(normal_load=load, friction=0.6, **given)
+
+
+def placed(rolling, spacing=CELL, tire=TIRE):
+    return solving.place(tire, rolling, Pair.of(tire, ROAD).both, spacing)
+
+
+@pytest.mark.parametrize("load", [50.0, 400.0, 1e3])
+def test_beside_the_patch_lies_the_margin_and_little_more(load):
+    grid, gap = placed(wheel(load))
+    assert gap.shape == grid.shape
+    touching = solve_contact(TIRE, ROAD, wheel(load), spacing=CELL).dataset.pressure.to_numpy() > 0
+    # Where the contact lies is looked for on cells of a sixty-fourth of the tread, or those asked for.
+    coarse = max(CELL, max(TIRE.extent) / 64)
+    for axis, (count, size) in enumerate([(grid.ny, TIRE.extent[1] + 2 * MARGIN), (grid.nx, TIRE.extent[0])]):
+        outermost = np.flatnonzero(touching.any(1 - axis))[[0, -1]]
+        beside = min(outermost[0], count - 1 - outermost[1]) * CELL
+        # One coarse cell is added, and the patch of the coarse cells may be one larger or smaller.
+        assert MARGIN - CELL <= beside <= MARGIN + 2 * coarse + 2 * CELL, axis
+        assert count * CELL <= size + 2 * CELL
+
+
+@pytest.mark.parametrize("along", [True, False])
+@pytest.mark.parametrize("across", [True, False])
+def test_a_grid_grows_where_it_cut_and_only_there(along, across):
+    small = Grid.on_lattice(0.1, 0.08, CELL)
+    length, width = TIRE.extent
+    grown = solving._widened(TIRE, small, BorderError("cut", along=along, across=across))
+    if not (along or across):
+        assert (grown.nx, grown.ny) == (small.nx, small.ny)
+        return
+    # To the whole tread, and a lattice may add a cell.
+    assert (grown.dx, grown.dy) == (CELL, CELL)
+    wanted = length + CELL if along else small.nx * CELL, width + 2 * MARGIN + CELL if across else small.ny * CELL
+    assert (grown.nx * CELL, grown.ny * CELL) == pytest.approx(wanted, abs=1.001 * CELL)
+    assert (grown.nx > small.nx) == along
+    assert (grown.ny > small.ny) == across
+
+
+@pytest.mark.parametrize(
+    ("size", "along", "across"),
+    [
+        ((1.0, 1.0), True, True),
+        ((1.0, 1.0), True, False),
+        ((1.0, 1.0), False, True),
+        # What could still grow would not help.
+        ((1.0, 0.08), True, False),
+        ((0.1, 1.0), False, True),
+        ((1.0, 0.08), True, True),
+        ((0.1, 1.0), True, True),
+    ],
+)
+def test_a_grid_of_the_whole_tread_does_not_grow(size, along, across):
+    whole = Grid.on_lattice(min(size[0], TIRE.extent[0]), min(size[1], TIRE.extent[1] + 2 * MARGIN), CELL)
+    assert solving._widened(TIRE, whole, BorderError("cut", along=along, across=across)) is None
+
+
+def test_a_height_map_never_grows():
+    cut = BorderError("cut", along=True, across=True)
+    assert solving._widened(MAP, Grid.on_lattice(0.01, 0.01, 4e-3), cut) is None
+
+
+@pytest.fixture(scope="module")
+def light():
+    return solve_contact(TIRE, ROAD, wheel(100.0), spacing=CELL)
+
+
+def grid_for(start, rolling, spacing=None, tire=TIRE):
+    return solving._same_place(tire, rolling, Pair.of(tire, ROAD).both, start, spacing)[0]
+
+
+def grid_of(contact):
+    data = contact.dataset
+    return Grid(data.sizes["x"], data.sizes["y"], CELL, CELL, float(data.x[0]), float(data.y[0]))
+
+
+def test_the_grid_of_a_start_serves_again_where_it_is_large_enough(light):
+    heavy = solve_contact(TIRE, ROAD, wheel(2e3), spacing=CELL)
+    own, larger = grid_of(light), grid_of(heavy)
+    assert larger.nx > own.nx
+    assert larger.ny > own.ny
+    # Other forces, the same load: the same grid; so a lighter load on the larger one.
+    assert grid_for(light, wheel(100.0, tractive_force=30.0)) == own
+    assert grid_for(heavy, wheel(100.0)) == larger
+    assert grid_for(light, wheel(2e3)) == larger
+    # Wider alone, or longer alone, is too small as well.
+    for size in ((larger.nx, own.ny), (own.nx, larger.ny)):
+        cut = heavy.dataset.isel(
+            x=slice((larger.nx - size[0]) // 2, (larger.nx + size[0]) // 2),
+            y=slice((larger.ny - size[1]) // 2, (larger.ny + size[1]) // 2),
+        )
+        part = type(heavy)(cut, TIRE, ROAD, wheel(100.0), heavy.stats, ())
+        assert grid_for(part, wheel(2e3)) == larger
+
+
+def test_a_start_keeps_its_cells(light):
+    assert grid_for(light, wheel(100.0), spacing=CELL * (1 + 1e-12)) == grid_of(light)
+    with pytest.raises(InputError, match=r"the start has cells of 6 mm, got spacing = 5 mm"):
+        solve_contact(TIRE, ROAD, wheel(100.0), spacing=5e-3, start=light)
+
+
+def test_a_start_is_begun_at_and_not_kept(light):
+    """The same answer from a start, in fewer steps; from a start on another grid as from none."""
+    again = solve_contact(TIRE, ROAD, wheel(100.0), start=light)
+    assert again.stats["normal_iterations"] < light.stats["normal_iterations"]
+    # To the tolerance of both.
+    scale = float(light.dataset.pressure.max())
+    np.testing.assert_allclose(again.dataset.pressure, light.dataset.pressure, atol=1e-5 * scale)
+    heavy = solve_contact(TIRE, ROAD, wheel(2e3), start=light)
+    own = solve_contact(TIRE, ROAD, wheel(2e3), spacing=CELL)
+    np.testing.assert_array_equal(heavy.dataset.pressure, own.dataset.pressure)
+
+
+def test_cells_too_many_and_too_few_say_their_bound():
+    length, width = TIRE.extent
+    with pytest.raises(InputError, match="more than 4e\\+06") as caught:
+        placed(wheel(), spacing=1e-4)
+    assert f"{length * width / 1e-8:.3g} cells" in str(caught.value)
+    # What is offered makes as many cells as are allowed, to its two digits.
+    offered = float(re.search(r"use (\S+) mm or more", str(caught.value))[1]) * 1e-3
+    assert length * width / offered**2 == pytest.approx(4e6, rel=0.1)
+    narrow = min(length, width)
+    assert placed(wheel(), spacing=narrow / 8 * 0.999)[0].ny >= 8
+    with pytest.raises(InputError, match="fewer than 8 cells") as caught:
+        placed(wheel(), spacing=narrow / 8 * 1.001)
+    assert f"{narrow / 64 * 1e3:.2g} mm or less" in str(caught.value)
+
+
+def test_a_stalled_newton_step_is_said_and_one_that_goes_on_is_not(monkeypatch):
+    given = {"spacing": CELL}
+    smooth = solve_contact(TIRE, ROAD, wheel(300.0, tractive_force=90.0), **given)
+    assert not any("stalled" in text for text in smooth.warnings)
+    real = tangential.coulomb_newton.solve
+    monkeypatch.setattr(
+        tangential.coulomb_newton, "solve", lambda *args, **given: real(*args, **{**given, "max_iterations": 0})
+    )
+    stalled = solve_contact(TIRE, ROAD, wheel(300.0, tractive_force=90.0), **given)
+    steps = stalled.stats["splitting_iterations"]
+    assert steps > 0
+    assert sum(f"stalled; {steps} steps" in text for text in stalled.warnings) == 1
+
+
+def test_without_friction_no_step_is_counted():
+    free = solve_contact(TIRE, ROAD, Rolling(normal_load=300.0, friction=0.0, creepage_x=0.01), spacing=CELL)
+    for name in ("newton_iterations", "krylov_iterations", "splitting_iterations"):
+        assert free.stats[name] == 0, name
+    assert free.warnings == ()
+    # Nothing holds the wheel: it slides at the creepage given, and the tread hardly moves aside as it is pressed.
+    assert float(free.dataset.creepage_x) == 0.01
+    touching = free.dataset.pressure.to_numpy() > 0
+    np.testing.assert_allclose(free.dataset.slip_x.to_numpy()[touching], 0.01, rtol=2e-3)
+
+
+def test_the_clock_runs_forward(light):
+    assert 0 < light.stats["seconds"] < 600
