@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from sliding import sliding_shear
 from treadload.contact.solvers.rolling import rigid_slip
-from treadload.contact.solvers.sliding import sliding_pole, sliding_shear, sliding_torque
+from treadload.contact.solvers.sliding import sliding_pole, sliding_torque
 
 X, Y = np.linspace(-0.3, 0.5, 81), np.linspace(-0.2, 0.4, 61)
 

@@ -42,7 +42,8 @@ CLIMATE = Climate.constant(15.0)
 @pytest.fixture(scope="module")
 def driving():
     wheel = Rolling(normal_load=20e3, tractive_force=5e3, lateral_force=-2e3, friction=0.7)
-    return solve_contact(TIRE, TWO, wheel, spacing=20e-3)
+    # Points further apart than two cells stand for themselves: at 20 mm, on cells of less than 10.
+    return solve_contact(TIRE, TWO, wheel, spacing=9.5e-3)
 
 
 @pytest.mark.parametrize("depths", [[0.02], [0.15]])
@@ -50,11 +51,24 @@ def test_uniform_loads_are_read_wherever_the_wheels_stand(driving, depths):
     """A wheel elsewhere reads the same; so do two that are far from each other."""
     asked = {"depths": depths, "mean_over": None}
     here = compare_uniform(driving, TWO, **asked).dataset
-    for wheels in (((2.0, -1.5),), ((-4.0, 0.0), (4.0, 3.0)), ((0.0, 4.0), (0.0, -4.0))):
+    for wheels in (((2.0, -1.5),), ((-1.5, 0.0), (1.5, 1.0)), ((0.0, 1.5), (0.0, -1.5))):
         there = compare_uniform(driving, TWO, wheels=wheels, **asked).dataset
         for name in ("largest_extension", "largest_vertical_compression", "largest_vertical_shear"):
-            # What a second wheel adds at 8 m, and points that stand elsewhere by a part of their step.
+            # What a second wheel adds at 3 m, and points that stand elsewhere by a part of their step.
             np.testing.assert_allclose(there[name], here[name], rtol=0.02, err_msg=name)
+
+
+def test_deep_down_two_wheels_press_hardest_between_them(driving):
+    """Also where no cell of a contact stands: half a metre below wheels that are 0.36 m apart."""
+    wheels, z = ((0.0, -0.18), (0.0, 0.18)), 0.5
+    found = compare_uniform(driving, HALF, depths=[z], wheels=wheels).dataset["largest_vertical_compression"]
+    disc = tl.UniformDisc(math.sqrt(20e3 / 820e3 / math.pi), 820e3)
+    pair = [tl.response.place_load(disc, x=x, y=y) for x, y in wheels]
+    there = tl.solve_response(pair, HALF, depths=[z], x=[0.0], y=[0.0, 0.18]).dataset["strain_zz"]
+    middle, under = (-float(there[0, k, 0]) for k in (0, 1))
+    assert middle > 1.02 * under
+    # Points 20 mm apart, of which one lies within 10 mm of the middle: (0.01/0.5)² of the reading.
+    assert float(found.sel(load=DISC)[0]) == pytest.approx(middle, rel=2e-3)
 
 
 def test_the_rectangle_carries_the_shear_of_the_contact(driving):
