@@ -205,6 +205,24 @@ _FOOTPRINT = {
     "registered_angle": ("rad", "angle of the footprint's first axis from travel towards the right"),
 }
 
+_TIRE_CARD = {
+    "inflation_pressure": ("Pa", "inflation pressure of the tire"),
+    "wheel_load": ("N", "vertical load of the wheel"),
+    "loaded_radius": ("m", "radius of the unloaded tread less the deflection"),
+    "secant_stiffness": ("N/m", "vertical load over deflection"),
+    "effective_rolling_radius": ("m", "distance rolled per angle of a freely rolling wheel"),
+    "effective_radius_ratio": ("1", "effective rolling radius over the radius of the unloaded tread"),
+    "mean_over_inflation": ("1", "mean pressure over the net area, over the inflation pressure"),
+    "gross_mean_over_inflation": ("1", "load over the gross area, over the inflation pressure"),
+    "shoulder_over_centre": ("1", "mean load of the two outer ribs over that of the middle"),
+    "longitudinal_stiffness": ("N", "slope of the tractive force over longitudinal creepage at free rolling"),
+    "cornering_stiffness": ("N/rad", "slope of the lateral force over slip angle at free rolling"),
+    "aligning_stiffness": ("N m/rad", "slope of the aligning moment over slip angle at free rolling"),
+    "pneumatic_trail": ("m", "aligning stiffness over cornering stiffness"),
+    "lateral_stiffness": ("N/m", "lateral force over shift of the standing tire"),
+    "relaxation_length": ("m", "cornering stiffness over lateral stiffness"),
+}
+
 VARIABLES: Mapping[str, tuple[str, str]] = {
     **_COORDINATES,
     **_CONTACT,
@@ -217,6 +235,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_INTERFACES,
     **_UNIFORM,
     **_FOOTPRINT,
+    **_TIRE_CARD,
 }
 
 

@@ -61,7 +61,7 @@ def test_an_inline_profile_is_a_tread():
         ('profile = "315/80R22.5"', 'profile = "a"\nunits = "mm"', "units belongs to a scan"),
         ('"0 mm", "20 mm"', '"-1 mm"', "depths must be >= 0"),
         ('"0 mm", "20 mm"', '"1 mm", "1 mm"', "depths must differ"),
-        ("slope = -0.2 }", 'slope = -0.2 }\ndepth = "10 mm"', "damage.depth 0.01 m is none of"),
+        ("slope = -0.2 }", 'slope = -0.2 }\ndepth = "10 mm"', "damage.depth 0.01 m is not one of"),
         ("slope = -0.2 }", 'slope = -0.2 }\nmean_over = "10 m"', r"mean_over must lie in \(0, 0.1\] m, got 10"),
         ("slope = -0.2 }", "slope = -0.2 }\ndepth = 0\nmean_over = 0.01", "depth reads points and mean_over a mean"),
         ('"120 microstrain"', "120", "1e-6|e-6"),

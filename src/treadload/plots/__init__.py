@@ -23,6 +23,7 @@ from treadload.plots.others import (
     LifePlots,
     RollingResistancePlots,
     SensitivityPlots,
+    TireCardPlots,
     TransientPlots,
     TurnPlots,
     UniformPlots,
@@ -31,6 +32,7 @@ from treadload.plots.plain import losses, plain_map
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.tearing import tearing
+from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 from treadload.plots.verdict import fatigue_line
 
@@ -45,6 +47,7 @@ __all__ = [
     "ResponsePlots",
     "RollingResistancePlots",
     "SensitivityPlots",
+    "TireCardPlots",
     "TransientPlots",
     "TurnPlots",
     "UniformPlots",
@@ -79,6 +82,7 @@ __all__ = [
     "save",
     "shift_factors",
     "tearing",
+    "tire_card",
     "trace_rose",
     "transient_history",
     "turn_history",

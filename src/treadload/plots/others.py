@@ -13,6 +13,7 @@ from treadload.plots.history import transient_history, turn_history
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.plain import losses, plain_map
+from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 
 
@@ -107,6 +108,15 @@ class UniformPlots(_Plots):
     def strains(self) -> Figure:
         """Largest strains over depth, a line for each load."""
         return uniform_comparison(self._result)
+
+
+@offers("plot", "TireCard")
+class TireCardPlots(_Plots):
+    """Figures of a tire card."""
+
+    def card(self) -> Figure:
+        """Deflection, footprint, load of the shoulders and slip stiffnesses over load."""
+        return tire_card(self._result)
 
 
 @offers("plot", "TransientResult")

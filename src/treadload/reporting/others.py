@@ -14,6 +14,7 @@ from treadload.plots import (
     LifePlots,
     RollingResistancePlots,
     SensitivityPlots,
+    TireCardPlots,
     TransientPlots,
     TurnPlots,
     UniformPlots,
@@ -29,6 +30,7 @@ HEADINGS = {
     "sensitivity": "What the life depends on",
     "transient": "Rolling from rest",
     "turn": "Turn on the spot",
+    "tire_card": "Tire card",
     "uniform": "Contact and uniform loads",
     "rolling_resistance": "Rolling resistance",
     "points": "Response at points",
@@ -84,6 +86,9 @@ def _pictures(other: Other) -> list[Picture]:
                 "Largest strains at every depth under the computed contact and under uniform loads of the same force."
             )
             return picture("What uniform loads do not see", caption, UniformPlots(data).strains, wide=True)
+        case "tire_card":
+            caption = "Deflection, footprint, load of the outer ribs and slip stiffness of the freely rolling tire."
+            return picture("What the tire tells", caption, TireCardPlots(data).card, wide=True)
         case "rolling_resistance":
             caption = "The force that resists, and the energy that the materials lose per metre."
             return picture("Rolling resistance", caption, RollingResistancePlots(data).losses)

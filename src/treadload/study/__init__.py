@@ -7,6 +7,7 @@ from treadload.study.plan import plan_case, plan_life
 from treadload.study.run import Result, run_case
 from treadload.study.run_life import LifeResult, run_life
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
+from treadload.study.tire_card import TireCard, tire_card
 from treadload.study.two_grids import assess_on_two_grids
 from treadload.study.uniform import UniformComparison, compare_uniform
 
@@ -16,6 +17,7 @@ __all__ = [
     "Passages",
     "Result",
     "Sensitivity",
+    "TireCard",
     "UniformComparison",
     "assess_on_two_grids",
     "compare_bonds",
@@ -28,4 +30,5 @@ __all__ = [
     "solve_interfaces",
     "solve_life",
     "solve_passages",
+    "tire_card",
 ]
