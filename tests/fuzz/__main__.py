@@ -29,7 +29,7 @@ from pathlib import Path
 
 from fuzz.runner import Attack, Tally, run
 
-KINDS = ("cases", "meshes", "tables", "results")
+KINDS = ("cases", "meshes", "tables", "results", "footprints")
 _BATCH = 200
 
 

@@ -6,7 +6,9 @@ from fuzz.__main__ import attack_of
 from fuzz.runner import run
 
 
-@pytest.mark.parametrize(("kind", "count"), [("cases", 200), ("tables", 200), ("meshes", 20), ("results", 40)])
+@pytest.mark.parametrize(
+    ("kind", "count"), [("cases", 200), ("tables", 200), ("meshes", 20), ("results", 40), ("footprints", 300)]
+)
 def test_nothing_breaks(kind, count):
     tally = run(kind, attack_of(kind), seed=1, indices=range(count))
     assert not tally.failures, str(tally)

@@ -410,3 +410,46 @@ def test_another_package_reads_another_format(tmp_path, monkeypatch):
     path = written(tmp_path, "x", "one.lab")
     assert read_footprint(path, side=4).peak_pressure == 4e5
     assert "knows no option 'sides'; did you mean 'side'" in said(path, sides=4)
+
+
+CASE = """
+[footprint]
+file = "print.asf"
+{keys}
+
+[[pavement.layers]]
+name = "asphalt concrete"
+material = {{ kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }}
+
+[response]
+depths = ["20 mm"]
+"""
+
+
+def test_a_case_reads_the_export_of_a_sensor(tmp_path):
+    values = np.zeros((9, 8))
+    values[2:6, 2:6] = 300 + 20 * np.arange(16).reshape(4, 4)
+    values[3, 4] = 0
+    written(tmp_path, tekscan([values, 0.5 * values], pitch="10 mm"))
+    case = tl.Case.from_text(CASE.format(keys='travel = "up"\nload = "5 kN"'), folder=tmp_path)
+    assert tl.Case.from_text(case.to_toml(), folder=tmp_path) == case
+    result = tl.run_case(case)
+    wanted = values[::-1].T
+    np.testing.assert_allclose(result.footprint.pressure, wanted * 5e3 / (wanted.sum() * 1e-4))
+    # What is doubtful about it is told with the result, and in its file.
+    assert any("frame 1 of 2, which carries most" in line for line in result.summary().splitlines())
+    assert any("dead sensels" in text for text in result.warnings)
+    assert result.parts["contact"].road is not None
+    saved = tl.open_results(tl.save_results(result, tmp_path / "r.nc"))
+    assert saved.contact.warnings == result.footprint.warnings
+    for keys, words in (
+        ('missing = "zero"', "footprint.missing does not go with its file: print.asf is an export of a sensor"),
+        ('calibration = "3 kPa"', "calibration= is for counts"),
+    ):
+        with pytest.raises(tl.InputError, match=words):
+            tl.run_case(tl.Case.from_text(CASE.format(keys=keys), folder=tmp_path))
+    (tmp_path / "print.asf").write_text("100,200.5\n300,400\n")
+    with pytest.raises(
+        tl.InputError, match=r"footprint\.travel does not go with its file: .* is a table or a matrix"
+    ):
+        tl.run_case(tl.Case.from_text(CASE.format(keys='travel = "up"\nspacing = 0.01'), folder=tmp_path))

@@ -2,23 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
+from treadload.errors import InputError
+from treadload.footprint import Footprint, is_sensor_file, read_footprint
 from treadload.read import As, Table
 from treadload.response import GridLoad
-from treadload.units import Length, Pressure
+from treadload.units import Force, Length, Pressure
+
+# Keys that only a table or a matrix has, and those that only the file of a sensor has.
+_OF_TEXT = ("missing", "decimal", "shear_on")
+_OF_SENSORS = ("frame", "travel", "seen_from", "calibration", "load", "saturation", "dead")
 
 
 class FootprintPart(Table):
     """`[footprint]`, in place of [tire] and [rolling]: recorded contact stress.
 
-    file: a CSV table or matrix, or NetCDF such as a result of this package (.nc). units: { pressure = "kPa" }, of
-    columns and variables that name no unit. spacing: of the cells of a matrix. missing: "error" or "zero". noise:
-    pressures this far below zero count as zero. decimal: "." or ",", where a CSV file can be read in two ways.
-    shear_on: the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
+    file: a CSV table or matrix, NetCDF such as a result of this package (.nc), or an export of Tekscan. units:
+    { pressure = "kPa" }, of columns and variables that name none. spacing: of the cells of a matrix. missing: "error"
+    or "zero". noise: pressures this far around zero are none. decimal: "." or ",", where a CSV file can be read in
+    two ways. shear_on: the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
+    Of a sensor's export: frame: "peak", "mean" or a number; travel: "right", "left", "up" or "down" on its page;
+    seen_from: "above" or "below"; calibration: pressure of a raw count; load: known, that all is scaled to;
+    saturation: what a sensel reads at most; dead: sensels, "leave" or "fill".
     """
 
     file: str
@@ -29,12 +39,19 @@ class FootprintPart(Table):
     decimal: Literal[".", ","] | None = None
     shear_on: Literal["road", "tire"] = "road"
     interpolation: Literal["constant", "bilinear"] = "constant"
+    frame: int | Literal["peak", "mean"] = "peak"
+    travel: Literal["right", "left", "up", "down"] = "right"
+    seen_from: Literal["above", "below"] = "above"
+    calibration: Pressure | None = None
+    load: Force | None = None
+    saturation: Pressure | None = None
+    dead: Literal["leave", "fill"] = "leave"
 
     @model_validator(mode="after")
     def _of_a_table(self) -> FootprintPart:
         stray = sorted(self.model_fields_set - {"file", "units", "interpolation"}) if self.is_result else []
         if stray:
-            raise ValueError(f"{stray[0]} belongs to a CSV file; {self.file} is NetCDF, which holds it")
+            raise ValueError(f"{stray[0]} belongs to a CSV file; {self.file} is NetCDF and tells it itself")
         return self
 
     @property
@@ -42,9 +59,25 @@ class FootprintPart(Table):
         """True for a NetCDF file."""
         return self.file.endswith(".nc")
 
+    def read(self, folder: Path) -> Footprint:
+        """The footprint with what is doubtful about it; a relative path starts from the folder."""
+        path = folder / self.file
+        if self.is_result:
+            return Footprint(GridLoad.from_file(path, units=self.units, interpolation=self.interpolation))
+        if not is_sensor_file(path):
+            told: dict[str, Any] = {name: value for name, value in self if name not in ("file", *_OF_SENSORS)}
+            self._check(_OF_SENSORS, f"{self.file} is a table or a matrix, and no export of a sensor")
+            return Footprint(GridLoad.from_csv(path, **told))
+        self._check(_OF_TEXT, f"{self.file} is an export of a sensor, and no table or matrix")
+        asked = {name: getattr(self, name) for name in ("units", "spacing", *_OF_SENSORS)}
+        found = read_footprint(path, threshold=self.noise or None, **asked)
+        return replace(found, load=replace(found.load, interpolation=self.interpolation))
+
     def build(self, folder: Path) -> GridLoad:
         """The load; a relative path starts from the folder."""
-        if self.is_result:
-            return GridLoad.from_file(folder / self.file, units=self.units, interpolation=self.interpolation)
-        told: dict[str, Any] = {name: value for name, value in self if name != "file"}
-        return GridLoad.from_csv(folder / self.file, **told)
+        return self.read(folder).load
+
+    def _check(self, keys: tuple[str, ...], what: str) -> None:
+        stray = [key for key in keys if key in self.model_fields_set]
+        if stray:
+            raise InputError(f"footprint.{stray[0]} does not go with its file: {what}; leave it out")

@@ -4,7 +4,7 @@ from treadload.footprint.comparison import FootprintComparison, compare
 from treadload.footprint.footprint import Footprint
 from treadload.footprint.frames import Frames
 from treadload.footprint.measures import Measures
-from treadload.footprint.reading import read_footprint
+from treadload.footprint.reading import is_sensor_file, read_footprint
 from treadload.footprint.registration import Registration, register
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "Measures",
     "Registration",
     "compare",
+    "is_sensor_file",
     "read_footprint",
     "register",
 ]

@@ -113,6 +113,14 @@ def read_footprint(
     return footprint if load is None else footprint.scaled_to(load)
 
 
+def is_sensor_file(path: str | os.PathLike[str]) -> bool:
+    """True for the text of a sensor's export, False for a table, a matrix, and what cannot be read."""
+    try:
+        return os.path.isfile(path) and tekscan.looks_like(_text(Path(path)))
+    except InputError:
+        return False
+
+
 @FOOTPRINTS.register("tekscan")
 def _tekscan(path: Path) -> Frames:
     return tekscan.read(path, _text(path))

@@ -16,12 +16,13 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact, solve_contact
 from treadload.damage import Verdict, assess
 from treadload.describing import first_line
+from treadload.footprint import Footprint
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, Response, solve_response
 from treadload.response.superposition import common_grid
-from treadload.results import Footprint, Study, road_in_rows, to_tree
+from treadload.results import Study, road_in_rows, to_tree
 from treadload.study.two_grids import COARSER, check_two_grids, with_error
 
 Progress = Callable[[str], None]
@@ -49,7 +50,7 @@ class Result(Study):
     case: Case
     road: Pavement
     contact: Contact | None
-    footprint: GridLoad | None
+    footprint: Footprint | None
     response: Response
     slice_along: Response
     slice_across: Response
@@ -59,7 +60,7 @@ class Result(Study):
     @property
     def parts(self) -> Mapping[str, BaseResult]:
         """Its results by their names in a tree."""
-        load = Footprint(self.footprint, self.road) if self.footprint is not None else self.contact
+        load = replace(self.footprint, road=self.road) if self.footprint is not None else self.contact
         found = {
             "contact": load, "response": self.response, "slice_along": self.slice_along,
             "slice_across": self.slice_across, "bowl": self.bowl, "damage": self.verdict,
@@ -93,7 +94,8 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
         wheel = GridLoad.from_dataset(contact)
     else:
         tell("reading the footprint")
-        wheel = footprint = case.footprint.build(case.folder)
+        footprint = case.footprint.read(case.folder)
+        wheel = footprint.load
     loads = case.response.place(wheel)
     asked = case.response
 
