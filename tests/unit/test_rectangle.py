@@ -63,6 +63,28 @@ def test_coupling():
     np.testing.assert_allclose(away(k_y), away(across), atol=1e-9 * np.abs(across).max())
 
 
+@pytest.mark.parametrize("first", [0.3 * DX, -2.5 * DX, -1.5 * DX, 3 * DX])
+@pytest.mark.parametrize("kernel", [rectangle.normal_by_pressure, rectangle.tangential_by_shear, rectangle.coupling])
+def test_ahead_of_the_cell_the_forms_are_the_same(kernel, first):
+    """At any distance ahead, corners on x = 0 among them: a cell is the sum of its tenths, and so is what it does."""
+    found = kernel(2, 4, DX, DY, BODIES, first)
+    assert np.isfinite(found).all()
+    tenths = kernel(2, 40, DX / 10, DY, BODIES, first - 0.45 * DX)
+    sums = np.stack([tenths[..., 10 * i : 10 * i + 10].sum(-1) for i in range(4)], -1)
+    # Round-off of the functions of the corners, ten times those of the sum.
+    np.testing.assert_allclose(found, sums, rtol=0, atol=1e-13 * np.abs(found).max())
+
+
+@pytest.mark.parametrize("kernel", [rectangle.normal_by_pressure, rectangle.tangential_by_shear, rectangle.coupling])
+def test_whole_cells_ahead_are_the_lattice_itself_and_behind_is_its_mirror(kernel):
+    lattice = kernel(2, 6, DX, DY, BODIES)
+    # Round-off of where the corners stand.
+    np.testing.assert_allclose(kernel(2, 3, DX, DY, BODIES, 3 * DX), lattice[..., 3:], rtol=1e-13, atol=1e-16)
+    parity = {"normal_by_pressure": 1, "tangential_by_shear": [[[1]], [[1]], [[-1]]], "coupling": [[[-1]], [[1]]]}
+    behind = kernel(2, 6, DX, DY, BODIES, -5 * DX)[..., ::-1]
+    np.testing.assert_allclose(np.multiply(behind, parity[kernel.__name__]), lattice, rtol=1e-13, atol=1e-16)
+
+
 def test_the_cell_on_itself_has_its_closed_form():
     # Love (1929): the middle of a unit square sinks by 4 ln(1 + √2) (1 - ν)/(πG).
     bodies = CombinedElasticity(1.0, 0.28, 0.0)

@@ -7,16 +7,16 @@ import pytest
 from scipy.integrate import quad
 
 from treadload.kernels.complementarity import active_set
-from treadload.kernels.half_space import rectangle_ahead
+from treadload.kernels.half_space import rectangle
 from treadload.kernels.half_space.memory import fading
 from treadload.kernels.half_space.rectangle import CombinedElasticity
 
 BODY = CombinedElasticity(1.0, 0.3, 0.2)
 
 
-def kernels(x, y, dx, dy):
-    both = rectangle_ahead.tangential_by_shear, rectangle_ahead.coupling
-    return np.concatenate([kernel(x, y, dx, dy, BODY) for kernel in both])
+def kernels(first, ny, nx, dx, dy):
+    both = rectangle.tangential_by_shear, rectangle.coupling
+    return np.concatenate([kernel(ny, nx, dx, dy, BODY, first) for kernel in both])
 
 
 @pytest.mark.filterwarnings("ignore::scipy.integrate.IntegrationWarning")
@@ -24,19 +24,16 @@ def kernels(x, y, dx, dy):
 @pytest.mark.parametrize("length", [0.01, 0.3, 7.0, 1e3])
 def test_fading_against_quadrature(aspect, length):
     dx, dy, behind, ahead = 1.0, aspect, 9, 4
-    y = dy * np.arange(2)
-    found = fading(
-        lambda first, count: kernels(first + dx * np.arange(count), y, dx, dy), behind, ahead, dx, [length]
-    )
+    found = fading(lambda first, count: kernels(first, 2, count, dx, dy), behind, ahead, dx, [length])
     assert found.shape == (1, 5, 2, behind + 1 + ahead)
-    size = np.abs(kernels(dx * np.arange(-1.0, 2), y, dx, dy)).max((1, 2))
+    size = np.abs(kernels(-dx, 2, 3, dx, dy)).max((1, 2))
     for i in (-9, -1, 0, 2):
         known = {-(i + 0.5), -(i - 0.5), 0.1 * length, length, 5 * length, 3.0, 30.0, 300.0}
         stops = [0.0, *sorted(s for s in known if 0 < s < 40 * length), 40 * length]
         for component, row in ((0, 0), (1, 1), (2, 1), (3, 0), (4, 1)):
 
             def integrand(s, i=i, component=component, row=row):
-                return np.exp(-s / length) / length * kernels(np.array([i + s]), y, dx, dy)[component, row, 0]
+                return np.exp(-s / length) / length * kernels(i + s, 2, 1, dx, dy)[component, row, 0]
 
             exact = sum(quad(integrand, a, b, epsabs=1e-12)[0] for a, b in itertools.pairwise(stops))
             # Seven digits of the coefficient are said; most have ten.
@@ -45,8 +42,7 @@ def test_fading_against_quadrature(aspect, length):
 
 
 def test_no_memory_is_the_kernel_itself():
-    y = np.arange(3.0)
-    sample = lambda first, count: kernels(first + np.arange(count), y, 1.0, 1.0)  # noqa: E731
+    sample = lambda first, count: kernels(first, 3, count, 1.0, 1.0)  # noqa: E731
     found = fading(sample, 4, 3, 1.0, [1e-12])[0]
     np.testing.assert_allclose(found, sample(-4.0, 8), atol=1e-7)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from treadload.contact.bodies.body import Body, Offsets, Waves
 from treadload.kernels.arrays import Array
-from treadload.kernels.half_space import rectangle, rectangle_ahead
+from treadload.kernels.half_space import rectangle
 from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.materials import Elastic
 
@@ -32,26 +32,17 @@ class HalfSpaces(Body):
 
     def normal(self, at: Offsets) -> Array:
         """As in `Body`."""
-        if at.first == 0:
-            return rectangle.normal_by_pressure(at.ny, at.nx, at.dx, at.dy, self.elasticity)
-        # Boussinesq's 1/r is a share of the sum of Cerruti's two.
-        xx, yy, _ = self.tangential(at)
-        share = (1 - self.elasticity.poisson) / (2 - self.elasticity.poisson)
-        return np.asarray(share * (xx + yy))
+        return rectangle.normal_by_pressure(at.ny, at.nx, at.dx, at.dy, self.elasticity, at.first)
 
     def tangential(self, at: Offsets) -> Array:
         """As in `Body`."""
-        if at.first == 0:
-            return np.array(rectangle.tangential_by_shear(at.ny, at.nx, at.dx, at.dy, self.elasticity))
-        return rectangle_ahead.tangential_by_shear(at.x, at.y, at.dx, at.dy, self.elasticity)
+        return rectangle.tangential_by_shear(at.ny, at.nx, at.dx, at.dy, self.elasticity, at.first)
 
     def coupling(self, at: Offsets) -> Array:
         """As in `Body`."""
         if self.elasticity.difference == 0:
             return np.zeros((2, at.ny, at.nx))
-        if at.first == 0:
-            return np.array(rectangle.coupling(at.ny, at.nx, at.dx, at.dy, self.elasticity))
-        return rectangle_ahead.coupling(at.x, at.y, at.dx, at.dy, self.elasticity)
+        return rectangle.coupling(at.ny, at.nx, at.dx, at.dy, self.elasticity, at.first)
 
     def compliance(self, waves: Waves) -> Array:
         """As in `Body`."""

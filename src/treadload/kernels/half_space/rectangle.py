@@ -1,7 +1,9 @@
 """Surface displacement of two half-spaces under a uniformly loaded rectangle.
 
-All coefficients are corner sums [[f]] of closed forms in the distance (X, Y) from a corner, sampled at
-offsets of whole cells 0, 1, 2, … along x and y; parity gives the other three quadrants.
+All coefficients are corner sums [[f]] of closed forms in the distance (X, Y) from a corner, sampled a cell apart:
+from the centre of the loaded cell, where parity gives the other three quadrants, or from any distance ahead of it
+along x, as for what a particle felt before it travelled a step. There a corner may lie on x = 0, where every form has
+a limit.
 
 q acts on body 1, p presses the bodies together, u = u1 - u2, u_n opens the gap (after Kalker 1990):
 
@@ -55,56 +57,67 @@ class CombinedElasticity:
         return self.difference / (1 - self.poisson)
 
 
-def normal_by_pressure(ny: int, nx: int, dx: float, dy: float, bodies: CombinedElasticity) -> Array:
-    """u_n under unit p: (ny, nx) at offsets 0 … n-1, m/Pa. Even in x and y."""
+def normal_by_pressure(
+    ny: int, nx: int, dx: float, dy: float, bodies: CombinedElasticity, first: float = 0.0
+) -> Array:
+    """u_n under unit p: (ny, nx), m/Pa. Even in x and y.
+
+    At x = first + dx (0 … nx - 1), y = dy (0 … ny - 1) from the centre of a cell, m.
+    """
     scale = (1 - bodies.poisson) / (np.pi * bodies.shear_modulus)
-    return scale * (_along_x(ny, nx, dx, dy) + _along_y(ny, nx, dx, dy))
+    x, y = _corners(ny, nx, dx, dy, first)
+    return scale * (_corner_sum(_product_with_asinh(x, y)) + _corner_sum(_product_with_asinh(y, x)))
 
 
 def tangential_by_shear(
-    ny: int, nx: int, dx: float, dy: float, bodies: CombinedElasticity
-) -> tuple[Array, Array, Array]:
-    """(u_x by q_x, u_y by q_y, u_x by q_y = u_y by q_x) under unit shear: (ny, nx) each, m/Pa.
+    ny: int, nx: int, dx: float, dy: float, bodies: CombinedElasticity, first: float = 0.0
+) -> Array:
+    """u_x by q_x, u_y by q_y, and u_x by q_y = u_y by q_x, under unit shear: (3, ny, nx), m/Pa.
 
-    The first two are even in x and y, the third is odd in both.
+    Places as in `normal_by_pressure`. The first two are even in x and y, the third is odd in both.
     """
     nu, scale = bodies.poisson, 1 / (np.pi * bodies.shear_modulus)
-    along_x, along_y = _along_x(ny, nx, dx, dy), _along_y(ny, nx, dx, dy)
-    x, y = _corners(ny, nx, dx, dy)
+    x, y = _corners(ny, nx, dx, dy, first)
+    along_x, along_y = _corner_sum(_product_with_asinh(x, y)), _corner_sum(_product_with_asinh(y, x))
     cross = _corner_sum(-np.hypot(x, y))
-    xx = scale * ((1 - nu) * along_x + along_y)
-    yy = scale * (along_x + (1 - nu) * along_y)
-    return xx, yy, scale * nu * cross
+    return np.array(
+        [scale * ((1 - nu) * along_x + along_y), scale * (along_x + (1 - nu) * along_y), scale * nu * cross]
+    )
 
 
-def coupling(ny: int, nx: int, dx: float, dy: float, bodies: CombinedElasticity) -> tuple[Array, Array]:
-    """(k_x, k_y): u_n = k_x ∗ q_x + k_y ∗ q_y and u_x = -k_x ∗ p, u_y = -k_y ∗ p; (ny, nx) each, m/Pa.
+def coupling(ny: int, nx: int, dx: float, dy: float, bodies: CombinedElasticity, first: float = 0.0) -> Array:
+    """k_x, k_y with u_n = k_x ∗ q_x + k_y ∗ q_y and u_x = -k_x ∗ p, u_y = -k_y ∗ p: (2, ny, nx), m/Pa.
 
-    k_x is odd in x and even in y, k_y the other way round.
+    Places as in `normal_by_pressure`. k_x is odd in x and even in y, k_y the other way round.
     """
     scale = bodies.difference / (np.pi * bodies.shear_modulus)
-    x, y = _corners(ny, nx, dx, dy)
-    half_log = 0.5 * np.log(x**2 + y**2)
-    k_x = _corner_sum(y * half_log + x * np.arctan(y / x))
-    k_y = _corner_sum(x * half_log + y * np.arctan(x / y))
-    return scale * k_x, scale * k_y
+    x, y = _corners(ny, nx, dx, dy, first)
+    squared = x**2 + y**2
+    # At a corner on both axes every term is zero.
+    squared[np.ix_(y[:, 0] == 0, x[0] == 0)] = 1.0
+    half_log = 0.5 * np.log(squared)
+    k_x = _corner_sum(y * half_log + x * np.arctan(y / _divisor(x)))
+    k_y = _corner_sum(x * half_log + y * np.arctan(x / _divisor(y)))
+    return np.array([scale * k_x, scale * k_y])
 
 
-def _corners(ny: int, nx: int, dx: float, dy: float) -> tuple[Array, Array]:
-    """Corner distances (1, nx+1) and (ny+1, 1): never zero, so that no limit is needed."""
-    return dx * (np.arange(nx + 1) - 0.5)[None, :], dy * (np.arange(ny + 1) - 0.5)[:, None]
+def _corners(ny: int, nx: int, dx: float, dy: float, first: float) -> tuple[Array, Array]:
+    """Corner distances (1, nx + 1) and (ny + 1, 1); those within round-off of zero are zero."""
+    x = dx * (np.arange(nx + 1) - 0.5) + first
+    return np.where(np.abs(x) < 1e-9 * dx, 0.0, x)[None, :], dy * (np.arange(ny + 1) - 0.5)[:, None]
 
 
 def _corner_sum(f: Array) -> Array:
     return f[1:, 1:] - f[1:, :-1] - f[:-1, 1:] + f[:-1, :-1]
 
 
-def _along_x(ny: int, nx: int, dx: float, dy: float) -> Array:
-    # asinh(Y/|X|) replaces Love's ln(Y + R): the difference depends on X only and drops out of the corner sum.
-    x, y = _corners(ny, nx, dx, dy)
-    return _corner_sum(x * np.arcsinh(y / np.abs(x)))
+def _product_with_asinh(first: Array, second: Array) -> Array:
+    """The first times asinh(second/|first|), with its limit zero where the first is zero."""
+    # It replaces Love's ln(Y + R): the difference depends on the first only and drops out of the corner sum.
+    product: Array = first * np.arcsinh(second / np.abs(_divisor(first)))
+    return product
 
 
-def _along_y(ny: int, nx: int, dx: float, dy: float) -> Array:
-    x, y = _corners(ny, nx, dx, dy)
-    return _corner_sum(y * np.arcsinh(x / np.abs(y)))
+def _divisor(distance: Array) -> Array:
+    """A distance, by which something is divided that it multiplies: any number will do in place of zero."""
+    return np.where(distance == 0, 1.0, distance)
