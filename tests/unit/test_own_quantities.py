@@ -271,6 +271,22 @@ def test_a_line_of_any_strain_and_a_power_of_anything():
     assert Criterion("a", FrenchSubgrade(), -1).mean_over is None
 
 
+def test_tension_at_the_surface_is_read_as_a_mean_that_no_finer_points_change():
+    """Where shear of the surface ends, horizontal stress has no bound; points tell how near they are."""
+    criterion = Criterion("a", PowerLine(TENSION, "1 MPa", -0.1), 0, place="top")
+    load = [UniformRectangle(0.1, 0.1, 7e5, traction_x=3e5)]
+    coarse = -0.05 + 1e-3 * (np.arange(-12, 12) + 0.5)
+    fine = np.sort(np.concatenate([coarse, -0.05 + 1e-6 * np.array([-100, -10, -1, 1, 10, 100])]))
+    read = {}
+    for mean_over in (None, criterion.mean_over):
+        for x in (coarse, fine):
+            response = solve_response(load, ROAD, depths=[0.0], x=x, y=[0.0], mean_over=mean_over)
+            read[mean_over, len(x)] = float(criterion.read(response.dataset.isel(depth=0)).max())
+    assert read[None, len(fine)] > 1.5 * read[None, len(coarse)]
+    # The largest mean lies between points that are a tenth of its length apart.
+    assert read[0.01, len(fine)] == pytest.approx(read[0.01, len(coarse)], rel=0.01)
+
+
 def test_a_criterion_stands_where_its_quantity_is_read():
     assert Criterion("a", FrenchSubgrade(), -1).place == "top"
     assert Criterion("a", FatigueLine(1e-4, -0.2)).place == "bottom"

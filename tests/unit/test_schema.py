@@ -36,8 +36,22 @@ def refusal(tree, tmp_path):
     return said
 
 
+def unrolled(data):
+    """A contact without slip and creepages over a speed."""
+    return data.assign({name: data[name] * np.nan for name in ("slip_x", "slip_y", "creepage_x", "creepage_y")})
+
+
+def standing(data):
+    """A contact at the end of a turn, which has slip distances."""
+    return unrolled(data).assign(slip_distance_x=data.slip_x, slip_distance_y=data.slip_y)
+
+
 def test_results_as_they_are_pass(tree):
     check_tree(tree, "result")
+
+
+def test_a_wheel_that_stood_has_no_slip_over_a_speed(tree):
+    check_tree(with_group(tree, "contact", standing(tree["contact"].to_dataset())), "result")
 
 
 BREAKS = {
@@ -59,6 +73,23 @@ BREAKS = {
         lambda d: d.assign(normal_load=d.normal_load * np.nan),
         "normal_load has 1 of 1",
     ),
+    "with a slip of NaN": (
+        "contact",
+        lambda d: d.assign(slip_x=d.slip_x * np.nan),
+        "slip_x has 783 of 783 values that are NaN or infinite; only a wheel that turned",
+    ),
+    "with a creepage of NaN": (
+        "contact",
+        lambda d: d.assign(creepage_y=d.creepage_y * np.nan),
+        "creepage_y has 1 of 1",
+    ),
+    "rolling nowhere": ("contact", lambda d: unrolled(d), "slip_x has"),
+    "with a hole in the slip of a turn": (
+        "contact",
+        lambda d: standing(d).assign(slip_x=d.slip_x),
+        "slip_y has",
+    ),
+    "with an infinite slip": ("contact", lambda d: d.assign(slip_x=d.slip_x + np.inf), "slip_x has"),
     "without directions": (
         "response",
         lambda d: d.drop_vars("principal_direction_1"),

@@ -164,7 +164,6 @@ class HorizontalTension(Quantity):
     unit, shown = "Pa", "MPa"
     source = "Tamagny at the surface; Roque's input; laws of layers bound by cement"
     needs = STRESS
-    bounded = True
 
     def of(self, stress: Array, strain: Array) -> Array:
         """Largest principal stress of the plane."""

@@ -20,6 +20,8 @@ from treadload.files import parse_toml
 from treadload.variables import VARIABLES
 
 _RESPONSES = ("response", "slice", "slice_along", "slice_across", "bowl")
+_OVER_SPEED = ("slip_x", "slip_y", "creepage_x", "creepage_y")
+_OVER_DISTANCE = ("slip_distance_x", "slip_distance_y")
 # Dimensions that lie in the road, with a coordinate of numbers; the others are counted or named.
 _LENGTHS = ("x", "y", "depth")
 _COMPONENTS = 3
@@ -29,8 +31,7 @@ _MOST_LAYERS = 10_000
 
 @dataclass(frozen=True)
 class _Field:
-    """A variable of a group. dims: in any order. finite: "all" of its values, "some", or "any" will do, infinity too;
-    "none": NaN everywhere will do, infinity not.
+    """A variable of a group. dims: in any order. finite: "all" of its values, "some", or "any" will do, infinity too.
 
     codes: it holds whole numbers from 0, this many.
     """
@@ -63,11 +64,10 @@ _CONTACT = _Group(
         **_fields("pressure traction_x traction_y", _MAP, "all"),
         **_fields("state", _MAP, codes=3),
         **_fields("initial_gap gap displacement_x displacement_y displacement_z", _MAP, "some"),
-        # A wheel that turns on the spot slips by a distance, and has no slip over a speed.
-        **_fields("slip_x slip_y", _MAP, "none"),
+        **_fields("slip_x slip_y", _MAP),
         **_fields("friction_coefficient friction_work friction_power flash_temperature", _MAP),
         **_fields("approach spin normal_load tractive_force lateral_force", (), "all"),
-        **_fields("creepage_x creepage_y", (), "none"),
+        **_fields("creepage_x creepage_y", ()),
         **_fields("aligning_moment pressure_centre_x rolling_resistance_moment friction", ()),
         **_fields("friction_work_total friction_power_total", ()),
     },
@@ -156,6 +156,8 @@ def check_tree(tree: xr.DataTree, name: str) -> None:
         where = f"{name}: the group /{group}"
         if node.data_vars and kind in _GROUPS:
             _check_group(node.to_dataset(), _GROUPS[kind], where)
+            if kind == "contact":
+                _check_slip(node.to_dataset(), where)
             if kind == "life":
                 _check_life(node.to_dataset(), where)
 
@@ -222,11 +224,23 @@ def _check_field(field: xr.DataArray, rule: _Field, who: str) -> None:
     finite = np.isfinite(values)
     if rule.finite == "all" and not finite.all():
         raise InputError(f"{who} has {int((~finite).sum())} of {values.size} values that are NaN or infinite")
-    endless = rule.finite in ("some", "none") and np.isinf(values).any()
-    if endless or (rule.finite == "some" and values.size and not finite.any()):
+    if rule.finite == "some" and (np.isinf(values).any() or not finite.any()):
         raise InputError(f"{who} is infinite somewhere or NaN everywhere")
     if rule.codes and not np.isin(values, np.arange(rule.codes)).all():
         raise InputError(f"{who} has values other than 0 to {rule.codes - 1}")
+
+
+def _check_slip(data: xr.Dataset, where: str) -> None:
+    """Slip and creepage over a speed are numbers; they are NaN where a wheel stood, which slips by a distance."""
+    known = {name: data[name].to_numpy() for name in _OVER_SPEED if name in data}
+    stood = set(_OVER_DISTANCE) <= set(data.data_vars) and all(np.isnan(values).all() for values in known.values())
+    for name, values in known.items():
+        wrong = int((~np.isfinite(values)).sum())
+        if wrong and not stood:
+            raise InputError(
+                f"{where}: {name} has {wrong} of {values.size} values that are NaN or infinite; only a wheel that "
+                f"turned or was shifted on the spot has no {', '.join(_OVER_SPEED)}, but {_OVER_DISTANCE[0]}"
+            )
 
 
 def _check_interfaces(attrs: Mapping[Any, Any], where: str) -> None:

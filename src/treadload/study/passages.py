@@ -23,7 +23,7 @@ from treadload.response.doubts import overlapping, road_doubts
 from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.study.passage import passage
 from treadload.study.seasons import Warm, layer_temperatures, warmed
-from treadload.study.wheels import Wheels, across, check_speed, contact_of, moved, states_of, wheels_of
+from treadload.study.wheels import Wheels, across, check_speed, contact_of, states_of, wheels_of
 from treadload.tire import Tire
 
 Found = TypeVar("Found")
@@ -150,7 +150,7 @@ def solve_passages(
         len(states),
         count.total - len(states),
         error,
-        max(moved(one, row) for one, row in zip(wheels, classes, strict=True)),
+        max(one.moved for one in wheels),
         tuple(wheels),
         tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads)) + road_doubts(warm[0].road),
     )

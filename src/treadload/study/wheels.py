@@ -28,13 +28,15 @@ class Wheels:
     """The wheels of a class with their contact, on the cells of the common lattice.
 
     loads: one a wheel. x: of the cells' centres under the axles, m, one row an axle, from the rear to the front.
-    speed: m/s, or None.
+    speed: m/s, or None. moved: the largest distance along x or y between where a wheel stands and where the class has
+    it, m.
     """
 
     loads: tuple[GridLoad, ...]
     x: Array
     speed: float | None
     name: str
+    moved: float
 
     @property
     def cell(self) -> float:
@@ -94,25 +96,18 @@ def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
     own, other = GridLoad.from_dataset(contacts[0].dataset), GridLoad.from_dataset(contacts[-1].dataset)
     grid = own.grid
     dx, dy = grid.dx, grid.dy
-    loads = []
+    loads, apart = [], []
     for number, (at_x, at_y) in enumerate(row.wheels):
         one = other.mirrored() if len(contacts) > 1 and number in row.mirrored else own
         row_y = round((at_y + one.grid.y0 - y[0]) / dy)
-        loads.append(one.moved(x=dx * round(at_x / dx), y=float(y[0]) + dy * row_y - one.grid.y0))
+        near_x, near_y = dx * round(at_x / dx), float(y[0]) + dy * row_y - one.grid.y0
+        loads.append(one.moved(x=near_x, y=near_y))
+        apart += [abs(near_x - at_x), abs(near_y - at_y)]
     centres = sorted({round(at_x / dx) for at_x, _ in row.wheels})
     return Wheels(
         tuple(loads),
         np.array([grid.x + dx * centre for centre in centres]),
         row.speed,
         row.name,
+        max(apart),
     )
-
-
-def moved(wheels: Wheels, row: AxleClass) -> float:
-    """Largest distance along x or y between where wheels stand and where they should, m."""
-    own = wheels.loads[0].grid
-    shifts = [
-        (one.grid.x0 - own.x0 - (x - row.wheels[0][0]), one.grid.y0 - own.y0 - (y - row.wheels[0][1]))
-        for one, (x, y) in zip(wheels.loads, row.wheels, strict=True)
-    ]
-    return float(np.abs(shifts).max())
