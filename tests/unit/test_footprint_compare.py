@@ -1,14 +1,19 @@
 """A contact beside a footprint: what a known sensor did is found again, and what differs is told."""
 
 import math
+import re
+import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from typer.testing import CliRunner
 
 import treadload as tl
 from footprints import ribbed, sensed, tekscan
+from treadload.case.loading import FootprintPart
 from treadload.cli import app
 from treadload.footprint import Footprint, register
 from treadload.footprint.registration import seen
@@ -270,3 +275,21 @@ def test_the_command_line(tmp_path):
     nothing = CliRunner().invoke(app, ["compare", str(result), str(print_), "-q", "--load", "12 kN"])
     assert nothing.exit_code == 2
     assert "the footprint carries 12 kN and the contact 35 kN" in nothing.output
+
+
+def test_the_page_on_measured_footprints_does_what_it_says(tmp_path, monkeypatch):
+    page = (Path(__file__).parents[2] / "docs/howto/measured_footprints.md").read_text("utf-8")
+    monkeypatch.chdir(tmp_path)
+    made = sensed(LOAD, pitch=8e-3, cells=(38, 34))
+    # Travel up the page.
+    upright = made.pressure.T[::-1] / 1e3
+    Path("print.asf").write_text(tekscan([upright], pitch="8 mm", digits="%.7g"))
+    Image.new("RGB", (4, 3), (0, 255, 0)).save("print.png")
+    names = {}
+    for code in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
+        exec(code, names)
+    np.testing.assert_allclose(names["footprint"].pressure, made.pressure, rtol=1e-6)
+    assert names["painted"].peak_pressure == pytest.approx(600e3)
+    assert names["comparison"].dataset.sizes["rib"] == 5
+    table = tomllib.loads(re.findall(r"```toml\n(.*?)```", page, re.DOTALL)[0])["footprint"]
+    assert Footprint(FootprintPart(**table).build(tmp_path)).normal_load == pytest.approx(35e3)

@@ -163,6 +163,8 @@ def test_a_table_of_three_directions(tmp_path):
     np.testing.assert_allclose(found.load.traction_x[0], [-20e3, -21e3, -22e3])
     on_tire = read_footprint(path, shear_on="tire")
     np.testing.assert_allclose(on_tire.load.array[1:], -found.load.array[1:])
+    short = written(tmp_path, "\n".join(["x [mm],y [mm],p [kPa],qx [kPa],qy [kPa]", *rows[1:]]), "short.csv")
+    np.testing.assert_array_equal(read_footprint(short).load.array, found.load.array)
     assert "has axes of its own" in said(path, travel="up")
     assert "x names no unit" in said(written(tmp_path, "\n".join(["x,y,pressure [kPa]", "0,0,1"]), "t.csv"))
 

@@ -20,6 +20,8 @@ from treadload.response import GridLoad
 _STARTS = np.radians([-8.0, -4.0, 0.0, 4.0, 8.0])
 # Cells along the longer side of the maps that candidates are compared on: ribs and grooves are still seen.
 _COARSE = 40
+# And those on which the pose that is taken is refined: finer ones, such as pixels, tell no more.
+_ENOUGH = 160
 # Candidates whose correlation on coarse maps lies this far below the best are none.
 _PROMISING = 0.08
 # A print that is turned or mirrored overlaps more than it does as it stands by this share of the pressure, or it is
@@ -56,8 +58,8 @@ class Registration:
 
     def __str__(self) -> str:
         return (
-            f"{self.words}, moved by {self.shift_x * 1e3:.1f} and {self.shift_y * 1e3:.1f} mm, turned by "
-            f"{math.degrees(self.angle):.2f}°"
+            f"{self.words}, moved by {self.shift_x * 1e3:z.1f} and {self.shift_y * 1e3:z.1f} mm, turned by "
+            f"{math.degrees(self.angle):z.2f}°"
         )
 
 
@@ -108,42 +110,45 @@ def register(load: GridLoad, footprint: Footprint, *, turns: bool = True) -> Reg
     where it overlaps clearly more.
     """
     poses = [(k, m) for m in (False, True) for k in range(4)] if turns else [(0, False)]
-    coarse = _coarse(load, footprint)
-    starts = {pose: _start(coarse, laid(_coarsened(footprint), *pose)) for pose in poses}
+    coarse, rough = _coarse(load, footprint, _COARSE), _coarsened(footprint, _COARSE)
+    starts = {pose: _start(coarse, laid(rough, *pose)) for pose in poses}
     best = max(score for score, _ in starts.values())
     found: dict[tuple[int, bool], tuple[float, Array]] = {}
     for pose, (score, start) in starts.items():
         if score >= best - _PROMISING or pose == (0, False):
-            print_ = laid(_coarsened(footprint), *pose)
-            found[pose] = _refined(coarse, print_, start, *_RUGGED)
+            found[pose] = _refined(coarse, laid(rough, *pose), start, *_RUGGED)
     chosen = max(found, key=lambda pose: found[pose][0])
     if found[chosen][0] < found[0, False][0] + CLEAR:
         chosen = (0, False)
-    share, pose_at = _refined(load, laid(footprint, *chosen), found[chosen][1], *_FINE)
+    fine = laid(_coarsened(footprint, _ENOUGH), *chosen)
+    share, pose_at = _refined(_coarse(load, footprint, _ENOUGH), fine, found[chosen][1], *_FINE)
     told = {pose_in_words(*pose): value for pose, (value, _) in found.items()}
     x, y, angle = (float(one) for one in pose_at)
     return Registration(*chosen, x, y, angle, share, told)
 
 
-def _coarse(load: GridLoad, footprint: Footprint) -> GridLoad:
-    """A load on cells as fine as candidates need."""
-    size = _size(footprint)
-    if max(load.grid.dx, load.grid.dy) >= 0.7 * size:
+def _coarse(load: GridLoad, footprint: Footprint, most: int) -> GridLoad:
+    """A load on cells as fine as a footprint of at most so many along a side needs."""
+    size = 0.7 * _size(footprint, most)
+    if not _is_large(footprint, most) or max(load.grid.dx, load.grid.dy) >= size:
         return load
-    return Footprint(GridLoad(load.grid, load.pressure)).resampled(0.7 * size).load
+    return Footprint(GridLoad(load.grid, load.pressure)).resampled(size).load
 
 
-def _size(footprint: Footprint) -> float:
-    grid = footprint.grid
-    return max(grid.dx, grid.dy, max(grid.nx * grid.dx, grid.ny * grid.dy) / _COARSE)
-
-
-def _coarsened(footprint: Footprint) -> Footprint:
-    grid, size = footprint.grid, _size(footprint)
-    if size <= 1.5 * max(grid.dx, grid.dy):
+def _coarsened(footprint: Footprint, most: int) -> Footprint:
+    """A footprint on at most so many cells along a side, or as it is where it has few more."""
+    if not _is_large(footprint, most):
         return footprint
-    coarse = footprint.resampled(size)
-    return replace(coarse, saturation=footprint.saturation)
+    return replace(footprint.resampled(_size(footprint, most)), saturation=footprint.saturation)
+
+
+def _size(footprint: Footprint, most: int) -> float:
+    grid = footprint.grid
+    return max(grid.dx, grid.dy, max(grid.nx * grid.dx, grid.ny * grid.dy) / most)
+
+
+def _is_large(footprint: Footprint, most: int) -> bool:
+    return _size(footprint, most) > 1.5 * max(footprint.pitch)
 
 
 def _start(load: GridLoad, print_: Footprint) -> tuple[float, Array]:

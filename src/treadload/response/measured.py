@@ -24,6 +24,8 @@ from treadload.units import quantity
 # What is read and its SI unit.
 _COLUMNS = {"x": "m", "y": "m", "pressure": "Pa", "traction_x": "Pa", "traction_y": "Pa"}
 _STRESS = ("pressure", "traction_x", "traction_y")
+# What columns are also called.
+_ALSO = {"p": "pressure", "qx": "traction_x", "qy": "traction_y"}
 # Rounding of coordinates in a text file, as a part of a cell; round-off of those that went through a binary one.
 _EVEN, _EXACT = 0.02, 1e-4
 # Cells that a table may span; more is a coordinate gone astray.
@@ -60,9 +62,9 @@ def read_csv(
 ) -> Recorded:
     """Cells and stress from a text file in one of two forms.
 
-    A table has a header with x, y, pressure and perhaps traction_x, traction_y, and a row for each point, in any
-    order, on an evenly spaced grid. A column may name its unit, "pressure [kPa]"; other variables of this package
-    are passed over. A matrix has pressures only, rows along y (to the right), columns along x (travel).
+    A table has a header with x, y, pressure (or p) and perhaps traction_x, traction_y (or qx, qy), and a row for each
+    point, in any order, on an evenly spaced grid. A column may name its unit, "pressure [kPa]"; other variables of
+    this package are passed over. A matrix has pressures only, rows along y (to the right), columns along x (travel).
     Semicolons, tabs, commas or blanks separate, and points or commas are decimal marks, as `tables.read_table`
     recognises them; # starts a comment line.
 
@@ -290,6 +292,7 @@ def _columns(table: Table, units: Mapping[str, str]) -> tuple[dict[str, int], di
     for place, cell in enumerate(table.rows[0]):
         match = _HEADER.match(cell)
         name, unit = (match["name"], match["unit"]) if match else (cell, None)
+        name = _ALSO.get(name, name)
         if name not in _COLUMNS:
             if name in variables.VARIABLES:
                 continue
