@@ -108,6 +108,8 @@ class Case(FilePart):
         assert self.tire is not None
         assert self.rolling is not None
         self.rolling.build(self.folder)
+        if self.tire.belt is not None and self.tire.inflation_pressure is None:
+            raise ValueError('a belt carries by its inflation: give tire.inflation_pressure, such as "8.2 bar"')
         if self.tire.material is not None:
             surface_of(TIRE_MATERIAL.build(self.tire.material), is_tire=True, speed=self.rolling.speed)
 

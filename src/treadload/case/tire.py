@@ -65,8 +65,6 @@ class TirePart(Table):
             )
         if self.belt is not None and self.material is not None:
             raise ValueError("give either material, of a half-space, or belt; the tread's material is tread in belt")
-        if self.belt is not None and self.inflation_pressure is None:
-            raise ValueError('a belt carries by its inflation: give inflation_pressure, such as "8.2 bar"')
         if self.profile is not None and self.units is not None:
             raise ValueError("units belongs to a scan or a height_map; this tire is a profile")
         if self.scan is not None and isinstance(self.units, dict):

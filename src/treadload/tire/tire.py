@@ -80,10 +80,6 @@ class Tire:
                     "give either material, of a half-space, or belt, not both; the material of the tread is "
                     "Belt(tread=...)"
                 )
-            if self.inflation_pressure is None:
-                raise InputError(
-                    "a belt carries by its inflation: give inflation_pressure in Pa, a truck tire is near 820e3"
-                )
 
     @classmethod
     def from_height_map(
@@ -200,7 +196,11 @@ class Tire:
 
         That of the material, or else from the inflation pressure, ν = 0.5. Raises InputError as `Belt.inflated`.
         """
-        if self.belt is not None and self.inflation_pressure is not None:
+        if self.belt is not None:
+            if self.inflation_pressure is None:
+                raise InputError(
+                    "a belt carries by its inflation: give inflation_pressure in Pa, a truck tire is near 820e3"
+                )
             return self.belt.inflated(self.inflation_pressure, self.outer_radius, self.crown_arc_radius)
         if self.material is not None:
             return self.material
