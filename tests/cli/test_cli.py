@@ -106,7 +106,7 @@ def test_scan_tells_the_quality_and_writes_a_height_map(tmp_path):
 
 
 def test_the_catalogue_tells_names_numbers_and_sources(monkeypatch):
-    monkeypatch.setattr("treadload.cli._out", Console(width=200, highlight=False, soft_wrap=True))
+    monkeypatch.setattr("treadload.cli.shell.out", Console(width=200, highlight=False, soft_wrap=True))
     result = call("catalogue")
     assert result.exit_code == 0, result.output
     for road in tl.catalogue.structures.values():
@@ -138,14 +138,14 @@ def test_what_the_catalogue_does_not_have():
 
 
 def test_the_catalogue_tells_what_a_table_can_be(monkeypatch):
-    monkeypatch.setattr("treadload.cli._out", Console(width=250, highlight=False))
+    monkeypatch.setattr("treadload.cli.shell.out", Console(width=250, highlight=False))
     told = call("catalogue").output
     for words in ("friction law, law = …", "anisotropic, flash, map", "half-bonded", "turning", "glb, off"):
         assert words in told
 
 
 def test_names_of_the_catalogue_stay_whole_in_a_narrow_window(monkeypatch):
-    monkeypatch.setattr("treadload.cli._out", Console(width=80, highlight=False, soft_wrap=True))
+    monkeypatch.setattr("treadload.cli.shell.out", Console(width=80, highlight=False, soft_wrap=True))
     result = call("catalogue")
     for name in (*tl.catalogue.structures, *tl.catalogue.mixes):
         assert name in result.stdout
@@ -327,7 +327,7 @@ def test_shells_can_complete():
     environment = {
         **os.environ,
         "_TREADLOAD_COMPLETE": "complete_bash",
-        "COMP_WORDS": "treadload ca",
+        "COMP_WORDS": "treadload cat",
         "COMP_CWORD": "1",
     }
     done = subprocess.run(

@@ -5,8 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import treadload as tl
+from treadload.cli import app
 from treadload.errors import InputError
 from treadload.tire import ProfileSurface, TreadProfile
 
@@ -124,3 +126,33 @@ def test_a_half_space_feels_no_inflation():
         tl.study.tire_card(tire, ROAD, [20e3], [700e3, 800e3])
     row = tl.study.tire_card(tire, ROAD, [20e3], stiffness=False, spacing=12e-3).dataset
     assert math.isnan(float(row["mean_over_inflation"].squeeze()))
+
+
+def test_the_command_prints_and_writes_a_card(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text(
+        """
+        spacing = "12 mm"
+        [tire]
+        profile = "315/80R22.5"
+        inflation_pressure = "8 bar"
+        belt = "315/80R22.5"
+        [[pavement.layers]]
+        material = { kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }
+        [rolling]
+        normal_load = "20 kN"
+        friction = 0.7
+        """
+    )
+    told = ["card", str(case), "--no-stiffness", "--quiet"]
+    made = CliRunner().invoke(
+        app, [*told, "--loads", "15 kN; 25 kN", "--pressures", "7 bar; 8 bar", "-o", str(tmp_path / "card.nc")]
+    )
+    assert made.exit_code == 0, made.output
+    assert "tire card of 315/80R22.5" in made.output
+    data = tl.open_results(tmp_path / "card.nc").tire_card.dataset
+    np.testing.assert_allclose(data["inflation_pressure"], [7e5, 8e5])
+    np.testing.assert_allclose(data["wheel_load"], [15e3, 25e3])
+    wrong = CliRunner().invoke(app, [*told, "--loads", "15 bar"])
+    assert wrong.exit_code == 2
+    assert "15 bar" in wrong.output

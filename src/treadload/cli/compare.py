@@ -8,6 +8,9 @@ from typing import Annotated, Any
 
 import typer
 
+from treadload.cli import shell
+from treadload.cli.progress import stages
+
 Told = Callable[[str], None]
 Footprint = Annotated[
     Path, typer.Argument(help="Tekscan ASCII, a table x, y, pressure, a matrix, NetCDF, or a picture.")
@@ -63,3 +66,52 @@ def compare_files(
     tell("laying the footprint onto the contact")
     how: Any = registration
     return compare(results.contact, measured, registration=how, load_tolerance=quantity(load_tolerance, ""))
+
+
+def compare(
+    result: Annotated[Path, typer.Argument(help="Result file of `treadload run`, with a contact.")],
+    footprint: Footprint,
+    output: shell.Output = None,
+    report: Annotated[Path | None, typer.Option(help="Page to write, .html.", show_default=False)] = None,
+    units: Units = None,
+    spacing: Spacing = None,
+    frame: Frame = "peak",
+    travel: Travel = "right",
+    seen_from: SeenFrom = "above",
+    calibration: Calibration = None,
+    load: Load = None,
+    threshold: Threshold = None,
+    saturation: Saturation = None,
+    dead: Dead = "leave",
+    colours: Colours = None,
+    scale: Scale = None,
+    registration: Registration = "full",
+    load_tolerance: Tolerance = "25 %",
+    quiet: shell.Quiet = False,
+) -> None:
+    """Lay a measured footprint onto a computed contact, and tell how they agree."""
+    from treadload.files import HTML, check_suffix
+    from treadload.results import to_tree
+    from treadload.results.exports import check_output, write
+
+    if output is not None:
+        check_output(output)
+    if report is not None:
+        check_suffix(report, HTML, "the report")
+    files: list[Path] = []
+    with stages(shell.err, quiet=quiet) as tell:
+        found = compare_files(
+            result, footprint, tell, units=units, spacing=spacing, frame=frame, travel=travel, seen_from=seen_from,
+            calibration=calibration, load=load, threshold=threshold, saturation=saturation, dead=dead,
+            colours=colours, scale=scale, registration=registration, load_tolerance=load_tolerance,
+        )  # fmt: skip
+        if output is not None:
+            files += write(to_tree(found), output)
+        if report is not None:
+            from treadload.reporting import report as write_page
+
+            tell("drawing")
+            files.append(write_page(found, report, title=f"{result.name} and {footprint.name}"))
+    shell.out.print(found.summary(), markup=False)
+    if files:
+        shell.written(files)

@@ -1,0 +1,92 @@
+"""`treadload catalogue`, `demo` and `validate`: what the program brings, shows and proves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table
+from rich.text import Text
+
+from treadload.cli import shell
+from treadload.cli.progress import stages
+
+
+def catalogue(
+    kind: Annotated[
+        str,
+        typer.Argument(help="structures, mixes, materials, tires or belts; all if left out.", show_default=False),
+    ] = "",
+    name: Annotated[str, typer.Argument(help="One of them, in full.", show_default=False)] = "",
+) -> None:
+    """Structures, mixes, viscoelastic materials, tires and belts that a case can name, with sources and doubts."""
+    from treadload import catalogue as catalogues
+    from treadload.errors import InputError, nearest
+
+    kinds = {one: getattr(catalogues, one) for one in ("structures", "mixes", "materials", "tires", "belts")}
+    if kind and kind not in kinds:
+        raise InputError(f"no catalogue of {kind!r}; {nearest(kind, kinds)}")
+    if name:
+        return shell.out.print(kinds[kind].about(name), markup=False)
+    notes: dict[str, int] = {}
+    for one in kinds.values() if not kind else [kinds[kind]]:
+        table = Table(shell.names(), "what it is", "notes", title=one.use, title_justify="left")
+        for item_name, words, item in one.rows():
+            told = [text for text in (item.source, *item.doubts) if text]
+            marks = " ".join(f"[{notes.setdefault(text, len(notes) + 1)}]" for text in told)
+            table.add_row(item_name, Text(words), Text(marks))
+        shell.out.print(table)
+    if not kind:
+        shell.out.print(_kinds())
+    for text, number in notes.items():
+        shell.out.print(f"[{number}] {text}", markup=False)
+
+
+def _kinds() -> Table:
+    """What a table of a case can be, by its kind, and which package brings it where it is not treadload."""
+    import treadload.case  # its rooms register what they have
+    import treadload.tire.mesh_file  # noqa: F401
+    from treadload.registry import ALL
+
+    table = Table("key", "names", title="what a table of a case can be", title_justify="left")
+    for registry in ALL:
+        named = ", ".join(f"{name} ({package})" if package else name for name, package in registry.packages().items())
+        if named:
+            table.add_row(f"{registry.noun}, {registry.key} = …" if registry.key else registry.noun, Text(named))
+    return table
+
+
+def demo(
+    output: Annotated[Path, typer.Option("--output", "-o", help="Folder to write.")] = Path("demo"),
+    quiet: shell.Quiet = False,
+) -> None:
+    """A real truck tire, rolling freely and driving: results, figures and a report."""
+    from treadload.demo import run_demo
+
+    with stages(shell.err, quiet=quiet) as tell:
+        made = run_demo(output, progress=tell)
+    heading, *rows = made.table
+    table = Table(*heading, title="A 335/65R22.5 truck tire at 32.5 kN on asphalt, friction 0.7")
+    for row in rows:
+        table.add_row(*row)
+    shell.out.print(table)
+    shell.out.print(f"{len(made.files)} files in {output.resolve()} after {made.seconds:.1f} s", markup=False)
+    shell.out.print(f"open {output / 'report.html'}", markup=False)
+
+
+def validate(
+    markdown: Annotated[bool, typer.Option("--markdown", help="Print a table for a document.")] = False,
+    quiet: shell.Quiet = False,
+) -> None:
+    """Compare the solvers with closed forms and published numbers, row by row."""
+    from treadload.validation import format_markdown, format_table, run_checks
+
+    with stages(shell.err, quiet=quiet) as tell:
+        checks = run_checks(progress=tell)
+    # The table goes out as it is: a terminal may be narrower than it.
+    print(format_markdown(checks) if markdown else format_table(checks))
+    failed = [check for check in checks if not check.passed]
+    if failed:
+        shell.err.print(f"{len(failed)} of {len(checks)} checks failed", style="bold red")
+        raise typer.Exit(shell.FAILED)

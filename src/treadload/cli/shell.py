@@ -1,0 +1,77 @@
+"""What all commands share: where they write, options, and errors as one sentence."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Annotated, NoReturn, ParamSpec
+
+import typer
+from rich.console import Console
+from rich.table import Column
+from rich.text import Text
+
+from treadload.errors import ConvergenceError, TreadloadError
+
+DONE, FAILED, WRONG = 0, 1, 2
+_P = ParamSpec("_P")
+
+out = Console(highlight=False, soft_wrap=True)
+err = Console(stderr=True, highlight=False, soft_wrap=True)
+
+Output = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", help="File to write: .nc (NetCDF), .csv or .xlsx.", show_default=False),
+]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on stderr.")]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Set a key of the case, as rolling.friction=0.6 or pavement.layers.0.thickness='8 cm'; without a value "
+        "the key is removed. May be given several times.",
+        show_default=False,
+    ),
+]
+Kind = Annotated[str, typer.Argument(help="The command that runs the case: run or life.")]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and say what would be solved.")]
+
+
+def names() -> Column:
+    """A column of names that a case can copy: never broken into lines."""
+    return Column("name", no_wrap=True)
+
+
+def one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
+    """Turn every expected error of a command into one sentence on stderr and an exit code."""
+
+    @functools.wraps(command)
+    def guarded(*args: _P.args, **kwargs: _P.kwargs) -> None:
+        try:
+            return command(*args, **kwargs)
+        except TreadloadError as error:
+            _fail(str(error), FAILED if isinstance(error, ConvergenceError) else WRONG)
+        except KeyboardInterrupt:
+            _fail("interrupted; nothing more was written", FAILED)
+        except MemoryError:
+            _fail("out of memory: the grid is too fine for this machine; use a larger spacing", FAILED)
+
+    return guarded
+
+
+def _fail(message: str, code: int) -> NoReturn:
+    err.print(Text("error: ", style="bold red") + Text(message))
+    raise typer.Exit(code)
+
+
+def planned(plan: str, path: Path) -> None:
+    """Print a plan, and the file that would be written."""
+    out.print(plan, markup=False)
+    out.print(f"\nwould be written: {path}", markup=False)
+
+
+def written(files: Iterable[Path]) -> None:
+    """Print the files that were written."""
+    out.print("\n" + "\n".join(f"written: {file}" for file in files), markup=False)
