@@ -127,7 +127,7 @@ def test_the_third_life_is_miners(compared):
 
 def test_the_summary_says_both_lives(compared):
     text = compared.summary()
-    assert "upper bond parts after" in text
+    assert "upper bond fails after" in text
     assert f"{compared.governing} governs" in text
     assert "frictionless" in text
     assert compared.governing in ("wearing course", "base")

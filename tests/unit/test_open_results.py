@@ -294,7 +294,7 @@ def test_a_function_says_that_it_is_gone(tmp_path):
     back = tl.open_results(tl.save_results(whole, tmp_path / "x.nc")).life
     assert back.summary() == whole.summary()
     assert back.criteria[0].law_at(17.0) == law(17.0)
-    with pytest.raises(tl.InputError, match=r"lambda.* is a function, which was read at whole degrees"):
+    with pytest.raises(tl.InputError, match=r"lambda.* is a function, which was tabulated from"):
         back.criteria[0].law_at(17.5)
 
 
@@ -331,7 +331,7 @@ def test_a_file_of_the_format_before_without_a_case_is_refused_part_by_part(tmp_
 def test_a_file_of_a_later_format_is_refused(tmp_path):
     tree = tl.results.to_tree([footprint()])
     tree.attrs["results_format"] = 99
-    with pytest.raises(tl.InputError, match=r"format 99 of results; this is treadload .* update it"):
+    with pytest.raises(tl.InputError, match=r"format 99 of results; this is treadload .* update treadload"):
         tl.open_results(tl.save_results(tree, tmp_path / "x.nc"))
 
 
@@ -357,14 +357,14 @@ def into(questions, value, *keys):
         ([], (), "cannot be read"),
         (3, ("contact",), "cannot be read"),
         ("Path", ("contact", "is"), "cannot be read"),
-        ({"is": "Popen", "with": {}}, ("contact", "with", "road"), "nothing that this treadload describes"),
-        ({"is": "os:system", "with": {}}, ("contact", "with", "road"), "nothing that this treadload describes"),
+        ({"is": "Popen", "with": {}}, ("contact", "with", "road"), "unknown to this treadload"),
+        ({"is": "os:system", "with": {}}, ("contact", "with", "road"), "unknown to this treadload"),
         ({"is": "Elastic", "with": {"modulus": -1, "poisson": 0.3}}, ("contact", "with", "road"), "modulus must be"),
         ({"is": "Elastic", "with": {"colour": 1}}, ("contact", "with", "road"), "no Elastic can be made"),
-        ({"array": "array_99"}, ("contact", "with", "road"), "array_99' of a question is not there"),
-        ({"part": "contact"}, ("contact", "with", "road"), "asked with itself"),
+        ({"array": "array_99"}, ("contact", "with", "road"), "array_99' of its inputs is missing"),
+        ({"part": "contact"}, ("contact", "with", "road"), "an input of itself"),
         ({"number": "1e5"}, ("contact", "with", "road"), "is not a number"),
-        ({"odd": 1}, ("contact", "with", "road"), "nothing that a result can be asked with"),
+        ({"odd": 1}, ("contact", "with", "road"), "not a possible input of a result"),
     ],
 )
 def test_a_question_that_was_tampered_with_is_refused_in_a_sentence(value, keys, message, tmp_path):

@@ -212,11 +212,11 @@ def test_groups_in_words():
     names, criteria = ("single", "tandem", "tridem", "four"), ("base", "soil")
     factors = np.array([[np.nan, 0.8, 0.7, 0.6], [np.nan, np.nan, 1.2, np.nan]])
     said = in_words(names, criteria, factors, np.array([1, 2, 3, 4]))
-    assert said[0].startswith("tandem: each of 2 axles does K = 0.80 (base) of what")
+    assert said[0].startswith("tandem: each of 2 axles does K = 0.80 (base) times the damage")
     assert said[0].endswith("the French method takes 0.75 for bituminous layers and 12 for hydraulic layers")
     assert "0.70 (base), 1.20 (soil)" in said[1]
     assert said[1].endswith("1.1 for bituminous layers and 113 for hydraulic layers")
-    assert said[2] == "four: each of 4 axles does K = 0.60 (base) of what it would do alone"
+    assert said[2] == "four: each of 4 axles does K = 0.60 (base) times the damage it would do alone"
     assert len(said) == 3
     (unknown,) = in_words(("x",), criteria, np.full((2, 1), np.nan), np.array([2]))
     assert "K = unknown" in unknown

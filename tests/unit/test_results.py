@@ -45,7 +45,7 @@ def test_other_files_are_no_results(tmp_path):
     with pytest.raises(tl.InputError, match="cannot read"):
         open_results(tmp_path / "text.nc")
     xr.Dataset({"a": 1}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
-    with pytest.raises(tl.InputError, match="no result of treadload"):
+    with pytest.raises(tl.InputError, match="not a result of treadload"):
         open_results(tmp_path / "other.nc")
 
 

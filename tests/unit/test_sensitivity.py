@@ -94,7 +94,7 @@ def test_what_cannot_be_changed_is_said():
 def test_a_life_without_end_has_no_sensitivity():
     life = solve_life(TIRE, ROAD, Traffic((AxleClass("one", 1.0, 32.5e3, 850e3),), 0.0),
                        Climate.constant(15.0), (BASE,), **COARSE)  # fmt: skip
-    with pytest.raises(InputError, match="ever used up"):
+    with pytest.raises(InputError, match="ever fails"):
         life_sensitivity(TIRE, ROAD, life, **COARSE)
     with pytest.raises(InputError, match="coverage"):
         life_sensitivity(TIRE, ROAD, life, coverage=0.0)

@@ -85,10 +85,10 @@ def _pictures(other: Other) -> list[Picture]:
             caption = (
                 "Largest strains at every depth under the computed contact and under uniform loads of the same force."
             )
-            return picture("What uniform loads do not see", caption, UniformPlots(data).strains, wide=True)
+            return picture("What uniform loads miss", caption, UniformPlots(data).strains, wide=True)
         case "tire_card":
             caption = "Deflection, footprint, load of the outer ribs and slip stiffness of the freely rolling tire."
-            return picture("What the tire tells", caption, TireCardPlots(data).card, wide=True)
+            return picture("What the tire shows", caption, TireCardPlots(data).card, wide=True)
         case "rolling_resistance":
             caption = "The force that resists, and the energy that the materials lose per metre."
             return picture("Rolling resistance", caption, RollingResistancePlots(data).losses)

@@ -1,4 +1,4 @@
-"""Which methods a result really used, and where they were published."""
+"""Which methods a result actually used, and where they were published."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ CITATIONS = {
 
 
 def citations(contact: Contact | None, response: Response | None, road: Pavement | None = None) -> list[str]:
-    """References of the methods that these results really used; road: of the response."""
+    """References of the methods that these results actually used; road: of the response."""
     used = ["chain"]
     if contact is not None:
         used += ["influence", "convolution", "normal", "preconditioner", "rolling", "newton"]

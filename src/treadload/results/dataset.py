@@ -14,7 +14,7 @@ from treadload.grid import Grid
 from treadload.tire import Tire
 from treadload.variables import dataset
 
-# Variables that a summary of fields tells.
+# Variables that a summary of fields lists.
 _TOLD = 24
 
 
@@ -36,7 +36,7 @@ class Fields(BaseResult, group="fields"):
             unit = str(data[name].attrs.get("units", ""))
             lines.append(f"{name}: {_range(data[name])}{f' {unit}' if unit not in ('', '1') else ''}")
         more = len(data.data_vars) - _TOLD
-        return "\n".join(lines + ([f"and {more} variables more"] if more > 0 else []))
+        return "\n".join(lines + ([f"and {more} more variables"] if more > 0 else []))
 
     __repr__ = first_line
 

@@ -1,4 +1,4 @@
-"""Parts of files that do not hold what they were asked: rebuilt from the case, where there is one."""
+"""Parts of files that do not hold their inputs: rebuilt from the case, where there is one."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ class Opened(Protocol):
 
 
 def from_case(name: str, data: xr.Dataset, opened: Opened) -> BaseResult:
-    """The part of this name with what the case asks. Raises InputError where the case does not tell it."""
+    """The part of this name with the inputs of the case. Raises InputError where the case does not hold them."""
     case = opened.case
     if not isinstance(case, Case):
-        raise InputError(_untold(name, opened, "and has no case that tells it"))
+        raise InputError(_untold(name, opened, "and has no case that holds them"))
     kept = data.attrs if name != "contact" else {k: v for k, v in data.attrs.items() if k not in _TOLD}
     bare = data.drop_attrs(deep=False).assign_attrs({k: v for k, v in kept.items() if k not in ("stats", "sentence")})
     stats, warnings = _json(data, "stats", {}), tuple(_json(data, "warnings", []))
@@ -57,14 +57,14 @@ def from_case(name: str, data: xr.Dataset, opened: Opened) -> BaseResult:
         return Response(bare, stats, warnings, loads, road, speed, case.response.side)
     if name == "damage" and case.damage is not None:
         return Verdict(bare, case.damage.fatigue.build(), str(data.attrs.get("strain", case.damage.strain)))
-    raise InputError(_untold(name, opened, "and its case does not tell it"))
+    raise InputError(_untold(name, opened, "and its case does not hold them"))
 
 
 def _untold(name: str, opened: Opened, why: str) -> str:
     version = opened.tree.attrs.get("treadload_version", "an unknown version")
     return (
-        f"{opened.where} was written by treadload {version}, which did not keep what its part {name!r} was asked, "
-        f"{why}; its fields are in .tree[{name!r}], and a run of this version keeps all of it"
+        f"{opened.where} was written by treadload {version}, which did not keep the inputs of its part {name!r}, "
+        f"{why}; its fields are in .tree[{name!r}], and files of this version keep all inputs"
     )
 
 
@@ -80,7 +80,7 @@ def _tire(data: xr.Dataset, case: Case) -> Tire:
 
 def _json(data: xr.Dataset, name: str, otherwise: Any) -> Any:
     try:
-        found = json.loads(data.attrs.get(name, ""))
+        value = json.loads(data.attrs.get(name, ""))
     except (TypeError, ValueError):
         return otherwise
-    return found if isinstance(found, type(otherwise)) else otherwise
+    return value if isinstance(value, type(otherwise)) else otherwise

@@ -1,4 +1,4 @@
-"""Results as tables for other programs: CSV and Excel, one row a point, units in the headings.
+"""Results as tables for other programs: CSV and Excel, one row per point, units in the headings.
 
 NetCDF (`results.files`) keeps everything and is read back; tables are for spreadsheets and scripts.
 """
@@ -48,7 +48,7 @@ def check_output(path: str | os.PathLike[str]) -> None:
 
 
 def write(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> tuple[Path, ...]:
-    """Write results as the suffix of the path says; the files written. Raises InputError."""
+    """Write results in the format that the suffix names; returns the files written. Raises InputError."""
     suffix = check_suffix(path, FORMATS, "results")
     if suffix in TABLE:
         return write_csv(results, path)
@@ -56,10 +56,10 @@ def write(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> tu
 
 
 def write_csv(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...]:
-    """Write results as CSV, one table a file, UTF-8, commas between and points in the numbers.
+    """Write results as CSV, one table per file, UTF-8, with commas between values and decimal points.
 
     results: a contact, response, verdict, life, the result of a case, a dataset or a tree. path: of the file. Fields
-    over the same coordinates make a table with one row a point, coordinates first, units in the headings. The main
+    over the same coordinates make a table with one row per point, coordinates first, units in the headings. The main
     table of a single group takes the path; others stand beside it with their names behind an underscore, so that
     "r.csv" of a case makes r_contact.csv, r_contact_scalars.csv, r_response.csv, ..., r_about.csv.
     Returns the files written, the main one first: all of them, or none. Raises InputError.
@@ -80,7 +80,7 @@ def write_csv(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...]:
 
 
 def write_excel(results: Any, path: str | os.PathLike[str]) -> Path:
-    """Write results as an Excel workbook, one sheet a table, see `write_csv`.
+    """Write results as an Excel workbook, one sheet per table, see `write_csv`.
 
     Returns the path; the file appears whole or not at all. Raises InputError, also where openpyxl is not installed
     and for a table of more rows than a sheet holds.
@@ -93,8 +93,8 @@ def write_excel(results: Any, path: str | os.PathLike[str]) -> Path:
         rows = len(next(iter(table.columns.values())))
         if rows >= _MOST_ROWS:
             raise InputError(
-                f"cannot write {path}: the table {table.name or path.stem!r} has {rows} rows and a heading, a sheet "
-                f"holds {_MOST_ROWS}; write .csv or .nc, or ask for fewer depths"
+                f"cannot write {path}: the table {table.name or path.stem!r} has {rows} rows and a heading, but a "
+                f"sheet holds {_MOST_ROWS}; write .csv or .nc, or ask for fewer depths"
             )
     book = openpyxl.Workbook(write_only=True)
     taken: set[str] = set()
@@ -116,16 +116,16 @@ def _tables(results: Any) -> list[Table]:
     elif not isinstance(results, xr.Dataset):
         results = as_tree(results)
     if isinstance(results, xr.Dataset):
-        found = list(_of_group("", results))
+        tables = list(_of_group("", results))
     else:
         groups = {str(name): node.to_dataset() for name, node in results.children.items() if name != ASKED}
         groups = {name: data for name, data in groups.items() if data.data_vars}
         single = len(groups) == 1
-        found = [table for name, data in groups.items() for table in _of_group("" if single else name, data)]
-        found += [_about(results)] if found else []
-    if not found:
+        tables = [table for name, data in groups.items() for table in _of_group("" if single else name, data)]
+        tables += [_about(results)] if tables else []
+    if not tables:
         raise InputError("there is nothing to write: these results hold no fields")
-    return found
+    return tables
 
 
 def _of_group(group: str, data: xr.Dataset) -> Iterator[Table]:
@@ -152,17 +152,17 @@ def _of_group(group: str, data: xr.Dataset) -> Iterator[Table]:
 def _columns(data: xr.Dataset, dims: Sequence[str], names: Sequence[str]) -> dict[str, Any]:
     """Coordinates and fields over these dimensions, flat, the last dimension running fastest."""
     shape = tuple(data.sizes[dim] for dim in dims)
-    found: dict[str, Any] = {}
+    columns: dict[str, Any] = {}
     for number, dim in enumerate(dims):
         if dim in data.coords:
-            found[_heading(dim, data[dim])] = _flat(data[dim], dims, shape)
+            columns[_heading(dim, data[dim])] = _flat(data[dim], dims, shape)
         else:
             along = np.arange(shape[number]).reshape([-1 if k == number else 1 for k in range(len(dims))])
-            found[dim] = np.broadcast_to(along, shape).ravel()
+            columns[dim] = np.broadcast_to(along, shape).ravel()
     # Along a list of points x and y are coordinates, too.
     for name in sorted(str(name) for name in data.coords if name not in dims):
         if data[name].dims and set(data[name].dims) <= set(dims):
-            found[_heading(name, data[name])] = _flat(data[name], dims, shape)
+            columns[_heading(name, data[name])] = _flat(data[name], dims, shape)
     for name in names:
         field = data[name]
         if "component" in field.dims:
@@ -170,10 +170,10 @@ def _columns(data: xr.Dataset, dims: Sequence[str], names: Sequence[str]) -> dic
                 data["component"].to_numpy() if "component" in data.coords else range(field.sizes["component"])
             ):
                 one = field.sel(component=part) if "component" in data.coords else field.isel(component=part)
-                found[_heading(f"{name}_{part}", field)] = _flat(one, dims, shape)
+                columns[_heading(f"{name}_{part}", field)] = _flat(one, dims, shape)
         else:
-            found[_heading(name, field)] = _flat(field, dims, shape)
-    return found
+            columns[_heading(name, field)] = _flat(field, dims, shape)
+    return columns
 
 
 def _flat(field: xr.DataArray, dims: Sequence[str], shape: tuple[int, ...]) -> Any:
@@ -231,12 +231,12 @@ def _text(cell: Any, sheet: Any, value: str) -> Any:
 def _sheet_name(name: str, taken: set[str]) -> str:
     """A name that Excel takes, and that no other sheet has."""
     plain = re.sub(r"[\[\]:*?/\\']", "_", name)[:_NAME] or "results"
-    found, number = plain, 2
-    while found.casefold() in taken:
-        found = f"{plain[: _NAME - 1 - len(str(number))]}_{number}"
+    name, number = plain, 2
+    while name.casefold() in taken:
+        name = f"{plain[: _NAME - 1 - len(str(number))]}_{number}"
         number += 1
-    taken.add(found.casefold())
-    return found
+    taken.add(name.casefold())
+    return name
 
 
 def _openpyxl(path: str | os.PathLike[str]) -> Any:

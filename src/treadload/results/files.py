@@ -35,21 +35,21 @@ def open_results(path: str | os.PathLike[str]) -> Results:
 
     Parts come by their names, `open_results("x.nc").contact.plot.pressure()`, and go into every verb. What no file
     holds, the mesh of a scan or a function, says so in a sentence when a verb asks for it.
-    Raises InputError if the file is none of ours, broken, or written by a later treadload.
+    Raises InputError if the file is not a result of treadload, is broken, or written by a later treadload.
     """
     path = Path(path)
     if not os.path.isfile(path):
         raise InputError(f"there is no result file {path}; `treadload run case.toml -o {path}` makes one")
     loaded = read_tree(path, "a result in NetCDF-4")
     if "treadload_version" not in loaded.attrs:
-        raise InputError(f"{path} is a NetCDF file, but no result of treadload: it lacks treadload_version")
+        raise InputError(f"{path} is a NetCDF file, but not a result of treadload: it lacks treadload_version")
     written = loaded.attrs.get("results_format", 1)
     if isinstance(written, bool) or (not isinstance(written, int) and not hasattr(written, "__index__")):
         raise InputError(f"{path}: the attribute results_format must be a whole number, got {written!r}")
     if int(written) > FORMAT:
         raise InputError(
             f"{path} was written by treadload {loaded.attrs['treadload_version']} in the format {int(written)} of "
-            f"results; this is treadload {__version__}, which reads formats up to {FORMAT}: update it"
+            f"results; this is treadload {__version__}, which reads formats up to {FORMAT}: update treadload"
         )
     check_tree(loaded, str(path))
     return Results(loaded, str(path))

@@ -59,18 +59,18 @@ class Results(Study):
     def __getitem__(self, name: str) -> BaseResult:
         """The part of this name, also one inside another. Raises InputError if there is none or it cannot be made."""
         held = {**dict.fromkeys(self.tree.children), **dict.fromkeys(self)}
-        found = name if name in held else _ALSO.get(name, name)
-        if found not in held or found == ASKED:
+        part = name if name in held else _ALSO.get(name, name)
+        if part not in held or part == ASKED:
             raise InputError(f"{self._where} has no part {name!r}; it holds {', '.join(self) or 'none'}")
-        if found not in self._made:
-            if found in self._making:
-                raise InputError(f"{self._where}: the part {found!r} is asked with itself")
-            self._making.append(found)
+        if part not in self._made:
+            if part in self._making:
+                raise InputError(f"{self._where}: the part {part!r} is an input of itself")
+            self._making.append(part)
             try:
-                self._made[found] = self._make(found)
+                self._made[part] = self._make(part)
             finally:
                 self._making.pop()
-        return self._made[found]
+        return self._made[part]
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
@@ -101,12 +101,12 @@ class Results(Study):
             return {}
         told = self.tree[ASKED].attrs.get("questions", "{}")
         try:
-            found = json.loads(told) if isinstance(told, str) else None
+            questions = json.loads(told) if isinstance(told, str) else None
         except (ValueError, RecursionError):
-            found = None
-        if not isinstance(found, dict):
-            raise InputError(f"{self._where}: what its results were asked cannot be read; compute them anew")
-        return found
+            questions = None
+        if not isinstance(questions, dict):
+            raise InputError(f"{self._where}: the inputs of its results cannot be read; compute them again")
+        return questions
 
     @functools.cached_property
     def _reader(self) -> Reader:
@@ -137,13 +137,13 @@ class Results(Study):
 
     @property
     def road(self) -> Pavement:
-        """The road at its temperature, of the contact, the response or the case. Raises InputError if none tells."""
+        """The road at its temperature, of the contact, response or case. Raises InputError if none holds it."""
         for name in self:
             road = getattr(self[name], "road", None)
             if isinstance(road, Pavement):
                 return road
         if self.case is None:
-            raise InputError(f"{self._where} does not tell its road; give it anew, Pavement([...])")
+            raise InputError(f"{self._where} does not hold its road; give it again, Pavement([...])")
         return self.case.pavement.build() if isinstance(self.case, Case) else self.case.build_road()
 
     def to_tree(self) -> xr.DataTree:
@@ -151,7 +151,7 @@ class Results(Study):
         return self.tree
 
     def summary(self) -> str:
-        """What was found: as the study told it, else part by part."""
+        """The results: as the study summed them up, else part by part."""
         whole = self.tree.attrs.get("summary")
         return str(whole) if whole else "\n\n".join(self[name].summary() for name in self)
 

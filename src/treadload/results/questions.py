@@ -1,6 +1,6 @@
 """What results were asked, as JSON text and arrays, and back as the objects they were.
 
-Descriptions are frozen dataclasses: their fields tell all of them. A file is read without trust: it can name classes
+Descriptions are frozen dataclasses: their fields hold everything. A file is read without trust: it can name classes
 of this package, and those that an installed package declares as entry points, and every number passes the checks of
 its class. What a file cannot hold, a scan's mesh or a function, comes back as something that says so when it is used.
 """
@@ -29,7 +29,7 @@ from treadload.tire.recorded import RecordedSurface
 from treadload.tire.surface import Surface
 
 _OURS = "treadload"
-# At which functions of temperature are read, °C.
+# At which functions of temperature are tabulated, °C.
 _DEGREES = range(-30, 71)
 _GROUPS = "treadload."
 _CASES: Mapping[str, type[Case] | type[LifeCase]] = {"Case": Case, "LifeCase": LifeCase}
@@ -37,7 +37,7 @@ _CASES: Mapping[str, type[Case] | type[LifeCase]] = {"Case": Case, "LifeCase": L
 
 @dataclass(frozen=True)
 class Tabulated:
-    """A function of temperature that a result was asked with, where it was read: a file holds no code.
+    """A function of temperature among a result's inputs, tabulated: a file holds no code.
 
     words: its name. temperatures: °C. values: what it gave there, a number or a law.
     """
@@ -47,27 +47,27 @@ class Tabulated:
     values: tuple[Any, ...] = ()
 
     def __call__(self, temperature: Any = math.nan) -> Any:
-        """What it gave at a temperature, °C. Raises InputError for one at which it was not read."""
+        """What it gave at a temperature, °C. Raises InputError for one that is not in the table."""
         if temperature in self.temperatures:
             return self.values[self.temperatures.index(temperature)]
-        known = f", which was read at whole degrees of {min(self.temperatures):g} to {max(self.temperatures):g} °C"
+        known = f", which was tabulated from {min(self.temperatures):g} to {max(self.temperatures):g} °C"
         raise InputError(
-            f"{self.words} is a function{known if self.temperatures else ''}, and no file of results holds code; "
-            "give it anew"
+            f"{self.words} is a function{known if self.temperatures else ''}, and result files hold no code; "
+            "give it again"
         )
 
     @classmethod
     def of(cls, function: Any) -> Tabulated:
-        """A function as a table, empty where it is none of temperature."""
+        """A function as a table, empty where it does not take a temperature."""
         words = str(getattr(function, "__qualname__", type(function).__name__))
-        found = {}
+        values = {}
         for temperature in _DEGREES:
             try:
-                found[float(temperature)] = function(float(temperature))
+                values[float(temperature)] = function(float(temperature))
             # Whatever a function outside its range or of something else raises: it is not known there.
             except Exception:
                 continue
-        return cls(words, tuple(found), tuple(found.values()))
+        return cls(words, tuple(values), tuple(values.values()))
 
     def __str__(self) -> str:
         return self.words
@@ -129,7 +129,7 @@ class Writer:
             return {"is": _name_of(type(value)), "with": told}
         if callable(value):
             return self.value(Tabulated.of(value))
-        raise InputError(f"no file of results can hold {type(value).__name__}, which one was asked with")
+        raise InputError(f"no result file can hold {type(value).__name__}, which is among the inputs of one")
 
     def _array(self, values: np.ndarray) -> str:
         key = (values.shape, values.dtype.str, np.ascontiguousarray(values).tobytes())
@@ -155,7 +155,7 @@ class Reader:
             given = {str(name): self.value(one) for name, one in told["with"].items()}
             attrs = self.value(told["attrs"])
         except (KeyError, TypeError, AttributeError) as error:
-            raise InputError(f"{self.where}: what the result was asked cannot be read: {_said(error)}") from error
+            raise InputError(f"{self.where}: the inputs of the result cannot be read: {_said(error)}") from error
         if any(one.name == "dataset" for one in dataclasses.fields(kind)):  # type: ignore[arg-type]
             given["dataset"] = dataset.drop_attrs(deep=False).assign_attrs(attrs)
         return self._made(kind, given)  # type: ignore[no-any-return]
@@ -172,12 +172,12 @@ class Reader:
         for kind, read in _KINDS.items():
             if kind in told:
                 return read(self, told[kind], told)
-        raise InputError(f"{self.where}: {_cut(told)} is nothing that a result can be asked with")
+        raise InputError(f"{self.where}: {_cut(told)} is not a possible input of a result")
 
     def array(self, name: Any, _: Any = None) -> np.ndarray:
         """A copy of an array by its name."""
         if not isinstance(name, str) or name not in self.arrays:
-            raise InputError(f"{self.where}: the array {_cut(name)} of a question is not there")
+            raise InputError(f"{self.where}: the array {_cut(name)} of its inputs is missing")
         return self.arrays[name].copy()
 
     @functools.cached_property
@@ -193,7 +193,7 @@ class Reader:
                 made: type[Any] = load_point(point)
                 return made
         raise InputError(
-            f"{self.where}: {_cut(name)} is nothing that this treadload describes; install the package that brings it"
+            f"{self.where}: {_cut(name)} is unknown to this treadload; install the package that brings it"
         )
 
     def _made(self, kind: type[Any], given: dict[str, Any]) -> Any:
@@ -229,7 +229,7 @@ def _fields_back(reader: Reader, told: Any, _: Any) -> xr.DataArray:
     try:
         return xr.DataArray(**parts)
     except (TypeError, ValueError) as error:
-        raise InputError(f"{reader.where}: a field of a question cannot be read: {_said(error)}") from error
+        raise InputError(f"{reader.where}: an input cannot be read: {_said(error)}") from error
 
 
 def _case(reader: Reader, told: Any, whole: Any) -> Case | LifeCase:
@@ -261,7 +261,7 @@ def _parts_of(array: xr.DataArray) -> dict[str, Any]:
 
 
 def _name_of(kind: type[Any]) -> str:
-    """Name of a class in a file: its own, so that it may move between our rooms; of others where it is found."""
+    """Name of a class in a file: its own, so that it may move between our rooms; else with its module."""
     if kind.__module__.partition(".")[0] == _OURS:
         return kind.__name__
     return f"{kind.__module__}:{kind.__qualname__}"
@@ -269,20 +269,20 @@ def _name_of(kind: type[Any]) -> str:
 
 def _described() -> dict[str, type[Any]]:
     """Dataclasses of this package by name: what describes a tire, a road, a law."""
-    found: dict[str, type[Any]] = {}
+    kinds: dict[str, type[Any]] = {}
     for name, module in list(sys.modules.items()):
         if name.partition(".")[0] != _OURS:
             continue
         own = [one for one in list(vars(module).values()) if isinstance(one, type) and one.__module__ == name]
         for one in own:
             if dataclasses.is_dataclass(one) and not issubclass(one, BaseResult):
-                found.setdefault(one.__name__, one)
-    return found
+                kinds.setdefault(one.__name__, one)
+    return kinds
 
 
 def _list(reader: Reader, told: Any) -> list[Any]:
     if not isinstance(told, list):
-        raise InputError(f"{reader.where}: {_cut(told)} is no list")
+        raise InputError(f"{reader.where}: {_cut(told)} is not a list")
     return told
 
 

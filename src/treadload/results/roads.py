@@ -1,4 +1,4 @@
-"""A road as rows of a table, as results tell it."""
+"""A road as rows of a table, as results show it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from treadload.pavement import LayerRow, Pavement, layer_rows
 def road_in_rows(road: Pavement, case: Case | None = None) -> str:
     """The layers of a road as a table in text: thickness, modulus, bond, temperature; the speed of the wheels.
 
-    road: at its temperature. case: that tells the temperatures and the speed.
+    road: at its temperature. case: that gives the temperatures and the speed.
     """
     rows = rows_of(road, case)
     speed = case.speed if case is not None and road.is_viscoelastic else None
@@ -27,7 +27,7 @@ def road_in_rows(road: Pavement, case: Case | None = None) -> str:
 
 
 def rows_of(road: Pavement | None, case: Case | LifeCase | None) -> tuple[LayerRow, ...]:
-    """The layers of a road, at the temperatures that the case tells; none of no road."""
+    """The layers of a road, at the temperatures that the case gives; empty without a road."""
     if road is None:
         return ()
     return layer_rows(road, case.pavement.layer_temperatures() if isinstance(case, Case) else ())

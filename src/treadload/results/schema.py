@@ -31,7 +31,7 @@ _MOST_LAYERS = 10_000
 
 @dataclass(frozen=True)
 class _Field:
-    """A variable of a group. dims: in any order. finite: "all" of its values, "some", or "any" will do, infinity too.
+    """A variable of a group. dims: in any order. finite: "all" of its values, "some", or "any" number, infinity too.
 
     codes: it holds whole numbers from 0, this many.
     """
@@ -148,7 +148,7 @@ _OF_A_LIFE = ("contacts", "responses", "combinations", "seconds", "interpolation
 
 
 def check_tree(tree: xr.DataTree, name: str) -> None:
-    """Raise InputError that says what of a tree of results cannot be read. name: of the file or case."""
+    """Raise InputError that says what in a tree of results cannot be read. name: of the file or case."""
     _check_root(tree.attrs, name)
     for group, node in tree.children.items():
         said = node.attrs.get("result", group)
@@ -186,7 +186,7 @@ def _check_group(data: xr.Dataset, rules: _Group, where: str) -> None:
     needed = [*rules.needed, *(other for name, other in rules.with_it.items() if name in data.variables)]
     lacking = next((name for name in needed if name not in data.variables), None)
     if lacking is not None:
-        raise InputError(f"{where} lacks {lacking!r}; compute the case anew, or take the group out")
+        raise InputError(f"{where} lacks {lacking!r}; compute the case again, or remove the group")
     for name, rule in rules.fields.items():
         if name in data.variables:
             _check_field(data[name], rule, f"{where}: {name}")
@@ -198,7 +198,7 @@ def _check_group(data: xr.Dataset, rules: _Group, where: str) -> None:
 
 
 def _check_coordinate(data: xr.Dataset, name: str, where: str) -> None:
-    """Coordinates that are there, finite, in m, and rise; depths may stand twice, for both sides of an interface."""
+    """Coordinates present, finite, in m and increasing; depths may be repeated, for both sides of an interface."""
     if not data.sizes[name]:
         raise InputError(f"{where} is empty: it has no {name}")
     if name not in data.coords:
@@ -206,7 +206,7 @@ def _check_coordinate(data: xr.Dataset, name: str, where: str) -> None:
     _check_field(data[name], _Field(frozenset({name}), "all"), f"{where}: {name}")
     steps = np.diff(data[name].to_numpy())
     if (steps < 0).any() or (name != "depth" and (steps == 0).any()):
-        raise InputError(f"{where}: {name} does not rise everywhere; sort it")
+        raise InputError(f"{where}: {name} does not increase everywhere; sort it")
 
 
 def _check_field(field: xr.DataArray, rule: _Field, who: str) -> None:
@@ -246,7 +246,9 @@ def _check_slip(data: xr.Dataset, where: str) -> None:
 def _check_interfaces(attrs: Mapping[Any, Any], where: str) -> None:
     given = np.atleast_1d(np.asarray(attrs.get("interfaces", [])))
     if given.size and (given.dtype.kind not in "fiu" or not (np.diff(given, prepend=0.0) > 0).all()):
-        raise InputError(f"{where}: the attribute interfaces must be rising depths in m, got {attrs['interfaces']!r}")
+        raise InputError(
+            f"{where}: the attribute interfaces must be increasing depths in m, got {attrs['interfaces']!r}"
+        )
 
 
 def _check_life(data: xr.Dataset, where: str) -> None:
@@ -258,11 +260,11 @@ def _check_life(data: xr.Dataset, where: str) -> None:
     told = [*_OF_A_CRITERION, *(["ends"] if held.get("ends") else [])]
     for name in told:
         if len(held.get(name, ())) != count:
-            raise InputError(f"{where}: the attribute {name} must tell of {count} criteria")
+            raise InputError(f"{where}: the attribute {name} must have {count} entries, one per criterion")
     for one in held["reads"]:
         wrong = next((key for key, kind in _OF_A_QUANTITY.items() if not isinstance(_key(one, key), kind)), None)
         if wrong is not None or not _is_number(one["factor"]):
-            raise InputError(f"{where}: the attribute reads must tell {wrong or 'factor'!r} of every quantity")
+            raise InputError(f"{where}: the attribute reads must give {wrong or 'factor'!r} for every quantity")
     stats = held.get("stats", {})
     lacking = next((key for key in _OF_A_LIFE if stats and not _is_number(stats.get(key))), None)
     if lacking is not None:

@@ -26,7 +26,7 @@ class Study(ABC):
 
     @abstractmethod
     def summary(self) -> str:
-        """What was found."""
+        """The results in a screenful."""
 
     @property
     def warnings(self) -> tuple[str, ...]:

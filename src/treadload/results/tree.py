@@ -1,6 +1,6 @@
-"""One tree of named results with its provenance, and what they were asked.
+"""One tree of named results with its provenance, and their inputs.
 
-Names, units and signs of the variables are said in `variables.py` and explained in
+Names, units and signs of the variables are stated in `variables.py` and explained in
 docs/explanation/conventions.md.
 """
 
@@ -32,13 +32,13 @@ from treadload.results.questions import Writer
 from treadload.results.roads import rows_of
 
 FORMAT = 2
-"""Of the files: 1 holds fields, words and the case; 2 also what every result was asked."""
+"""Format of the files: 1 holds fields, words and the case; 2 also the inputs of every result."""
 ASKED = "asked"
-"""Name of the group that holds what the parts were asked."""
+"""Name of the group that holds the inputs of the parts."""
 
 Part = BaseResult | GridLoad | xr.Dataset
 
-# Sections through the road would repeat what the map says, each for its own depths.
+# Sections through the road would repeat the warnings of the map, each for its own depths.
 _QUIET = ("slice_along", "slice_across", "bowl")
 _NAME = re.compile(r"\w[\w \-+.,=%°()]*(?<! )")
 
@@ -62,7 +62,7 @@ def to_tree(
     case: that they answer. road: at its temperature; left out, that of the contact. season: whose temperatures the
     road has, under a life. summary: of all of them; left out, those of the parts.
     The root carries the title, the case as TOML text, the layers of the road as JSON, versions, the date and the
-    citations as JSON; the group /asked what every part was asked, for `open_results`.
+    citations as JSON; the group /asked the inputs of every part, for `open_results`.
     Raises InputError for what is not a result, and for a name that no file can hold.
     """
     named = dict(named_parts(parts))
@@ -134,9 +134,9 @@ def named_parts(parts: Any) -> Iterator[tuple[str, BaseResult]]:
         for inner_name, one in inner.items() if isinstance(inner, Mapping) else [(None, part)]:
             result = _result(one)
             wanted = " ".join(text for text in (name, inner_name) if text) or result.group_name
-            found = _free(wanted, taken)
-            taken[found] = result
-            yield found, result
+            free = _free(wanted, taken)
+            taken[free] = result
+            yield free, result
 
 
 def _result(part: Any) -> BaseResult:
@@ -152,25 +152,25 @@ def _result(part: Any) -> BaseResult:
 def _no_result(part: Any) -> str:
     return (
         f"a tree is made of results of treadload, got {type(part).__name__}; give what a verb such as solve_contact "
-        "returned, a list of such, or a mapping of names to them"
+        "returned, a list of these, or a mapping of names to them"
     )
 
 
 def _checked(name: Any) -> str:
     if not isinstance(name, str) or not _NAME.fullmatch(name) or name == ASKED:
         raise InputError(
-            f"a part of results cannot be named {name!r}; begin with a letter or a digit, go on with those, "
-            f"blanks or -+.,=%°(), and leave {ASKED!r} to the file"
+            f"a part of results cannot be named {name!r}; use letters, digits, blanks and -+.,=%°(), with a letter "
+            f"or digit first, and not {ASKED!r}, which belongs to the file"
         )
     return name
 
 
 def _free(name: str, taken: Mapping[str, Any]) -> str:
     """The name, numbered if it is taken already."""
-    found, number = name, 2
-    while found in taken:
-        found, number = f"{name}_{number}", number + 1
-    return found
+    free, number = name, 2
+    while free in taken:
+        free, number = f"{name}_{number}", number + 1
+    return free
 
 
 def _about(part: BaseResult, owner: str) -> dict[str, str]:

@@ -23,8 +23,8 @@ def warmth_of(seasons: Sequence[Season], roads: Sequence[Pavement]) -> Array | N
     moduli = [[one.modulus for one in row if isinstance(one, Elastic)] for row in materials]
     if any(len(elastic) < len(row) for elastic, row in zip(moduli, materials, strict=True)):
         return None
-    found: Array = np.log(moduli).mean(axis=1)
-    return found if len(np.unique(found)) == len(found) else None
+    warmth: Array = np.log(moduli).mean(axis=1)
+    return warmth if len(np.unique(warmth)) == len(warmth) else None
 
 
 def nodes(warmth: Array | None, pilot: Array, tolerance: float) -> tuple[list[int], float]:
@@ -56,9 +56,9 @@ def over_the_climate(warmth: Array | None, kept: list[int], rest: Array, turns: 
     """All roads (class, road, ...) from the kept ones: readings by splines, cracks from the nearest."""
     assert warmth is not None
     nearest = np.abs(warmth[:, None] - warmth[kept]).argmin(axis=1)
-    found = rest[:, nearest]
-    found[:, :, :, :turns] = np.maximum(_spline(warmth[kept], rest[:, :, :, :turns], 1)(warmth), 0.0)
-    return found
+    whole = rest[:, nearest]
+    whole[:, :, :, :turns] = np.maximum(_spline(warmth[kept], rest[:, :, :, :turns], 1)(warmth), 0.0)
+    return whole
 
 
 def _spline(warmth: Array, values: Array, axis: int) -> PchipInterpolator:

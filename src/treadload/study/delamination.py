@@ -1,4 +1,4 @@
-"""A road before and after its layers part: the same structure with the bond and without, side by side."""
+"""A road before and after a bond between its layers fails: the same structure with it and without, side by side."""
 
 from __future__ import annotations
 
@@ -58,12 +58,12 @@ def solve_interfaces(
 
 @dataclass(frozen=True, eq=False)
 class BondComparison(BaseResult, group="bond_comparison"):
-    """The life of a road bonded, parted, and bonded until it parts.
+    """The life of a road bonded, debonded, and bonded until the bond fails.
 
     dataset: largest_reading, life_passes, life_years over (state, criterion), states "bonded", "parted" and
     "bonded, then parted"; parting_passes, parting_years. What is left of the bond bears by friction or a spring: the
-    parted bond's own criterion means nothing there. bonded, parted: the lives of both roads. interface: that
-    parts, from the surface. bond: what is left of it. criterion: name of the bond that parts first.
+    failed bond's own criterion means nothing there. bonded, parted: the lives of both roads. interface: that
+    fails, counted from the surface. bond: what is left of it. criterion: name of the bond that fails first.
     """
 
     dataset: xr.Dataset
@@ -109,10 +109,10 @@ class BondComparison(BaseResult, group="bond_comparison"):
         name = self.governing
         lives = data["life_years"].sel(criterion=name)
         if math.isinf(when):
-            lines.append(f"Verdict: the bond never parts; {name} lasts {_years(float(lives.sel(state=BEFORE)))}.")
+            lines.append(f"Verdict: the bond never fails; {name} lasts {_years(float(lives.sel(state=BEFORE)))}.")
         else:
             lines.append(
-                f"Verdict: {self.criterion} parts after {when:.3g} passes, {_years(float(data['parting_years']))}; "
+                f"Verdict: {self.criterion} fails after {when:.3g} passes, {_years(float(data['parting_years']))}; "
                 f"{name} governs and lasts {_years(float(lives.sel(state=PARTING)))} instead of "
                 f"{_years(float(lives.sel(state=BEFORE)))}."
             )
@@ -137,14 +137,13 @@ def compare_bonds(
 ) -> BondComparison:
     """How long a road lasts with its bond, without it, and when the bond fails on the way.
 
-    Arguments as in `solve_life`. criteria: that of one bond at least, `Criterion.of_bond`, and what limits the
-    road's life; the bottom of the layer above the interface belongs there, as it bends alone once it is parted.
-    interface: that parts; left out, that of the bond which lasts shortest. bond: what is left of it, FRICTIONLESS,
-    HALF_BONDED or Bond(stiffness=...).
-    The road is taken as parted everywhere as soon as the bond is used up at the worst place: layers know neither a
-    patch nor what its edge concentrates. Miner's sum runs on with the parted road's rate, n₁ / N₁ + n₂ / N₂ = 1, at
-    every point across the road, both rates those of a whole year; of several interfaces only the first parts.
-    Raises InputError, and ConvergenceError of a contact.
+    Arguments as in `solve_life`. criteria: that of one bond at least, `Criterion.of_bond`, and what limits the road's
+    life; the bottom of the layer above the interface belongs there, as that layer bends alone once debonded.
+    interface: that fails; left out, that of the bond with the shortest life. bond: what is left of it, FRICTIONLESS,
+    HALF_BONDED or Bond(stiffness=...). The road is taken as debonded everywhere as soon as the bond fails at the
+    worst place: a layered model knows neither a debonded patch nor the stress concentration at its edge. Miner's sum
+    runs on at the debonded road's rate, n₁ / N₁ + n₂ / N₂ = 1, at every point across the road, both rates those of a
+    whole year; of several interfaces only the first fails. Raises InputError, and ConvergenceError of a contact.
     """
     bonds = [one for one in criteria if one.quantity.between_layers]
     chosen = None if interface is None else interface_number(road, interface)

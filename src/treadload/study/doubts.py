@@ -1,4 +1,4 @@
-"""What a traffic is said to be that none is: sentences for the warnings of a life."""
+"""Values of a traffic that no road sees: sentences for the warnings of a life."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the axles of a group do to each other: the harm of one of them over that of the same axle alone."""
+"""How the axles of a group interact: the damage by one of them over that by the same axle alone."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def group_factors(road: Pavement, life: Life, passages: Passages) -> tuple[Array
     """K of every criterion and class, and the number of axles of every class.
 
     K = D(group) / (axles × D(one of its axles alone)), by the sum that the life takes, both at their own worst place,
-    in the season in which the class does most of the damage. NaN for single axles and where no harm is done.
+    in the season in which the class does most of the damage. NaN for single axles and where there is no damage.
     life: by the readings of the passages. Returns K (criterion, axle_class) and axles (axle_class).
     One response is solved for each class with several axles.
     """
@@ -55,7 +55,7 @@ def in_words(names: tuple[str, ...], criteria: tuple[str, ...], factors: Array, 
             f"{row[int(count)]:g} for {kind} layers" for kind, row in GROUP_FACTORS.items() if int(count) in row
         )
         beside = f"; the French method takes {french}" if french else ""
-        said.append(f"{name}: each of {count} axles does K = {own} of what it would do alone{beside}")
+        said.append(f"{name}: each of {count} axles does K = {own} times the damage it would do alone{beside}")
     return tuple(said)
 
 

@@ -34,7 +34,7 @@ def solve_life(
     """How many years a road lasts, by every criterion.
 
     Arguments as in `solve_passages`: what each law reads as every class of axle passes in every season; then
-    Miner's sum after wander, see `miner`, and what the axles of a group do to each other, see `study.groups`.
+    Miner's sum after wander, see `miner`, and how the axles of a group interact, see `study.groups`.
     stats of the result: contacts and responses solved, combinations that they serve, the largest relative error of
     readings interpolated over the climate, how far wheels were moved onto the common cells (m), seconds.
     Raises InputError, and ConvergenceError of a contact.

@@ -15,13 +15,14 @@ from treadload.study.wheels import MARGIN, Wheels
 
 # Near the surface points stand on every cell up to this far beside a wheel, m.
 _BESIDE = 0.06
-# Below this depth, m, fields are as smooth as a sixth of the depth, m, can follow: 1 % of the shear at 60 mm.
+# Below this depth, m, points a sixth of the depth apart, at most the last, m, follow the field: 1 % of the shear
+# at 60 mm.
 _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
 
 
 def passage(wheels: Wheels, warm: Warm, y: Array, turns: int) -> Array:
     """(criterion, turns + 2, y): peaks and valleys, see `Passages`, then the angle and the dip of the crack."""
-    found = np.empty((len(warm.criteria), turns + 2, len(y)))
+    readings = np.empty((len(warm.criteria), turns + 2, len(y)))
     depths = [criterion.depth(warm.road) for criterion in warm.criteria]
     groups: dict[tuple[int, Side, float | None], list[int]] = {}
     for k, (depth, criterion) in enumerate(zip(depths, warm.criteria, strict=True)):
@@ -41,11 +42,11 @@ def passage(wheels: Wheels, warm: Warm, y: Array, turns: int) -> Array:
             plane = data.isel(depth=at.index(depths[k]))
             read = warm.criteria[k].read(plane)
             peaks = _turns(x, read, wheels.x.mean(axis=1), turns, smooth=stride > 0 or mean_over is not None)
-            found[k, :turns] = np.maximum(_between(y[rows], peaks, smooth=stride > 0)(y), 0.0)
+            readings[k, :turns] = np.maximum(_between(y[rows], peaks, smooth=stride > 0)(y), 0.0)
             instant = read.argmax(axis=1)[:, None]
             for part, field in enumerate(warm.criteria[k].crack(plane)):
-                found[k, turns + part] = np.take_along_axis(field, instant, axis=1)[nearest, 0]
-    return found
+                readings[k, turns + part] = np.take_along_axis(field, instant, axis=1)[nearest, 0]
+    return readings
 
 
 def _stride(depth: float, cell: float) -> int:
@@ -69,7 +70,7 @@ def _along(wheels: Wheels, stride: int) -> Array:
 
 
 def _rows(wheels: Wheels, y: Array, stride: int) -> Any:
-    """Which of y to solve: every cell under and beside a wheel, few elsewhere; few everywhere where it is deep."""
+    """Which values of y to solve: every cell under and beside a wheel, few elsewhere; few everywhere at depth."""
     cells = np.arange(0, len(y), round(wheels.cell / (y[1] - y[0])))
     wanted = np.zeros(len(cells), dtype=bool)
     wanted[:: stride or max(1, int(_COARSE / wheels.cell + 0.5))] = True
@@ -82,8 +83,8 @@ def _rows(wheels: Wheels, y: Array, stride: int) -> Any:
 
 
 def _between(y: Array, peaks: Array, *, smooth: bool) -> CubicSpline | Akima1DInterpolator:
-    """Curves through peaks (turns, ny) over y. smooth: as they are deep down; near the surface they end at once where
-    nothing is tensile, and nothing may swing beside such an end.
+    """Curves through peaks (turns, ny) over y. smooth: as they are deep down; near the surface they end abruptly
+    where nothing is tensile, and must not overshoot beside such an end.
     """
     return CubicSpline(y, peaks, axis=1) if smooth else Akima1DInterpolator(y, peaks, axis=1, method="makima")
 

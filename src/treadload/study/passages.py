@@ -23,12 +23,12 @@ from treadload.response.doubts import overlapping, road_doubts
 from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.study.passage import passage
 from treadload.study.seasons import Warm, layer_temperatures, warmed
-from treadload.study.wheels import Wheels, across, check_speed, contact_of, states_of, wheels_of
+from treadload.study.wheels import Wheels, across, check_speed, contact_in_state, states_of, wheels_of
 from treadload.tire import Tire
 
-Found = TypeVar("Found")
+Solved = TypeVar("Solved")
 Progress = Callable[[int, int, str], None]
-"""(done, of how many, what) of the solves: contacts and responses."""
+"""Called with (done, of how many, what) after each solve of a contact or a response."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +76,7 @@ def solve_passages(
     """What the laws read as every class of axle passes over the road in every season.
 
     A point of the road sees the whole field along x as the wheels roll by. Each axle of a group is a cycle of its
-    own, less what is left of it before the next one comes; wheels side by side are one.
+    own, less what is left of it before the next one comes; wheels side by side make one cycle.
     tire: of classes without one of their own; the inflation pressure is that of the class. road: materials may depend
     on temperature.
     spacing: cells of the contact, m; wheels are moved by half a cell at most, so that all share one lattice.
@@ -103,10 +103,10 @@ def solve_passages(
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
 
         def touch(one: tuple[Any, ...]) -> Contact:
-            return count.after(contact_of(tire, warm[0].road, one, spacing), "contact")
+            return count.after(contact_in_state(tire, warm[0].road, one, spacing), "contact")
 
-        found = dict(zip(states, pool.map(touch, states), strict=True))
-        contacts = [[found[one] for one in states_of(row, tire)] for row in classes]
+        by_state = dict(zip(states, pool.map(touch, states), strict=True))
+        contacts = [[by_state[one] for one in states_of(row, tire)] for row in classes]
         y = across([one[0] for one in contacts], classes)
         wheels = [wheels_of(own, row, y) for own, row in zip(contacts, classes, strict=True)]
         turns = 2 * max(len(one.x) for one in wheels) - 1
@@ -164,7 +164,7 @@ class Counter:
         self._done = itertools.count(1)
         self._tell = progress or (lambda done, total, what: None)
 
-    def after(self, found: Found, what: str) -> Found:
-        """What was found, counted."""
+    def after(self, result: Solved, what: str) -> Solved:
+        """The result of one solve, counted."""
         self._tell(next(self._done), self.total, what)
-        return found
+        return result

@@ -24,7 +24,7 @@ from treadload.study.wheels import state
 
 
 def plan_case(case: Case) -> str:
-    """What `run_case` would do, as text: tire, road, grid of the contact, points and depths, a rough time.
+    """What `run_case` would do, as text: tire, road, contact grid, points and depths, a rough time.
 
     Reads the tire, or the footprint, and finds where the contact lies. Raises the errors of reading, and those of
     forces that friction cannot carry.
@@ -91,7 +91,7 @@ def plan_life(case: LifeCase) -> str:
 
 
 def _contact_grid(case: Case, road: Pavement) -> Grid:
-    """Where the contact lies, found as `solve_contact` finds it."""
+    """Where the contact lies, placed as `solve_contact` places it."""
     tire, rolling = case.build_tire(), case.build_rolling()
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
@@ -111,8 +111,8 @@ _SLICE = {"half-space": 0.15, "layers": 0.35, "viscoelastic": 6.0}
 def _seconds(road: Pavement, contact: int, mapped: int, sliced: int) -> float:
     """About how long a case takes on this machine. contact: cells; mapped, sliced: points."""
     kind = "viscoelastic" if road.is_viscoelastic else "half-space" if road.is_homogeneous else "layers"
-    found = (_CONTACT + _CELL * contact) if contact else 0.0
-    return _transform() * (found + _MAP[kind] * mapped + _SLICE[kind] * sliced)
+    contact_cost = (_CONTACT + _CELL * contact) if contact else 0.0
+    return _transform() * (contact_cost + _MAP[kind] * mapped + _SLICE[kind] * sliced)
 
 
 def _transform() -> float:

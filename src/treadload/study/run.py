@@ -61,11 +61,11 @@ class Result(Study):
     def parts(self) -> Mapping[str, BaseResult]:
         """Its results by their names in a tree."""
         load = replace(self.footprint, road=self.road) if self.footprint is not None else self.contact
-        found = {
+        parts = {
             "contact": load, "response": self.response, "slice_along": self.slice_along,
             "slice_across": self.slice_across, "bowl": self.bowl, "damage": self.verdict,
         }  # fmt: skip
-        return {name: part for name, part in found.items() if part is not None}
+        return {name: part for name, part in parts.items() if part is not None}
 
     def to_tree(self) -> xr.DataTree:
         """All results in one tree with provenance, ready to be saved."""
@@ -99,7 +99,7 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     loads = case.response.place(wheel)
     asked = case.response
 
-    # An elastic road does not know how fast it is rolled over.
+    # The response of an elastic road does not depend on speed.
     speed = case.speed if road.is_viscoelastic else None
 
     def solve(depths: Sequence[float] | Array, wheels: Sequence[GridLoad] = loads, **points: Any) -> Response:
@@ -128,7 +128,7 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
         ahead, right = _centre(loads[0])
         steps = np.arange(-round(_BEHIND / _STEP), round(_AHEAD / _STEP) + 1) * _STEP
         bowl = solve([0.0], x=ahead + steps, y=[right])
-        # Told to who draws it: a line of points does not say where the load's centre is.
+        # For whoever draws it: a line of points does not say where the load's centre is.
         bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
     return Result(case, road, contact, footprint, response, along, across, bowl, verdict)
 
@@ -226,7 +226,7 @@ def slice_depths(bottom: float, cell: float, road: Pavement) -> Array:
     graded = np.concatenate([[0.0], np.geomspace(first, bottom, count - 1)])
     above = [depth for depth in road.interfaces if depth <= bottom]
     below = [depth + _BELOW for depth in above if depth < bottom]
-    # Depths that round-off alone tells apart would be solved twice.
+    # Depths that differ by round-off alone would be solved twice.
     return np.unique(np.round(np.concatenate([graded, above, below]), 9))
 
 

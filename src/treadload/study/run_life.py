@@ -1,4 +1,4 @@
-"""Run a case of design: the life of its road, and what that life depends on."""
+"""Run a design case: the life of its road, and what that life depends on."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from treadload.study.sensitivity import Sensitivity, life_sensitivity
 
 @dataclass(frozen=True, eq=False)
 class LifeResult(Study):
-    """What a case of design gave.
+    """What a design case gave.
 
-    road: whose materials wait for their temperature. sensitivity: None if it was not asked for, or no criterion is
-    ever used up.
+    road: whose materials wait for their temperature. sensitivity: None if it was not asked for, or no criterion
+    ever fails.
     """
 
     case: LifeCase

@@ -27,7 +27,7 @@ from treadload.pavement import Pavement
 from treadload.study.passage import passage
 from treadload.study.passages import Counter, Progress
 from treadload.study.seasons import layer_temperatures, warmed
-from treadload.study.wheels import across, contact_of, states_of, wheels_of
+from treadload.study.wheels import across, contact_in_state, states_of, wheels_of
 from treadload.tire import Tire
 
 TEMPERATURE = "temperature (per °C)"
@@ -39,12 +39,12 @@ Change = Callable[[float], Question]
 
 @dataclass(frozen=True, eq=False)
 class Sensitivity(BaseResult, group="sensitivity"):
-    """How the life by the governing criterion follows its inputs.
+    """How the life by the governing criterion depends on its inputs.
 
-    dataset: elasticity (input), d ln(life in years) / d ln(input), of temperature d ln(life) per °C; first what
-    weighs most as inputs change by 5 %, temperature by 1 °C. criterion: the governing one. coverage: share of its
-    damage in the classes and seasons that were solved again. contacts, responses: how many were
-    solved. skipped: inputs that could not be changed, and why.
+    dataset: elasticity (input), d ln(life in years) / d ln(input), of temperature d ln(life) per °C; the most
+    important first, as inputs change by 5 %, temperature by 1 °C. criterion: the governing one. coverage: share of
+    its damage in the classes and seasons that were solved again. contacts, responses: how many were solved. skipped:
+    inputs that could not be changed, and why.
     """
 
     dataset: xr.Dataset
@@ -60,9 +60,9 @@ class Sensitivity(BaseResult, group="sensitivity"):
         return {"contacts": self.contacts, "responses": self.responses, "coverage": self.coverage}
 
     def summary(self) -> str:
-        """The inputs by their weight, and what was solved for them."""
+        """The inputs by their importance, and what was solved for them."""
         rows = zip(self.dataset["input"].to_numpy(), self.dataset["elasticity"].to_numpy(), strict=True)
-        lines = [f"life by {self.criterion}: how much longer as an input grows by 1 %, temperature by 1 °C"]
+        lines = [f"life by {self.criterion}: how much longer it gets as an input grows by 1 %, temperature by 1 °C"]
         lines += [f"  {name}: {100 * value if name == TEMPERATURE else value:+z.2g} %" for name, value in rows]
         lines.append(
             f"from {self.contacts} contacts and {self.responses} responses of the classes and seasons that do "
@@ -99,11 +99,11 @@ def life_sensitivity(
     criterion = life.criteria[number]
     passes = float(data["life_passes"])
     if not math.isfinite(passes):
-        raise InputError("no criterion is ever used up, so that no input shortens the life; give more passes")
+        raise InputError("no criterion ever fails, so no input shortens the life; give more passes")
     pairs, covered = _most(data["damage_share"].to_numpy(), coverage)
     growth = _growth(life.traffic, passes)
     question = (road, life.traffic, life.climate)
-    found = _without_solves(life, number, growth)
+    elasticity = _without_solves(life, number, growth)
     changes, skipped = _changes(question)
     asked: list[tuple[str, float, Question]] = []
     for name, change in changes.items():
@@ -120,10 +120,10 @@ def life_sensitivity(
         damage = solver.damages([question for _, _, question in asked], pool)
     for (name, _, _), less, more in zip(asked[::2], damage[::2], damage[1::2], strict=True):
         apart = 2 * _DEGREES if name == TEMPERATURE else math.log((1 + _STEP) / (1 - _STEP))
-        found[name] = -growth * math.log(more / less) / apart
-    order = sorted(found, key=lambda name: -abs(found[name]) * (_DEGREES if name == TEMPERATURE else _STEP))
+        elasticity[name] = -growth * math.log(more / less) / apart
+    order = sorted(elasticity, key=lambda name: -abs(elasticity[name]) * (_DEGREES if name == TEMPERATURE else _STEP))
     dataset = variables.dataset(
-        {"elasticity": (("input",), [found[name] for name in order])},
+        {"elasticity": (("input",), [elasticity[name] for name in order])},
         {"input": order},
         criterion=criterion.name,
         coverage=covered,
@@ -155,7 +155,7 @@ def _without_solves(life: Life, number: int, growth: float) -> dict[str, float]:
     traffic, climate, criterion = life.traffic, life.climate, life.criteria[number]
     readings = life.readings.to_numpy()[number : number + 1]
     y = life.readings["y"].to_numpy()
-    found = {"passes": -growth}
+    elasticity = {"passes": -growth}
     laws = life.laws[number]
 
     def peak(values: Array, wander: Wander) -> float:
@@ -165,11 +165,11 @@ def _without_solves(life: Life, number: int, growth: float) -> dict[str, float]:
     apart = math.log((1 + _STEP) / (1 - _STEP))
     own = wander_of(laws[0], traffic)
     stronger, weaker = (peak(readings / (1 + sign * _STEP), own) for sign in (1, -1))
-    found[f"strength of {criterion.name}"] = -growth * math.log(stronger / weaker) / apart
+    elasticity[f"strength of {criterion.name}"] = -growth * math.log(stronger / weaker) / apart
     if own.deviation:
         wide, narrow = (peak(readings, Wander.normal(own.deviation * (1 + sign * _STEP))) for sign in (1, -1))
-        found["wander"] = -growth * math.log(wide / narrow) / apart
-    return found
+        elasticity["wander"] = -growth * math.log(wide / narrow) / apart
+    return elasticity
 
 
 def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
@@ -184,14 +184,14 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
 
         return change
 
-    found: dict[str, Change] = {
+    changes: dict[str, Change] = {
         "wheel load": of_classes("wheel_load"),
         "inflation pressure": of_classes("inflation_pressure"),
     }
     numbers = [_coefficient(row.friction) for row in traffic.classes]
     known = [mu for mu in numbers if mu is not None]
     if len(known) < len(numbers):
-        skipped.append("friction: a law of it is no single number")
+        skipped.append("friction: a friction law is not a single number")
     else:
 
         def rougher(sign: float) -> Question:
@@ -199,19 +199,19 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
             rows = tuple(replace(row, friction=mu * (1 + sign * _STEP)) for row, mu in pairs)
             return road, replace(traffic, classes=rows), climate
 
-        found["friction"] = rougher
+        changes["friction"] = rougher
     names = [layer.name or f"layer {k}" for k, layer in enumerate(road.layers, start=1)]
     for k, layer in enumerate(road.layers):
         label = names[k] if names.count(names[k]) == 1 else f"{names[k]} ({k + 1})"
         if layer.thickness is not None:
-            found[f"thickness of {label}"] = _thicker(question, k)
+            changes[f"thickness of {label}"] = _thicker(question, k)
         if isinstance(layer.material, Elastic | Mix):
-            found[f"modulus of {label}"] = _stiffer(question, k)
+            changes[f"modulus of {label}"] = _stiffer(question, k)
         else:
             skipped.append(f"modulus of {label}: it is viscoelastic")
     if any(layer.depends_on_temperature for layer in road.layers):
-        found[TEMPERATURE] = lambda sign: (road, traffic, _warmer(climate, sign * _DEGREES))
-    return found, skipped
+        changes[TEMPERATURE] = lambda sign: (road, traffic, _warmer(climate, sign * _DEGREES))
+    return changes, skipped
 
 
 def _coefficient(friction: Any) -> float | None:
@@ -295,16 +295,16 @@ class _Solver:
         road, _, climate = questions[0]
         warm = next(iter(_warm(road, climate, self.criterion, self.pairs).values()))
         solved = pool.map(
-            lambda one: count.after(contact_of(self.tire, warm.road, one, self.spacing), "contact"), states
+            lambda one: count.after(contact_in_state(self.tire, warm.road, one, self.spacing), "contact"), states
         )
         contacts = dict(zip(states, solved, strict=True))
         tasks, places = [], []
         for road, traffic, climate in questions:
             warm_roads = _warm(road, climate, self.criterion, self.pairs)
             classes = [traffic.classes[row] for row in rows]
-            found = [[contacts[one] for one in states_of(row, self.tire)] for row in classes]
-            y = across([own[0] for own in found], classes)
-            wheels = {row: wheels_of(c, one, y) for row, c, one in zip(rows, found, classes, strict=True)}
+            by_class = [[contacts[one] for one in states_of(row, self.tire)] for row in classes]
+            y = across([own[0] for own in by_class], classes)
+            wheels = {row: wheels_of(c, one, y) for row, c, one in zip(rows, by_class, classes, strict=True)}
             turns = 2 * max(len(one.x) for one in wheels.values()) - 1
             places.append((y, turns))
             tasks += [(wheels[row], warm_roads[season], y, turns) for row, season in self.pairs]

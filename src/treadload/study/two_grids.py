@@ -1,4 +1,4 @@
-"""How far the contact's cells move a verdict: the same question on cells twice as large."""
+"""How much a verdict depends on the contact's cells: the same question on cells twice as large."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ def assess_on_two_grids(
     speed: float | None = None,
     **reading: Any,
 ) -> Verdict:
-    """A verdict that tells how far the contact's cells move it.
+    """A verdict with an estimate of how much the contact's cells change it.
 
     Contact, response and verdict are solved on cells of `spacing`, m, and on cells twice as large. The difference of
     the two readings bounds the error of the finer one as long as the error falls with the cells at all: it is the
-    error itself where that falls like the first power, three times as much where it falls like the second.
+    error itself where that is of first order, three times as much where it is of second.
     depths, speed: of `solve_response`. reading: keywords of `assess`.
     Returns the verdict on the finer cells, with the estimate in its summary and the coarser reading in its
     attributes.
-    Raises InputError for a height map, which knows no other cells, and what contact, response and verdict raise.
+    Raises InputError for a height map, whose cells are fixed, and what contact, response and verdict raise.
     """
     check_two_grids(tire)
 
@@ -56,7 +56,7 @@ def check_two_grids(tire: Tire | None) -> None:
 
 
 def with_error(verdict: Verdict, coarse: Verdict, spacing: float) -> Verdict:
-    """A verdict on cells of `spacing`, m, that tells what it read on coarser ones."""
+    """A verdict on cells of `spacing`, m, that states what it read on coarser ones."""
     about = {
         "spacing": spacing,
         "coarse_spacing": COARSER * spacing,

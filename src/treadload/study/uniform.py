@@ -1,4 +1,4 @@
-"""The computed contact beside the uniform loads of conventional design: what those do not see."""
+"""The computed contact beside the uniform loads of conventional design: what those miss."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class UniformComparison(BaseResult, group="uniform"):
         length = data.attrs.get("mean_over")
         reading = "at points" if length is None else f"near the surface means over {1e3 * length:g} mm"
         lines = [
-            "what uniform loads of the same force do not see: largest extension / in the plane / vertical shear "
+            "what uniform loads of the same force miss: largest extension / in the plane / vertical shear "
             f"(microstrain), {reading}",
             "depth (mm)  " + "  ".join(f"{name:>24}" for name in names),
         ]

@@ -19,7 +19,7 @@ from treadload.tire import Tire
 
 # Points beyond the outer edges of the wheels, m: strain there is a few per cent of the largest.
 MARGIN = 0.3
-# Readings are told at least this close to each other across travel, m: a fifth of the mean that they are over.
+# Readings stand at least this close to each other across travel, m: a fifth of the length they are averaged over.
 _BETWEEN = 2e-3
 
 
@@ -27,7 +27,7 @@ _BETWEEN = 2e-3
 class Wheels:
     """The wheels of a class with their contact, on the cells of the common lattice.
 
-    loads: one a wheel. x: of the cells' centres under the axles, m, one row an axle, from the rear to the front.
+    loads: one per wheel. x: of the cells' centres under the axles, m, one row per axle, from the rear to the front.
     speed: m/s, or None. moved: the largest distance along x or y between where a wheel stands and where the class has
     it, m.
     """
@@ -57,7 +57,7 @@ def state(row: AxleClass) -> tuple[Any, ...]:
 
 def states_of(row: AxleClass, tire: Tire) -> tuple[tuple[Any, ...], ...]:
     """The state of a class; and, where wheels are mirrored and their tread is not its own mirror image, that whose
-    mirror image is theirs: with side force and spin turned round.
+    mirror image is theirs: with side force and spin reversed.
     """
     if not row.mirrored or (row.tire or tire).is_symmetric:
         return (state(row),)
@@ -65,7 +65,7 @@ def states_of(row: AxleClass, tire: Tire) -> tuple[tuple[Any, ...], ...]:
     return state(row), state(replace(row, maneuver=maneuver))
 
 
-def contact_of(tire: Tire, road: Pavement, one: tuple[Any, ...], spacing: float) -> Contact:
+def contact_in_state(tire: Tire, road: Pavement, one: tuple[Any, ...], spacing: float) -> Contact:
     """The contact in a state, see `state`."""
     load, pressure, maneuver, friction, speed, own = one
     inflated = replace(own or tire, inflation_pressure=pressure)
