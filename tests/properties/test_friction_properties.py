@@ -82,7 +82,7 @@ def true_slip(found, influence, rigid):
     padding = influence.rolling_padding
     (xx, yy, xy), (q_x, q_y) = influence.tangential(padding), padding.forward(shear)
     u = padding.inverse(np.array([xx * q_x + xy * q_y, xy * q_x + yy * q_y]))
-    given = rigid + np.array(found.tangential.found)[:, None, None]
+    given = rigid + np.array(found.tangential.rigid)[:, None, None]
     return u[..., :-1] - u[..., 1:] + DX * given
 
 
@@ -142,4 +142,4 @@ def test_forces_are_carried(pressure, law, angle, part):
     found = roll(pressure, law, (0.0, 0.0), forces=(float(pull[0]), float(pull[1])))[0]
     np.testing.assert_allclose(found.tangential.shear.sum((1, 2)) * DX**2, pull, atol=1e-6 * limit)
     # What is driven one way creeps the other way: the work of the forces is not negative.
-    assert pull @ np.array(found.tangential.found) <= 1e-9 * limit
+    assert pull @ np.array(found.tangential.rigid) <= 1e-9 * limit

@@ -51,7 +51,7 @@ def natural_residual(bound, found, creepages, spin):
     ny, nx = bound.shape
     x, y = DX * (np.arange(nx) - (nx - 1) / 2), DX * (np.arange(ny) - (ny - 1) / 2)
     influence = Influence(bound.shape, DX, DX, HalfSpaces(BODIES))
-    total = np.asarray(creepages) + np.asarray(found.found)
+    total = np.asarray(creepages) + np.asarray(found.rigid)
     padding = influence.rolling_padding
     (xx, yy, xy), (q_x, q_y) = influence.tangential(padding), padding.forward(found.shear)
     u = padding.inverse(np.array([xx * q_x + xy * q_y, xy * q_x + yy * q_y]))

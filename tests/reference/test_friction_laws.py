@@ -73,7 +73,7 @@ def test_forces_and_creepages_ask_the_same(law):
     forces = (0.3 * PATCH.load, -0.2 * PATCH.load)
     by_force = roll(law, spin=0.3, forces=forces)
     np.testing.assert_allclose(force(by_force), (0.3, -0.2), atol=1e-7)
-    by_creepage = roll(law, by_force.tangential.found, 0.3)
+    by_creepage = roll(law, by_force.tangential.rigid, 0.3)
     np.testing.assert_allclose(force(by_creepage), (0.3, -0.2), atol=1e-6)
 
 
@@ -108,7 +108,7 @@ def test_the_ellipse_turned_by_a_right_angle_in_a_shift():
     limit = 1e-6 * (mean * PATCH.normal.pressure).max()
     np.testing.assert_allclose(two.shear[::-1].transpose(0, 2, 1), one.shear, atol=limit)
     np.testing.assert_allclose(two.slip[::-1].transpose(0, 2, 1), one.slip, atol=1e-6 * np.abs(one.slip).max())
-    assert two.found[::-1] == pytest.approx(one.found, rel=1e-6)
+    assert two.rigid[::-1] == pytest.approx(one.rigid, rel=1e-6)
 
 
 @pytest.mark.parametrize("kind", [LinearFalling, Rational, Exponential])

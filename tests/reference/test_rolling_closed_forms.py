@@ -47,7 +47,7 @@ def test_carter(stick, sense):
 def test_carter_by_force():
     patch, _ = strip(200)
     found = patch.roll(MU, forces=(0.64 * MU * patch.load, None), tolerance=1e-9)
-    assert found.found[0] == pytest.approx(-0.4 * MU / RADIUS, rel=0.005)
+    assert found.rigid[0] == pytest.approx(-0.4 * MU / RADIUS, rel=0.005)
 
 
 def test_carter_does_not_know_poisson():
@@ -84,7 +84,7 @@ def test_cattaneo_mindlin(stick, along):
     stuck = found.stick & patch.contact
     assert r[stuck].max() < stick + 2 / cells
     assert r[patch.contact & ~found.stick].min() > stick - 2 / cells
-    assert -found.found[along] == pytest.approx(cattaneo_shift(exact.load, MU, 1.0, 1.0, 0.0, stick), rel=1e-3)
+    assert -found.rigid[along] == pytest.approx(cattaneo_shift(exact.load, MU, 1.0, 1.0, 0.0, stick), rel=1e-3)
 
 
 def test_cattaneo_shift_with_poisson():
@@ -93,7 +93,7 @@ def test_cattaneo_shift_with_poisson():
     bound = MU * patch.normal.pressure
     force = MU * patch.load * (1 - 0.5**3)
     found = solve_shift(patch.influence, bound, np.zeros((2, *bound.shape)), (-force, 0.0))
-    assert found.found[0] == pytest.approx(cattaneo_shift(exact.load, MU, 1.0, 1.0, 0.42, 0.5), rel=0.01)
+    assert found.rigid[0] == pytest.approx(cattaneo_shift(exact.load, MU, 1.0, 1.0, 0.42, 0.5), rel=0.01)
 
 
 def test_frictionless_strip_of_unlike_bodies_creeps_by_bentall_and_johnson():

@@ -120,19 +120,19 @@ def test_steps_of_any_length_end_near_steady_rolling(part):
     solution = roll_transient(patch.influence, [step] * int(64 / part), keep="last")
     # The error of the steady equation is of first order in the step, and a few per cent of the creepage for a 16th
     # of the contact; here two such errors differ (3.6 % measured, 2.5 % with 24 cells across).
-    assert solution.creepages[-1] == pytest.approx(steady.found, rel=0.05 * max(1.0, part))
+    assert solution.creepages[-1] == pytest.approx(steady.rigid, rel=0.05 * max(1.0, part))
 
 
 def test_onset_of_rolling():
     patch, solution = onset()
     assert patch.contact.sum() == 621
     # Every digit that CONTACT prints.
-    assert solution.found[0, 0] * 1e2 == pytest.approx(ONSET_SHIFT, abs=5e-4)
+    assert solution.rigid[0, 0] * 1e2 == pytest.approx(ONSET_SHIFT, abs=5e-4)
     assert solution.creepages[1:10, 0] * 1e3 == pytest.approx(ONSET_CREEPAGES, abs=5e-4)
     # CONTACT's own two runs of it, rolling and world-fixed, differ in the fifth digit.
     assert solution.creepages[ONSET_STEPS, 0] * 1e3 == pytest.approx(ONSET_LAST, rel=3e-4)
     steady = patch.roll(0.4013, forces=(-0.657 * 0.4013 * 0.4705, 0.0), tolerance=1e-8)
-    assert solution.creepages[ONSET_STEPS, 0] == pytest.approx(steady.found[0], rel=2e-5)
+    assert solution.creepages[ONSET_STEPS, 0] == pytest.approx(steady.rigid[0], rel=2e-5)
 
 
 @pytest.mark.slow

@@ -58,7 +58,7 @@ def check(found, given, tolerance=1e-6):
     sliding = inside & ~found.stick
     opposed = found.slip * given.bound + found.shear * slip
     assert np.linalg.norm(opposed[:, sliding]) / given.self_influence <= 100 * tolerance * scale
-    np.testing.assert_allclose(found.slip, given.slip(found.shear, found.found), atol=1e-12)
+    np.testing.assert_allclose(found.slip, given.slip(found.shear, found.xi), atol=1e-12)
 
 
 @pytest.mark.parametrize("kind", ["rolling", "shift"])
@@ -83,12 +83,12 @@ def test_newton_and_splitting_agree_under_forces(totals):
     assert slow.converged
     check(fast, given, 1e-9)
     np.testing.assert_allclose(fast.shear, slow.shear, atol=1e-6)
-    np.testing.assert_allclose(fast.found, slow.found, atol=1e-6)
+    np.testing.assert_allclose(fast.xi, slow.xi, atol=1e-6)
     for component, total in enumerate(totals):
         if total is not None:
             assert fast.shear[component].sum() == pytest.approx(total, abs=1e-8 * given.bound.sum())
         else:
-            assert fast.found[component] == 0.0
+            assert fast.xi[component] == 0.0
 
 
 def test_a_dense_fixed_point_gives_the_same():

@@ -24,9 +24,9 @@ def test_forces_and_creepages_are_two_ways_to_ask_the_same(fractions, spin):
     forces = tuple(f * LIMIT for f in fractions)
     by_force = PATCH.roll(MU, spin=spin, forces=forces, tolerance=1e-9)
     np.testing.assert_allclose(PATCH.force(by_force.shear), forces, atol=1e-8 * LIMIT)
-    by_creepage = PATCH.roll(MU, by_force.found, spin, tolerance=1e-9)
+    by_creepage = PATCH.roll(MU, by_force.rigid, spin, tolerance=1e-9)
     np.testing.assert_allclose(by_creepage.shear, by_force.shear, atol=1e-6 * (MU * PATCH.normal.pressure).max())
-    assert by_creepage.found == (0.0, 0.0)
+    assert by_creepage.rigid == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("component", [0, 1])
@@ -35,16 +35,16 @@ def test_one_force_and_one_creepage(component):
     forces[component], creepages[1 - component] = 0.4 * LIMIT, -0.01
     mixed = PATCH.roll(MU, tuple(creepages), forces=tuple(forces), tolerance=1e-9)
     assert PATCH.force(mixed.shear)[component] == pytest.approx(0.4 * LIMIT, rel=1e-8)
-    assert mixed.found[1 - component] == 0.0
-    creepages[component] = mixed.found[component]
+    assert mixed.rigid[1 - component] == 0.0
+    creepages[component] = mixed.rigid[component]
     alone = PATCH.roll(MU, tuple(creepages), tolerance=1e-9)
     np.testing.assert_allclose(alone.shear, mixed.shear, atol=1e-6 * (MU * PATCH.normal.pressure).max())
 
 
 def test_a_driving_wheel_has_negative_creepage():
     found = PATCH.roll(MU, forces=(0.3 * LIMIT, 0.0))
-    assert found.found[0] < 0
-    assert abs(found.found[1]) < 1e-6 * abs(found.found[0])
+    assert found.rigid[0] < 0
+    assert abs(found.rigid[1]) < 1e-6 * abs(found.rigid[0])
 
 
 def test_stick_lies_next_to_the_leading_edge():
@@ -109,7 +109,7 @@ def test_unused_margin_does_not_matter():
     narrow = PATCH.roll(MU, forces=(0.4 * LIMIT, 0.0), tolerance=1e-9)
     inner = found.shear[:, 5:-5, 9:-9]
     np.testing.assert_allclose(inner, narrow.shear, atol=1e-5 * (MU * PATCH.normal.pressure).max())
-    assert found.found == pytest.approx(narrow.found, rel=1e-5)
+    assert found.rigid == pytest.approx(narrow.rigid, rel=1e-5)
 
 
 def test_rolling_falls_back_on_splitting(monkeypatch):
@@ -140,7 +140,7 @@ def test_shift_by_force_and_by_distance(fractions):
     none = np.zeros((2, *bound.shape))
     by_force = solve_shift(PATCH.influence, bound, none, forces, tolerance=1e-9)
     np.testing.assert_allclose(PATCH.force(by_force.shear), forces, atol=1e-8 * LIMIT)
-    rigid = none + np.array(by_force.found)[:, None, None]
+    rigid = none + np.array(by_force.rigid)[:, None, None]
     by_distance = solve_shift(PATCH.influence, bound, rigid, (None, None), tolerance=1e-9)
     np.testing.assert_allclose(by_distance.shear, by_force.shear, atol=1e-6 * bound.max())
     size, slip = np.hypot(*by_force.shear), by_force.slip

@@ -71,7 +71,7 @@ def test_one_step_of_no_travel_is_a_shift(force):
     bound = MU * PATCH.normal.pressure
     shifted = solve_shift(PATCH.influence, bound, np.zeros((2, *bound.shape)), forces, tolerance=1e-8)
     np.testing.assert_allclose(marched.last.tangential.shear, shifted.shear, atol=1e-6 * bound.max())
-    assert marched.last.displaced == pytest.approx(shifted.found, rel=1e-6)
+    assert marched.last.displaced == pytest.approx(shifted.rigid, rel=1e-6)
     np.testing.assert_allclose(marched.forces[0], forces, atol=1e-8 * MU * PATCH.load)
     assert np.isnan(marched.creepages).all()
 
@@ -79,7 +79,7 @@ def test_one_step_of_no_travel_is_a_shift(force):
 def test_a_force_held_changes_nothing_more():
     step = Stage(STILL, (0.5 * MU * PATCH.load, 0.0), MU, pressure=PATCH.normal.pressure)
     solution = roll_transient(PATCH.influence, [step] * 3, tolerance=1e-9)
-    assert np.abs(solution.found[1:]).max() < 1e-6 * abs(solution.found[0, 0])
+    assert np.abs(solution.rigid[1:]).max() < 1e-6 * abs(solution.rigid[0, 0])
 
 
 def test_a_history_goes_on_from_a_state():
@@ -99,7 +99,7 @@ def test_friction_may_be_a_map_or_a_function():
     by_number = Stage(STILL, (10.0, 0.0), MU, pressure=p)
     by_map = Stage(STILL, (10.0, 0.0), np.full(p.shape, MU), pressure=p)
     by_function = Stage(STILL, (10.0, 0.0), lambda pressure: MU * pressure, pressure=p)
-    found = [roll_transient(PATCH.influence, [stage]).found for stage in (by_number, by_map, by_function)]
+    found = [roll_transient(PATCH.influence, [stage]).rigid for stage in (by_number, by_map, by_function)]
     np.testing.assert_allclose(found[1], found[0])
     np.testing.assert_allclose(found[2], found[0])
 

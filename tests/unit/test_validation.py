@@ -82,7 +82,7 @@ def test_a_solver_that_stops_makes_a_failed_row(monkeypatch):
 
 ROWS = [
     relative("Hertz", "peak, kPa", 264.057, 264.113, 0.005, "Johnson (1985)"),
-    absolute("grooved tire", "|q| beyond μp", 4, 3, 0.5, "law"),
+    absolute("grooved tire", "|q| above μp", 4, 3, 0.5, "law"),
     Check("carter", "stopped: why", math.nan, math.nan, math.nan, 0.0, False, ""),
 ]
 
@@ -108,5 +108,5 @@ def test_markdown_table():
     columns = lines[1].count("|")
     for line in lines[2:5]:
         assert line.replace("\\|", "").count("|") == columns
-    assert "\\|q\\| beyond μp" in lines[3]
+    assert "\\|q\\| above μp" in lines[3]
     assert lines[-1] == "1 of 3 checks passed"

@@ -92,7 +92,7 @@ def creep_curve(
     if along not in ("x", "y"):
         raise InputError(f'along must be "x" or "y", got {along!r}')
     force = "tractive_force" if along == "x" else "lateral_force"
-    found: dict[int, Contact] = {}
+    by_number: dict[int, Contact] = {}
     start: Contact | None = None
     for number in np.argsort(np.abs(values), kind="stable"):
         if progress is not None:
@@ -100,8 +100,8 @@ def creep_curve(
         here: dict[str, Any] = {force: None, f"creepage_{along}": float(values[number])}
         state = replace(rolling, **here)
         start = solve_contact(tire, road, state, spacing=spacing, tolerance=tolerance, start=start)
-        found[int(number)] = start
-    contacts = tuple(found[number] for number in range(values.size))
+        by_number[int(number)] = start
+    contacts = tuple(by_number[number] for number in range(values.size))
     scalars = {
         name: (("creepage",), np.array([float(c.dataset[name]) for c in contacts])) for name in (*_CURVE, "friction")
     }

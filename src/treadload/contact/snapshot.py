@@ -37,7 +37,7 @@ def contact_at(
 ) -> Contact:
     """The contact at the end of a step.
 
-    creepages: given or found, NaN where nothing rolled; then there is no slip velocity over rolling speed
+    creepages: given or solved for, NaN where nothing rolled; then there is no slip velocity over rolling speed
     either, and `slip_distance_x`, `slip_distance_y` tell the slip over the step, m. warnings: besides those of the
     tire and of results that are not numbers.
     """

@@ -1,4 +1,4 @@
-"""The result of a contact: fields, scalars, and how they were found."""
+"""The result of a contact: fields, scalars, and how they were solved."""
 
 from __future__ import annotations
 

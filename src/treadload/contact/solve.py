@@ -238,8 +238,8 @@ def _contact(
     planes = {"friction_coefficient": slipping.coefficient, "friction_work": work}
     scalars = {
         "approach": normal.approach,
-        "creepage_x": known[0] + tangential.found[0],
-        "creepage_y": known[1] + tangential.found[1],
+        "creepage_x": known[0] + tangential.rigid[0],
+        "creepage_y": known[1] + tangential.rigid[1],
         "spin": rolling.spin,
         "pressure_centre_x": pressure_moment / load,
         "rolling_resistance_moment": pressure_moment,

@@ -193,9 +193,9 @@ def run(scene: Scene, stages: Sequence[Stage], tolerance: float) -> Iterator[Sta
 def _row(scene: Scene, state: State, given: Rolling, distance: float, fields: bool) -> dict[str, Any]:
     travel = state.stage.travel
     rigid = state.stage.rigid.mean((1, 2)) + np.array(state.displaced)
-    found = np.array(state.displaced) / travel if travel > 0 else np.full(2, np.nan)
+    solved = np.array(state.displaced) / travel if travel > 0 else np.full(2, np.nan)
     known = np.array(given.creepages)
-    creepages = np.where([force is None for force in state.stage.forces], known, found) if travel > 0 else found
+    creepages = np.where([force is None for force in state.stage.forces], known, solved) if travel > 0 else solved
     row: dict[str, Any] = {
         "distance": distance,
         "creepage_x": float(creepages[0]),

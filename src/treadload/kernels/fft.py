@@ -1,4 +1,4 @@
-"""The fast Fourier transform: the one place that says whose. Another backend comes in here."""
+"""The fast Fourier transform: the one place that names its backend; another one goes in here."""
 
 from __future__ import annotations
 

@@ -54,8 +54,8 @@ def carson(function: Callable[[Array, ComplexArray], ComplexArray], s: ArrayLike
     u = np.exp(x - np.exp(-x))
     weights = _STEP * (1 + np.exp(-x)) * u * np.exp(-u)
     flat = s.ravel()
-    found = np.empty_like(flat)
+    transform = np.empty_like(flat)
     for start in range(0, flat.size, _BLOCK):
         part = slice(start, start + _BLOCK)
-        found[part] = function(u, flat[part, None]) @ weights
-    return found.reshape(s.shape)
+        transform[part] = function(u, flat[part, None]) @ weights
+    return transform.reshape(s.shape)

@@ -36,7 +36,7 @@ def principal(tensor: Array) -> tuple[Array, Array]:
 
     tensor: (6, ...). Returns values (3, ...) in the unit of the tensor and unit vectors (..., 3) in (x, y, z).
     Of the two opposite vectors the one is given whose first non-zero component is positive. Where the
-    largest value is double, the direction is one of many. LAPACK's symmetric solver: 1.7 µs a point,
+    largest value is double, the direction is one of many. LAPACK's symmetric solver: 1.7 µs per point,
     and orthogonal directions however close the values, which the trigonometric form does not give.
     """
     values, vectors = np.linalg.eigh(matrices(tensor))
@@ -71,15 +71,15 @@ def octahedral_shear(stress: Array) -> Array:
 
 
 def von_mises(tensor: Array) -> Array:
-    """Equivalent value of von Mises, √(½ ((t₁-t₂)² + (t₂-t₃)² + (t₃-t₁)²)), of a stress or strain (6, ...)."""
+    """Von Mises equivalent value, √(½ ((t₁-t₂)² + (t₂-t₃)² + (t₃-t₁)²)), of a stress or strain (6, ...)."""
     value: Array = 3 / np.sqrt(2.0) * octahedral_shear(tensor)
     return value
 
 
 def distortion_energy(stress: Array, strain: Array) -> Array:
-    """Energy of the change of shape per volume, ½ s:e of the deviators (...), from stress and strain (6, ...).
+    """Energy of distortion per unit volume, ½ s:e of the deviators (...), from stress and strain (6, ...).
 
-    In an elastic body (1 + ν)/(6E) Σ (σᵢ-σⱼ)² = 3 τ_oct² / (4G), whichever its moduli.
+    In an elastic body (1 + ν)/(6E) Σ (σᵢ-σⱼ)² = 3 τ_oct² / (4G), whatever its moduli.
     """
     normal = (stress[:3] - mean(stress)) * (strain[:3] - mean(strain))
     value: Array = 0.5 * normal.sum(axis=0) + (stress[3:] * strain[3:]).sum(axis=0)

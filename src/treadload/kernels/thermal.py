@@ -1,4 +1,4 @@
-"""Stress of a restrained viscoelastic body along a history of temperature."""
+"""Stress of a restrained viscoelastic body over a temperature history."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from treadload.kernels.arrays import Array
 
-# Nodes of Gauss in a step: 1/aT varies as an exponential over a few degrees.
+# Gauss nodes per step: 1/aT varies as an exponential over a few degrees.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 

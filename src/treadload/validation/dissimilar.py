@@ -51,11 +51,11 @@ def bentall_checks() -> Iterator[Check]:
         (0.05, -0.75, 2.108e-4, None),
         (10.0, 0.0, 3.591e-4, 103.8),
     ):
-        found = aluminium_on_steel(friction, tractive_force=along * friction * _LOAD).dataset
+        fields = aluminium_on_steel(friction, tractive_force=along * friction * _LOAD).dataset
         what = f"μ = {friction:g}, Q_x = {along:g} μP"
-        yield relative(group, f"creepage at {what}", found.creepage_x, -creepage, 3e-4, source)
+        yield relative(group, f"creepage at {what}", fields.creepage_x, -creepage, 3e-4, source)
         if peak is not None:
-            yield relative(group, f"peak pressure at {what}, MPa", found.pressure.max() / 1e6, peak, 1e-3, source)
+            yield relative(group, f"peak pressure at {what}, MPa", fields.pressure.max() / 1e6, peak, 1e-3, source)
     # ξ = 0.457 · 2βa/R, β of the same two materials.
     beta = float(aluminium_on_steel(0.05).stats["dundurs"])
     exact = -0.457 * 2 * beta * 1e-4 / 0.025
@@ -76,16 +76,16 @@ def rubber_on_asphalt(**rolling: float) -> Contact:
 
 def rubber_checks() -> Iterator[Check]:
     """A tire of ν = 0.45 that drives and turns, cell by cell as CONTACT has it."""
-    found = rubber_on_asphalt(tractive_force=10e3, lateral_force=5e3).dataset
+    fields = rubber_on_asphalt(tractive_force=10e3, lateral_force=5e3).dataset
     group, source = "rubber (ν = 0.45) on asphalt", "CONTACT (open source), revision 2707, same cells"
-    yield relative(group, "creepage x at 10 and 5 kN", found.creepage_x, -0.0453690099645, 1e-5, source)
-    yield relative(group, "creepage y at 10 and 5 kN", found.creepage_y, -0.0272324641267, 1e-5, source)
-    yield relative(group, "peak pressure, kPa", found.pressure.max() / 1e3, 516.700158987, 1e-5, source)
-    largest = np.hypot(found.traction_x, found.traction_y).max() / 1e3
+    yield relative(group, "creepage x at 10 and 5 kN", fields.creepage_x, -0.0453690099645, 1e-5, source)
+    yield relative(group, "creepage y at 10 and 5 kN", fields.creepage_y, -0.0272324641267, 1e-5, source)
+    yield relative(group, "peak pressure, kPa", fields.pressure.max() / 1e3, 516.700158987, 1e-5, source)
+    largest = np.hypot(fields.traction_x, fields.traction_y).max() / 1e3
     yield relative(group, "largest shear, kPa", largest, 280.381964357, 1e-5, source)
-    yield relative(group, "aligning moment, N m", found.aligning_moment, -185.317367499, 1e-5, source)
-    yield absolute(group, "cells in contact", (found.state > 0).sum(), 715, 0, source)
-    yield absolute(group, "cells in slip", (found.state == 2).sum(), 193, 0, source)
+    yield relative(group, "aligning moment, N m", fields.aligning_moment, -185.317367499, 1e-5, source)
+    yield absolute(group, "cells in contact", (fields.state > 0).sum(), 715, 0, source)
+    yield absolute(group, "cells in slip", (fields.state == 2).sum(), 193, 0, source)
     free = rubber_on_asphalt().dataset
     yield relative(group, "creepage in free rolling", free.creepage_x, -0.00798529089052, 1e-5, source)
     shear = math.sqrt(float((free.traction_x**2 + free.traction_y**2).max())) / 1e3

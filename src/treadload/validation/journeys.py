@@ -54,7 +54,7 @@ def traffic_checks() -> Iterator[Check]:
     both = math.hypot(own, wander)
     off = np.abs(spread - own / both * np.exp(-0.5 * (wide / both) ** 2)).max() * both / own
     # Tracks 5 mm wide widen the law by dy²/12.
-    yield absolute(group, "normal damage under normal wander, off over the peak", off, 0, 1e-3, "sum of variances")
+    yield absolute(group, "normal damage under normal wander, error over the peak", off, 0, 1e-3, "sum of variances")
     total = float(spread.sum() * dy)
     yield relative(
         group, "damage after wander, summed over y, m", total, own * math.sqrt(2 * math.pi), 1e-9, "none lost"

@@ -81,7 +81,7 @@ def _amadeus() -> Iterator[Check]:
         places, across = ((0.0, 0.1508), "strain_xx") if single else ((0.17, 0.0), "strain_yy")
         points: dict[str, Any] = {"depths": [0.0, 0.26, 0.76], "x": sorted(places), "y": [0.0]}
         above, below = (solve_response(loads, road, side=side, **points).dataset for side in ("above", "below"))
-        found = [
+        computed = [
             -float(data[name].sel(depth=depth, x=x, y=0.0)) * scale
             for x in places
             for data, name, depth, scale in (
@@ -91,7 +91,7 @@ def _amadeus() -> Iterator[Check]:
                 (below, "strain_zz", 0.76, 1e6),
             )
         ]
-        pairs = [(one, text) for one, text in zip(found, printed, strict=True) if text is not None]
+        pairs = [(one, text) for one, text in zip(computed, printed, strict=True) if text is not None]
         digits = [(one - float(text)) * 10 ** len(text.partition(".")[2]) for one, text in pairs]
         worst = max(digits, key=abs)
         what = f"{wheels}, first interface {first}: {len(pairs)} responses, worst, units of the last digit"
@@ -113,10 +113,10 @@ def _ellea() -> Iterator[Check]:
     yield _worst("ELLEA1", "deflection between two wheels at 16 places, mm", bowl * 1e3, _ELLEA_BOWL, 1e-4, source)
 
 
-def _worst(group: str, quantity: str, found: Array, printed: Sequence[float], bound: float, source: str) -> Check:
+def _worst(group: str, quantity: str, computed: Array, printed: Sequence[float], bound: float, source: str) -> Check:
     """Row of the largest deviation."""
-    k = int(np.abs(found - np.array(printed)).argmax())
-    return absolute(group, f"{quantity}, worst", found[k], printed[k], bound, source)
+    k = int(np.abs(computed - np.array(printed)).argmax())
+    return absolute(group, f"{quantity}, worst", computed[k], printed[k], bound, source)
 
 
 def _french() -> Iterator[Check]:
@@ -163,7 +163,7 @@ def _half_space() -> Iterator[Check]:
         load = UniformRectangle(0.2, 0.12, pressure, traction_x=shear)
         layered = solve_response(load, same, **points)
         closed = solve_response(load, Pavement.half_space(asphalt), **points)
-        what = f"{name}, 15 fields at 5 depths, off over the largest"
+        what = f"{name}, 15 fields at 5 depths, error over the largest value"
         yield absolute("equal layers", what, _off(layered.dataset, closed.dataset), 0, 1e-8, "Love (1929), Cerruti")
 
 
@@ -173,11 +173,13 @@ def _footprint() -> Iterator[Check]:
     cells = Grid.centred(0.3, 0.24, 3e-3)
     even = np.full(cells.shape, 8e5)
     points: dict[str, Any] = {"depths": [0.0, 0.06, 0.21], "x": [-0.1485, 0.0015, 0.0525], "y": [0.0015, 0.1005]}
-    found = solve_response(GridLoad(cells, even, 0.3 * even, -0.1 * even), road, **points).dataset
+    by_cells = solve_response(GridLoad(cells, even, 0.3 * even, -0.1 * even), road, **points).dataset
     one = UniformRectangle(0.3, 0.24, 8e5, traction_x=2.4e5, traction_y=-8e4)
     whole = solve_response(one, road, **points).dataset
     group = "footprint, 100 x 80 cells of 3 mm"
-    yield absolute(group, "uniform, off over the largest", _off(found, whole), 0, 1e-8, "one rectangle, cell by cell")
+    yield absolute(
+        group, "uniform, error over the largest value", _off(by_cells, whole), 0, 1e-8, "one rectangle, cell by cell"
+    )
     bump = np.cos(np.pi * cells.x / 0.3)[None, :] * (1 + 0.5 * np.cos(40 * cells.y))[:, None] * 8e5
     load = GridLoad(cells, bump, 0.4 * bump * np.sin(20 * cells.x), 0.2 * bump)
     coarse = solve_response(load, road, **points).dataset
@@ -185,5 +187,5 @@ def _footprint() -> Iterator[Check]:
     far: dict[str, Any] = {**points, "x": [*points["x"], 1.4], "y": [*points["y"], 1.4]}
     fine = solve_response(load, road, **far).dataset.isel(x=slice(0, 3), y=slice(0, 2))
     yield absolute(
-        group, "uneven, off over the largest", _off(coarse, fine), 0, 1e-8, "three times as many wavenumbers"
+        group, "uneven, error over the largest value", _off(coarse, fine), 0, 1e-8, "three times as many wavenumbers"
     )

@@ -59,7 +59,7 @@ def _limits() -> Iterator[Check]:
         for names in _KINDS:
             one, other = (np.stack([data[name].to_numpy() for name in names]) for data in (moved, fixed))
             worst = max(worst, float((np.abs(one - other).max((0, 2, 3)) / np.abs(other).max((0, 2, 3))).max()))
-        what = f"{words}: 15 fields at 4 depths, off over the largest"
+        what = f"{words}: 15 fields at 4 depths, error over the largest value"
         yield absolute("limits of speed", what, worst, 0, 1e-6, "elastic layers at that limit")
 
 
@@ -72,8 +72,8 @@ def _energy() -> Iterator[Check]:
     data = solve_response(load, road, depths=[0.07], x=x, y=[0.03], speed=10.0).dataset
     stress, strain = (np.stack([data[name].to_numpy()[:, 0] for name in names]) for names in _KINDS[:2])
     work = _work(stress, strain, x)
-    found = data["dissipated_energy"].to_numpy()[:, 0]
-    for depth, one, other in zip((70,), found, work, strict=True):
+    dissipated = data["dissipated_energy"].to_numpy()[:, 0]
+    for depth, one, other in zip((70,), dissipated, work, strict=True):
         what = f"{depth} mm deep, 10 m/s, J/m³"
         # Differences and the trapezoidal rule on 161 points.
         yield relative("energy of a passage", what, one, other, 5e-3, "∮ σ dε along the path")

@@ -1,4 +1,4 @@
-"""Checks of contact on layers: rigid punches, near-equal layers, and the response under the pressure found."""
+"""Checks of contact on layers: rigid punches, near-equal layers, and the response under the computed pressure."""
 
 from __future__ import annotations
 
@@ -56,9 +56,9 @@ def layered_contact_checks() -> Iterator[Check]:
         load, approach = sphere_on_layers(stack, radius, curvature)
         x = centres(72, 2 * radius / 64)
         gap = (x[None, :] ** 2 + x[:, None] ** 2) / (2 * curvature)
-        found = _rigid(stack, gap, 2 * radius / 64, load)
+        pressed = _rigid(stack, gap, 2 * radius / 64, load)
         what = f"{name}, sphere of {curvature:g} m: approach, mm"
-        yield relative(group, what, found.approach * 1e3, approach * 1e3, 1e-3, _SOURCE)
+        yield relative(group, what, pressed.approach * 1e3, approach * 1e3, 1e-3, _SOURCE)
     yield from _near_equal()
     yield from _responses()
 
@@ -98,7 +98,7 @@ def _sphere(road: Pavement, tire: Elastic, compliance: Literal["half_space", "la
 
 
 def _near_equal() -> Iterator[Check]:
-    """Three layers that differ by 1e-13 take the way of the layers."""
+    """Three layers that differ by 1e-13, solved as layers."""
     asphalt, other = Elastic(5.4e9, 0.35), Elastic(5.4e9 * (1 + 1e-13), 0.35)
     near = Pavement([Layer(asphalt, 0.06), Layer(other, 0.15), Layer(asphalt)])
     steel = Elastic(210e9, 0.3)
@@ -107,12 +107,12 @@ def _near_equal() -> Iterator[Check]:
     for name in ("pressure", "traction_x", "displacement_z"):
         one, exact = layered[name].to_numpy(), plain[name].to_numpy()
         worst = float(np.abs(one - exact).max() / np.abs(exact).max())
-        what = f"{name}, off over the largest"
+        what = f"{name}, error over the largest value"
         yield absolute("contact on three near-equal layers", what, worst, 0, 1e-8, "contact on the half-space")
 
 
 def _responses() -> Iterator[Check]:
-    """The sinking that the contact found is that of the layered response to its pressure and shear."""
+    """The displacement that the contact gives is that of the layered response to its pressure and shear."""
     for name, road in _ROADS.items():
         contact = _sphere(road, Elastic(50e6, 0.45), "layers")
         response = solve_response(contact, road, depths=[0.0]).dataset
@@ -121,5 +121,5 @@ def _responses() -> Iterator[Check]:
             ours = contact.dataset[f"displacement_{axis}"].to_numpy()
             theirs = response[f"displacement_{axis}"].to_numpy()[0]
             worst = max(worst, float(np.abs(ours - theirs).max() / np.abs(theirs).max()))
-        what = f"{name}: displacement of the surface, off over the largest"
+        what = f"{name}: displacement of the surface, error over the largest value"
         yield absolute("rubber wheel on layers", what, worst, 0, 1e-5, "response of the layers, by wavenumbers")

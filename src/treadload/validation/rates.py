@@ -33,8 +33,8 @@ def _exact(x: Array) -> Array:
         j1, j3 = jv(1, k * at), jv(3, k * at)
         return float(-(_WIDTH**2) * _SHEAR * np.exp(-((k * _WIDTH) ** 2) / 2) * k * (j1 - nu * (3 * j1 - j3) / 4))
 
-    found = [quad(integrand, 0, 9 / _WIDTH, args=(at,), epsrel=1e-11)[0] for at in x]
-    return np.array(found) / _ASPHALT.shear_modulus
+    integrals = [quad(integrand, 0, 9 / _WIDTH, args=(at,), epsrel=1e-11)[0] for at in x]
+    return np.array(integrals) / _ASPHALT.shear_modulus
 
 
 def _errors(interpolation: Literal["constant", "bilinear"]) -> Array:
@@ -56,9 +56,9 @@ def rate_checks() -> Iterator[Check]:
     group, source = "surface strain under Gaussian shear", "Johnson (1985), section 3.2, by Hankel's integral"
     for interpolation, rate, bound in (("constant", 1, 0.05), ("bilinear", 2, 0.006)):
         errors = _errors("bilinear" if interpolation == "bilinear" else "constant")
-        found = np.log(errors[:-1] / errors[1:]) / np.log(3)
-        worst = found[int(np.abs(found - rate).argmax())]
+        rates = np.log(errors[:-1] / errors[1:]) / np.log(3)
+        worst = rates[int(np.abs(rates - rate).argmax())]
         # The next order fades.
         yield absolute(group, f"{interpolation} cells: order of convergence, worst of 2", worst, rate, 0.12, source)
-        what = f"{interpolation} cells of 0.16 standard deviations: error over the largest"
+        what = f"{interpolation} cells of 0.16 standard deviations: error over the largest value"
         yield absolute(group, what, errors[1], 0, bound, source)

@@ -39,7 +39,7 @@ def rheology_checks() -> Iterator[Check]:
     for name, material in (("Huet-Sayegh", mix), ("2S2P1D", _BINDER), ("power law", _CREEPING)):
         series = as_prony(material, 1e-3, 1e5, tolerance=_TOLERANCE)
         error = float(np.abs(series.complex_modulus(omega) / material.complex_modulus(omega) - 1).max())
-        # The fit is held at 12 points a decade, between which the ripple may stand a little higher.
+        # The fit is held at 12 points per decade, between which the ripple may stand a little higher.
         what = f"{name}: as_prony to 1e-4 over 8 decades, error of E*"
         yield absolute("Prony series of a mix", what, error, 0, 1.1 * _TOLERANCE, "E* of the mix itself")
     solid = Prony(8e9, ((0.3, 0.002), (0.3, 0.02), (0.3, 0.3)), 0.35)

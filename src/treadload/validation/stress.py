@@ -48,8 +48,8 @@ def stress_checks() -> Iterator[Check]:
             "Ahlvin & Ulery (1962)",
         ),
     ):
-        found = _on_axis(profile, zeta)
-        for name, measured, expected in zip(("radial", "vertical"), found, exact(zeta, _POISSON), strict=True):
+        stresses = _on_axis(profile, zeta)
+        for name, measured, expected in zip(("radial", "vertical"), stresses, exact(zeta, _POISSON), strict=True):
             for k in (0, int(np.abs(measured - expected).argmax())):
                 where = f"{zeta[k]:g} radii" + (" (one cell)" if k == 0 else " (worst of 5)")
                 yield absolute(group, f"{name} over peak, depth {where}", measured[k], expected[k], 0.005, source)

@@ -79,7 +79,7 @@ def run_checks(progress: Callable[[str], None] | None = None, names: Iterable[st
 
 
 def format_table(checks: Sequence[Check]) -> str:
-    """Plain text, one line a check, with a last line that counts them."""
+    """Plain text, one line per check, with a last line that counts them."""
     rows = [_HEADER, *(_cells(check) for check in checks)]
     widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADER) - 1)]
     right = (2, 3, 4, 5)

@@ -48,7 +48,7 @@ _SAME = ("mazars_onset_ratio",)
 _SOURCE = "formulas of Lytton, Mazars, Sousa and Kunst, worked outside the package"
 
 
-def _found(stress: Array) -> dict[str, Array]:
+def _quantities(stress: Array) -> dict[str, Array]:
     strain = tensors.strain_from_stress(stress, _MODULUS, _POISSON)
     told = {name: one for name, one in known_quantities().items() if set(one.needs) <= {*STRESS, *STRAIN}}
     return {name: np.asarray(one.of(stress, strain)) for name, one in told.items()}
@@ -59,9 +59,9 @@ def criteria_checks() -> Iterator[Check]:
     group = "criteria"
     stress = 1e6 * np.array([tensor for tensor, _ in _WORKED]).T
     exact = np.array([values for _, values in _WORKED]).T
-    found = _found(stress)
+    quantities = _quantities(stress)
     for (name, scale), values in zip(_NAMES.items(), exact, strict=True):
-        worst = float(np.abs(found[name] / scale / values - 1).max())
+        worst = float(np.abs(quantities[name] / scale / values - 1).max())
         # Twelve digits of stress, of which differences lose one.
         yield absolute(group, f"{name}, worst of 4 tensors, relative", worst, 0, 3e-11, _SOURCE)
     random = np.random.default_rng(5)
@@ -69,9 +69,9 @@ def criteria_checks() -> Iterator[Check]:
     turns = np.linalg.qr(random.normal(size=(200, 3, 3)))[0]
     turned = np.einsum("nij,njk,nlk->nil", turns, tensors.matrices(stress), turns)
     rows, columns = [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]
-    before, after = _found(stress), _found(turned[:, rows, columns].T)
+    before, after = _quantities(stress), _quantities(turned[:, rows, columns].T)
     for name in before:
         if name not in (*_VERTICAL, *_SAME):
             worst = float(np.abs(after[name] - before[name]).max() / np.abs(before[name]).max())
-            what = f"{name}, change in turned axes over the largest"
+            what = f"{name}, change in turned axes over the largest value"
             yield absolute(group, what, worst, 0, 1e-12, "invariance under rotation")

@@ -53,19 +53,19 @@ def contact_conditions(group: str, contact: Contact) -> Iterator[Check]:
     size = np.hypot(*(part / axis for part, axis in zip(traction, rolling.law.axes, strict=True)))
     # Without friction the bound is zero, and so must the shear be.
     over = (size - bound) / np.maximum(bound, np.finfo(float).tiny)
-    yield absolute(group, "|q| beyond μp, over μp", over[state != _OPEN].max(initial=0.0), 0, 1e-9, law)
+    yield absolute(group, "|q| above μp, over μp", over[state != _OPEN].max(initial=0.0), 0, 1e-9, law)
     loose = float(size[state == _OPEN].max(initial=0.0))
     yield absolute(group, "shear outside the contact, Pa", loose, 0, 0, law)
     sliding = state == _SLIP
     # The tire slides over the road and drags it along: shear on the road points as the slip does.
     against = int(((traction * slip).sum(0)[sliding] <= 0).sum())
-    what = f"cells that slip, of {int(sliding.sum())}, not against the shear on the tire"
+    what = f"cells, of {int(sliding.sum())} in slip, whose slip does not oppose the shear on the tire"
     yield absolute(group, what, against, 0, 0, law)
     yield absolute(group, "|q| short of μp in slip, over μp", -over[sliding].min(initial=0.0), 0, 1e-9, law)
 
 
 def mesh_checks() -> Iterator[Check]:
-    """The truck tire mesh that comes with the package; nothing where trimesh is not installed."""
+    """The truck tire mesh that ships with the package; nothing where trimesh is not installed."""
     if find_spec("trimesh") is None:
         return
     quality = Tire.from_scan(example_mesh()).quality
@@ -79,11 +79,11 @@ def mesh_checks() -> Iterator[Check]:
         yield absolute(group, f"{where}: width, mm", groove.width * 1e3, width, 2.0, source)
         # The floors are known to lie between 14 and 17 mm, and that to 1 mm.
         yield absolute(group, f"{where}: floor below the crown, mm", groove.floor * 1e3, 15.5, 2.5, source)
-    yield absolute(group, "axis off by, degrees", axis_error(), 0, 0.05, "the mesh turned by known angles")
+    yield absolute(group, "error of the axis, degrees", axis_error(), 0, 0.05, "the mesh turned by known angles")
 
 
 def axis_error() -> float:
-    """Angle in degrees between the axle found in the example mesh and the one it was turned to."""
+    """Angle in degrees between the axle fitted to the example mesh and the one it was turned to."""
     from treadload.tire.axis import fit_axis, sample_surface
     from treadload.tire.mesh_file import read_mesh
 
@@ -92,9 +92,9 @@ def axis_error() -> float:
     about_z = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]])
     about_x = np.array([[1, 0, 0], [0, np.cos(b), -np.sin(b)], [0, np.sin(b), np.cos(b)]])
     turn = about_x @ about_z
-    found = fit_axis(*sample_surface(mesh.vertices @ turn.T + np.array([3.0, -1.0, 2.0]), mesh.faces))
+    fitted = fit_axis(*sample_surface(mesh.vertices @ turn.T + np.array([3.0, -1.0, 2.0]), mesh.faces))
     # The axle of the file lies along y.
-    return float(np.degrees(np.arcsin(np.linalg.norm(np.cross(found.direction, turn @ np.array([0.0, 1.0, 0.0]))))))
+    return float(np.degrees(np.arcsin(np.linalg.norm(np.cross(fitted.direction, turn @ np.array([0.0, 1.0, 0.0]))))))
 
 
 def modulus_checks() -> Iterator[Check]:

@@ -106,9 +106,9 @@ def polymer_cylinders(retardation: float) -> tuple[Patch, tuple[float, int, int,
     patch = cylinder((material, material), 1.0, 0.05, 600e3, x, 1.0)
     rigid = rigid_slip(x, np.zeros(1), 0.16e-3, (0.0, 0.0), 0.0)
     forces = (-0.6 * 0.3 * patch.load, 0.0)
-    found = solve_rolling(patch.influence, 0.3 * patch.normal.pressure, rigid, forces, tolerance=1e-9)
-    stuck = int((found.stick & patch.contact).sum())
-    return patch, (1e3 * patch.normal.approach, int(patch.contact.sum()), stuck, found.found[0])
+    rolled = solve_rolling(patch.influence, 0.3 * patch.normal.pressure, rigid, forces, tolerance=1e-9)
+    stuck = int((rolled.stick & patch.contact).sum())
+    return patch, (1e3 * patch.normal.approach, int(patch.contact.sum()), stuck, rolled.rigid[0])
 
 
 def hunter_strip(cells: int, length: float = 2.0, share: float = 1.5) -> tuple[Patch, HunterCylinder]:

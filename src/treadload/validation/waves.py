@@ -71,9 +71,9 @@ _SPRUNG = Stack([3e9, 6e9, 1e8, 2e7], [0.35, 0.25, 0.5, 0.4], [0.06, 0.15, 0.3],
 def wave_checks() -> Iterator[Check]:
     """Six difficult stacks, and what holds on every one with slip."""
     for name, (stack, rows) in _EXTENDED.items():
-        found = transfer(list(rows), stack, [0.0], [False]).plane[0, :2]
+        plane = transfer(list(rows), stack, [0.0], [False]).plane[0, :2]
         exact = np.array(list(rows.values())).T
-        errors = np.abs(np.stack([found[0, 0], found[0, 1], found[1, 1]]) - exact).max(axis=0)
+        errors = np.abs(np.stack([plane[0, 0], plane[0, 1], plane[1, 1]]) - exact).max(axis=0)
         worst = float((errors / np.abs(exact).max(axis=0)).max())
         what = f"{name}: displacement of the surface, worst relative error"
         yield absolute("layers, one wave", what, worst, 0, 1e-9, "matrix exponential, 40 digits and more (mpmath)")

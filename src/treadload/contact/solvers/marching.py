@@ -72,7 +72,7 @@ class State:
     """Where a history stands at the end of a step.
 
     stage: the step. pressure: (ny, nx), Pa. tangential: shear on body 1, slip over the step, m, and the rigid
-    displacement found, m. normal: the normal contact, None where the pressure was given.
+    displacement that was not known, m. normal: the normal contact, None where the pressure was given.
     rounds: of the coupling between pressure and shear. change: of the pressure in the last, relative.
     """
 
@@ -86,7 +86,7 @@ class State:
     @property
     def displaced(self) -> tuple[float, float]:
         """Rigid displacement that the prescribed forces made over the step, m; zero where it was known."""
-        return self.tangential.found
+        return self.tangential.rigid
 
     def work(self, cell_area: float) -> float:
         """Work of friction over the step, J, with the shear at its end: ≥ 0."""
@@ -97,11 +97,11 @@ class State:
 class TransientSolution:
     """States at the ends of all steps of a history, or of the last alone.
 
-    found: (n, 2) rigid displacements found, m. travel: (n,) of every step, m. forces: (n, 2) on body 1, N.
+    rigid: (n, 2) displacements that were not known, m. travel: (n,) of every step, m. forces: (n, 2) on body 1, N.
     states: those that were kept.
     """
 
-    found: Array
+    rigid: Array
     travel: Array
     forces: Array
     states: tuple[State, ...] = field(repr=False)
@@ -113,9 +113,9 @@ class TransientSolution:
 
     @property
     def creepages(self) -> Array:
-        """(n, 2) creepages found: displacement over travel; NaN where nothing rolled."""
+        """(n, 2) creepages that were not known: displacement over travel; NaN where nothing rolled."""
         travel = np.where(self.travel > 0, self.travel, np.nan)
-        return self.found / travel[:, None]
+        return self.rigid / travel[:, None]
 
 
 def roll_transient(
@@ -133,17 +133,17 @@ def roll_transient(
     stages: the steps, in order. gap: (ny, nx) before loading, m, needed where a load or an approach is given.
     before: the state to go on from; left out, two bodies that have not touched yet.
     keep: "all" states or the "last". progress: called with the number of the step that is done.
-    Returns what was found in every step. Raises InputError, and ConvergenceError with the residual reached.
+    Returns the states at the ends of the steps. Raises InputError, and ConvergenceError with the residual reached.
     Method: Kalker (1990), section 4.2, with the solver of `kernels.complementarity.coulomb`; Panagiotopoulos' loop
     between pressure and shear of dissimilar bodies.
     """
     if keep not in ("all", "last"):
         raise InputError(f'keep must be "all" or "last", got {keep!r}')
     states: list[State] = []
-    found, travel, forces = [], [], []
+    rigid, travel, forces = [], [], []
     cell = influence.dx * influence.dy
     for number, state in enumerate(march(influence, stages, gap=gap, before=before, tolerance=tolerance), 1):
-        found.append(state.displaced)
+        rigid.append(state.displaced)
         travel.append(state.stage.travel)
         forces.append(state.tangential.shear.sum((1, 2)) * cell)
         if keep == "last":
@@ -153,7 +153,7 @@ def roll_transient(
             progress(number)
     if not states:
         raise InputError("a history needs at least one step, got none")
-    return TransientSolution(np.array(found), np.array(travel), np.array(forces), tuple(states))
+    return TransientSolution(np.array(rigid), np.array(travel), np.array(forces), tuple(states))
 
 
 def march(
@@ -215,7 +215,7 @@ def _start(
         return None
     shear = 2 * state.tangential.shear - earlier.tangential.shear
     along, across = 2 * np.array(state.displaced) - earlier.displaced
-    return replace(state.tangential, shear=shear, found=(float(along), float(across)))
+    return replace(state.tangential, shear=shear, rigid=(float(along), float(across)))
 
 
 def _goes_on(one: Stage, other: Stage) -> bool:

@@ -44,7 +44,7 @@ def solve_rolling(
     forces: of the road on the tire (Q_x, Q_y), N; None where the creepage is known (and in `rigid`).
     axes: (d_x, d_y) of the friction ellipse, of product 1 (`contact.friction.laws`).
     start: a solution near this one, on the same grid; left out, the solution on half the grid serves.
-    Returns shear on the tire, slip velocity of the tire relative to the road over speed, the creepages found
+    Returns shear on the tire, slip velocity of the tire relative to the road over speed, the unknown creepages
     (zero where known), stick. Raises ConvergenceError with the residual reached.
     Method: Kalker (1990), by the solver of `kernels.complementarity.coulomb`.
     """

@@ -27,7 +27,7 @@ def solve_shift(
     forces: on body 1 (Q_x, Q_y), N; None where the shift is known (and in `rigid`).
     axes: (d_x, d_y) of the friction ellipse, of product 1 (`contact.friction.laws`).
     start: a solution near this one, on the same grid; left out, the solution on half the grid serves.
-    Returns shear on body 1, slip, the shift found (m, zero where known), stick.
+    Returns shear on body 1, slip, the unknown shift (m, zero where known), stick.
     Raises ConvergenceError with the residual reached.
     Method: Kalker (1990), section 1.6 (Cattaneo shift), by the solver of `kernels.complementarity.coulomb`.
     """

@@ -1,6 +1,6 @@
 """Steady rolling under any friction law: shear, slip and friction that fit each other.
 
-Where friction reads the slip, both are found in turn: the bound of the last slip, the slip under that bound, a
+Where friction reads the slip, both are solved in turn: the bound of the last slip, the slip under that bound, a
 part of the way. Friction that falls may leave two steady states, one that sticks more and one that slides more;
 the rounds start from the coefficient at rest and so lead to the first, unless a start says otherwise.
 
@@ -63,28 +63,28 @@ def solve_slipping(
     Raises InputError of the law, ConvergenceError with the residual reached.
     """
     bound = law.bound(at)
-    found = solve_rolling(influence, bound, rigid, forces, axes=law.axes, start=start, tolerance=tolerance)
-    newton, krylov, splitting = found.newton, found.krylov, found.splitting
+    solution = solve_rolling(influence, bound, rigid, forces, axes=law.axes, start=start, tolerance=tolerance)
+    newton, krylov, splitting = solution.newton, solution.krylov, solution.splitting
     share, before, change = _RELAXATION, np.inf, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         if law.needs_speed:
-            wanted = law.bound(replace(at, slip=found.slip))
+            wanted = law.bound(replace(at, slip=solution.slip))
             change = float(np.linalg.norm(wanted - bound) / max(np.linalg.norm(bound), np.finfo(float).tiny))
         if change <= tolerance:
-            here = replace(at, slip=found.slip)
+            here = replace(at, slip=solution.slip)
             mu = np.divide(bound, at.pressure, out=np.zeros_like(bound), where=at.pressure > 0)
             return SlippingSolution(
-                found, bound, mu, law.temperature(here), rounds, change, newton, krylov, splitting
+                solution, bound, mu, law.temperature(here), rounds, change, newton, krylov, splitting
             )
         if change > before:
             share = max(0.5 * share, _LEAST_RELAXATION)
         before = change
-        at = replace(at, slip=at.slip + share * (found.slip - at.slip))
+        at = replace(at, slip=at.slip + share * (solution.slip - at.slip))
         bound = law.bound(at)
         _check_fallen(influence, law, bound, forces)
-        found = solve_rolling(influence, bound, rigid, forces, axes=law.axes, start=found, tolerance=tolerance)
-        newton, krylov = newton + found.newton, krylov + found.krylov
-        splitting += found.splitting
+        solution = solve_rolling(influence, bound, rigid, forces, axes=law.axes, start=solution, tolerance=tolerance)
+        newton, krylov = newton + solution.newton, krylov + solution.krylov
+        splitting += solution.splitting
     raise ConvergenceError(
         f"friction and slip did not settle in {_MOST_ROUNDS} rounds: the bound still changes by {change:.2e}, "
         f"above the tolerance of {tolerance:.2e}; friction that falls steeply makes stick and slip alternate in "

@@ -28,7 +28,7 @@ class TangentialSolution:
     """Result of a tangential contact problem.
 
     shear: on body 1 (2, ny, nx), Pa. slip: of body 1 relative to body 2 (2, ny, nx), zero where it sticks: in
-    rolling the velocity over speed, in a shift the distance, m. found: creepages, or the shift in m, that were
+    rolling the velocity over speed, in a shift the distance, m. rigid: creepages, or the shift in m, that were
     not known; zero where they were.
     stick: (ny, nx), True where |q| < bound. residual: natural residual of the inequality.
     newton, krylov, splitting, products: iterations and products with the slip operator, on this grid.
@@ -36,7 +36,7 @@ class TangentialSolution:
 
     shear: Array
     slip: Array
-    found: tuple[float, float]
+    rigid: tuple[float, float]
     stick: BoolArray
     residual: float
     newton: int = 0
@@ -75,7 +75,7 @@ def solve_tangential(
     if start is not None:
         # A rigid slip that is known now is no unknown, whatever it was in the start.
         unknown = [force is not None for force in forces]
-        q, xi = start.shear[:, rows, columns], np.where(unknown, start.found, 0.0)
+        q, xi = start.shear[:, rows, columns], np.where(unknown, start.rigid, 0.0)
     elif min(g.shape) >= _COARSEST:
         q, xi = _start(small, g, w, forces, rolls, axes)
     else:
@@ -86,7 +86,7 @@ def solve_tangential(
     problem = _problem(small, g, stretch * w, forces, rolls, axes)
     solution = _solve(problem, (q / stretch, xi * axes), tolerance)
     solution = replace(
-        solution, shear=stretch * solution.shear, slip=solution.slip / stretch, found=solution.found / np.array(axes)
+        solution, shear=stretch * solution.shear, slip=solution.slip / stretch, xi=solution.xi / np.array(axes)
     )
     return _uncrop(solution, bound, box)
 
@@ -95,7 +95,7 @@ def _solve(problem: CoulombProblem, first: tuple[Array, Array], tolerance: float
     solution = coulomb_newton.solve(problem, *first, tolerance=tolerance)
     if not solution.converged:
         # The fast path stalled: the slow one always moves on, and the fast one polishes what it finds.
-        q, xi, steps = coulomb_splitting.split(problem, solution.shear, solution.found, tolerance=0.1 * tolerance)
+        q, xi, steps = coulomb_splitting.split(problem, solution.shear, solution.xi, tolerance=0.1 * tolerance)
         polished = coulomb_newton.solve(problem, q, xi, tolerance=tolerance)
         solution = replace(polished, splitting=polished.splitting + solution.splitting + steps)
     if not solution.converged:
@@ -179,7 +179,7 @@ def _start(
     # The share of friction that is used varies smoothly; shear itself jumps at every edge.
     known = coarse_bound > 0
     share = rough.shear / np.where(known, coarse_bound, 1.0)
-    return interpolate(share, known, bound.shape) * bound, np.asarray(rough.found)
+    return interpolate(share, known, bound.shape) * bound, np.asarray(rough.rigid)
 
 
 def _bounding_box(mask: BoolArray) -> tuple[slice, slice] | None:
@@ -200,7 +200,7 @@ def _uncrop(solution: CoulombSolution, bound: Array, box: tuple[slice, slice]) -
     return TangentialSolution(
         shear,
         slip,
-        (float(solution.found[0]), float(solution.found[1])),
+        (float(solution.xi[0]), float(solution.xi[1])),
         stick,
         solution.residual,
         solution.newton,

@@ -17,7 +17,7 @@ from scipy.sparse.linalg import LinearOperator, gmres
 
 from treadload.kernels.arrays import Array, BoolArray
 
-# Full exchanges without fewer wrong cells, before single ones.
+# Full exchanges that leave no fewer wrong cells, before single ones.
 _PATIENCE = 5
 _KRYLOV_MEMORY = 80
 _KRYLOV_RESTARTS = 5
@@ -94,7 +94,7 @@ class _Problem:
         if self.total is not None and p.any():
             p *= self.total / p.sum()
         level = self.lowest if self.level is None else self.level
-        # Cells that still change sides are worth few digits.
+        # While cells still change sides, few digits are enough.
         accuracy = max(_ROUGH, tolerance)
         p, u, level = self._solve_on(active, p, level, accuracy)
         fewest, patience = active.size + 1, _PATIENCE
@@ -157,7 +157,7 @@ class _Problem:
             return np.append((z + shift * ones).flat[cells], shift)
 
         u = self._multiply(p)
-        # A few corrections: what a solve leaves behind is seen by a fresh product.
+        # A few corrections: a fresh product shows what a solve leaves behind.
         for _ in range(_KRYLOV_RESTARTS):
             if bordered:
                 level = float((u + self.h).flat[cells].mean())

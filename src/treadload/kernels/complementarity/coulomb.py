@@ -64,7 +64,7 @@ class CoulombProblem:
         return u[..., :-1] - u[..., 1:] if self.rolls else u
 
     def slip(self, q: Array, xi: Array) -> Array:
-        """S q + w + e ξ (2, ny, nx), with ξ (2,) the rigid slips found so far."""
+        """S q + w + e ξ (2, ny, nx), with ξ (2,) the rigid slips so far."""
         return self.apply(q) + self.rigid + self.travel * xi[:, None, None]
 
 

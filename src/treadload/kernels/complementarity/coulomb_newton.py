@@ -34,7 +34,7 @@ _FORCE_WEIGHT = 100.0
 class CoulombSolution:
     """Solution of the tangential problem.
 
-    shear: q (2, ny, nx). slip: s (2, ny, nx). found: ξ (2,), zero where prescribed.
+    shear: q (2, ny, nx). slip: s (2, ny, nx). xi: ξ (2,), zero where prescribed.
     stick: (ny, nx) True where |q| < g. residual: |q - P(q - r s)| / |g|, or a hundred times the imbalance of
     the forces relative to Σg if that is larger. newton, krylov, splitting, products: iterations, and
     products with S.
@@ -42,7 +42,7 @@ class CoulombSolution:
 
     shear: Array
     slip: Array
-    found: Array
+    xi: Array
     stick: BoolArray
     residual: float
     converged: bool
@@ -55,19 +55,19 @@ class CoulombSolution:
 def solve(
     problem: CoulombProblem,
     start: Array | None = None,
-    found: Array | None = None,
+    xi: Array | None = None,
     *,
     tolerance: float = 1e-6,
     max_iterations: int = 60,
 ) -> CoulombSolution:
     """Shear, slip and unknown rigid slips of a tangential contact problem.
 
-    start: q (2, ny, nx) and found: ξ (2,) to begin with. tolerance: of the residual.
+    start: q (2, ny, nx) and xi: ξ (2,) to begin with. tolerance: of the residual.
     Returns the solution, converged or not.
     """
     newton = _Newton(problem)
     q = np.zeros_like(problem.rigid) if start is None else project_disc(start, problem.bound)
-    xi = np.zeros(2) if found is None else np.asarray(found, float).copy()
+    xi = np.zeros(2) if xi is None else np.asarray(xi, float).copy()
     state = newton.state_of(q, xi)
     while True:
         while state.residual > tolerance and newton.count < max_iterations:

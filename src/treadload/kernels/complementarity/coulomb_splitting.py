@@ -21,11 +21,11 @@ _RELAXATION = 1.5
 
 
 def split(
-    problem: CoulombProblem, start: Array, found: Array, *, tolerance: float = 1e-6, max_iterations: int = 5000
+    problem: CoulombProblem, start: Array, xi_start: Array, *, tolerance: float = 1e-6, max_iterations: int = 5000
 ) -> tuple[Array, Array, int]:
     """Shear (2, ny, nx), rigid slips ξ (2,) and the number of iterations.
 
-    start, found: shear and ξ to begin with; ξ of a component whose rigid slip is known stays.
+    start, xi_start: shear and ξ to begin with; ξ of a component whose rigid slip is known stays.
     Stops when the change of the shear falls below the tolerance relative to the bound.
     """
     my, mx = problem.padding.shape
@@ -46,13 +46,13 @@ def split(
         padded[..., :ny, :nx] = fields
         return padded
 
-    known = np.where([total is None for total in totals], found, 0.0)
+    known = np.where([total is None for total in totals], xi_start, 0.0)
     rigid = pad(problem.rigid + problem.travel * known[:, None, None])
     bound = pad(problem.bound)
     q = pad(start)
     x, y = fft.rfft2(q)
     s = np.stack([(xx * x + xy * y) * advance, (xy * x + yy * y) * advance])
-    xi = found - known
+    xi = xi_start - known
     z = q - lam * (fft.irfft2(s, s=(my, mx)) + rigid + problem.travel * xi[:, None, None])
     scale = float(np.linalg.norm(bound))
     for iterations in range(1, max_iterations + 1):  # noqa: B007, it is returned

@@ -20,7 +20,7 @@ class Padding:
     """Zero-padded Fourier space in which a product of spectra is a linear convolution.
 
     load_shape: (ny, nx) of the load. field_shape: (ny, nx) of the result.
-    Where the field lies relative to the load is said by the kernel. Along each axis it is sampled at the offsets
+    Where the field lies relative to the load is set by the kernel. Along each axis it is sampled at the offsets
     0 … n_field - 1 of a field cell from a load cell, then at whatever no pair has, then at -(n_load - 1) … -1.
     """
 

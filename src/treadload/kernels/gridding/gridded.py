@@ -1,4 +1,4 @@
-"""Fields of a gridded load on the grid of any coordinates, by the cheapest way."""
+"""Fields of a gridded load on the grid of any coordinates, by the cheapest method."""
 
 from __future__ import annotations
 

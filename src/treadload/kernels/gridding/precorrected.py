@@ -54,10 +54,10 @@ def interpolated(source: Source, depths: Array, x: Array, y: Array, nodes: int) 
     fields = np.zeros((len(depths), source.components, len(y), len(x)))
     for y0, count_y, from_y in across.lattices():
         for x0, count_x, from_x in along.lattices():
-            found = on_lattice(source, depths, (count_y, count_x), source.dx * x0, source.dy * y0)
+            on_nodes = on_lattice(source, depths, (count_y, count_x), source.dx * x0, source.dy * y0)
             for row, component in np.ndindex(fields.shape[:2]):
-                if found[row, component].any():
-                    fields[row, component] += (from_x @ (from_y @ found[row, component]).T).T
+                if on_nodes[row, component].any():
+                    fields[row, component] += (from_x @ (from_y @ on_nodes[row, component]).T).T
     for field, depth in zip(fields, depths, strict=True):
         wide, high = window(source, float(depth), nodes)
         if wide >= 0:

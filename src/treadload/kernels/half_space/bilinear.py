@@ -54,8 +54,8 @@ def bilinear_on_grid(
     `kernels.gridding.gridded.on_grid`.
     """
     source = Source(load, dx, dy, hat_kernels(dx, dy, poisson), 9, half=1.0)
-    found, used = on_grid(source, depths, x, y, method)
-    return found[:, :6], found[:, 6:] / shear, used
+    both, used = on_grid(source, depths, x, y, method)
+    return both[:, :6], both[:, 6:] / shear, used
 
 
 def bilinear_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -> Spectrum:
@@ -117,8 +117,8 @@ def hat_kernels(dx: float, dy: float, nu: float) -> Kernels:
 
 def _range(wanted: NDArray[np.bool_]) -> slice:
     """Smallest slice that holds all True."""
-    found = np.flatnonzero(wanted)
-    return slice(int(found[0]), int(found[-1]) + 1) if len(found) else slice(0, 0)
+    members = np.flatnonzero(wanted)
+    return slice(int(members[0]), int(members[-1]) + 1) if len(members) else slice(0, 0)
 
 
 def _differences(values: Array, order: int) -> Array:

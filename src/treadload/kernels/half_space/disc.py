@@ -1,6 +1,6 @@
 """Stress and displacement of a half-space under a uniformly loaded disc, at any depth, in closed form.
 
-Source: Love (1929), Phil. Trans. R. Soc. A 228, 377-420; integrals of Lipschitz and Hankel as named by Eason,
+Source: Love (1929), Phil. Trans. R. Soc. A 228, 377-420; Lipschitz-Hankel integrals as named by Eason,
 Noble and Sneddon (1955), Phil. Trans. R. Soc. A 247, 529-551, written here with Carlson's symmetric elliptic
 integrals (Numer. Algorithms 10 (1995), 13-26) so that the axis and far points keep their digits.
 """

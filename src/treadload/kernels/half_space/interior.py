@@ -39,7 +39,7 @@ def fields_on_grid(
     y: Array,
     method: Method = "auto",
 ) -> tuple[Array, Array, str]:
-    """Stress and displacement on the grid of any coordinates x and y, by the cheapest way.
+    """Stress and displacement on the grid of any coordinates x and y, by the cheapest method.
 
     load: (3, ny, nx), Pa. dx, dy: cell, m. depths: (nz,), m, >= 0. shear: shear modulus, Pa. poisson: Poisson's
     ratio. x: (mx,), y: (my,): coordinates relative to the centre of the first cell, m, in any order.
@@ -50,9 +50,9 @@ def fields_on_grid(
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
         return fields(at_corners(x, y, z, dx, dy), poisson)
 
-    found, used = on_grid(Source(load, dx, dy, of_corners(corners, dx, dy), 9), depths, x, y, method)
-    _add_standing_load(found, load, dx, dy, depths, poisson, x, y)
-    return found[:, :6], found[:, 6:] / shear, used
+    both, used = on_grid(Source(load, dx, dy, of_corners(corners, dx, dy), 9), depths, x, y, method)
+    _add_standing_load(both, load, dx, dy, depths, poisson, x, y)
+    return both[:, :6], both[:, 6:] / shear, used
 
 
 def _add_standing_load(

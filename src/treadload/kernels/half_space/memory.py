@@ -1,4 +1,4 @@
-"""Influence coefficients of bodies that remember: steady motion of a load along +x over a viscoelastic half-space.
+"""Influence coefficients of bodies with memory: steady motion of a load along +x over a viscoelastic half-space.
 
 In the frame that moves with the load at speed V, material flows through the point x from larger x on, and what
 was done to it there fades with the retardation times T. With the instantaneous coefficients A and L = V T
@@ -65,7 +65,7 @@ def rule(nodes: Array, start: float, end: float, lengths: Array) -> Array:
     nodes: (n,) on [-1, 1], mapped to [start, end], m. lengths: L (terms,), m.
     """
     half = 0.5 * (end - start)
-    # A memory this short is none; Bessel functions of larger arguments overflow.
+    # A memory this short counts as none; Bessel functions of larger arguments overflow.
     ratio = np.minimum(half / lengths, _SHORTEST)
     order = np.arange(nodes.size)
     # ∫ P_k(t) exp(-λ(1 + t)) dt over [-1, 1] is a modified spherical Bessel function.
@@ -122,6 +122,6 @@ def _times(weights: Array, field: Array) -> Array:
 
 
 def _lobatto(n: int) -> Array:
-    """Nodes (n,) of the rule of Gauss and Lobatto on [-1, 1]: the ends, and where P'ₙ₋₁ = 0."""
+    """Nodes (n,) of the Gauss-Lobatto rule on [-1, 1]: the ends, and where P'ₙ₋₁ = 0."""
     inner = np.polynomial.legendre.Legendre.basis(n - 1).deriv().roots()
     return np.concatenate([[-1.0], np.sort(inner.real), [1.0]])

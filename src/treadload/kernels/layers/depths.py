@@ -9,13 +9,14 @@ from numpy.typing import ArrayLike
 
 from treadload.kernels.arrays import Array, BoolArray
 
-# Depths this near to each other, m, are one. Sums of thicknesses and millimetres turned to metres differ by 1e-16 of
-# a depth, a file keeps nine decimals; stress changes by less than 1e-6 of itself over a thousand times as much.
+# Depths this near to each other, m, count as one. Sums of thicknesses and millimetres turned to metres differ by
+# 1e-16 of a depth, a file keeps nine decimals; stress changes by less than 1e-6 of itself over a thousand times as
+# much.
 SAME_DEPTH = 1e-9
 
 
 def same_depth(a: ArrayLike, b: ArrayLike) -> BoolArray:
-    """Whether depths, m, are one within round-off."""
+    """Whether depths, m, are the same within round-off."""
     same: BoolArray = np.asarray(np.abs(np.subtract(a, b)) <= SAME_DEPTH)
     return same
 

@@ -1,10 +1,10 @@
 """Uniform discs on layers: one integral over wavenumbers for every distance from the disc's axis.
 
 Under a pressure on a disc of radius a the field of a layered body has no angle, and its transforms are those of
-Hankel: u_z(r) = a ∫ u_z(k) J0(k r) J1(k a) dk, u_r and stress_rz with J1(k r), and
-stress_rr + stress_tt and stress_rr - stress_tt with J0 and J2 = 2 J1(k r) / (k r) - J0.
-Fields are smooth in r: beyond some distances they are interpolated, by polynomials on panels that narrow towards
-the rim. So many discs and many points share one set of kernels.
+Hankel: u_z(r) = a ∫ u_z(k) J0(k r) J1(k a) dk, u_r and stress_rz with J1(k r), and stress_rr + stress_tt and
+stress_rr - stress_tt with J0 and J2 = 2 J1(k r) / (k r) - J0. Fields are smooth in r: from a certain number of
+distances on they are interpolated, by polynomials on panels that narrow towards the rim. So many discs and many
+points share one set of kernels.
 
 Source: Burmister (1945), J. Appl. Phys. 16, 89-94; Sneddon (1951), Fourier Transforms, chapter 10.
 """

@@ -27,7 +27,7 @@ import numpy as np
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.layered import Stack, transfer
 
-# Images a decade of depth, from this part of the top layer to this multiple of the longest length of the stack.
+# Images per decade of depth, from this part of the top layer to this multiple of the longest length of the stack.
 # Measured on soft, stiff, thin, sprung and inverted stacks: a residual of 1e-9 to 8e-7. Fewer images fit worse,
 # more of them grow large and cancel.
 _A_DECADE = 16

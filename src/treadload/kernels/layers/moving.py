@@ -59,7 +59,7 @@ class Body:
         return self.modulus(layer, kx) / (2 * (1 + self.poisson[layer]))
 
     def stack(self, kx: Array, rows: int, layers: int | None = None) -> Stack:
-        """The layers for wavenumbers (rows, nkx) in one line; only the first ones, as a half-space, if told."""
+        """The layers for wavenumbers (rows, nkx) in one line; only the first ones, as a half-space, if given."""
         shear = [np.tile(self.shear(layer, kx), rows) for layer in range(len(self.moduli))[:layers]]
         if layers is not None:
             return Stack(shear, self.poisson[:layers], [], [])
@@ -166,7 +166,7 @@ def dissipated_energy(
     along: tuple[Array, Array],
     across: tuple[Array, Array],
 ) -> Array:
-    """Energy that a passage dissipates per volume, (nz, my), J/m³: W = -∫ σ_ij ∂ε_ij/∂x dx.
+    """Energy that a passage dissipates per unit volume, (nz, my), J/m³: W = -∫ σ_ij ∂ε_ij/∂x dx.
 
     Arguments as in `moving_fields`, none of the levels split; along, across: nodes and weights in kx and in ky.
     By Parseval one sum over kx of kx Im(1/E) ((1 + ν) |σ|² - ν |tr σ|²).
@@ -231,8 +231,8 @@ def _kernels(body: Body, levels: Sequence[Level], kx: Array, ky: Array) -> Compl
     k = np.hypot(kx[None, :], ky[:, None]).ravel()
 
     def rows(stack: Stack, some: Sequence[Level]) -> ComplexArray:
-        found = transfer(k, stack, [level.depth for level in some], [level.below for level in some])
-        joined: ComplexArray = np.concatenate([found.plane.reshape(len(some), 8, -1), found.transverse], axis=1)
+        solved = transfer(k, stack, [level.depth for level in some], [level.below for level in some])
+        joined: ComplexArray = np.concatenate([solved.plane.reshape(len(some), 8, -1), solved.transverse], axis=1)
         return joined.reshape(len(some), 10, *shape)
 
     kernels = rows(body.stack(kx, len(ky)), levels)

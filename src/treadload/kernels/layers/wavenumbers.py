@@ -61,9 +61,9 @@ def panels(limit: float, reach: float, length: float) -> tuple[Array, Array]:
 
 @cache
 def gauss(count: int) -> tuple[Array, Array]:
-    """Points and weights of Gauss and Legendre on (-1, 1)."""
+    """Gauss-Legendre points and weights on (-1, 1)."""
     points, share = np.polynomial.legendre.leggauss(count)
-    # Shared by all who ask.
+    # Shared by all callers.
     points.setflags(write=False)
     share.setflags(write=False)
     return points, share
