@@ -94,7 +94,7 @@ def test_a_response_says_what_no_road_is():
 def test_wheels_that_reach_into_each_other_are_told():
     road, at = tl.Pavement.half_space(ASPHALT), {"depths": [0.05], "x": [0.0], "y": [0.0]}
     near = tl.solve_response(tl.dual_wheels(DISC, 0.2), road, **at)
-    assert "wheels 1 and 2 reach into each other by 250 mm along travel and 50 mm across" in near.warnings[0]
+    assert "wheels 1 and 2 overlap by 250 mm along travel and 50 mm across" in near.warnings[0]
     assert "0 and 200 mm apart" in near.warnings[0]
     # The French axle; and two parts of one load, which may lie on each other.
     assert not tl.solve_response(tl.response.axle(DISC, 1.8, 0.375), road, **at).warnings
@@ -105,7 +105,7 @@ def test_wheels_that_reach_into_each_other_are_told():
     foot = tl.GridLoad(grid, 7e5 * pressed)
     assert not tl.solve_response(tl.dual_wheels(foot, 0.22), road, **at).warnings
     told = tl.solve_response([foot, foot.moved(x=1.0), foot.moved(x=1.0, y=0.1)], road, **at).warnings
-    assert "wheels 2 and 3 reach into each other by 200 mm along travel and 100 mm across" in told[0]
+    assert "wheels 2 and 3 overlap by 200 mm along travel and 100 mm across" in told[0]
 
 
 def test_a_case_carries_the_sentences_to_its_file():
@@ -133,7 +133,7 @@ def test_a_life_says_what_no_traffic_is():
     heavy = tl.damage.AxleClass("front", 1.0, 35e3, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
     usual = tl.damage.Traffic((heavy,), 1e5, growth=0.02, years=20)
     life = tl.study.solve_life(TRUCK, road, usual, tl.damage.Climate.constant(15.0), [criterion], spacing=12e-3)
-    (text,) = [text for text in life.warnings if "reach into" in text]
+    (text,) = [text for text in life.warnings if "overlap by" in text]
     assert text.startswith("front: the footprints of wheels 1 and 2")
 
 

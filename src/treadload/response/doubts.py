@@ -1,4 +1,4 @@
-"""What a response was asked that no road and no vehicle does: sentences for its warnings."""
+"""Inputs of a response that no road and no vehicle has: sentences for its warnings."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def road_doubts(road: Pavement) -> tuple[str, ...]:
 
 
 def _position(number: int, count: int, modulus: float) -> str:
-    """Which row of the table tells how thick a layer can be."""
+    """Which row of the table says how thick a layer can be."""
     if count > 1 and number == 0:
         return "thickness of the surface course"
     if number == count - 1:
@@ -48,15 +48,15 @@ def question_doubts(depths: Array, speed: float | None) -> tuple[str, ...]:
 
 
 def overlapping(loads: Sequence[PlacedLoad]) -> tuple[str, ...]:
-    """A sentence where footprints of wheels reach into each other, which tires cannot.
+    """A sentence where footprints of wheels overlap, which those of tires cannot.
 
     Loads with one centre are parts of one wheel, and pass.
     """
     pressed = [(number, _box(load)) for number, load in enumerate(loads, start=1)]
-    found = [(number, box) for number, box in pressed if box is not None]
-    if len(found) < 2:
+    pressing = [(number, box) for number, box in pressed if box is not None]
+    if len(pressing) < 2:
         return ()
-    numbers, boxes = [number for number, _ in found], np.array([box for _, box in found])
+    numbers, boxes = [number for number, _ in pressing], np.array([box for _, box in pressing])
     low, high, cell = boxes[:, 0:2], boxes[:, 2:4], boxes[:, 4]
     middle = 0.5 * (low + high)
     for k in range(len(boxes) - 1):
@@ -64,16 +64,16 @@ def overlapping(loads: Sequence[PlacedLoad]) -> tuple[str, ...]:
         shared = np.minimum(high[others], high[k]) - np.maximum(low[others], low[k])
         apart = np.abs(middle[others] - middle[k]).max(axis=1)
         step = np.maximum(cell[others], cell[k])
-        # A cell to and fro is the rounding onto the lattice.
+        # One cell either way is the rounding onto the lattice.
         bad = np.flatnonzero((shared > 1.5 * step[:, None]).all(axis=1) & (apart > step))
         if bad.size:
             j = k + 1 + int(bad[0])
             length, width = (shared[bad[0]] * 1e3).tolist()
             dx, dy = (np.abs(middle[j] - middle[k]) * 1e3).tolist()
             return (
-                f"the footprints of wheels {numbers[k]} and {numbers[j]} reach into each other by {length:.0f} mm "
+                f"the footprints of wheels {numbers[k]} and {numbers[j]} overlap by {length:.0f} mm "
                 f"along travel and {width:.0f} mm across: their centres are {dx:.0f} and {dy:.0f} mm apart, and two "
-                "tires cannot stand in one place; set them further apart (a number without a unit is in m)",
+                "tires cannot occupy the same place; set them further apart (a number without a unit is in m)",
             )
     return ()
 

@@ -29,19 +29,19 @@ def place_load(load: Load, *, x: float = 0.0, y: float = 0.0, mirror: bool = Fal
     """
     one = gather(load)
     if len(one) != 1:
-        raise InputError(f"place takes one load, got {len(one)}; place each of them")
+        raise InputError(f"place_load takes one load, got {len(one)}; place each of them")
     placed = one[0].mirrored() if mirror else one[0]
     return placed.moved(x, y)
 
 
 def dual_wheels(load: Load, spacing: float, *, mirrored: bool | None = None) -> tuple[PlacedLoad, ...]:
-    """Two like wheels side by side, at y = -spacing/2 and y = spacing/2 from where the load stands.
+    """Two equal wheels side by side, at y = -spacing/2 and y = spacing/2 from where the load stands.
 
     spacing: between the wheels' centres, m, > 0. mirrored: whether the left one is the mirror image of the load in
     the plane of its wheel, as the two tires of a pair are mounted back to back: what faces outward on the right one
     faces inward on the left one. Left out: yes, unless the load rolls with spin or carries a side force of more than
-    1 % of its weight, which a mirror would turn round; for the pair in a bend solve the turned tire too and `place`
-    both. A symmetric tire that rolls straight gives two equal loads either way.
+    1 % of its weight, which a mirror would reverse; for the pair in a bend solve the turned tire too and
+    `place_load` both. A symmetric tire that rolls straight gives two equal loads either way.
     Raises InputError for a wrong spacing.
     """
     positive("the spacing of dual wheels", spacing, "metres", "trucks have near 0.35")
@@ -86,10 +86,10 @@ def axle(load: Load | Sequence[Load], track: float, dual_spacing: float | None =
 
 
 def tandem(loads: Load | Sequence[Load], wheelbase: float, axles: int = 2) -> tuple[PlacedLoad, ...]:
-    """Like axles behind each other, centred along x on where the loads stand.
+    """Equal axles one behind another, centred along x on where the loads stand.
 
-    loads: one axle, or one wheel. wheelbase: between neighbouring axles, m, > 0. axles: 2 a tandem, 3 a tridem.
-    Raises InputError for a wrong length or number.
+    loads: one axle, or one wheel. wheelbase: between neighbouring axles, m, > 0. axles: 2 for a tandem, 3 for a
+    tridem. Raises InputError for a wrong length or number.
     """
     positive("the wheelbase", wheelbase, "metres", "a tandem has near 1.3")
     if isinstance(axles, bool) or not isinstance(axles, int) or axles < 1:

@@ -66,8 +66,8 @@ def half_space_response(
             return np.concatenate(parts, axis=1)
 
         at_x, at_y = x - grid.x0, y - grid.y0
-        found = np.moveaxis(fields(at_x, at_y) if at is None else at.gathered(fields, at_x, at_y), 1, 0)
-        stress += found[:6]
-        displacement += found[6:]
+        both = np.moveaxis(fields(at_x, at_y) if at is None else at.gathered(fields, at_x, at_y), 1, 0)
+        stress += both[:6]
+        displacement += both[6:]
     used = "+".join(sorted(methods - {"none"})) or "none"
     return stress, strain_from_stress(stress, material.modulus, poisson), displacement, used

@@ -87,7 +87,7 @@ class GridLoad:
         """Load from arrays of stress, such as a sensor's.
 
         pressure: (ny, nx), Pa, rows along y (to the right), columns along x (travel). traction_x, traction_y:
-        likewise. spacing: of the cells, m or a text with a unit, or (dx, dy). x0, y0: centre of the first cell, m;
+        likewise. spacing: of the cells, m or text with a unit, or (dx, dy). x0, y0: centre of the first cell, m;
         None: the origin lies in the middle. shear_on: the body that the recorded shear acts on; what the tire
         feels, "tire", changes its sign. InputError for a wrong shape or value.
         """
@@ -146,7 +146,7 @@ class GridLoad:
         units: Mapping[str, str] | None = None,
         interpolation: Literal["constant", "bilinear"] = "constant",
     ) -> GridLoad:
-        """Load from `pressure`, `traction_x` and `traction_y` over `y` and `x`; a missing shear is none.
+        """Load from `pressure`, `traction_x` and `traction_y` over `y` and `x`; a missing shear is zero.
 
         dataset: a dataset, or a result that has one, such as a contact. Its attributes dx and dy give the cell
         where a single coordinate cannot. A variable whose attribute `units` names another unit than SI is converted;
@@ -181,7 +181,7 @@ class GridLoad:
         return replace(self, grid=grid, pressure=pressure, traction_x=along, traction_y=-across)
 
     def __str__(self) -> str:
-        """What presses where, so that a wrong unit is seen."""
+        """What presses where, so that a wrong unit shows."""
         loaded = float((self.pressure > 0).sum()) * self.grid.cell_area
         told = [
             f"{_plain(self.normal_load / 1e3)} kN on {_plain(loaded * 1e6)} mm² ({self.grid})",

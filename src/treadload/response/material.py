@@ -1,8 +1,8 @@
-"""Means over a cube of road: what a mix of stones can feel, and no finer mesh changes.
+"""Means over a cube of road: what an asphalt mix responds to, and no finer mesh changes.
 
-Under the edge of a rib the stress of a continuum has no bound, so that its largest value says how fine the cells are.
-A mix is no continuum below the size of its stones: damage belongs to a volume of that size (Pijaudier-Cabot and
-Bažant 1987, J. Eng. Mech. 113, 1512-1533).
+Under the edge of a rib the stress of a continuum has no bound, so that its largest value depends on how fine the
+cells are. A mix is not a continuum below the size of its stones: damage belongs to a volume of that size
+(Pijaudier-Cabot and Bažant 1987, J. Eng. Mech. 113, 1512-1533).
 """
 
 from __future__ import annotations
@@ -20,25 +20,25 @@ from treadload.kernels.arrays import Array, BoolArray
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
 MATERIAL_LENGTH = 0.010
-"""Side of the cube that surface criteria read, m: the largest stone of a usual wearing course, a mix 0/10."""
+"""Side of the cube that surface criteria read, m: the largest stone of a typical wearing course, a 0/10 mix."""
 
 # From this many lengths down points are read: they differ by a few per cent over the cube, and not with the cells.
 _DEEP = 2.0
 # A load's cells are at most this part of the length, so that the mean over it is one over several.
 _FINE = 0.35
-# Cells of a disc in a length, and samples across each that tell how much of it is covered.
+# Cells of a disc in a length, and samples across each to measure how much of it is covered.
 _DISC_CELLS, _SAMPLES = 4, 16
-# Two points of Gauss stand for the mean over depth: 0.3 % of the strain under a rib's edge, measured against six.
+# Two Gauss points stand for the mean over depth: 0.3 % of the strain under a rib's edge, measured against six.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(2)
 
 
 @dataclass(frozen=True, eq=False)
 class Windows:
-    """Where depths read.
+    """The parts of the road that depths stand for.
 
-    low, high: (nz,), m, the part of the road that each depth stands for; the same twice where it reads itself.
+    low, high: (nz,), m, from and to; equal where a depth stands for itself alone.
     nodes: depths to solve under the mean of the load, (n,). mean: (nz, n), their weights, rows of zeros for depths
-    that read themselves. local: which those are, (nz,).
+    that stand for themselves. local: which those are, (nz,).
     """
 
     low: Array
@@ -74,7 +74,7 @@ def check_length(length: float) -> None:
     if not (math.isfinite(length) and 0 < length <= 0.1):
         raise InputError(
             f"mean_over must lie in (0, 0.1] m, got {length:g}; {MATERIAL_LENGTH * 1e3:g} mm is the largest stone of "
-            "a usual wearing course"
+            "a typical wearing course"
         )
 
 

@@ -51,7 +51,7 @@ def at_speed(road: Pavement, speed: float | None) -> Pavement:
     """
     if isinstance(speed, str) or (speed is not None and not speed >= 0):
         raise InputError(
-            f"speed must be >= 0 m/s, got {speed!r}; loads travel along +x, the other way turn them round"
+            f"speed must be >= 0 m/s, got {speed!r}; loads travel along +x; for the other way turn them round"
         )
     if not road.is_viscoelastic:
         return road
@@ -96,7 +96,7 @@ def moving_response(
     speed: V, m/s, > 0 and finite. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates, moving with the
     loads. below: whether a depth on an interface takes the layer below it. at: of the grid of x and y only
     these points; the energy has its distinct y. Inertia is left out.
-    Energy: dissipated per volume by one passage, the integral of σ:dε over time; NaN where it needs too many
+    Energy: dissipated per unit volume by one passage, the integral of σ:dε over time; NaN where it needs too many
     wavenumbers. Near the surface a half-space of the top layer carries the steps of the load in closed form, its
     strain and displacement that of the load and its wake, see `kernels.half_space.wake`; the rest are waves, see
     `kernels.layers.moving`.
@@ -217,7 +217,7 @@ class _Problem:
             energy[chosen] = dissipated_energy(
                 self.spectra, self.body, levels, limit, y, *self.panels_of_energy(limit)
             )
-        # At a step of shear on the surface itself it has no bound: nobody misses it there.
+        # At a step of shear on the surface itself it has no bound, so it is left out there.
         if all(row in cheap or self.levels[row].depth == 0 for row in lossy):
             return energy, ()
         low, high = 1e-6, self.length

@@ -20,14 +20,12 @@ from treadload.response.loads import PlacedLoad
 class Response(BaseResult, group="response"):
     """Stress and strain in a road.
 
-    dataset: fields (depth, y, x), or (depth, point) of a list of points, with the names of `treadload.variables`;
-    its attributes hold the material.
-    stats: seconds spent, points evaluated, method ("fft", "precorrected", "direct", "disc", "layered" or several,
-    "none" without load).
-    warnings: sentences for the user.
-    loads, road, speed, side: the question, so that more can be asked of the same road; no road for fields that
-    come from elsewhere. restrained: stress that was added to both horizontal normal stresses, Pa, one a depth; empty
-    where none was, see `add_thermal_stress`.
+    dataset: fields (depth, y, x), or (depth, point) of a list of points, with the names of `treadload.variables`; its
+    attributes hold the material. stats: seconds spent, points evaluated, method ("fft", "precorrected", "direct",
+    "disc", "layered" or several, "none" without load). warnings: sentences for the user. loads, road, speed, side:
+    the question, so that more can be asked of the same road; no road for fields that come from elsewhere. restrained:
+    stress that was added to both horizontal normal stresses, Pa, one per depth; empty where none was, see
+    `add_thermal_stress`.
     """
 
     dataset: xr.Dataset

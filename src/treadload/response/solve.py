@@ -52,13 +52,13 @@ def solve_response(
     of the dataset, which figures read; the coordinate `layer` says for each depth which layer was read. Stress and
     strain of a half-space have no jump there, and the horizontal displacement of layers jumps only where they slide.
     speed: at which the loads travel along +x, m/s, needed where a layer is viscoelastic. The result is then the
-    steady state, seen from the loads, without inertia: what a fixed point lives through is a line along x read
+    steady state, seen from the loads, without inertia: what a fixed point experiences is a line along x read
     from front to rear, at the time -x / speed. 0 and infinity give the elastic limits.
     mean_over: side of a cube of road, m, over which every field is a mean; left out, fields are those of the points.
     The cube stands around the point, below the surface and within its layer; from two sides down the point itself
     is read, where the field no longer varies over the cube. Means near the edges of ribs do not depend on the
     contact's cells, as points there do, see `response.material`.
-    progress: called with a line of text as many loads on one material are gone through; loads on one lattice near
+    progress: called with a line of text while many loads on one material are computed; loads on one lattice near
     each other become one first.
     Returns a Response with fields (depth, y, x), or (depth, point), tension positive, tensor shear strain,
     displacement_z down.
@@ -69,7 +69,7 @@ def solve_response(
     passage dissipates, NaN at the surface; it has no mean.
     Raises InputError for a wrong value, a speed that is missing or negative, a layer that needs a temperature or
     is a fluid, depths below a rigid base and depths that need too many wavenumbers; ConvergenceError where stress or
-    strain would be no number.
+    strain would not be a number.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.half_space.interior`;
     on layers the same with the top layer's material, plus wavenumbers, see `kernels.layers.layered`; under
     moving loads see `kernels.layers.moving`.
@@ -97,7 +97,7 @@ def solve_response(
         place_x, place_y = _places(points)
         at, at_x, at_y = Points.of(place_x, place_y)
     else:
-        raise InputError("the response is wanted on a grid or at points: give x and y or points, not both")
+        raise InputError("the response is computed on a grid or at points: give x and y or points, not both")
 
     cells = merged([load.cell if isinstance(load, UniformRectangle) else load for load in superposed])
     asked, road = road, at_speed(road, speed)
@@ -166,12 +166,12 @@ def _over_windows(
     if read.local.any():
         parts.append((solve(loads, depths[read.local]), np.eye(len(depths))[:, read.local]))
     stress, strain, displacement = (
-        sum(np.einsum("zn,cnyx->czyx", weights, getattr(found, name)) for found, weights in parts)
+        sum(np.einsum("zn,cnyx->czyx", weights, getattr(one, name)) for one, weights in parts)
         for name in ("stress", "strain", "displacement")
     )
-    found = [part for part, _ in parts]
-    methods = " and ".join(dict.fromkeys(one.method for one in found))
-    warnings = tuple(dict.fromkeys(text for one in found for text in one.warnings))
+    solved = [part for part, _ in parts]
+    methods = " and ".join(dict.fromkeys(one.method for one in solved))
+    warnings = tuple(dict.fromkeys(text for one in solved for text in one.warnings))
     return MovingFields(stress, strain, displacement, np.zeros((len(depths), 0)), methods, warnings)
 
 
@@ -189,22 +189,22 @@ def _solve(
 ) -> MovingFields:
     if road.is_viscoelastic:
         assert speed is not None
-        found = moving_response(loads, road, speed, depths, x, y, below=below, at=at)
+        fields = moving_response(loads, road, speed, depths, x, y, below=below, at=at)
     else:
         solved = (
             half_space_response(loads, road.surface_material, depths, x, y, at, tell)
             if road.is_homogeneous
             else layered_response(loads, road, depths, x, y, below=below, at=at)
         )
-        found = MovingFields(*solved[:3], np.zeros((len(depths), len(y))), solved[3])
-    for part in (found.stress, found.strain):
+        fields = MovingFields(*solved[:3], np.zeros((len(depths), len(y))), solved[3])
+    for part in (fields.stress, fields.strain):
         wrong = ~np.isfinite(part).all(axis=(0, *range(2, part.ndim)))
         if wrong.any():
             raise ConvergenceError(
                 f"stress or strain at {depths[wrong][0]:g} m is not a number: loads, moduli and thicknesses lie too "
                 "far apart for double precision; check their units"
             )
-    return found
+    return fields
 
 
 def _mean(solved: Sequence[MovingFields]) -> MovingFields:
