@@ -11,7 +11,7 @@ _HOTTEST, _COLDEST = 100.0, -273.15
 
 
 def check_celsius(temperature: float) -> float:
-    """A temperature, °C, as a float. Raises InputError for what is none, and for what looks like kelvin."""
+    """A temperature, °C, as a float. Raises InputError for what is not one, and for what looks like kelvin."""
     try:
         value = float(temperature)
     except (TypeError, ValueError) as error:

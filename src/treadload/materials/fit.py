@@ -23,7 +23,7 @@ M = TypeVar("M", Prony, HuetSayegh, Model2S2P1D)
 
 @dataclass(frozen=True)
 class MaterialFit(Generic[M]):
-    """A material and how well it follows the data.
+    """A material and how well it fits the data.
 
     rms_error, max_error: of |E*fit - E*| / |E*|, or of E(t) likewise, over the points.
     """
@@ -33,7 +33,7 @@ class MaterialFit(Generic[M]):
     max_error: float
 
     def __str__(self) -> str:
-        return f"{self.material}; off by {self.rms_error:.2%} (rms), {self.max_error:.2%} (largest)"
+        return f"{self.material}; relative error {self.rms_error:.2%} (rms), {self.max_error:.2%} (largest)"
 
 
 def fit_prony(
@@ -42,26 +42,25 @@ def fit_prony(
     """The Prony series nearest to a curve, by non-negative least squares of the relative error.
 
     data: of one temperature. poisson: Poisson's ratio, constant. terms: number of times, evenly spaced in log over
-    the range of the data, and a decade past its ends for a sweep, whose loss tells of what is near; two a decade if
-    left out: one leaves a ripple of 3 %, two of 0.05 %. times: (m,), s, instead. Terms that come out with no
-    strength are left out. What relaxes further away goes to the ends: the two limits hold for the range measured,
-    and a curve that falls to nothing gives a fluid.
-    Returns a MaterialFit. Raises InputError.
-    Source: Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519 (the spectrum from data); Lawson & Hanson (1974),
-    Solving Least Squares Problems, chapter 23 (the method).
+    the range of the data, and a decade past its ends for a sweep, whose loss modulus shows what relaxes nearby; two
+    per decade if left out: one leaves a ripple of 3 %, two of 0.05 %. times: (m,), s, instead. Terms that come out
+    with no strength are left out. What relaxes further away goes to the ends: the two limits hold for the range
+    measured, and a curve that falls to zero gives a fluid. Returns a MaterialFit. Raises InputError. Source:
+    Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519 (the spectrum from data); Lawson & Hanson (1974), Solving
+    Least Squares Problems, chapter 23 (the method).
     """
     tau = _times(data, terms, times)
     rows, spring, values = _rows(data, tau)
-    found = solve_non_negative(np.column_stack([rows, spring]), values)
-    return _judged(prony_of(found[:-1], tau, float(found[-1]), poisson), data)
+    strengths = solve_non_negative(np.column_stack([rows, spring]), values)
+    return _judged(prony_of(strengths[:-1], tau, float(strengths[-1]), poisson), data)
 
 
 def fit_huet_sayegh(data: Measured, *, poisson: float) -> MaterialFit[HuetSayegh]:
     """The Huet-Sayegh model nearest to a curve, by least squares of the logarithm of the modulus.
 
     data: of one temperature, best several decades. poisson: Poisson's ratio. Of several starts the best is kept.
-    Returns a MaterialFit. Raises InputError for fewer points than parameters, ConvergenceError if no start gets
-    anywhere.
+    Returns a MaterialFit. Raises InputError for fewer points than parameters, ConvergenceError if no start
+    converges.
     """
     return _judged(_huet_sayegh(_nearest(data, _huet_sayegh, poisson), poisson), data)
 
@@ -99,7 +98,7 @@ def _nearest(
     *more: float,
     start: Array | None = None,
 ) -> Array:
-    """Parameters of least misfit. more: values to start those from that Huet-Sayegh has not. start: one known."""
+    """Parameters of smallest misfit. more: values to start those from that Huet-Sayegh has not. start: one known."""
     measured = data.modulus
     count = 6 + len(more)
     if measured.size * (2 if np.iscomplexobj(measured) else 1) < count:
@@ -117,7 +116,7 @@ def _nearest(
         np.array([high + 0.4, low - 0.5, math.log(2.0), math.log(tau), 0.2, 0.45, *more])
         for tau in np.geomspace(*reach, max(2, round(math.log10(reach[1] / reach[0])) + 1))
     ]
-    # The starts of least misfit are followed down; the others lie on flat ground.
+    # The starts of smallest misfit are refined; the others lie on flat ground.
     starts.sort(key=lambda p: float((misfit(p) ** 2).sum()))
     tried = [
         least_squares(misfit, np.clip(p, lower, upper), bounds=(lower, upper), x_scale="jac")
@@ -146,7 +145,7 @@ def _modulus_of(material: Prony | Operational, data: Measured) -> Array | Comple
 
 
 def _reach(data: Measured) -> tuple[float, float]:
-    """Shortest and longest time that the data tell of, s."""
+    """Shortest and longest time that the data cover, s."""
     if isinstance(data, FrequencySweep):
         return 1 / float(data.omega[-1]), 1 / float(data.omega[0])
     return float(data.time[0]), float(data.time[-1])

@@ -69,7 +69,7 @@ class HuetSayegh(Operational):
         return Elastic(self.static_modulus, self.poisson)
 
     def operational_modulus(self, s: ArrayLike) -> ComplexArray:
-        """S times Laplace's transform of the relaxation modulus, Pa; s complex, off the negative real axis."""
+        """The Laplace transform of the relaxation modulus times s, Pa; s complex, off the negative real axis."""
         st = np.asarray(s, dtype=complex) * self.tau
         span = self.glassy_modulus - self.static_modulus
         return np.asarray(self.static_modulus + span / (1 + self.delta * st**-self.k + st**-self.h))
@@ -127,7 +127,7 @@ class Model2S2P1D(Operational):
         return self._without_dashpot.rubbery
 
     def operational_modulus(self, s: ArrayLike) -> ComplexArray:
-        """S times Laplace's transform of the relaxation modulus, Pa; s complex, off the negative real axis."""
+        """The Laplace transform of the relaxation modulus times s, Pa; s complex, off the negative real axis."""
         st = np.asarray(s, dtype=complex) * self.tau
         span = self.glassy_modulus - self.static_modulus
         flow = 1 / (self.beta * st)

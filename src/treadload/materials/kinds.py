@@ -1,4 +1,4 @@
-"""What a material must tell: the kinds that layers and tires can be made of."""
+"""What a material must provide: the kinds that layers and tires can be made of."""
 
 from __future__ import annotations
 

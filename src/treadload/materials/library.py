@@ -1,4 +1,4 @@
-"""The catalogue of road materials: one data file a source in `catalogue/data/mixes`, and those of other packages.
+"""The catalogue of road materials: one data file per source in `catalogue/data/mixes`, and those of other packages.
 
 Another package adds its own by an entry point of the group `treadload.mixes`: a function without arguments that
 returns Mix, HydraulicMix and Unbound, for one `lambda: read_mixes(path)` of a file like ours.
@@ -20,7 +20,7 @@ from treadload.units import Celsius, Frequency, Length, Modulus, Number, Strain,
 
 @dataclass(frozen=True)
 class _Bituminous:
-    """A mix of a file: moduli, Pa, over the temperatures; ratios: name of the table that takes them elsewhere."""
+    """A mix of a file: moduli, Pa, over the temperatures; ratios: name of their table for other frequencies."""
 
     moduli: tuple[Modulus, ...]
     epsilon_6: Strain | None = None
@@ -109,7 +109,7 @@ def read_mixes(path: str | os.PathLike[str]) -> list[RoadMaterial]:
 def _bituminous(common: _AllBituminous | None) -> list[Mix]:
     if common is None:
         return []
-    found = []
+    mixes = []
     for name, own in common.mixes.items():
         try:
             rows = _moduli(own.moduli, common.frequency, _ratios(own, common))
@@ -118,8 +118,8 @@ def _bituminous(common: _AllBituminous | None) -> list[Mix]:
         fatigue = own.epsilon_6, common.slope, own.scatter, own.calibration
         moduli = tuple(rows), tuple(rows.values())
         at = common.poisson, common.frequency
-        found.append(Mix(name, common.temperatures, *moduli, *at, *fatigue, doubts=own.doubts))
-    return found
+        mixes.append(Mix(name, common.temperatures, *moduli, *at, *fatigue, doubts=own.doubts))
+    return mixes
 
 
 def _ratios(own: _Bituminous, common: _AllBituminous) -> Mapping[str, tuple[float, ...]]:
@@ -134,7 +134,7 @@ def _ratios(own: _Bituminous, common: _AllBituminous) -> Mapping[str, tuple[floa
 def _moduli(
     moduli: tuple[float, ...], frequency: float, ratios: Mapping[str, tuple[float, ...]]
 ) -> dict[float, tuple[float, ...]]:
-    """Rows of moduli by frequency, Hz: the ratios, rounded to two digits, tell only what frequency changes."""
+    """Rows of moduli by frequency, Hz: the ratios, rounded to two digits, give only the change with frequency."""
     by_frequency = {quantity(_in_hertz(key), "Hz"): row for key, row in ratios.items()}
     by_frequency = by_frequency or {frequency: (1.0,) * len(moduli)}
     if frequency not in by_frequency:
@@ -155,11 +155,11 @@ def _in_hertz(key: str) -> str:
 
 
 def _hydraulic(tables: Mapping[str, _Hydraulic]) -> list[HydraulicMix]:
-    found = []
+    mixes = []
     for name, own in tables.items():
         given = {field.name: getattr(own, field.name) for field in fields(own) if field.name != "inverse_slope"}
-        found.append(HydraulicMix(name=name, slope=-1 / own.inverse_slope, **given))
-    return found
+        mixes.append(HydraulicMix(name=name, slope=-1 / own.inverse_slope, **given))
+    return mixes
 
 
 def _unbound(common: _AllUnbound | None) -> list[Unbound]:

@@ -22,7 +22,7 @@ class FrequencySweep:
     """Complex modulus over frequency at one temperature: an isotherm, or a master curve.
 
     omega: (n,), rad/s, > 0, sorted here. storage, loss: (n,), E' > 0 and E'' ≥ 0, Pa. temperature: °C, of the test
-    or of reference; None if not said.
+    or of reference; None if not stated.
     Raises InputError.
     """
 
@@ -59,7 +59,7 @@ class RelaxationTest:
     """Relaxation modulus over time at one temperature: an isotherm, or a master curve.
 
     time: (n,), s, > 0, sorted here. modulus: (n,), E(t) > 0, Pa. temperature: °C, of the test or of reference; None
-    if not said.
+    if not stated.
     Raises InputError.
     """
 
@@ -111,8 +111,10 @@ def read_isotherms(path: str | PathLike[str]) -> tuple[Measured, ...]:
     if "T" not in table:
         raise InputError(f"{path} has no column T; of a master curve use read_master_curve")
     group = table.get("Set", np.round(table["T"]))
-    found = [_measured(path, table, group == key, float(table["T"][group == key].mean())) for key in np.unique(group)]
-    return tuple(sorted(found, key=lambda data: data.temperature or 0.0))
+    isotherms = [
+        _measured(path, table, group == key, float(table["T"][group == key].mean())) for key in np.unique(group)
+    ]
+    return tuple(sorted(isotherms, key=lambda data: data.temperature or 0.0))
 
 
 def read_shift_factors(path: str | PathLike[str]) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -28,7 +28,7 @@ class Mix:
     source: where the numbers are from. doubts: what is not certain about them, a sentence each.
     The modulus is linear in temperature between those tabulated, and a power of frequency between those tabulated.
     The first rule reproduces the printed E(15 °C, 10 Hz) of every French mix; the second misses the printed ratios
-    at 3 Hz, taken out, by 2 % on average where one linear in log f misses them by 4 %.
+    at 3 Hz, when these are left out, by 2 % on average, one linear in log f by 4 %.
     Raises InputError.
     """
 
@@ -86,8 +86,8 @@ class Mix:
     def modulus(self, temperature: float, *, frequency: float | None = None, extrapolate: bool = False) -> float:
         """Young's modulus, Pa, at a temperature, °C, and a frequency of loading, Hz; left out, the mix's own.
 
-        extrapolate: outside the table ln E goes on straight over temperature and over ln f, from the last two
-        points. Raises InputError there otherwise, and for another frequency of a mix tabulated at one only.
+        extrapolate: outside the table ln E is extrapolated linearly over temperature and over ln f, from the last
+        two points. Raises InputError there otherwise, and for another frequency of a mix tabulated at one only.
         """
         theta = check_celsius(temperature)
         f = self.frequency if frequency is None else float(frequency)
@@ -116,7 +116,7 @@ class Mix:
         if not table[0] <= value <= table[-1]:
             raise InputError(
                 f"mix {self.name!r}: {value:g} {unit} lies outside its data, {table[0]:g} to {table[-1]:g} {unit}; "
-                "extrapolate=True goes on beyond them"
+                "extrapolate=True extrapolates beyond them"
             )
 
     def __str__(self) -> str:

@@ -15,7 +15,7 @@ from treadload.materials.elastic import Elastic
 
 
 class Operational(ABC):
-    """What one complex function tells: modulus in the frequency domain, relaxation and creep in time.
+    """What follows from one complex function: modulus in the frequency domain, relaxation and creep in time.
 
     Poisson's ratio does not depend on time.
     """
@@ -32,7 +32,7 @@ class Operational(ABC):
 
     @abstractmethod
     def operational_modulus(self, s: ArrayLike) -> ComplexArray:
-        """S times Laplace's transform of the relaxation modulus, Pa; the shape of `s`.
+        """The Laplace transform of the relaxation modulus times s, Pa; the shape of `s`.
 
         s: complex, 1/s, not on the negative real axis. At s = iω it is the complex modulus.
         """
@@ -72,7 +72,7 @@ def check_times(time: ArrayLike) -> Array:
 
 def _in_time(transform: Callable[[ComplexArray], ComplexArray], at_once: float, time: ArrayLike) -> Array:
     t = check_times(time)
-    found = np.full(t.shape, at_once)
+    values = np.full(t.shape, at_once)
     later = t > 0
-    found[later] = inverse_carson(transform, t[later])
-    return found
+    values[later] = inverse_carson(transform, t[later])
+    return values

@@ -23,7 +23,7 @@ class PowerLawCreep(Operational):
     """Solid whose creep compliance is D(t) = D∞ + (D₀ - D∞) / (1 + (t/τ)ⁿ).
 
     instantaneous_compliance, long_term_compliance: D₀ and D∞, 1/Pa, 0 < D₀ < D∞.
-    tau: τ > 0, s, at which half of the creep is done. exponent: n, 0 < n < 1.
+    tau: τ > 0, s, at which half of the creep is complete. exponent: n, 0 < n < 1.
     poisson: Poisson's ratio, in (-1, 0.5], constant.
     Raises InputError.
 
@@ -41,7 +41,8 @@ class PowerLawCreep(Operational):
         if not 0 < self.instantaneous_compliance < self.long_term_compliance < np.inf:
             raise InputError(
                 "compliances must satisfy 0 < instantaneous_compliance < long_term_compliance, 1/Pa, got "
-                f"{self.instantaneous_compliance:g} and {self.long_term_compliance:g}; asphalt has near 3e-11 at once"
+                f"{self.instantaneous_compliance:g} and {self.long_term_compliance:g}; asphalt is near 3e-11 at "
+                "once"
             )
         if not 0 < self.exponent < 1:
             raise InputError(
@@ -66,7 +67,7 @@ class PowerLawCreep(Operational):
         return np.asarray(self._creep((check_times(time) / self.tau) ** self.exponent))
 
     def operational_modulus(self, s: ArrayLike) -> ComplexArray:
-        """S times Laplace's transform of the relaxation modulus, Pa; s complex, off the negative real axis."""
+        """The Laplace transform of the relaxation modulus times s, Pa; s complex, off the negative real axis."""
         n = self.exponent
         # The powers of u > 0 and of s apart: few of them are taken.
         return np.asarray(1 / carson(lambda u, s: self._creep(u**n * (s * self.tau) ** -n), s))

@@ -1,4 +1,4 @@
-"""Viscoelastic materials of papers, by name, with their sources.
+"""Published viscoelastic materials, by name, with their sources.
 
 Another package adds its own by an entry point of the group `treadload.viscoelastic`: a function without arguments
 that returns an iterable of PublishedMaterial, for one `lambda: read_materials(path)` of a file like ours.
@@ -64,8 +64,8 @@ def read_materials(path: str | os.PathLike[str]) -> list[PublishedMaterial]:
     more = {"temperature": Celsius, "source": str, "doubts": tuple[str, ...]}
     kinds = Choice(MATERIALS, more=lambda target: {**shift_of(target), **more}, finish=publish)
     file = Path(path)
-    found = read(dict[str, Annotated[Any, kinds]], read_tables(file), str(file))
-    return [replace(one, name=name) for name, one in found.items()]
+    by_name = read(dict[str, Annotated[Any, kinds]], read_tables(file), str(file))
+    return [replace(one, name=name) for name, one in by_name.items()]
 
 
 def _words(entry: PublishedMaterial) -> str:

@@ -13,9 +13,9 @@ from treadload.materials.kinds import Viscoelastic
 from treadload.materials.viscoelastic import Prony
 
 # Terms per decade tried in turn. Evenly spaced times leave 2 exp(-π²/ln(spacing)) of a smooth spectrum: 5e-5 with
-# two and a half a decade, 7e-8 with four.
+# two and a half per decade, 7e-8 with four.
 _DENSITIES = (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
-# Times reach this many decades past the range, and then a few more, one a decade, to stand for all that relaxes
+# Times reach this many decades past the range, and then a few more, one per decade, to stand for all that relaxes
 # beyond: a modulus that rises by small powers of frequency does so for very long.
 _BEYOND, _FAR = 2, np.array([3.0, 4.0, 5.0])
 _POINTS = 12
@@ -25,7 +25,7 @@ def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance
     """A Prony series whose complex modulus is that of a material over a range of frequencies.
 
     lowest, highest: the range, rad/s, 0 < lowest < highest. tolerance: largest |E* - E*ₘ| / |E*ₘ| in the range
-    and at the glassy limit; the rubbery limit, where there is one, is exact. The least number of evenly spaced
+    and at the glassy limit; the rubbery limit, where there is one, is exact. The smallest number of evenly spaced
     times that serves is taken; shares are not negative. Outside the range the series is no more than bounded by
     the two limits. A Prony series is returned as it is, and so is that of a material which has one, as `prony`.
     Raises InputError for an empty range, and if the tolerance is not reached.
@@ -56,14 +56,14 @@ def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance
             np.vstack([rows, np.full(times.size, 1 / glassy)]),
             np.append(values - long_term * spring, 1 - long_term / glassy),
         )
-        found = prony_of(strengths, times, long_term, material.poisson)
-        at_once = abs(found.modulus / glassy - 1)
-        error = max(at_once, float(np.abs(found.complex_modulus(between) / checked - 1).max()))
+        series = prony_of(strengths, times, long_term, material.poisson)
+        at_once = abs(series.modulus / glassy - 1)
+        error = max(at_once, float(np.abs(series.complex_modulus(between) / checked - 1).max()))
         if error <= tolerance:
-            return found
+            return series
     raise InputError(
-        f"no Prony series of {_DENSITIES[-1]} terms a decade follows {material} from {lowest:g} to {highest:g} rad/s "
-        f"within {tolerance:g}: {error:.1e} is reached; ask for no less than that"
+        f"no Prony series of {_DENSITIES[-1]} terms per decade follows {material} from {lowest:g} to {highest:g} "
+        f"rad/s within {tolerance:g}: {error:.1e} is reached; ask for no less than that"
     )
 
 

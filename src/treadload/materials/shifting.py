@@ -118,12 +118,12 @@ def _step(cold: Array, warm: Array, between: str) -> tuple[float, float]:
 
     The cold curve is higher at equal rate. Brought to its temperature the warm one lies at the rate ω · 10^step.
     """
-    # Noise may turn a flat curve round: its ends count, and the way between them.
+    # Noise may reverse a flat curve: its ends count, and the way between them.
     low = max(cold[1, 0], warm[1, 0])
     high = min(cold[1, -1], warm[1, -1])
     if not high > low:
         raise InputError(
-            f"the isotherms at {between} share no modulus, so that nothing tells how far to shift them; measure at "
+            f"the isotherms at {between} share no modulus, so the shift between them is undetermined; measure at "
             "a temperature between, or over more decades"
         )
     step = (_area(cold, low, high) - _area(warm, low, high)) / (high - low)

@@ -47,5 +47,5 @@ ROAD_MATERIAL = Choice(
     "material of a road",
     more=shift_of,
     finish=shifted,
-    about="shift: how its times depend on temperature; without it the material is the same at all.",
+    about="shift: how its times depend on temperature; without it the material is the same at all temperatures.",
 )

@@ -45,7 +45,7 @@ class ShiftLaw(Protocol):
         """Temperature at which the factor is 1, °C."""
 
     def factor(self, temperature: ArrayLike) -> Array:
-        """AT at temperatures, °C: all times are this much longer than at the reference."""
+        """The factor aT at temperatures, °C: all times are this much longer than at the reference."""
 
 
 SHIFTS.makes(ShiftLaw)
@@ -81,7 +81,7 @@ class WLF:
 
     @classmethod
     def fit(cls, temperatures: Sequence[float], log_factors: Sequence[float], reference: float) -> WLF:
-        """The law nearest to measured log₁₀ aT, in the sense of least squares.
+        """The law nearest to measured log₁₀ aT, by least squares.
 
         temperatures: (n,), °C, n ≥ 3. log_factors: (n,). reference: °C, where it is 0.
         Raises InputError for too few data, and where the nearest law has no C₁, C₂ > 0.
@@ -92,18 +92,18 @@ class WLF:
         start = np.linalg.lstsq(np.column_stack([rise, y]), -y * rise, rcond=None)[0]
         least = max(0.0, -float(rise.min()))
         c1, c2 = max(float(start[0]), 1e-3), max(float(start[1]), 1.05 * least + 1e-3)
-        found = least_squares(
+        constants = least_squares(
             lambda p: p[0] * rise / (p[1] + rise) + y, (c1, c2), bounds=((0, least), np.inf), x_scale=(c1, c2)
         ).x
-        if not (found[0] > 1e-6 and least * (1 + 1e-6) < found[1] < 1e5):
+        if not (constants[0] > 1e-6 and least * (1 + 1e-6) < constants[1] < 1e5):
             raise InputError(
-                f"these shift factors follow no WLF law (C₁ = {found[0]:g}, C₂ = {found[1]:g} K); leave out "
+                f"these shift factors follow no WLF law (C₁ = {constants[0]:g}, C₂ = {constants[1]:g} K); leave out "
                 "temperatures below the glass transition, or use Arrhenius.fit or TabulatedShift"
             )
-        return cls(float(found[0]), float(found[1]), reference)
+        return cls(float(constants[0]), float(constants[1]), reference)
 
     def factor(self, temperature: ArrayLike) -> Array:
-        """AT at temperatures, °C. Raises InputError at and below Tᵣ - C₂, where the law ends."""
+        """The factor aT at temperatures, °C. Raises InputError at and below Tᵣ - C₂, where the law ends."""
         rise = _celsius(temperature) - self.reference
         if (rise <= -self.c2).any():
             raise InputError(
@@ -134,7 +134,7 @@ class Arrhenius:
 
     @classmethod
     def fit(cls, temperatures: Sequence[float], log_factors: Sequence[float], reference: float) -> Arrhenius:
-        """The law nearest to measured log₁₀ aT, in the sense of least squares.
+        """The law nearest to measured log₁₀ aT, by least squares.
 
         temperatures: (n,), °C, n ≥ 2. log_factors: (n,). reference: °C, where it is 0. Raises InputError.
         """
@@ -143,7 +143,7 @@ class Arrhenius:
         return cls(float(x @ y / (x @ x) * _DECADE), reference)
 
     def factor(self, temperature: ArrayLike) -> Array:
-        """AT at temperatures, °C, above absolute zero."""
+        """The factor aT at temperatures, °C, above absolute zero."""
         kelvin = _celsius(temperature) + _KELVIN
         return _power(self.activation_energy / _GAS * (1 / kelvin - 1 / (self.reference + _KELVIN)) / _DECADE)
 
@@ -156,8 +156,8 @@ class Arrhenius:
 class QuadraticShift:
     """ln aT = a₁ (T - Tᵣ) + a₂ (T² - Tᵣ²): the law of Huet and Sayegh, ln τ = A₀ + A₁ T + A₂ T².
 
-    a1: A₁, 1/°C. a2: A₂, 1/°C². reference: Tᵣ, °C; at 0 °C τ = exp(A₀). It holds where times fall as it gets
-    warmer, that is where a₁ + 2 a₂ T < 0.
+    a1: A₁, 1/°C. a2: A₂, 1/°C². reference: Tᵣ, °C; at 0 °C τ = exp(A₀). It holds where times fall with rising
+    temperature, that is where a₁ + 2 a₂ T < 0.
     Raises InputError.
     """
 
@@ -172,7 +172,7 @@ class QuadraticShift:
 
     @classmethod
     def fit(cls, temperatures: Sequence[float], log_factors: Sequence[float], reference: float) -> QuadraticShift:
-        """The law nearest to measured log₁₀ aT, in the sense of least squares.
+        """The law nearest to measured log₁₀ aT, by least squares.
 
         temperatures: (n,), °C, n ≥ 3. log_factors: (n,). reference: °C, where it is 0. Raises InputError.
         """
@@ -182,7 +182,7 @@ class QuadraticShift:
         return cls(float(a1), float(a2), reference)
 
     def factor(self, temperature: ArrayLike) -> Array:
-        """AT at temperatures, °C. Raises InputError where the parabola has turned and times would grow again."""
+        """The factor aT at temperatures, °C. Raises InputError where the parabola has turned and times would rise."""
         t = _celsius(temperature)
         self._check(t)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -244,7 +244,7 @@ class TabulatedShift:
         return PchipInterpolator(self.temperatures, self.log_factors)
 
     def factor(self, temperature: ArrayLike) -> Array:
-        """AT at temperatures, °C. Raises InputError outside the table."""
+        """The factor aT at temperatures, °C. Raises InputError outside the table."""
         t = _celsius(temperature)
         self._check(t)
         return _power(self._curve(t) - float(self._curve(self.reference)))
@@ -316,7 +316,7 @@ class Thermorheological:
         elif not (extrapolate or self.tested[0] <= temperature <= self.tested[1]):
             raise InputError(
                 f"the material was tested from {self.tested[0]:g} to {self.tested[1]:g} °C, got {temperature:g} °C; "
-                "to trust its law outside, ask for it with extrapolate=True"
+                "to use its law outside, set extrapolate=True"
             )
         return self.material.slowed(float(self.shift.factor(temperature)))
 

@@ -104,7 +104,7 @@ class Prony:
         if self.is_fluid:
             raise InputError(
                 "a fluid has no elastic limit of slow loading: the shares of the Prony series add up to 1; "
-                "keep a long-term modulus, e.g. 1 % of the instantaneous one, by lowering them to 0.99 in all"
+                "keep a long-term modulus, e.g. 1 % of the instantaneous one, by lowering them to a sum of 0.99"
             )
         return Elastic(self.long_term_modulus, self.poisson)
 
@@ -112,7 +112,7 @@ class Prony:
     def creep_terms(self) -> Terms:
         """(fⱼ, Tⱼ) of the creep compliance J(t) = (1 + Σ fⱼ (1 - exp(-t/Tⱼ)) + t φ) / E₀, shortest time first.
 
-        φ is `fluidity`, zero for a solid. The times are the poles of 1/E in Laplace's space: exact.
+        φ is `fluidity`, zero for a solid. The times are the poles of 1/E in the Laplace domain: exact.
         """
         return _swapped(self.terms, 1.0)
 
@@ -154,24 +154,24 @@ class Prony:
 def _checked(terms: Sequence[tuple[float, float]], strength: str) -> Terms:
     """Terms (strength, time) as floats, in the order of their times. Raises InputError."""
     try:
-        found = tuple(sorted(((float(s), float(t)) for s, t in terms), key=lambda term: term[1]))
+        pairs = tuple(sorted(((float(s), float(t)) for s, t in terms), key=lambda term: term[1]))
     except (TypeError, ValueError) as error:
         raise InputError(f"terms must be pairs (share, time in s), got {terms!r}") from error
-    if not found:
+    if not pairs:
         raise InputError("a viscoelastic material needs at least one term, got none; use Elastic instead")
-    for share, time in found:
+    for share, time in pairs:
         positive(strength, share, remedy="leave out terms of no strength")
         positive("the time of a term", time, "s", "1 ms is 0.001")
-    for (_, before), (_, after) in itertools.pairwise(found):
+    for (_, before), (_, after) in itertools.pairwise(pairs):
         if not after > before * (1 + _ROUND_OFF):
-            raise InputError(f"two terms have the time {after:g} s; add their strengths up into one")
-    return found
+            raise InputError(f"two terms have the time {after:g} s; combine them into one")
+    return pairs
 
 
 def _swapped(terms: Terms, sign: float) -> Terms:
     """Creep terms of relaxation terms (sign 1), or the other way round (sign -1), shortest time first.
 
-    In Laplace's space 1 ∓ Σ gᵢ aᵢ/(p + aᵢ), rates aᵢ = 1/τᵢ, inverts to 1 ± Σ fⱼ rⱼ/(p + rⱼ): rⱼ are the zeros at
+    In the Laplace domain 1 ∓ Σ gᵢ aᵢ/(p + aᵢ), rates aᵢ = 1/τᵢ, inverts to 1 ± Σ fⱼ rⱼ/(p + rⱼ): rⱼ are the zeros at
     p = -rⱼ, one between neighbouring aᵢ and one beyond the last, below for relaxation and above for creep.
     """
     rates = np.array(sorted(1 / time for _, time in terms))
@@ -187,10 +187,10 @@ def _swapped(terms: Terms, sign: float) -> Terms:
         ends = rates if fluid else np.concatenate([[0.5 * rates[0] * remains], rates])
     else:
         ends = np.concatenate([rates, [2 * rates[-1] * (1 + strengths.sum())]])
-    found: list[tuple[float, float]] = []
+    swapped: list[tuple[float, float]] = []
     for low, high in itertools.pairwise(np.log(ends)):
         # One digit off the poles at the ends.
         a, b = low + 2e-15 * (1 + abs(low)), high - 2e-15 * (1 + abs(high))
         rate = math.exp(brentq(secular, a, b, xtol=1e-15, rtol=1e-15))
-        found.append((1 / (rate * float((strengths * rates / (rates - rate) ** 2).sum())), 1 / rate))
-    return tuple(reversed(found))
+        swapped.append((1 / (rate * float((strengths * rates / (rates - rate) ** 2).sum())), 1 / rate))
+    return tuple(reversed(swapped))
