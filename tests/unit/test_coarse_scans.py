@@ -56,5 +56,5 @@ def test_a_torn_vertex_is_told(tmp_path):
     lines[at] = "v 1 2"
     path = tmp_path / "tire.obj"
     path.write_text("\n".join(lines))
-    with pytest.raises(InputError, match=r"'tire\.obj' has 2 numbers a vertex"):
+    with pytest.raises(InputError, match=r"'tire\.obj' has 2 numbers per vertex"):
         Tire.from_scan(path, units="m")

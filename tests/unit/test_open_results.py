@@ -276,7 +276,7 @@ def test_a_scan_says_that_it_is_gone(tmp_path):
     assert str(tire) == str(scanned)
     assert tire.camber_spin == scanned.camber_spin
     assert tire.quality == scanned.quality
-    with pytest.raises(tl.InputError, match=r"not in the file of results.*Tire.from_scan"):
+    with pytest.raises(tl.InputError, match=r"not in the result file.*Tire.from_scan"):
         tl.solve_contact(tire, opened.road, opened.contact.rolling)
     # What the sentence offers works.
     map_of = tl.Tire.from_height_map(opened.contact.dataset["initial_gap"], material=RUBBER)

@@ -93,9 +93,9 @@ def _candidates(points: Array, normals: Array) -> list[tuple[Array, Array]]:
     few = points[:: max(1, len(points) // 3000)]
     smooth = _smoothed_normals(points, normals, few)
     raw = normals[:: max(1, len(points) // 3000)]
-    found = [_meeting_line(few, raw), _meeting_line(few, smooth)]
+    lines = [_meeting_line(few, raw), _meeting_line(few, smooth)]
     principal = np.linalg.eigh(smooth.T @ smooth)[1].T[[0, 2]]
-    return found + [(_centre(few, smooth, direction), direction) for direction in principal]
+    return lines + [(_centre(few, smooth, direction), direction) for direction in principal]
 
 
 def _smoothed_normals(points: Array, normals: Array, at: Array) -> Array:

@@ -1,4 +1,4 @@
-"""What is done about the facets and the noise of a scan, and what is said of it."""
+"""What is done about the facets and the noise of a scan, and the warnings about it."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ LARGEST_NOISE = 0.05e-3  # noise of this size raises the peak pressure by 5 to 7
 
 
 def decide_revolve(revolve: Choice, smooth: Smooth, steady: bool, sag: float, noise: float) -> tuple[bool, list[str]]:
-    """Whether the meridian of a tread is revolved in place of its facets, and what the user should hear.
+    """Whether the meridian of a tread is revolved in place of its facets, and sentences for the user.
 
-    revolve, smooth: the wishes. steady: the tread does not depend on the angle. sag: of the facets under the
+    revolve, smooth: as asked for. steady: the tread does not depend on the angle. sag: of the facets under the
     circle, m. noise: m, NaN unknown.
     """
     if revolve is True:
@@ -40,9 +40,9 @@ def decide_revolve(revolve: Choice, smooth: Smooth, steady: bool, sag: float, no
 def decide_smoothing(
     smooth: Smooth, revolved: bool, steady: bool, noise: float, spacing: float
 ) -> tuple[float, list[str]]:
-    """Length to smooth a scan over, m (0: not at all), and what the user should hear.
+    """Length to smooth a scan over, m (0: not at all), and sentences for the user.
 
-    smooth: the wish. revolved: the tread is a revolved meridian, which noise does not reach. steady: it could be.
+    smooth: as asked for. revolved: the tread is a revolved meridian, which has no noise. steady: it could be.
     noise: m, NaN unknown. spacing: of the points, m.
     """
     if revolved:
@@ -51,8 +51,8 @@ def decide_smoothing(
         length = float(smooth)
         if noise > LARGEST_NOISE and roughness(noise, spacing, length) > 2 * ROUGH:
             return length, [
-                f"the scan has {noise * 1e3:.2f} mm of noise, and smoothing over {length * 1e3:.3g} mm leaves peaks "
-                f'of pressure; smooth="auto" would take {smoothing_length(noise, spacing) * 1e3:.2g} mm'
+                f"the scan has {noise * 1e3:.2f} mm of noise, and smoothing over {length * 1e3:.3g} mm leaves "
+                f'pressure peaks; smooth="auto" would take {smoothing_length(noise, spacing) * 1e3:.2g} mm'
             ]
         return length, []
     if not math.isfinite(noise) or noise <= LARGEST_NOISE:

@@ -40,11 +40,10 @@ class Groove:
 class LateralGrooves:
     """Grooves across the tread, repeated round the tire.
 
-    pitch: distance between two of them along the circumference at the crown, m. width: square to the groove, m.
-    depth, wall_angle, edge_radius: as in Groove. angle: from the axle towards travel on
-    the right-hand side, rad. y_range: (from, to) in m, for lugs on a part of the width; None for all of it.
-    offset: circumferential place of one of them at y = 0, m.
-    Raises InputError when the walls or the rounding do not fit.
+    pitch: distance between two of them along the circumference at the crown, m. width: perpendicular to the groove,
+    m. depth, wall_angle, edge_radius: as in Groove. angle: from the axle towards travel on the right-hand side, rad.
+    y_range: (from, to) in m, for lugs on a part of the width; None for all of it. offset: circumferential place of
+    one of them at y = 0, m. Raises InputError when the walls or the rounding do not fit.
     """
 
     pitch: Length

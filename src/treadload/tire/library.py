@@ -1,4 +1,4 @@
-"""The catalogue of tires: parametric treads and meshes, a data file each in `catalogue/data/tires`.
+"""The catalogue of tires: parametric treads and meshes, each a data file in `catalogue/data/tires`.
 
 Another package adds its own by an entry point of the group `treadload.tires`: a function without arguments that
 returns TreadProfile and TireMesh, for one `lambda: read_tires(path)` of a file like ours.
@@ -74,7 +74,7 @@ class _Mesh:
 
 
 def example_mesh() -> Path:
-    """Path of the truck tire mesh that comes with treadload (335/65R22.5, metres, BSD-3-Clause licence beside it)."""
+    """Path of the truck tire mesh that ships with treadload (335/65R22.5, metres, BSD-3-Clause licence beside it)."""
     mesh = tires[EXAMPLE]
     assert isinstance(mesh, TireMesh)
     return mesh.path
@@ -85,7 +85,7 @@ def tread_named(name: str) -> TreadProfile:
     tire = tires[name]
     if isinstance(tire, TireMesh):
         raise InputError(
-            f"{tire.name!r} is a mesh and no parametric tread; use Tire.from_scan(catalogue.tires[{tire.name!r}])"
+            f"{tire.name!r} is a mesh, not a parametric tread; use Tire.from_scan(catalogue.tires[{tire.name!r}])"
         )
     return tire
 

@@ -1,4 +1,4 @@
-"""What an unrolled tread says: meridian, crown radius, grooves, facets."""
+"""What an unrolled tread shows: meridian, crown radius, grooves, facets."""
 
 from __future__ import annotations
 
@@ -154,7 +154,7 @@ def find_grooves(y: Array, meridian: Array, crown_radius: float) -> tuple[Groove
     """
     depth = groove_depth(y, meridian)
     runs, count = ndimage.label(depth > SHALLOWEST)
-    found = []
+    grooves = []
     beside = max(1, round(3e-3 / (y[1] - y[0])))
     for piece in ndimage.find_objects(runs, max_label=count):
         where = piece[0]
@@ -172,8 +172,10 @@ def find_grooves(y: Array, meridian: Array, crown_radius: float) -> tuple[Groove
             ribs = 0.5 * (
                 np.nanmax(meridian[max(0, first - beside) : first]) + np.nanmax(meridian[last + 1 :][:beside])
             )
-            found.append(GrooveMeasure(0.5 * (left + right), right - left, float(ribs) - floor, crown_radius - floor))
-    return tuple(found)
+            grooves.append(
+                GrooveMeasure(0.5 * (left + right), right - left, float(ribs) - floor, crown_radius - floor)
+            )
+    return tuple(grooves)
 
 
 def _crossing(y: Array, depth: Array, index: int, level: float) -> float:

@@ -46,7 +46,7 @@ def import_trimesh() -> ModuleType:
 def read_mesh(path: str | Path) -> Mesh:
     """Mesh of a file, vertices merged and degenerate faces dropped.
 
-    path: OBJ, PLY, STL, GLB or OFF, or of an ending that another package reads, see `treadload.registry.READERS`.
+    path: OBJ, PLY, STL, GLB or OFF, or a format that another package reads, see `treadload.registry.READERS`.
     Raises InputError for a missing, unknown or unreadable file, GeometryError for one without usable triangles.
     """
     path = Path(path)
@@ -65,8 +65,8 @@ def read_mesh(path: str | Path) -> Mesh:
         raise GeometryError(_no_faces(path))
     if vertices.shape[1:] != (3,) or faces.shape[1:] != (3,):
         raise InputError(
-            f"scan file {path.name!r} has {vertices.shape[-1]} numbers a vertex and {faces.shape[-1]} vertices a "
-            "triangle where 3 and 3 belong; it may be truncated, export or copy it again"
+            f"scan file {path.name!r} has {vertices.shape[-1]} numbers per vertex and {faces.shape[-1]} vertices "
+            "per triangle where 3 and 3 are needed; it may be truncated, export or copy it again"
         )
     bad = int((~np.isfinite(vertices)).any(axis=1).sum())
     if bad:
@@ -83,10 +83,10 @@ def read_mesh(path: str | Path) -> Mesh:
 
 
 def _read(reader: Entry, path: Path) -> Triangles:
-    """Vertices (n, 3) and faces (m, 3) as a reader gives them; what another package does wrong is told."""
+    """Vertices (n, 3) and faces (m, 3) as a reader gives them; what another package does wrong is reported."""
     if reader.package == OURS:
-        found: Triangles = reader.target(path)
-        return found
+        triangles: Triangles = reader.target(path)
+        return triangles
     who = f"scan file {path.name!r} could not be read by the reader {reader.name!r} of {reader.package}"
     try:
         given, corners = reader.target(path)
@@ -121,7 +121,7 @@ def _of_trimesh(path: Path) -> Triangles:
 
 
 def _clean(trimesh: ModuleType, path: Path, vertices: Array, faces: NDArray[np.int64]) -> Mesh:
-    # A few points may lie at the end of the world: the size is that of nine tenths, and they end on its horizon.
+    # A few points may lie absurdly far away: the size is that of nine tenths, and they end on its horizon.
     used = vertices[np.unique(faces)]
     middle = np.median(used, axis=0)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -131,7 +131,7 @@ def _clean(trimesh: ModuleType, path: Path, vertices: Array, faces: NDArray[np.i
             raise GeometryError(
                 f"all {len(vertices)} vertices of {path.name!r} are one point; it holds no surface"
                 if size == 0
-                else f"{path.name!r} is {size:.3g} wide, which no unit makes a tire; export it again"
+                else f"{path.name!r} is {size:.3g} wide, which is no tire in any unit; export it again"
             )
         scaled = np.clip(
             np.nan_to_num((vertices - middle) / size, posinf=HORIZON, neginf=-HORIZON), -HORIZON, HORIZON

@@ -35,7 +35,7 @@ def unrolled(vertices: Array, outer: float) -> Array:
 
 
 def radial_noise(flat: Array, faces: Indices, tread: BoolArray) -> float:
-    """Standard deviation of the error of a scan along the radius, m; NaN when too few points tell.
+    """Standard deviation of the error of a scan along the radius, m; NaN when there are too few points.
 
     flat: (n, 3) unrolled vertices, their heights over the envelope of the tread. faces: (m, 3). tread: (n,) True on
     the tops of ribs and lugs. The smaller of two estimates that the shape of a tread can only raise: residuals of
@@ -43,13 +43,15 @@ def radial_noise(flat: Array, faces: Indices, tread: BoolArray) -> float:
     tire (which facets leave level). Both are medians, so that walls and single wild points do not count. On white
     noise of 0.1 to 1 mm within 10 %.
     """
-    found = [value for value in (_from_planes(flat, tread), _from_edges(flat, faces, tread)) if math.isfinite(value)]
-    return min(found, default=math.nan)
+    estimates = [
+        value for value in (_from_planes(flat, tread), _from_edges(flat, faces, tread)) if math.isfinite(value)
+    ]
+    return min(estimates, default=math.nan)
 
 
 def _from_planes(flat: Array, tread: BoolArray) -> float:
     points = flat[tread]
-    # One point a box: nearer together they may not be independent.
+    # One point per box: nearer together they may not be independent.
     box = np.unique(np.floor(points[:, :2] / FINE).astype(np.int64), axis=0, return_index=True)[1]
     points = points[np.sort(box)]
     if len(points) < FEWEST:
@@ -142,7 +144,7 @@ def _planes(at: Array, around: Array, weight: Array, noise: float, length: float
     rise = around[..., 2] - at[:, None, 2]
     # The point itself may stand off by noise, so the first window is wider.
     left, width = rise, 1.5 * CUT * noise
-    # A slope as steep as they come: what too few points, or points on one side, say beyond that is noise.
+    # The steepest slope there is: what too few points, or points on one side, give beyond that is noise.
     prior = (noise / (SLOPE * length)) ** 2
     plane = np.zeros((len(at), 3))
     for _ in range(ROUNDS):

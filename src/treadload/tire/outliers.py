@@ -23,7 +23,7 @@ NEEDLE = 1.5  # a point this many times further off than the ring of its neighbo
 LOWEST = 0.5e-3  # height over the tread that counts, m
 DEVIATIONS = 6.0  # of the noise: one point in 500 million of a normal distribution
 LARGEST = 0.04  # what is longer belongs to the tire, m
-STEEPEST = 1.5  # of the envelope where heights over it can be told
+STEEPEST = 1.5  # of the envelope where heights over it can be measured
 BESIDE = 0.002  # walls of grooves may lie this far from where they are drawn, m
 MOST = 30
 
@@ -99,8 +99,8 @@ def put_back(points: Array, links: csr_array, wild: BoolArray) -> tuple[Array, B
         now = [k for k in left if known[beside[k]].any()]
         if not now:
             break
-        found = [np.median(points[beside[k][known[beside[k]]]], axis=0) for k in now]
-        points[now] = found
+        medians = [np.median(points[beside[k][known[beside[k]]]], axis=0) for k in now]
+        points[now] = medians
         known[now] = True
         left = [k for k in left if k not in set(now)]
     return points, known
@@ -119,16 +119,16 @@ def find_outliers(mesh: Mesh, reference: Array, high: float) -> list[Indices]:
         return []
     links = _links(mesh)
     count, group = connected_components(links[where][:, where], directed=False)
-    found = []
-    # A cloud of them is no work for a rule: the first hundreds are enough to refuse it.
+    groups = []
+    # A cloud of them is beyond this rule: the first hundreds are enough to refuse it.
     for k in range(min(count, 10 * MOST)):
         members = where[group == k]
         if np.linalg.norm(np.ptp(_footprint(mesh.vertices[members]), axis=0)) > LARGEST:
             continue
         beside = np.setdiff1d(links[members].indices, members)
         if len(beside) == 0 or r[members].max() > r[beside].max() + high:
-            found.append(members)
-    return found
+            groups.append(members)
+    return groups
 
 
 def _footprint(points: Array) -> Array:
@@ -162,24 +162,24 @@ def named(mesh: Mesh, reference: Array, groups: list[Indices], far: Moved, middl
     mesh, reference: as in find_outliers. middle: place of the middle of the tread along the axle, m.
     """
     r = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2])
-    found = []
+    outliers = []
     for members in groups:
         tip = members[np.argmax(r[members] - reference[members])]
         x, y, z = mesh.vertices[tip]
-        found.append(Outlier(len(members), float((r - reference)[tip]), math.atan2(x, z), float(y) - middle))
+        outliers.append(Outlier(len(members), float((r - reference)[tip]), math.atan2(x, z), float(y) - middle))
     for index, where in zip(far.points, far.where, strict=True):
         # Named by where it went back to: far off, the smallest tilt of the axle moves it sideways.
         x, y, z = mesh.vertices[index]
         height = float(np.linalg.norm(where - mesh.vertices[index]))
-        found.append(Outlier(1, height, math.atan2(x, z), float(y) - middle))
-    return sorted(found, key=lambda one: -one.height)
+        outliers.append(Outlier(1, height, math.atan2(x, z), float(y) - middle))
+    return sorted(outliers, key=lambda one: -one.height)
 
 
-def told(found: list[Outlier], kept: bool) -> str:
+def in_words(outliers: list[Outlier], kept: bool) -> str:
     """One sentence on what sticks out and was put back, or left."""
-    points = sum(one.points for one in found)
-    places = "one place" if len(found) == 1 else f"{len(found)} places"
-    which = f"({found[0]})" if len(found) == 1 else f"(the highest {found[0]})"
+    points = sum(one.points for one in outliers)
+    places = "one place" if len(outliers) == 1 else f"{len(outliers)} places"
+    which = f"({outliers[0]})" if len(outliers) == 1 else f"(the highest {outliers[0]})"
     if kept:
         return f"the scan sticks out of the tire in {places} {which}, left in it as asked: its tip will carry load"
     return (

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class GrooveMeasure:
-    """One circumferential groove found in a scan.
+    """One circumferential groove of a scan.
 
     centre: distance to the right of the middle of the tread, m. width: at half its depth, m.
     depth: floor below the ribs beside it, m. floor: floor below the crown, m.
@@ -53,7 +53,7 @@ class ScanQuality:
     holes: number of connected regions that they did not meet. hole_fraction: 1 - coverage. watertight: of the mesh.
     revolved: True when the meridian was revolved in place of the facets. grooves: from left to right.
     warnings: one sentence each. noise: standard deviation of the error of single points along the radius, m, as
-    scanned; NaN when too few points tell. smoothing: standard deviation of the window that took it out, m, or 0.
+    scanned; NaN when there are too few points. smoothing: standard deviation of the window that removed it, m, or 0.
     outliers: places that stuck out of the tread, the highest first.
     """
 

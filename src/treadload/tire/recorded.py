@@ -1,4 +1,4 @@
-"""A scanned tread of which a file of results keeps the words and the sizes, not the mesh."""
+"""A scanned tread of which a result file keeps the description and the sizes, not the mesh."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from treadload.tire.quality import ScanQuality
 
 @dataclass(frozen=True)
 class RecordedSurface:
-    """What was said of a surface whose mesh is not at hand.
+    """The description of a surface whose mesh is not at hand.
 
     words: of the surface. extent: m. quality: of the scan. camber: rad. outer_radius, crown_arc_radius: m, or None.
     Its gap cannot be asked again: `height_map` raises InputError that says how to go on.
@@ -33,7 +33,7 @@ class RecordedSurface:
     def height_map(self, grid: Grid) -> NoReturn:
         """Raise InputError: the gap is not known here."""
         raise InputError(
-            f"the tread of this tire is not in the file of results, only what it did to the road: {self.words}; read "
+            f"the tread of this tire is not in the result file, only what it did to the road: {self.words}; read "
             "the scan again with Tire.from_scan, or take the gap on the cells of the contact, "
             'Tire.from_height_map(contact.dataset["initial_gap"])'
         )

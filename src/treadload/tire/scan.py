@@ -35,10 +35,10 @@ DEEP_GROOVE = 0.9  # a groove is one on so much of the turn
 def read_scan(path: str | Path, options: ScanOptions | None = None) -> ScanSurface:
     """Tread surface of a mesh file in any pose.
 
-    path: OBJ, PLY, STL, GLB or OFF. options, as in `Tire.from_scan`: nominal_diameter tells the unit or, when none
+    path: OBJ, PLY, STL, GLB or OFF. options, as in `Tire.from_scan`: nominal_diameter gives the unit or, when none
     fits within 3 %, the scale; without it and units, the one unit that gives a diameter between 0.4 and 1.6 m
     serves. The reference of rotation is the file's -z (or -y, -x when the axle lies along it), for a partial scan
-    its middle. A flat floor in the scan is taken away when no tire is found with it.
+    its middle. A flat floor in the scan is removed when no tire is found with it.
     The axle's right end is the one that points along the positive axis of the file.
     Raises InputError, GeometryError.
     """
@@ -53,7 +53,7 @@ def read_scan(path: str | Path, options: ScanOptions | None = None) -> ScanSurfa
         if rest is None:
             raise
         dropped = len(mesh.faces) - len(rest.faces)
-        note = f"a flat floor of {dropped} triangles was taken away; the tread that stood on it may be flattened"
+        note = f"a flat floor of {dropped} triangles was removed; the tread that stood on it may be flattened"
         try:
             return _build(rest, name, options, [note])
         except (GeometryError, InputError):
@@ -103,10 +103,10 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     seen = _Unrolled.of(mesh, scale * axis.radius)
     _check_seen(seen, name)
     noise, flat, tread = _noise(mesh, seen)
-    mesh, found = _without_outliers(mesh, seen, noise, far, options.outliers, name)
-    if found:
-        warnings.append(sticking.told(found, options.outliers == "keep"))
-    if found and options.outliers == "remove":
+    mesh, outliers = _without_outliers(mesh, seen, noise, far, options.outliers, name)
+    if outliers:
+        warnings.append(sticking.in_words(outliers, options.outliers == "keep"))
+    if outliers and options.outliers == "remove":
         seen = _Unrolled.of(mesh, scale * axis.radius)
         _check_seen(seen, name)
         noise, flat, tread = _noise(mesh, seen)
@@ -154,7 +154,7 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
         grooves=grooves,
         noise=noise,
         smoothing=length,
-        outliers=tuple(found),
+        outliers=tuple(outliers),
     )
     if mesh.dropped:
         warnings.append(f"{mesh.dropped} triangles without area were left out")
@@ -163,7 +163,7 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     )
     coverage, holes = surface.coverage
     if coverage < 1 - SMALL_HOLES:
-        warnings.append(f"{1 - coverage:.1%} of the tread over the road has no scan ({holes} holes)")
+        warnings.append(f"{1 - coverage:.1%} of the tread over the road was not scanned ({holes} holes)")
     quality = replace(quality, coverage=coverage, holes=holes, hole_fraction=1 - coverage, warnings=tuple(warnings))
     return surface.with_report(quality)
 
@@ -184,7 +184,7 @@ def _without_outliers(
 ) -> tuple[Mesh, list[Outlier]]:
     """The mesh without points that stick out of the tread, and which they were; raises GeometryError as wanted.
 
-    far: points that were brought back before the axle was known, with the places where they were found.
+    far: points that were brought back before the axle was known, with the places where they had been.
     """
     high = max(sticking.LOWEST, sticking.DEVIATIONS * noise if math.isfinite(noise) else 0.0)
     reference = sticking.tread_reference(
@@ -192,19 +192,19 @@ def _without_outliers(
     )
     groups = sticking.find_outliers(mesh, reference, high)
     middle = sum(unrolling.reach(seen.y, seen.top, seen.crown - EXTENT_DROP)) / 2
-    found = sticking.named(mesh, reference, groups, far, middle)
-    if not found:
+    outliers = sticking.named(mesh, reference, groups, far, middle)
+    if not outliers:
         return mesh, []
     if wanted == "keep":
-        return replace(mesh, vertices=far.undone(mesh.vertices)), found
-    if wanted == "refuse" or len(found) > sticking.MOST:
+        return replace(mesh, vertices=far.undone(mesh.vertices)), outliers
+    if wanted == "refuse" or len(outliers) > sticking.MOST:
         raise GeometryError(
-            f"{name!r} sticks out of its tread in {len(found)} {'place' if len(found) == 1 else 'places'} "
-            f"({'the highest ' if len(found) > 1 else ''}{found[0]})"
+            f"{name!r} sticks out of its tread in {len(outliers)} {'place' if len(outliers) == 1 else 'places'} "
+            f"({'the highest ' if len(outliers) > 1 else ''}{outliers[0]})"
             + ("" if wanted == "refuse" else f", more than the {sticking.MOST} that are taken for errors")
             + '; clean the scan, or leave them in it with outliers="keep" where they belong to the tire'
         )
-    return sticking.without_outliers(mesh, [far.points, *groups]), found
+    return sticking.without_outliers(mesh, [far.points, *groups]), outliers
 
 
 def _noise(mesh: Mesh, seen: _Unrolled) -> tuple[float, Array, BoolArray]:
@@ -236,7 +236,7 @@ def _check_seen(seen: _Unrolled, name: str) -> None:
 
 
 def _check_round(seen: _Unrolled, roundness: float, name: str) -> None:
-    """A tire has the same radius at every angle, between its lugs as well; a box has not."""
+    """A tire has the same radius at every angle, between its lugs as well; a box does not."""
     known = np.asarray(np.isfinite(seen.turn).any(axis=0))
     tops = np.full(len(known), -np.inf)
     tops[known] = np.nanmax(seen.turn[:, known], axis=0)

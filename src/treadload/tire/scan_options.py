@@ -1,4 +1,4 @@
-"""How a scan is to be understood."""
+"""How a scan is to be read."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SMOOTHING = (0.5e-3, 0.05)
 
 @dataclass(frozen=True)
 class ScanOptions:
-    """How a scan is to be understood; the words are those of `Tire.from_scan`. Raises InputError."""
+    """How a scan is to be read; the words are those of `Tire.from_scan`. Raises InputError."""
 
     units: str | None = None
     nominal_diameter: float | None = None

@@ -43,7 +43,7 @@ class ScanSurface:
     already turned by the chosen rotation. faces: (m, 3). camber: rad, positive when the top leans to the right.
     across: (k,) places across the tread, m; meridian: (k,) median radius there and envelope: (k,) radius of the tops
     of ribs and lugs there, m, NaN where unknown.
-    report: what was found. fill_holes: True, False or "auto" (only when they are at most 2 % of the tread).
+    report: the quality of the scan. fill_holes: True, False or "auto" (only when they are at most 2 % of the tread).
     """
 
     vertices: Array
@@ -90,7 +90,7 @@ class ScanSurface:
 
     @property
     def quality(self) -> ScanQuality | None:
-        """What was found in the scan."""
+        """How good the scan was."""
         return self.report
 
     @property
@@ -126,7 +126,7 @@ class ScanSurface:
         """(ny, nx) gap, m, cast vertically from the cell centres to the tread.
 
         The plane of first contact touches the tread without its noise (see first_contact); what stands above it
-        counts as gap 0. Hits more than 45 mm below the crown are no tread. Holes take the median over the angle at
+        counts as gap 0. Hits more than 45 mm below the crown are not tread. Holes take the median over the angle at
         the same place across, as fill_holes says.
         Raises GeometryError when holes remain where the contact will be, or when no cell meets the tread.
         """

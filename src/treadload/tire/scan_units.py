@@ -55,10 +55,10 @@ def scale_of(diameter: float, unit: str | None, nominal: float | None, name: str
         low, high = GUESSED_DIAMETERS
         fits = [key for key, value in UNITS.items() if low <= diameter * value <= high]
         if len(fits) != 1:
-            found = ", ".join(f"{diameter * value:.3g} m in {key}" for key, value in UNITS.items())
+            diameters = ", ".join(f"{diameter * value:.3g} m in {key}" for key, value in UNITS.items())
             raise InputError(
-                f"the units of {name!r} cannot be told: its outer diameter of {diameter:.4g} would be {found}, and "
-                f"{'none' if not fits else 'more than one'} lies between {low} and {high} m; give units= or "
+                f"the units of {name!r} cannot be determined: its outer diameter of {diameter:.4g} would be {diameters}, "
+                f"and {'none' if not fits else 'more than one'} lies between {low} and {high} m; give units= or "
                 "nominal_diameter="
             )
         unit, scale = fits[0], UNITS[fits[0]]

@@ -29,12 +29,12 @@ if TYPE_CHECKING:
 _NAMES = ("gap", "x", "y")
 # A groove on a small piece of tread is this deep, m.
 _DEEP = 0.05
-FLATTEST = 5.0  # a map that bends less is no wheel, m
+FLATTEST = 5.0  # a map that bends less is not of a wheel, m
 
 
 @runtime_checkable
 class Surface(Protocol):
-    """A tread surface that can say its gap to the tangent plane at first contact."""
+    """A tread surface that gives its gap to the tangent plane at first contact."""
 
     @property
     def extent(self) -> tuple[float, float]:
@@ -178,7 +178,7 @@ class HeightMapSurface:
         if not same:
             raise InputError(
                 f"this tire is a height map on {own} and was asked for on {grid}; "
-                "leave the spacing out, or make the map anew at the spacing you want"
+                "leave the spacing out, or make the map again at the spacing you want"
             )
         return self.gap.copy()
 
@@ -195,7 +195,7 @@ def read_height_map(
     text, CSV, NPY or NPZ (rows along y, columns along x). spacing: (dx, dy) in m, for a matrix.
     units: of the gap of a matrix, {"gap": "mm"}, m if left out; of variables of a NetCDF file that name none, "gap",
     "x" and "y", which are refused if left out. A text alone, "mm", is the unit of all three. decimal: "." or ",", of
-    a text that can be read in two ways. An empty cell, NaN, NA, N/A, NoData and null are no material.
+    a text that can be read in two ways. An empty cell, NaN, NA, N/A, NoData and null mean no material.
     Raises InputError when it is missing, unreadable, without spacing or unit, or steeper than a tread can be.
     """
     path = Path(path)

@@ -1,4 +1,4 @@
-"""Parametric treads: a revolved meridian with grooves, known at every point."""
+"""Parametric treads: a revolved meridian with grooves, defined at every point."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class TreadProfile:
 
     @classmethod
     def from_toml(cls, path: str | Path) -> TreadProfile:
-        """Profile of a TOML file: the keys are the arguments of the class; m and rad, or texts with their unit."""
+        """Profile of a TOML file: the keys are the arguments of the class; m and rad, or text with a unit."""
         path = Path(path)
         if not os.path.isfile(path):
             raise InputError(
@@ -100,7 +100,7 @@ class TreadProfile:
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> TreadProfile:
-        """Profile of plain tables, as to_dict gives them; a text carries its unit. Raises InputError."""
+        """Profile of plain tables, as to_dict gives them; text carries its unit. Raises InputError."""
         # pydantic is loaded when a table is read, not before.
         from treadload.read import read
 
