@@ -2,7 +2,7 @@
 
 A truck wheel at 32.5 kN brakes at 4 m/s² on the French structure 6 BBSG3 / 15 GB3 / PF3 at 15 °C. Shear, pressure and
 utilisation of both interfaces; where the layers part first and after how many passes; then the lives of the road
-with its bond, without it, and with it until it parts. The strengths are those of a core that just passes Leutner's
+with its bond, without it, and with it until it fails. The strengths are those of a core that just passes Leutner's
 test, as from memory, above, and of a base bound to its platform by friction and 50 kPa, assumed, below; the slope of
 the bond's fatigue is assumed too: replace all of them by tests of your road.
 

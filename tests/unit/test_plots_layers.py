@@ -236,7 +236,7 @@ def test_wrong_requests_are_refused(above):
     plots = ResponsePlots(above)
     with pytest.raises(InputError, match="strains must be of xx, yy"):
         plots.strain_profiles({"a": (0, 0)}, strains=("xy",))
-    with pytest.raises(InputError, match="one place at least"):
+    with pytest.raises(InputError, match="at least one place"):
         plots.strain_profiles({})
     with pytest.raises(InputError, match="two depths"):
         ResponsePlots(above.isel(depth=[0])).strain_profiles({"a": (0, 0)})

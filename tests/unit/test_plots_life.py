@@ -54,7 +54,7 @@ def test_the_damage_is_that_of_the_design_life():
     peaks = [np.nanmax(line.get_ydata()) for line in lines if len(line.get_xdata()) > 2]
     assert peaks == pytest.approx(life.dataset["design_damage"].to_numpy(), rel=1e-9)
     words = [text.get_text() for text in life_damage(life).findobj(Text)]
-    assert any("normal wander of 200 mm, but for laws that hold it" in text for text in words)
+    assert any("normal wander of 200 mm, except for laws that include it" in text for text in words)
 
 
 def test_the_map_holds_the_shares():

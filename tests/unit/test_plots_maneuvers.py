@@ -169,7 +169,7 @@ def test_a_parking_turn_shows_its_shear(turn):
         (lambda c, r: orientation_shares([crack_rose(cracks([0.0]))], ["a"], notes=[]), "0 notes for 1 cases"),
         (lambda c, r: tearing(r, r), "needs pressure"),
         (lambda c, r: tearing(c, r, depth=0.5), "no depth 0.5 m"),
-        (lambda c, r: tearing(c, tl.solve_response(c, ROAD, depths=[0.0], y=[0.0])), "another y"),
+        (lambda c, r: tearing(c, tl.solve_response(c, ROAD, depths=[0.0], y=[0.0])), "other y coordinates"),
     ],
 )
 def test_bad_input_is_named(turn, draw, words):

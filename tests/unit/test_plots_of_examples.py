@@ -16,7 +16,7 @@ import treadload as tl
 from treadload.errors import InputError
 from treadload.plots import ResponsePlots, creep_curves, png
 from treadload.plots.kit.style import house_style
-from treadload.plots.panels import strain_panels, way_of
+from treadload.plots.panels import direction_class, strain_panels
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").rglob("*.py"))
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
@@ -70,8 +70,8 @@ def test_strokes_of_the_panel_lie_along_the_extension():
 
 def test_ways_of_directions():
     angles = np.radians([0, 10, 45, 80, 90, 180])
-    assert way_of(np.cos(angles), np.sin(angles)).tolist() == [0, 0, 1, 2, 2, 0]
-    assert way_of(np.array([0.1]), np.array([0.1])).tolist() == [3]
+    assert direction_class(np.cos(angles), np.sin(angles)).tolist() == [0, 0, 1, 2, 2, 0]
+    assert direction_class(np.array([0.1]), np.array([0.1])).tolist() == [3]
 
 
 def test_panels_without_extension_say_so(response):

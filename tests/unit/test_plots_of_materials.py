@@ -116,7 +116,7 @@ def test_axes_of_the_caller_are_used():
         (lambda: cole_cole(TESTS), "no complex modulus"),
         (lambda: draw_master_curve([TESTS, SWEEPS]), "no common axis"),
         (lambda: draw_master_curve([SWEEPS, master_curve(SWEEPS.isotherms, 20.0)]), "15 and 20 °C"),
-        (lambda: shift_factors(LAW), "say over which temperatures"),
+        (lambda: shift_factors(LAW), "give temperatures"),
     ],
 )
 def test_bad_input(draw, word):

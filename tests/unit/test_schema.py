@@ -65,7 +65,7 @@ BREAKS = {
     "of an infinite pressure": ("contact", lambda d: d.assign(pressure=d.pressure * np.inf), "NaN or infinite"),
     "of one row": ("contact", lambda d: d.assign(pressure=d.pressure.isel(y=0)), "pressure is over x, not x, y"),
     "empty": ("contact", lambda d: d.isel(x=slice(0, 0)), "it has no x"),
-    "backwards": ("contact", lambda d: d.isel(x=slice(None, None, -1)), "x does not rise"),
+    "backwards": ("contact", lambda d: d.isel(x=slice(None, None, -1)), "x does not increase"),
     "nowhere": ("contact", lambda d: d.drop_vars("x"), "does not say where"),
     "of a fourth state": ("contact", lambda d: d.assign(state=d.state + 3), "values other than 0 to 2"),
     "with a force of NaN": (

@@ -18,7 +18,7 @@ from treadload.plots.kit.plan import MM, X_LABEL, fields_of
 from treadload.plots.kit.style import CASES, INK, MUTED, headline, measure, plain, signed, styled, travel_arrow
 from treadload.plots.profile import nearest
 
-# Deflections below so many mm are told in µm.
+# Deflections below so many mm are given in µm.
 _FINE = 0.1
 
 
@@ -38,11 +38,11 @@ class Bowl:
 
     @classmethod
     def of(cls, response: Source, y: float, load: float) -> Bowl:
-        """The bowl of a response at its least depth and the y nearest to one, m, under a load at an x, m."""
+        """The bowl of a response at its shallowest depth and the y nearest to one, m, under a load at an x, m."""
         data = fields_of(response, "displacement_z", "x", "y")
         if data.sizes["x"] < 3:
             raise InputError(
-                f"a deflection bowl needs three points along travel at least, the response has {data.sizes['x']}"
+                f"a deflection bowl needs at least three points along travel, the response has {data.sizes['x']}"
             )
         if "depth" in data.dims:
             data = data.isel(depth=int(np.argmin(data["depth"].to_numpy())))
@@ -77,10 +77,10 @@ def deflection_bowl(
 ) -> Figure:
     """Deflection along travel under one or several loads that move, each with its lowest point and its lag.
 
-    responses: with displacement_z over (depth, y, x), m, the least depth is drawn; the attribute `speed`, m/s,
+    responses: with displacement_z over (depth, y, x), m, the shallowest depth is drawn; the attribute `speed`, m/s,
     turns a lag into a time. labels: a name each. y: of the line, m, the nearest there is. load: x of the load's
     centre, m; if left out the centre of each response's stress at the surface. Returns the figure.
-    Raises InputError for missing variables, a load that is not known or labels that do not match.
+    Raises InputError for missing variables, an unknown load or labels that do not match.
     """
     if not responses or len(responses) != len(labels):
         raise InputError(f"give a label for each response: got {len(labels)} labels for {len(responses)} responses")

@@ -59,7 +59,7 @@ def creep_curves(curves: Sequence[Source], labels: Sequence[str], *, along: str 
 
 
 def _look(number: int, count: int) -> dict[str, Any]:
-    """Line of a curve among several: each thinner than the one under it, so that equal curves are all seen."""
+    """Line of a curve among several: each thinner than the one under it, so that coinciding curves all show."""
     share = number / max(1, count - 1)
     return {
         "color": CASES[number % len(CASES)],

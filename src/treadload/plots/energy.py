@@ -16,7 +16,7 @@ from treadload.plots.kit.style import headline, measure, sequential, styled
 
 @styled
 def dissipated_energy(response: Source, *, ax: Axes | None = None) -> Figure:
-    """Energy per volume that one passage dissipates, J/m³, across travel and down to the last layer that loses any.
+    """Energy per unit volume that one passage dissipates, J/m³, across travel, down to the last lossy layer.
 
     response: with dissipated_energy over (depth, y), two depths and two points or more, of a road with viscoelastic
     layers under a moving load. ax: axes to draw into. Returns the figure; hatched where the energy is not known.
@@ -25,7 +25,7 @@ def dissipated_energy(response: Source, *, ax: Axes | None = None) -> Figure:
     data = fields_of(response, "dissipated_energy", "depth", "y").sortby("depth").sortby("y")
     energy = data["dissipated_energy"].transpose("depth", "y").to_numpy()
     if min(energy.shape) < 2:
-        raise InputError(f"a section needs two depths and two points at least, the response has {energy.shape}")
+        raise InputError(f"a section needs at least two depths and two points, the response has {energy.shape}")
     layers, down, across = Layers.of(data), data["depth"].to_numpy() * MM, data["y"].to_numpy() * MM
     lossy = np.nonzero(np.nanmax(energy, axis=1, initial=0.0) > 0)[0]
     if not lossy.size:

@@ -1,4 +1,4 @@
-"""Figures of the bond between layers: how far it is used up, in plan, and the lives with it and without."""
+"""Figures of the bond between layers: its utilisation in plan, and the lives with it and without."""
 
 from __future__ import annotations
 
@@ -57,18 +57,18 @@ _BAR, _ROOM = 0.26, 0.9
 
 @styled
 def bond_utilisation(verdict: Source, *, contact: Source | None = None) -> Figure:
-    """How far the bond of every interface is used up, in plan, with arrows of the shear.
+    """Utilisation of the bond of every interface, in plan, with arrows of the shear.
 
     verdict: a BondVerdict or its dataset, with utilisation, interface_shear_x and interface_shear_y over
     (interface, y, x). contact: outlined, if given. One map for each interface with a strength, all on one scale; the
-    bond parts where it is 1. An arrow is the shear that the upper layer exerts on the lower, longest at each map's
+    bond fails where it is 1. An arrow is the shear that the upper layer exerts on the lower, longest at each map's
     own largest.
     Returns the figure. Raises InputError for what is missing.
     """
     data = fields_of(verdict, "utilisation", "interface_shear_x", "interface_shear_y")
     asked = [k for k in range(data.sizes["interface"]) if not np.isnan(data["utilisation"].isel(interface=k)).all()]
     if not asked:
-        raise InputError("this figure needs the utilisation of one interface at least; assess the bonds first")
+        raise InputError("this figure needs the utilisation of at least one interface; assess the bonds first")
     plan = Plan.of(data)
     size = (len(asked) * (_MAP + 1.35), min(9.0, _MAP * plan.aspect + 1.5))
     figure = new_figure(*size, "compressed")
@@ -105,7 +105,7 @@ def _map(ax: Axes, one: xr.Dataset, plan: Plan, scale: Limits, contact: Source |
 def _in_numbers(one: xr.Dataset, plan: Plan, row: int, column: int) -> str:
     place = f"x = {signed(plan.x[column])}, y = {signed(plan.y[row])} mm"
     shear, pressed = (plane(one, f"interface_{name}")[row, column] / 1e3 for name in ("shear", "pressure"))
-    text = f"{float(one['depth']) * MM:g} mm deep; most used at {place}:\n"
+    text = f"{float(one['depth']) * MM:g} mm deep; highest at {place}:\n"
     side = f"under {pressed:.0f} kPa" if pressed >= 0 else f"with {-pressed:.0f} kPa of tension"
     text += f"shear {shear:.0f} kPa {side}"
     if "parting_passes" in one:
@@ -133,7 +133,7 @@ def _arrows(ax: Axes, one: xr.Dataset, plan: Plan) -> None:
 
 @styled
 def bonded_and_parted(comparison: Source) -> Figure:
-    """Bars of the life by every criterion: with the bond, without it, and with it until it parts.
+    """Bars of the life by every criterion: with the bond, without it, and with it until it fails.
 
     comparison: a BondComparison or its dataset, with life_years over (state, criterion) and parting_years.
     A dashed line marks when the bond fails. Years on a logarithmic scale. Returns the figure. Raises InputError for

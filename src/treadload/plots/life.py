@@ -84,7 +84,7 @@ def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
 
 @styled
 def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
-    """Damage across the wheel path by every criterion, after wander where it counts, at the end of the design life or
+    """Damage across the wheel path by every criterion, with wander where it applies, at the end of the design life or
     of a year.
 
     life: a Life or its dataset. Returns the figure. Raises InputError if variables are missing.
@@ -123,7 +123,7 @@ def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
     wander = str(data.attrs.get("wander", ""))
     wide = "life_years_with_wander"
     if wide in data and bool((data["life_years"] != data[wide]).any()):
-        wander += ", but for laws that hold it"
+        wander += ", except for laws that include it"
     headline(ax, "Damage across the wheel path", f"{wander}; full: surface, dashed: below")
     legend_below(ax, handles, columns=min(3, len(handles)))
     return figure

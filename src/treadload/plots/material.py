@@ -135,7 +135,7 @@ def shift_factors(
     names = _names(given, labels)
     measured = [t for curve in given if isinstance(curve, MasterCurve) for t in curve.temperatures]
     if temperatures is None and not measured:
-        raise InputError("without measured shift factors say over which temperatures, °C, to draw the laws")
+        raise InputError("without measured shift factors give temperatures, °C, over which to draw the laws")
     low, high = temperatures or (min(measured), max(measured))
     figure, ax = figure_and_axes(ax, 6.6, 4.4)
     for number, (curve, name) in enumerate(zip(given, names, strict=True)):
@@ -219,7 +219,7 @@ def _relaxation(given: Sequence[Shown], labels: Sequence[str] | None) -> Figure:
         else:
             relaxation: Any = getattr(curve, "relaxation_modulus", None)
             if relaxation is None:
-                raise InputError(f"{curve} does not tell its relaxation modulus; use as_prony on it first")
+                raise InputError(f"{curve} does not give its relaxation modulus; use as_prony on it first")
             time = np.geomspace(first, last, _LINE)
             ax.plot(time, relaxation(time) * _MPA, color=next(inks), label=name)
     ax.set_xscale("log")

@@ -55,7 +55,7 @@ class BondVerdictPlots(_Plots):
     """Figures of a verdict on bonds."""
 
     def utilisation(self, *, contact: Source | None = None) -> Figure:
-        """How far the bond of every interface is used up, in plan."""
+        """Utilisation of the bond of every interface, in plan."""
         return bond_utilisation(self._result, contact=contact)
 
 
@@ -64,7 +64,7 @@ class BondComparisonPlots(_Plots):
     """Figures of a road with its bond and without."""
 
     def lives(self) -> Figure:
-        """Lives by criterion: bonded, parted, bonded until it parts."""
+        """Lives by criterion: bonded, debonded, bonded until the bond fails."""
         return bonded_and_parted(self._result)
 
 

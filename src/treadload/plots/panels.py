@@ -1,4 +1,4 @@
-"""Strain at one depth in two panels: how large it is, and which way it points."""
+"""Strain at one depth in two panels: its size and its direction."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ from treadload.plots.response import (
 _MAP, _BESIDE, _AROUND = 4.6, 1.7, 1.3
 # Strokes along the longer side; directions of strains below this share of the largest are left out.
 _ALONG, _SIGNIFICANT = 46, 0.02
-# Components below this share of the direction leave it upright.
-_UPRIGHT = math.sin(math.radians(45))
-_WAYS = (
+# Horizontal components below this share of the direction leave it near-vertical.
+_NEAR_VERTICAL = math.sin(math.radians(45))
+_DIRECTIONS = (
     ("along travel", "#d55e00"),
     ("oblique", "#8a3b74"),
     ("across travel", "#0b6fae"),
-    ("upright", "#00805f"),
+    ("near-vertical", "#00805f"),
 )
 
 
@@ -61,8 +61,8 @@ def strain_panels(
     """Largest extension strain in plan above, microstrain; below, the direction of that extension.
 
     response, depth, strain and contact: as for `strain_directions`. Strokes lie along the extension, all of one
-    length but for what stands out of the horizontal, wherever it exceeds 2 % of the largest; their colour tells
-    whether they point along travel, across it, obliquely or upright. Returns the figure. Raises InputError as
+    length but for what stands out of the horizontal, wherever it exceeds 2 % of the largest; their colour says
+    whether they point along travel, across it, obliquely or near-vertically. Returns the figure. Raises InputError as
     `strain_directions`.
     """
     data = strain_plane(response, depth, strain)
@@ -101,18 +101,18 @@ def _directions(ax: Axes, data: xr.Dataset, strain: Strain, plan: Plan, values: 
         return
     along_x, along_y = horizontal(data, strain)
     drawn = strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * largest, plan.span / _ALONG)
-    ways = way_of(along_x, along_y)[drawn.index[:, 0], drawn.index[:, 1]]
-    draw_strokes(ax, drawn, [_WAYS[way][1] for way in ways], 1.2, backing=False)
-    handles = [Line2D([], [], color=colour, lw=2.2, label=name) for name, colour in _WAYS[:3]]
-    handles += [Line2D([], [], color=_WAYS[3][1], lw=0, marker="o", ms=3.5, label=_WAYS[3][0])]
+    ways = direction_class(along_x, along_y)[drawn.index[:, 0], drawn.index[:, 1]]
+    draw_strokes(ax, drawn, [_DIRECTIONS[way][1] for way in ways], 1.2, backing=False)
+    handles = [Line2D([], [], color=colour, lw=2.2, label=name) for name, colour in _DIRECTIONS[:3]]
+    handles += [Line2D([], [], color=_DIRECTIONS[3][1], lw=0, marker="o", ms=3.5, label=_DIRECTIONS[3][0])]
     legend_below(ax, [handle for way, handle in enumerate(handles) if (ways == way).any()])
 
 
-def way_of(along_x: Array, along_y: Array) -> Array:
-    """Way of unit directions with these horizontal components: 0 along travel, 1 oblique, 2 across, 3 upright."""
+def direction_class(along_x: Array, along_y: Array) -> Array:
+    """Class of directions with such horizontal components: 0 along travel, 1 oblique, 2 across, 3 near-vertical."""
     from_travel = np.arctan2(np.abs(along_y), np.abs(along_x))
     way = np.full(np.shape(along_x), 1)
     way[from_travel <= OBLIQUE_TOLERANCE] = 0
     way[from_travel >= math.pi / 2 - OBLIQUE_TOLERANCE] = 2
-    way[np.hypot(along_x, along_y) < _UPRIGHT] = 3
+    way[np.hypot(along_x, along_y) < _NEAR_VERTICAL] = 3
     return way

@@ -48,7 +48,7 @@ def profile(
     """Strain against depth under the worst point, microstrain.
 
     response: with principal_strain_1 and in_plane_strain_1 over (depth, y, x). strain: the one whose largest
-    value at the least depth is the worst point. epsilon_6: strain of a million passes, drawn if given.
+    value at the shallowest depth is the worst point. epsilon_6: strain at a million passes, drawn if given.
     ax: axes to draw into. Interfaces of layers are drawn and named, and the strain jumps there.
     Returns the figure. Raises InputError for a missing variable or another word for strain.
     """
@@ -73,7 +73,9 @@ def profile(
     legend_below(ax, handles, columns=2)
     x, y = float(data["x"][column]) * MM, float(data["y"][row]) * MM
     headline(
-        ax, "Strain against depth", f"under the worst point at the least depth, x = {signed(x)}, y = {signed(y)} mm"
+        ax,
+        "Strain against depth",
+        f"under the worst point at the shallowest depth, x = {signed(x)}, y = {signed(y)} mm",
     )
     return figure
 
@@ -91,8 +93,8 @@ def strain_profiles(
 
     response: with the strains over (depth, y, x); `both_sides` of two responses shows the jump at an interface
     to its full height. places: name to x and y in m, the nearest points of the response are taken; if left out
-    the tire's centre, a rib's middle and its edge, told by the contact or by the stress at the surface.
-    strains: "xx", "yy", "zz", "in-plane", "principal". epsilon_6: strain of a million passes, drawn with the
+    the tire's centre, a rib's middle and its edge, taken from the contact or from the stress at the surface.
+    strains: "xx", "yy", "zz", "in-plane", "principal". epsilon_6: strain at a million passes, drawn with the
     largest extensions. Returns the figure. Raises InputError for missing variables, depths or an unknown strain.
     """
     unknown = [name for name in strains if name not in COMPONENTS]
@@ -100,10 +102,10 @@ def strain_profiles(
         raise InputError(f"strains must be of {', '.join(COMPONENTS)}, got {', '.join(unknown) or 'none'}")
     data = fields_of(response, *(COMPONENTS[name][0] for name in strains), "depth").sortby("depth")
     if data.sizes.get("depth", 1) < 2:
-        raise InputError("a profile needs two depths at least, the response has 1; solve the response at more depths")
+        raise InputError("a profile needs at least two depths, the response has 1; solve the response at more depths")
     named = dict(places) if places is not None else places_under(contact if contact is not None else response)
     if not named:
-        raise InputError("give one place at least, a name with its x and y in m")
+        raise InputError("give at least one place, a name with its x and y in m")
     down, layers = data["depth"].to_numpy() * MM, Layers.of(data)
     width = 2.75 * len(strains) + 1.6 + 1.0 * (len(layers.interfaces) > 0)
     figure = new_figure(width, 5.0)
@@ -134,7 +136,7 @@ def strain_profiles(
 
 
 def draw_profile(ax: Axes, values: Array, down: Array, layers: Layers, marked: bool = True, **style: Any) -> None:
-    """A strain (nz,), microstrain, against rising depths (nz,), mm: a line in each layer, a jump at interfaces.
+    """A strain (nz,), microstrain, against increasing depths (nz,), mm: a line in each layer, a jump at interfaces.
 
     Where both sides of an interface are known a thin line joins them. marked: show the depths if they are few.
     """

@@ -66,7 +66,7 @@ def strain_directions(
     response: with the strain and its direction over (depth, y, x). depth: one of its depths, m.
     strain: "principal", the three-dimensional one, whose strokes shorten to a point as the direction turns
     out of the horizontal; or "in-plane", the largest in the horizontal plane. contact: gives the outline of the
-    contact; if left out the stress at the surface tells it, when it is there. ax: axes to draw into.
+    contact; if left out the stress at the surface gives it, when it is there. ax: axes to draw into.
     Returns the figure. Raises InputError for a missing variable or depth or another word for strain.
     """
     data = strain_plane(response, depth, strain)
@@ -130,10 +130,10 @@ def depth_slice(
 ) -> Figure:
     """Largest extension strain in a vertical section, microstrain, with strokes along its direction.
 
-    response: with principal_strain_1 and principal_direction_1 over (depth, y, x), two depths or more; one of y
-    and x may have a length of one. along: "travel", a section along x, or "across", along y; if left out the way
-    the dataset reaches. at: y (or x) of the section, m, the nearest there is; if left out through the largest
-    extension at the least depth. ax: axes to draw into. Strokes show the direction's share in the section.
+    response: with principal_strain_1 and principal_direction_1 over (depth, y, x), two depths or more; one of y and x
+    may have a length of one. along: "travel", a section along x, or "across", along y; if left out the direction in
+    which the dataset extends. at: y (or x) of the section, m, the nearest there is; if left out through the largest
+    extension at the shallowest depth. ax: axes to draw into. Strokes show the direction's share in the section.
     Returns the figure. Raises InputError for a missing variable or fewer than two depths or points.
     """
     section = Section.of(response, along, at)
@@ -160,7 +160,7 @@ def horizontal(data: xr.Dataset, strain: Strain) -> tuple[Array, Array]:
 
 
 def draw_contact(ax: Axes, source: Source | None) -> None:
-    """Outline of the contact, where a source tells it."""
+    """Outline of the contact, where a source gives it."""
     if source is None:
         return
     data = fields_of(source)

@@ -1,4 +1,4 @@
-"""Roads side by side under one tire: bonded against free, cold against hot."""
+"""Roads side by side under one tire: bonded against debonded, cold against hot."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def compare_temperatures(
     data = [fields_of(responses[k], name, "depth").sortby("depth") for k in order]
     degrees = [float(temperatures[k]) for k in order]
     if any(case.sizes.get("depth", 1) < 2 for case in data):
-        raise InputError("a profile needs two depths at least; solve the responses at more depths")
+        raise InputError("a profile needs at least two depths; solve the responses at more depths")
     x, y = place if place is not None else _worst_place(data[-1], name)
     colours, labels = _warmth(degrees), [f"{signed(t, 0 if t == round(t) else 1)} °C" for t in degrees]
     peaks = [_largest_in_layers(case, name) for case in data]
@@ -162,7 +162,7 @@ def _component(strain: str) -> str:
 
 
 def _worst_place(data: xr.Dataset, name: str) -> tuple[float, float]:
-    """X and y, m, of the largest strain below the least depth."""
+    """X and y, m, of the largest strain below the shallowest depth."""
     strain = data[name].isel(depth=slice(1, None)).max("depth").transpose("y", "x")
     row, column = np.unravel_index(int(np.nanargmax(strain.to_numpy())), strain.shape)
     return float(strain["x"][column]), float(strain["y"][row])
@@ -249,7 +249,7 @@ def _bars(ax: Axes, peaks: Sequence[Sequence[_Peak]], labels: Sequence[str], col
     middle = (len(peaks) - 1) / 2
     ticks = [group * layer + middle for layer in range(len(names))]
     depths = [sorted({round(case[layer].depth) for case in peaks}) for layer in range(len(names))]
-    where = [f"{found[0]:g}" if len(found) == 1 else f"{found[0]:g} to {found[-1]:g}" for found in depths]
+    where = [f"{deep[0]:g}" if len(deep) == 1 else f"{deep[0]:g} to {deep[-1]:g}" for deep in depths]
     words = [f"{plain(_short(name))}\n{deep} mm deep" for name, deep in zip(names, where, strict=True)]
     ax.set_yticks(ticks, words)
     ax.set_ylim(group * len(names) - 1, -1)

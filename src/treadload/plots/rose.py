@@ -1,4 +1,4 @@
-"""Roses of crack traces, and bars of how the cracks of several cases run."""
+"""Roses of crack traces, and bars of the directions of the cracks of several cases."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The picture of tearing: where a wheel shears and slides on the road, and how the road extends there."""
+"""The picture of tearing: where a wheel shears and slides on the road, and how the road is stretched there."""
 
 from __future__ import annotations
 
@@ -40,7 +40,9 @@ def tearing(
     below = strain_plane(response, depth, strain)
     y = data["y"].to_numpy()
     if below.sizes["y"] != len(y) or np.abs(below["y"].to_numpy() - y).max() > _SAME_PLACE:
-        raise InputError("the response stands on another y than the contact; solve it without y=, on the contact's")
+        raise InputError(
+            "the response has other y coordinates than the contact; solve it without y=, on the contact's"
+        )
     plan = Plan.of(data)
     figure = new_figure(2 * _MAP * 1.95 + 0.9, _MAP * plan.aspect + 1.9)
     left, right = figure.subplots(1, 2)
@@ -56,7 +58,7 @@ def tearing(
     if "friction_work" in data:
         # Over the length of contact, the work per area and length travelled is the work per area of road.
         work = plane(data, "friction_work").sum(axis=1) * (plan.x_edges[1] - plan.x_edges[0]) / 1e3
-        _beside(left, data, plan, work, "Work of sliding", "J/m² a passage", SLIP)
+        _beside(left, data, plan, work, "Work of sliding", "J/m² per passage", SLIP)
     else:
         _beside(left, data, plan, shear.max(axis=1), "Largest shear", "kPa", SLIP)
     _beside(

@@ -1,4 +1,4 @@
-"""What uniform loads do not see: largest strains over depth, under the computed contact and under uniform loads."""
+"""What uniform loads miss: largest strains over depth, under the computed contact and under uniform loads."""
 
 from __future__ import annotations
 

@@ -116,8 +116,8 @@ def fatigue_line(
 def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     """Passes that the fatigue line allows, in plan, on a logarithmic scale.
 
-    verdict: with allowable_passes (y, x). The darkest cells bear fewest; what bears a million times more is
-    left as paper. ax: axes to draw into. Returns the figure.
+    verdict: with allowable_passes (y, x). The darkest cells bear the fewest; what bears a million times more
+    stays white. ax: axes to draw into. Returns the figure.
     """
     data = fields_of(verdict, "allowable_passes")
     plan, values = Plan.of(data), plane(data, "allowable_passes")

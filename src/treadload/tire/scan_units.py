@@ -57,9 +57,9 @@ def scale_of(diameter: float, unit: str | None, nominal: float | None, name: str
         if len(fits) != 1:
             diameters = ", ".join(f"{diameter * value:.3g} m in {key}" for key, value in UNITS.items())
             raise InputError(
-                f"the units of {name!r} cannot be determined: its outer diameter of {diameter:.4g} would be {diameters}, "
-                f"and {'none' if not fits else 'more than one'} lies between {low} and {high} m; give units= or "
-                "nominal_diameter="
+                f"the units of {name!r} cannot be determined: its outer diameter of {diameter:.4g} would be "
+                f"{diameters}, and {'none' if not fits else 'more than one'} lies between {low} and {high} m; give "
+                "units= or nominal_diameter="
             )
         unit, scale = fits[0], UNITS[fits[0]]
     check_diameter(diameter * scale, unit, name)

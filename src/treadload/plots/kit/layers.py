@@ -18,7 +18,7 @@ from treadload.kernels.layers.depths import SAME_DEPTH, layers_at, on_interface
 from treadload.plots.kit.plan import MM, fields_of
 from treadload.plots.kit.style import INK, MUTED, PAPER, RULE, figure_of, halo, plain
 
-# Depths, mm, this near to each other are one.
+# Depths, mm, this near to each other count as one.
 _SAME = SAME_DEPTH * MM
 # Letters in a line of a layer's name, and of one that has a single line; type, points.
 _LETTERS = 16
@@ -46,7 +46,7 @@ class Layers:
 
     @classmethod
     def of(cls, data: xr.Dataset) -> Layers:
-        """What a response's attributes `interfaces` (m), `layer_names` (JSON) and `side` tell; else one layer."""
+        """What a response's attributes `interfaces` (m), `layer_names` (JSON) and `side` say; else one layer."""
         # A file gives back a list of one as a number.
         ends = np.atleast_1d(np.asarray(data.attrs.get("interfaces", []), dtype=float)) * MM
         given = data.attrs.get("layer_names", "[]")
@@ -67,7 +67,7 @@ class Layers:
         ]
 
     def pieces(self, depths: Array) -> list[slice]:
-        """The rows of each layer in rising depths (n,), mm; empty for a layer without one.
+        """The rows of each layer in increasing depths (n,), mm; empty for a layer without one.
 
         A depth on an interface belongs to the layer on its `side`; of two equal ones the first belongs to the layer
         above, the second to the layer below.
@@ -84,7 +84,7 @@ def both_sides(above: Source, below: Source) -> xr.Dataset:
     """One dataset of two responses that differ in the side of the interfaces, so that figures show the jump.
 
     above, below: solved at the same points with side="above" and side="below". Returns the first with the rows
-    of the second that lie on an interface added after its own; the depths rise, those of interfaces twice.
+    of the second that lie on an interface added after its own; depths increase, those of interfaces appear twice.
     Raises InputError if the points differ.
     """
     upper, lower = fields_of(above, "depth").sortby("depth"), fields_of(below, "depth").sortby("depth")

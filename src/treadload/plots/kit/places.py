@@ -33,7 +33,7 @@ def pressure_of(source: Source) -> xr.Dataset:
         data = xr.Dataset({"pressure": -surface.expand_dims(missing)})
     pressure = plane(data, "pressure")
     if not (pressure > 0).any():
-        raise InputError("nothing presses on this road, so no place under the tire can be told")
+        raise InputError("nothing presses on this road, so no place under the tire can be named")
     pressure = np.where(pressure >= _TOUCHED * pressure.max(), pressure, 0.0)
     points = {name: np.atleast_1d(data[name].to_numpy()) for name in ("y", "x")}
     return xr.Dataset({"pressure": (("y", "x"), pressure)}, points)
@@ -48,7 +48,7 @@ def load_centre(source: Source) -> tuple[float, float]:
 
 
 def places_under(contact: Source) -> dict[str, tuple[float, float]]:
-    """Telling places under a tire, x and y in m, from its contact pressure.
+    """Characteristic places under a tire, x and y in m, from its contact pressure.
 
     contact: with pressure (y, x), Pa, or a response with the stress at the surface. All places lie on one line
     across travel, the loaded one nearest to the centre of pressure, at centres of cells: "tire's centre";

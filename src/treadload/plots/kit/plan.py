@@ -38,7 +38,9 @@ def fields_of(source: Source, *names: str) -> xr.Dataset:
     data = dataset_of(source)
     if "point" in data.dims:
         count = data.sizes["point"]
-        raise InputError(f"a figure needs a grid, the response is one at {count} points; solve_response with x and y")
+        raise InputError(
+            f"a figure needs a grid, this response is at {count} points; call solve_response with x and y"
+        )
     missing = [name for name in names if name not in data.variables]
     if missing:
         known = ", ".join(sorted(map(str, data.data_vars))) or "nothing"
@@ -88,7 +90,9 @@ class Plan:
         x, y = (np.asarray(data[name].to_numpy(), dtype=float) * MM for name in ("x", "y"))
         for name, values in (("x", x), ("y", y)):
             if (np.diff(values) <= 0).any():
-                raise InputError(f"a map needs rising coordinates, {name} does not rise everywhere; sort the dataset")
+                raise InputError(
+                    f"a map needs increasing coordinates, {name} does not increase everywhere; sort the dataset"
+                )
         across = float(np.diff(y).mean()) if len(y) > 1 else 1.0
         along = float(np.diff(x).mean()) if len(x) > 1 else across
         return cls(x, y, edges(x, along), edges(y, across if len(y) > 1 else along))

@@ -37,7 +37,7 @@ _SIGNIFICANT = 0.1
 class Section:
     """Largest extension strain in a vertical section.
 
-    data: the section, depths rising, without the coordinate it cuts. name: "x" along travel, "y" across it.
+    data: the section, depths increasing, without the coordinate it cuts. name: "x" along travel, "y" across it.
     cut: the other coordinate, mm. across: (n,), down: (nz,), mm. values: (nz, n), microstrain.
     along, vertical: (nz, n), components of the direction in the section.
     """
@@ -59,7 +59,7 @@ class Section:
         name, other = _axis(data, along)
         if data.sizes.get("depth", 1) < 2 or data.sizes[name] < 2:
             raise InputError(
-                "a section needs two depths and two points at least, the response has "
+                "a section needs at least two depths and two points, the response has "
                 f"{data.sizes.get('depth', 1)} and {data.sizes[name]}; solve the response at more depths"
             )
         data = data.sortby("depth")
@@ -120,7 +120,7 @@ def draw_section(ax: Axes, section: Section, scale: Limits) -> QuadMesh:
 
 
 def _draw_layers(ax: Axes, section: Section, scale: Limits) -> QuadMesh:
-    """One mesh a layer, as strain jumps between them, held constant from its last depth to its end."""
+    """One mesh per layer, as strain jumps between them, held constant from its last depth to its end."""
     down, values = section.down, section.values
     mesh: QuadMesh | None = None
     spans = section.layers.spans(section.bottom)

@@ -26,9 +26,9 @@ MUTED = "#5b6470"
 RULE = "#c9ced6"
 PAPER = "#ffffff"
 
-# States of contact, told apart also by readers who do not see red and green alike.
+# States of contact, distinct also to readers with red-green colour blindness.
 STICK, SLIP = "#0b6fae", "#d55e00"
-# One colour a case, in the order given: blue, vermilion, green, purple, amber, black.
+# One colour per case, in the order given: blue, vermilion, green, purple, amber, black.
 CASES = ("#0b6fae", "#d55e00", "#00805f", "#a5508a", "#b98700", "#1b1f24")
 # Orientation of cracks: none, longitudinal, transverse, oblique, horizontal.
 ORIENTATION_COLOURS = (RULE, "#0b6fae", "#d55e00", "#8a3b74", "#00805f")
