@@ -22,7 +22,7 @@ with open(os.path.join(_FOLDER, "__init__.pyi"), encoding="utf-8") as _stub:
 
 NAMES = sorted(_HOMES)
 
-# Names of before that are called otherwise now.
+# Former names, and what they are called now.
 _RENAMED = {
     "Life": "damage.Life",
     "DesignResult": "LifeResult",
@@ -67,7 +67,7 @@ def _unknown(name: str) -> str:
     places = [f"{room}.{name}" for room in rooms if name in named(room).__all__]
     if name in _RENAMED or places:
         return f"{_PACKAGE}.{name} is {_PACKAGE}.{_RENAMED.get(name) or places[0]} now"
-    # Only who misspells needs it.
+    # Needed for misspelt names only.
     from treadload.errors import meant
 
     near = meant(name, NAMES)

@@ -1,6 +1,6 @@
 """What a later room offers of a result, as the figures behind `contact.plot`, without an arrow that runs back.
 
-The room registers what it offers when it is imported; who imports it when it is first asked for is said in
+The room registers what it offers when it is imported; who imports it when it is first asked for is stated in
 `treadload/__init__.py`, for rooms of this package, or by whoever brings another.
 """
 

@@ -1,8 +1,8 @@
 """What all results have in common, so that every verb takes what every verb gives.
 
-A result carries its fields in `.dataset`, says what it found in `.summary()` and what the user should know in
-`.warnings`, how it was solved in `.stats`, and draws itself by `.plot`. Its class names the group that it takes in a
-tree of results; whoever defines a class of results has it written, read back and reported.
+A result carries its fields in `.dataset`, sums itself up in `.summary()` and tells the user in `.warnings` what to
+know, how it was solved in `.stats`, and draws itself by `.plot`. Its class names the group that it takes in a tree of
+results; whoever defines a class of results has it written, read back and reported.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class BaseResult(ABC):
 
     @abstractmethod
     def summary(self) -> str:
-        """A screenful: what was found."""
+        """The result in a screenful."""
 
     def __str__(self) -> str:
         return self.summary()

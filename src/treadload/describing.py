@@ -62,16 +62,16 @@ def first_line(result: HasSummary) -> str:
 
 
 def as_html(kind: str, summary: str, warnings: Sequence[str], dataset: Any = None) -> str:
-    """A result as a notebook shows it: what it found, warnings, and folded the whole summary and the dataset.
+    """A result as a notebook shows it: its main numbers, warnings, and folded the whole summary and the dataset.
 
     kind: of the result. dataset: with a `_repr_html_` of its own, None for none. All texts are escaped.
     """
     lines = [line.strip() for line in summary.splitlines() if line.strip() and not line.startswith("warning: ")]
     said = next((line.removeprefix("Verdict: ") for line in lines if line.startswith("Verdict: ")), "")
     told = [line for line in lines if not line.startswith("Verdict: ") and len(_BLANKS.findall(line)) < _TABLE]
-    found = [_KEY.fullmatch(line) for line in told]
+    matches = [_KEY.fullmatch(line) for line in told]
     rows = [("" if one is None else one["key"].strip(), line if one is None else one["value"].strip())
-            for line, one in zip(told, found, strict=True)]  # fmt: skip
+            for line, one in zip(told, matches, strict=True)]  # fmt: skip
     if not any(key for key, _ in rows):
         said, rows = said or (told[0] if told else ""), []
     escape = html.escape

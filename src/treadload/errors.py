@@ -45,7 +45,7 @@ class ConvergenceError(TreadloadError, RuntimeError):
 
 
 def positive(name: str, value: float | str, unit: str = "", remedy: str = "") -> None:
-    """Raise InputError unless a value is a finite number > 0; a text is none, and neither is True.
+    """Raise InputError unless a value is a finite number > 0; text is not one, and neither is True.
 
     name: what it is, in the sentence. unit: of the number, as in "Pa" or "metres". remedy: what is usual, or what to
     do, for the end of the sentence.

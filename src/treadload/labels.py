@@ -25,11 +25,11 @@ def factor(unit: str, si: str) -> float:
 
     unit: such as "kPa", "N m-2", "Pascal" or "1e-3 m" (CF, UDUNITS). Raises InputError for another kind of unit.
     """
-    found = _SCALE.match(unit.strip())
-    assert found is not None
-    text = _CF_TIMES.sub(" ", found["unit"])
+    match = _SCALE.match(unit.strip())
+    assert match is not None
+    text = _CF_TIMES.sub(" ", match["unit"])
     text = _CF_POWER.sub(lambda power: f"^{power[1].lstrip('+')}", text)
-    scaled = f"{found['scale'] or 1} {text}"
+    scaled = f"{match['scale'] or 1} {text}"
     try:
         return _positive(quantity(scaled, si))
     except InputError:

@@ -45,7 +45,7 @@ class UnknownName(InputError, KeyError):
 class Catalogue(Mapping[str, Item]):
     """Things by name, a read-only mapping: ours in the order of their files, then those of other packages.
 
-    Names are found whatever their case, spaces and prefix, and with "_" for "/".
+    Names are matched whatever their case, spaces and prefix, and with "_" for "/".
 
     noun: one of them in words. kinds: their classes. folder: of our data files, in `catalogue/data`. read: gives the
     things of one file. words: what one is, in a line. use: how a case names one. prefix: of names, which may be left
@@ -130,24 +130,24 @@ class Catalogue(Mapping[str, Item]):
 
     def _all(self) -> dict[str, Item]:
         """All by name. Raises InputError for an entry point that cannot be loaded, or a name that stands twice."""
-        found = dict(self._own)
-        taken = {_key(name): "treadload" for name in found}
+        entries = dict(self._own)
+        taken = {_key(name): "treadload" for name in entries}
         for point in sorted(metadata.entry_points(group=self.group), key=lambda point: point.name):
             for item in self._loaded(point):
                 before = taken.setdefault(_key(item.name), point.name)
-                if item.name in found or before != point.name:
+                if item.name in entries or before != point.name:
                     raise InputError(
                         f"the entry point {point.name!r} ({point.value}) brings the {self.noun} {item.name!r}, which "
                         f"{before} has already; rename one of them"
                     )
-                found[item.name] = item
-        return found
+                entries[item.name] = item
+        return entries
 
     def _loaded(self, point: metadata.EntryPoint) -> list[Item]:
         about = f"the entry point {point.name!r} ({point.value}) of the group {self.group}"
         try:
             items = list(point.load()())
-        # Whatever a foreign package raises is told as its own failure.
+        # Whatever a foreign package raises is reported as its failure.
         except Exception as error:
             raise InputError(f"{about} fails: {error!r}; repair that package or remove it") from error
         for item in items:

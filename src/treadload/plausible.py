@@ -15,8 +15,8 @@ from dataclasses import dataclass
 class Range:
     """What a quantity can be.
 
-    unit: SI. low, high: beyond them a sentence is said. usual: what most are. owner: whose it is, in words. units:
-    that a person may have thought in, with what they are worth in SI; the usual values are told in the first.
+    unit: SI. low, high: outside them a sentence is given. usual: what most are. owner: whose it is, in words. units:
+    that a person may have thought in, with what they are worth in SI; the usual values are given in the first.
     reason: why these bounds. noun: the quantity in a sentence; left out, the key of the row.
     """
 
@@ -75,7 +75,7 @@ RANGES: dict[str, Range] = {
     ),
     "thickness of the unbound layer": Range(
         "m", 2e-3, 20.0, (0.05, 2.0), "unbound layers usually measure", (("cm", 1e-2), ("mm", 1e-3), ("m", 1.0)),
-        "Embankments are as high as a few metres.",
+        "Embankments are a few metres high.",
         "thickness",
     ),
     "thickness of the soil": Range(
@@ -101,11 +101,11 @@ RANGES: dict[str, Range] = {
         "m", 0.0, 50.0, (1e-3, 3.0), "roads are usually read at", (("m", 1.0), ("cm", 1e-2), ("mm", 1e-3)),
         "Below 50 m no wheel is felt.",
     ),
-    "number of passes a year": Range(
+    "number of passes per year": Range(
         "", 1.0, 1e8, (1e3, 2e7), "wheel paths usually see", (("", 1.0),),
         "A lane that is always full sees 2e7 vehicles a year.",
     ),
-    "growth a year": Range(
+    "annual growth": Range(
         "", -0.3, 0.3, (-0.05, 0.1), "traffic usually grows by", (("%", 1e-2),),
         "A factor of ten within nine years.",
     ),
@@ -114,7 +114,7 @@ RANGES: dict[str, Range] = {
         "The coldest roads and the hottest black surfaces on record.",
     ),
 }  # fmt: skip
-"""One row a quantity; the key is its name in a sentence."""
+"""One row per quantity; the key is its name in a sentence."""
 
 
 def doubt(kind: str, value: float, where: str = "", scale: float = 1.0) -> tuple[str, ...]:

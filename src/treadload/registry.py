@@ -72,7 +72,7 @@ class Registry:
         def keep(target: Target) -> Target:
             for name in names:
                 before = self._own.get(name)
-                # A cell of a notebook that is run again defines the same thing anew.
+                # A notebook cell that is run again defines the same thing again.
                 if before is not None and _place(before.target) != _place(target):
                     raise InputError(
                         f"the {self.noun} {name!r} is {_place(before.target)} already, so that {_place(target)} "
@@ -105,7 +105,7 @@ class Registry:
         return _loaded(points[name], self)
 
     def unknown(self, name: object, known: Iterable[str]) -> str:
-        """What to say of a name that is none of those known."""
+        """What to say of a name that is not one of those known."""
         what = self.key if self.key != "kind" else self.noun if self.words else f"{self.noun} of the kind"
         what = what or self.noun
         return f"no {what} {name!r}; {nearest(name, known)}"
@@ -114,17 +114,19 @@ class Registry:
         return (self.find(name) for name in self.names())
 
     def _points(self) -> dict[str, metadata.EntryPoint]:
-        found: dict[str, metadata.EntryPoint] = {}
+        points: dict[str, metadata.EntryPoint] = {}
         for point in _declared(self.group, tuple(sys.path)):
-            other = OURS if point.name in self._own else package_of(found[point.name]) if point.name in found else ""
+            other = (
+                OURS if point.name in self._own else package_of(points[point.name]) if point.name in points else ""
+            )
             # The same distribution may lie on the path twice.
-            if other and not (point.name in found and found[point.name].value == point.value):
+            if other and not (point.name in points and points[point.name].value == point.value):
                 raise InputError(
                     f"the {self.noun} {point.name!r} comes from {other} and from {package_of(point)}; rename one of "
                     "them, or remove a package"
                 )
-            found[point.name] = point
-        return found
+            points[point.name] = point
+        return points
 
 
 @functools.cache
@@ -144,7 +146,7 @@ def load_point(point: metadata.EntryPoint) -> Any:
     """What an entry point names. Raises InputError in a sentence that names the package."""
     try:
         return point.load()
-    # Whatever a foreign package raises is told as its own failure.
+    # Whatever a foreign package raises is reported as its failure.
     except Exception as error:
         raise InputError(
             f"{package_of(point)} brings {point.name!r} for {point.group}, but {point.value} cannot be loaded: "

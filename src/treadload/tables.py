@@ -139,21 +139,21 @@ class Table:
                 f"{self.path} has a comma in {shown[',']} and a point in {shown['.']}; write decimal points or "
                 "decimal commas throughout, and nothing between thousands"
             )
-        found = next(iter(shown), self.decimal or ".")
-        if self.decimal not in (None, found):
-            raise InputError(f"{self.path} has {shown[found]}, and the decimal mark given is {self.decimal!r}")
-        if found == "," and self.decimal is None and thousands and whole:
+        used = next(iter(shown), self.decimal or ".")
+        if self.decimal not in (None, used):
+            raise InputError(f"{self.path} has {shown[used]}, and the decimal mark given is {self.decimal!r}")
+        if used == "," and self.decimal is None and thousands and whole:
             raise InputError(
                 f'{self.path} has {shown[","]}, a decimal number or thousands; write points, or give decimal=","'
             )
-        return found
+        return used
 
 
 def read_table(path: str | os.PathLike[str], *, decimal: str | None = None) -> Table:
     """The cells of a text file.
 
     Semicolons, tabs, commas or blanks separate, the first of these that is there; commas may be decimal marks beside
-    the others. decimal: "." or ",", where the file alone does not tell. Lines that start with # are comments.
+    the others. decimal: "." or ",", where the file alone does not show it. Lines that start with # are comments.
     Raises InputError for a file that cannot be read, is empty, or can be read in two ways.
     """
     path = Path(path)
@@ -305,13 +305,13 @@ def _are_trimmed(rows: Sequence[Sequence[str | None]]) -> bool:
 
 def _most_pairs(lengths: Sequence[int], joins: Sequence[bool], digits: int) -> int:
     """The most neighbours in a row that join to numbers of no more than so many digits."""
-    found, free = 0, True
+    pairs, free = 0, True
     for at in range(1, len(lengths)):
         if free and joins[at] and lengths[at - 1] + lengths[at] <= digits:
-            found, free = found + 1, False
+            pairs, free = pairs + 1, False
         else:
             free = True
-    return found
+    return pairs
 
 
 def _shortened(cell: str) -> str:

@@ -1,6 +1,6 @@
 """Numbers with units at the edges: "3 mm" becomes 0.003; inside, everything is SI.
 
-A text is a number and a unit, and nothing else. The number is read here, strictly: pint would read "32,5 kN" as
+Text is a number and a unit, and nothing else. The number is read here, strictly: pint would read "32,5 kN" as
 325 kN and work out "2*3 mm". Only the unit goes to pint.
 """
 
@@ -60,12 +60,12 @@ _USUAL = (
     "m", "cm", "mm", "µm", "km", "N", "kN", "MN", "Pa", "kPa", "MPa", "GPa", "bar", "psi", "N/mm²", "kN/m²", "MPa/m",
     "m/s", "km/h", "s", "ms", "Hz", "K", "deg", "rad", "1/m", "kJ/mol", "J/mol", "1/MPa", "microstrain",
 )  # fmt: skip
-# Angles are pure numbers to pint; here 2 deg is no pure number, and 600 rpm are not 62.8 Hz.
+# Angles are pure numbers to pint; here 2 deg is not a pure number, and 600 rpm are not 62.8 Hz.
 _ALSO = {"rad/m": "1/m"}
 
 
 def quantity(value: object, unit: str) -> float:
-    """Value in SI units: a bare number is SI already, a text carries its unit.
+    """Value in SI units: a bare number is SI already, text carries its unit.
 
     unit: the SI unit it must have; "" for a pure number; "degC" for a temperature, °C. microstrain is 1e-6.
     The number of a text has a point or a comma as its decimal mark, perhaps thousands in groups of three with a
@@ -74,7 +74,7 @@ def quantity(value: object, unit: str) -> float:
     ways ("1,000 kN"), for NaN and for infinity.
     """
     if isinstance(value, bool) or not isinstance(value, int | float | str):
-        raise InputError(f"expected a number or a text such as {_EXAMPLES[unit]}, got {value!r}")
+        raise InputError(f"expected a number or text such as {_EXAMPLES[unit]}, got {value!r}")
     try:
         number = _parse(value, unit) if isinstance(value, str) else float(value)
     except OverflowError:
@@ -91,14 +91,14 @@ def leading_number(text: str) -> tuple[float, str]:
     Raises InputError where there is none, or where it can be read in two ways.
     """
     bare = text.strip()
-    found = _NUMBER.match(bare)
-    assert found is not None
-    whole, part, rest = re.sub(_GAP, "", found["whole"]), found["part"], bare[found.end() :]
+    match = _NUMBER.match(bare)
+    assert match is not None
+    whole, part, rest = re.sub(_GAP, "", match["whole"]), match["part"], bare[match.end() :]
     if not (whole or part):
         raise InputError(f"cannot read {text!r}: it does not start with a number")
     if re.match(r"[.,]", rest):
         raise InputError(_several_marks(bare))
-    if found["mark"] == "," and len(part) == 3 and not found["gap"] and re.fullmatch("[1-9][0-9]{0,2}", whole):
+    if match["mark"] == "," and len(part) == 3 and not match["gap"] and re.fullmatch("[1-9][0-9]{0,2}", whole):
         raise InputError(
             f"{text!r} may mean {whole + part} or {float(f'{whole}.{part}'):g}; write {_quoted(whole + part, rest)} "
             f"or {_quoted(f'{whole} {part}', rest)} for the first, {_quoted(f'{whole}.{part}', rest)} for the second"
@@ -109,7 +109,7 @@ def leading_number(text: str) -> tuple[float, str]:
             f"{text!r} holds digits behind its number; groups of thousands have three digits and one blank between, "
             'as in "1 000 kN"'
         )
-    digits = f"{found['sign']}{whole or 0}.{part or 0}e{found['power'] or 0}"
+    digits = f"{match['sign']}{whole or 0}.{part or 0}e{match['power'] or 0}"
     return float(digits.replace("\u2212", "-")), rest.strip()
 
 
@@ -151,7 +151,7 @@ def _parse(text: str, unit: str) -> float:
         why = "it has no unit" if not written else f"{written!r} is not a unit of this kind"
         hint = f"did you mean {near}?" if near else how
         raise InputError(f"cannot read {text!r} as a quantity in {kind}: {why}; {hint}") from error
-    # Fifteen digits take off the dust that factors such as bar → Pa leave.
+    # Fifteen digits remove the round-off that factors such as bar → Pa leave.
     return float(f"{value:.15g}")
 
 
@@ -159,22 +159,22 @@ def _parse(text: str, unit: str) -> float:
 def _factor(written: str, unit: str) -> float:
     """What a number in a unit, as written, is multiplied by. Raises whatever pint does for another kind of unit."""
     registry = _registry()
-    found = _units(written)
+    units = _units(written)
     wanted = [registry.parse_units(one) for one in (unit, *([_ALSO[unit]] if unit in _ALSO else []))]
-    if not any(_roots(found) == _roots(one) for one in wanted):
+    if not any(_roots(units) == _roots(one) for one in wanted):
         raise ValueError("another kind of unit")
-    if registry.Quantity(0.0, found).to(unit).magnitude != 0:
-        raise ValueError("a scale with a zero of its own is no multiple of a unit")
-    return float(registry.Quantity(1.0, found).to(unit).magnitude)
+    if registry.Quantity(0.0, units).to(unit).magnitude != 0:
+        raise ValueError("a scale with a zero of its own is not a multiple of a unit")
+    return float(registry.Quantity(1.0, units).to(unit).magnitude)
 
 
 def _degrees(number: float, written: str) -> float:
     """Temperature in °C. Raises whatever pint does for another kind of unit."""
-    found = _units(written)
-    if "delta" in str(found):
-        raise ValueError("a difference is no temperature")
+    units = _units(written)
+    if "delta" in str(units):
+        raise ValueError("a difference is not a temperature")
     # Round-off of the zeros of the scales.
-    return round(float(_registry().Quantity(number, found).to("degC").magnitude), 9)
+    return round(float(_registry().Quantity(number, units).to("degC").magnitude), 9)
 
 
 def _units(written: str) -> Any:
@@ -230,9 +230,9 @@ class Unit:
         return core_schema.no_info_before_validator_function(lambda value: quantity(value, self.si), handler(source))
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        """A number in SI units, or a text with its unit."""
+        """A number in SI units, or text with its unit."""
         bare = "°C" if self.si == "degC" else self.si
-        told = f"A number in {bare}, or a text such as {self.example}." if bare else f"A number, {self.example}."
+        told = f"A number in {bare}, or text such as {self.example}." if bare else f"A number, {self.example}."
         return {"type": ["number", "string"], "description": told}
 
 

@@ -1,6 +1,6 @@
 """Names, units and long names of every variable that a result can hold.
 
-The one place where they are said; signs are explained in docs/explanation/conventions.md.
+The one place where they are stated; signs are explained in docs/explanation/conventions.md.
 x: direction of travel. y: to the right. z: depth, positive down. Tension positive.
 """
 
@@ -86,13 +86,13 @@ _RESPONSE = {
     "von_mises_stress": ("Pa", "von Mises equivalent stress"),
     "octahedral_shear_stress": ("Pa", "octahedral shear stress"),
     "mean_stress": ("Pa", "mean stress, tension positive"),
-    "mazars_strain": ("1", "equivalent strain of Mazars, from the extensions alone"),
+    "mazars_strain": ("1", "Mazars equivalent strain, from the extensions alone"),
 }
 
 _MOVING = {
     "dissipated_energy": (
         "J/m^3",
-        "energy per volume that one passage of the moving load dissipates, NaN where not computed",
+        "energy per unit volume that one passage of the moving load dissipates, NaN where not computed",
     ),
 }
 
@@ -102,7 +102,10 @@ _DAMAGE = {
     "crack_angle": ("rad", "angle of the crack's trace on the surface from travel towards the right"),
     "crack_dip": ("rad", "angle of the crack plane from the horizontal, π/2 is vertical"),
     "crack_orientation": ("1", "0 none, 1 longitudinal, 2 transverse, 3 oblique, 4 horizontal"),
-    "instant_x": ("m", "position along travel, in the wheel's frame, where a point of the road extends most"),
+    "instant_x": (
+        "m",
+        "position along travel, in the wheel's frame, at which the extension of a point of the road is largest",
+    ),
     "extension_direction": ("1", "unit vector of the largest extension at its worst instant"),
     "trace_share": ("1", "share of the cracks in a class of trace angles"),
     "orientation_share": ("1", "share of the cracks of an orientation"),
@@ -120,16 +123,16 @@ _DAMAGE = {
 _QUANTITIES = {
     "in_plane_extension": ("1", "largest extension strain in the horizontal plane"),
     "vertical_compression": ("1", "vertical strain, compression positive"),
-    "mazars_onset_ratio": ("1", "equivalent strain of Mazars over the strain at which damage begins"),
-    "von_mises_strain": ("1", "equivalent strain of von Mises, √(½ Σ (εᵢ - εⱼ)²)"),
-    "distortion_energy": ("J/m^3", "energy of the change of shape per volume"),
+    "mazars_onset_ratio": ("1", "Mazars equivalent strain over the strain at which damage begins"),
+    "von_mises_strain": ("1", "von Mises equivalent strain, √(½ Σ (εᵢ - εⱼ)²)"),
+    "distortion_energy": ("J/m^3", "distortion energy per unit volume"),
     "vertical_shear_strain": ("1", "largest engineering shear strain between the vertical and the horizontal"),
     "horizontal_tension": ("Pa", "largest principal stress in the horizontal plane, tension positive"),
     "tension_behind": ("Pa", "largest horizontal tension of the surface behind the load"),
     "tension_behind_x": ("m", "position along travel of the largest horizontal tension behind the load"),
-    **{f"residual_stress_{c}": ("Pa", f"stress component {c} that the passes before left") for c in _TENSOR},
-    "residual_tension": ("Pa", "largest horizontal tension left by the passes before"),
-    "total_tension": ("Pa", "largest horizontal tension of the passes before and the wheel together"),
+    **{f"residual_stress_{c}": ("Pa", f"stress component {c} left by earlier passes") for c in _TENSOR},
+    "residual_tension": ("Pa", "largest horizontal tension left by earlier passes"),
+    "total_tension": ("Pa", "largest horizontal tension of earlier passes and the wheel together"),
 }
 
 _UNIFORM = {
@@ -143,20 +146,20 @@ _UNIFORM = {
 }
 
 _LIFE = {
-    "damage_per_year": ("1", "Miner's damage of the first year, after wander where it counts; 1 is the end"),
+    "damage_per_year": ("1", "Miner's damage of the first year, with wander where it applies; 1 is failure"),
     "damage_share": ("1", "share of the damage at the worst place"),
     "life_years": ("1", "years until the damage at the worst place is 1"),
     "life_years_without_wander": ("1", "years until the damage is 1 with all wheels in one track"),
-    "life_years_with_wander": ("1", "years until the damage is 1 with wheels that wander, whatever the law holds"),
+    "life_years_with_wander": ("1", "years until the damage is 1 with wheels that wander, whatever the law includes"),
     "life_passes": ("1", "passes until the damage at the worst place is 1"),
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
     "design_damage": ("1", "Miner's damage at the worst place at the end of the design life; 1 is failure"),
-    "group_factor": ("1", "harm of one axle of a group over that of the same axle alone, K"),
+    "group_factor": ("1", "damage by one axle of a group over that by the same axle alone, K"),
     "axles": ("1", "number of axles of a class, one behind the other"),
     "read_depth": ("m", "depth at which a criterion reads"),
     "first_crack_angle": ("rad", "angle of the first crack's trace from travel towards the right"),
     "first_crack_dip": ("rad", "angle of the first crack's plane from the horizontal, π/2 is vertical"),
-    "orientation_damage": ("1", "share of the damage at the worst place that cracks of an orientation do"),
+    "orientation_damage": ("1", "share of the damage at the worst place due to cracks of an orientation"),
     "elasticity": ("1", "relative change of the life per relative change of an input; of temperature, per °C"),
 }
 
@@ -168,13 +171,16 @@ _INTERFACES = {
     "interface_pressure": ("Pa", "normal stress at an interface, compression positive"),
     "jump_x": ("m", "displacement along travel below an interface minus that above it"),
     "jump_y": ("m", "displacement to the right below an interface minus that above it"),
-    "utilisation": ("1", "how much of the bond's strength is used up; it fails at 1"),
+    "utilisation": ("1", "share of the bond's strength that is used; it fails at 1"),
     "bond_passes": ("1", "passes that the fatigue of the bond allows"),
     "largest_utilisation": ("1", "largest utilisation of an interface"),
-    "parting_x": ("m", "position along travel, in the load's frame, where an interface is used up most"),
-    "parting_y": ("m", "position to the right of travel where an interface is used up most"),
-    "parting_passes": ("1", "passes until an interface parts"),
-    "parting_years": ("1", "years until an interface parts"),
+    "parting_x": (
+        "m",
+        "position along travel, in the load's frame, where the utilisation of an interface is largest",
+    ),
+    "parting_y": ("m", "position to the right of travel where the utilisation of an interface is largest"),
+    "parting_passes": ("1", "passes until the bond of an interface fails"),
+    "parting_years": ("1", "years until the bond of an interface fails"),
 }
 
 _FOOTPRINT = {

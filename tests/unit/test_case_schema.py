@@ -93,7 +93,7 @@ def test_what_the_reader_refuses_the_schema_refuses(kind, old, new, word):
 def test_values_that_the_schema_takes_as_text_are_numbers_with_units():
     load = json_schema("run")["properties"]["rolling"]["properties"]["normal_load"]
     assert load["type"] == ["number", "string"]
-    assert load["description"].endswith('A number in N, or a text such as "32.5 kN".')
+    assert load["description"].endswith('A number in N, or text such as "32.5 kN".')
 
 
 @pytest.mark.parametrize("kind", KINDS)

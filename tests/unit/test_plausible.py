@@ -45,7 +45,7 @@ def test_every_range_has_a_reason_and_holds_what_is_usual(kind):
         # 5400 GPa for 5400 MPa.
         ("modulus of the layer", 5400e9, '"5.4e+09 Pa"'),
         ("friction", 70.0, '"70 %"'),
-        ("growth a year", 2.0, '"2 %"'),
+        ("annual growth", 2.0, '"2 %"'),
         ("size of the cells", 3.0, '"3 mm"'),
         ("stiffness of the bond", 1000.0, '"1000 MPa/m"'),
     ],
@@ -123,8 +123,8 @@ def test_a_life_says_what_no_traffic_is():
     life = tl.study.solve_life(TRUCK, road, traffic, tl.damage.Climate.constant(15.0), [criterion], spacing=4e-3)
     said = "\n".join(life.warnings)
     for word in (
-        "number of passes a year is 1e+12",
-        'growth a year is 2; traffic usually grows by -5 to 10 %: did you mean "2 %"?',
+        "number of passes per year is 1e+12",
+        'annual growth is 2; traffic usually grows by -5 to 10 %: did you mean "2 %"?',
         "wheel load of front is 35 N",
         '"35 kN"',
     ):

@@ -17,10 +17,10 @@ def bituminous_thickness(road: Pavement, layer: int) -> float:
     """Thickness of all bituminous layers that lie on each other around one of them, m.
 
     layer: the bituminous one, counted from the surface, 0 is the top one, negative from the bottom. Wearing, binder
-    and base courses count alike, whatever their bonds: laws were fitted to the whole.
-    A mix of the catalogue and a viscoelastic material are bituminous; unbound and hydraulic materials of the
-    catalogue and elastic ones below 700 MPa are not. Above, a modulus tells nothing.
-    Raises InputError for a neighbour of which it is not known, and a layer that is not bituminous or has no end.
+    and base courses count alike, whatever their bonds: laws were fitted to the whole. A mix of the catalogue and a
+    viscoelastic material are bituminous; unbound and hydraulic materials of the catalogue and elastic ones below 700
+    MPa are not. Above, the modulus does not decide. Raises InputError for a neighbour of which it is not known, and a
+    layer that is not bituminous or is semi-infinite.
     """
     number = _number(road, layer)
     own = road.layers[number]
@@ -67,10 +67,10 @@ def _counts(layer: Layer, number: int) -> bool:
     """Whether a neighbour adds to the asphalt."""
     if layer.thickness is None:
         return False
-    found = is_bituminous(layer.material)
-    if found is None:
+    bituminous = is_bituminous(layer.material)
+    if bituminous is None:
         raise InputError(
             f"layer {number + 1} {layer.name!r} ({layer.material}) may be asphalt or bound by cement, so that the "
             "thickness of all asphalt is not known; give it as thickness, or build the layer of a catalogued mix"
         )
-    return found
+    return bituminous

@@ -11,7 +11,7 @@ from treadload.units import Stiffness
 
 
 class BondLaw:
-    """What every bond between two layers tells.
+    """What every bond between two layers provides.
 
     stiffness: shear over relative sliding, Pa/m, >= 0, infinite when bonded; a field, or a property that raises
     InputError where it is not known yet.
@@ -40,7 +40,7 @@ BONDS.makes(BondLaw)
 @BONDS.register("spring")
 @dataclass(frozen=True)
 class Bond(BondLaw):
-    """How a layer is bonded to the one below: shear = stiffness x relative sliding; the layers never part.
+    """How a layer is bonded to the one below: shear = stiffness x relative sliding; the layers never separate.
 
     stiffness: Pa/m, >= 0; infinite when bonded, 0 without friction. It matters between some 1e9 and 1e12 Pa/m.
     Raises InputError for a negative stiffness.

@@ -1,4 +1,4 @@
-"""The catalogue of structures: one data file a source in `catalogue/data/structures`, and those of other packages.
+"""The catalogue of structures: one data file per source in `catalogue/data/structures`, and those of other packages.
 
 Another package adds its own by an entry point of the group `treadload.structures`: a function without arguments
 that returns Structures, for one `lambda: read_structures(path)` of a file like ours.

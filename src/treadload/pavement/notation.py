@@ -23,7 +23,7 @@ def read_layers(text: str) -> list[tuple[RoadMaterial, float | None]]:
 
     A layer is its thickness and the name of a mix or platform of the catalogue, "EB-" left out or not; the thickness
     is in cm, or in the unit behind it: "6,5 BBSG3", "6.5 cm BBSG3", "65 mm EB-BBSG3". The last has no thickness and
-    goes down without end. Raises InputError.
+    is semi-infinite. Raises InputError.
     """
     parts = [part.strip() for part in text.split("/")]
     layers = [_layer(part) for part in parts[:-1]]

@@ -13,7 +13,7 @@ from treadload.pavement.bonds import BONDED
 from treadload.pavement.layer import Layer
 from treadload.pavement.structure import Pavement
 
-# At which the modulus of a viscoelastic layer is told: the usual one of traffic, Hz.
+# At which the modulus of a viscoelastic layer is given: the usual one of traffic, Hz.
 FREQUENCY = 10.0
 
 
@@ -39,12 +39,12 @@ class LayerRow:
 def layer_rows(road: Pavement, temperatures: Sequence[float | None] = ()) -> tuple[LayerRow, ...]:
     """The layers from the surface down.
 
-    road: at its temperature. temperatures: °C, one a layer, those that chose its materials.
+    road: at its temperature. temperatures: °C, one per layer, those that chose its materials.
     Raises InputError for a layer that still needs a temperature.
     """
     known = [*temperatures, *[None] * (len(road.layers) - len(temperatures))]
     return tuple(
-        _row(layer, temperature, _held(road, number))
+        _row(layer, temperature, _bond_below(road, number))
         for number, (layer, temperature) in enumerate(zip(road.layers, known, strict=True))
     )
 
@@ -70,7 +70,7 @@ def _row(layer: Layer, temperature: float | None, bond: str) -> LayerRow:
     )
 
 
-def _held(road: Pavement, number: int) -> str:
+def _bond_below(road: Pavement, number: int) -> str:
     """Bond of a layer to what lies below it, in words."""
     if number < len(road.layers) - 1:
         return str(road.layers[number].bond)

@@ -55,7 +55,7 @@ class Pavement:
         if self.rigid_base and last.thickness is None:
             raise InputError(
                 f"the last layer ({last.name!r}) lies on a rigid base and needs a thickness, got none; "
-                "give one or take the rigid base away"
+                "give one or remove the rigid base"
             )
         if not self.rigid_base and last.thickness is not None:
             raise InputError(
@@ -90,8 +90,8 @@ class Pavement:
         loading, Hz, at which their moduli are read; left out, that of their data, 10 Hz for the French ones.
         Raises InputError for an unknown name, which it compares with the known ones, and as `at_temperature` does.
         """
-        found = name if isinstance(name, Structure) else find_structure(name)
-        road = cls(found.layers(frequency=frequency))
+        structure = name if isinstance(name, Structure) else find_structure(name)
+        road = cls(structure.layers(frequency=frequency))
         return road if temperature is None else road.at_temperature(temperature)
 
     @property
@@ -193,7 +193,7 @@ class Pavement:
     ) -> Pavement:
         """The road with the materials that its layers have at a temperature; others stay as they are.
 
-        temperature: °C, one for all layers; or a list with one a layer, None to leave that layer as it is; or a
+        temperature: °C, one for all layers; or a list with one per layer, None to leave that layer as it is; or a
         TemperatureProfile, of which a layer takes the temperature at its middle, as is usual.
         extrapolate: True to go beyond the data of materials and profile.
         Raises InputError for what looks like kelvin, a list of another length, temperatures outside the data, and
@@ -230,7 +230,7 @@ class Pavement:
         if layer.thickness is None:
             raise InputError(
                 f"layer {layer.name!r} is semi-infinite and has no middle to read a temperature profile at; "
-                "give a list with one temperature a layer"
+                "give a list with one temperature per layer"
             )
         middle = float(self.interfaces[number]) - 0.5 * layer.thickness
         with _naming(layer):

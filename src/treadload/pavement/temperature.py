@@ -13,9 +13,9 @@ from treadload.materials.celsius import check_celsius
 
 @dataclass(frozen=True)
 class TemperatureProfile:
-    """Temperature over depth, linear between what was measured.
+    """Temperature over depth, linear between the given depths.
 
-    depths: m, increasing, from the surface down, at least two. temperatures: °C, one a depth.
+    depths: m, increasing, from the surface down, at least two. temperatures: °C, one per depth.
     A layer takes the temperature at its middle.
     Raises InputError.
     """

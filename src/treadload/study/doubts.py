@@ -10,8 +10,8 @@ from treadload.tire import Tire
 
 def traffic_doubts(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str, ...]:
     """Sentences on the classes of axles, how many there are, how that grows, and the temperatures."""
-    said = doubt("number of passes a year", traffic.passes_per_year) if traffic.passes_per_year else ()
-    said += doubt("growth a year", traffic.growth)
+    said = doubt("number of passes per year", traffic.passes_per_year) if traffic.passes_per_year else ()
+    said += doubt("annual growth", traffic.growth)
     for row in traffic.classes:
         _, width = (row.tire or tire).extent
         said += load_doubt(row.wheel_load, width, row.name)
