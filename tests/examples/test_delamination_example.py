@@ -22,6 +22,6 @@ def test_delamination(tmp_path, capsys):
     # Base, bottom: the laws' exponent of 5 makes 1 % of strain 5 % of life.
     assert found["bonded"] == pytest.approx(31.3, rel=0.05)
     assert found["parted"] == pytest.approx(6.3, rel=0.05)
-    assert "parts first" in capsys.readouterr().out
+    assert "fails first" in capsys.readouterr().out
     for name in ("utilisation.png", "lives.png"):
         assert (tmp_path / name).stat().st_size > 10_000

@@ -128,7 +128,7 @@ BOUNDS = [
     (lambda v: Wander(v), 0.0, -JUST, "deviation"),
     (lambda v: Wander.measured([0.0, v], [0.5, 0.5]), JUST, 0.0, "rise"),
     (lambda v: Traffic((ONE,), v), 0.0, -JUST, "passes_per_year"),
-    (lambda v: Traffic((ONE,), 1.0, years=v), 1.0, 0.0, "years of design"),
+    (lambda v: Traffic((ONE,), 1.0, years=v), 1.0, 0.0, "design life"),
     (lambda v: Traffic((ONE,), 1.0).years_to(v), 0.0, -JUST, "passes must"),
     (lambda v: MazarsOnset(v), JUST, 0.0, "mazars_onset"),
     (lambda v: MazarsOnset(v), 0.01 - JUST, 0.01, "mazars_onset"),

@@ -122,7 +122,7 @@ PSI = 6894.757293168361
         # The conventional stresses of reports pass.
         (150 * PSI, ()),
         (230 * PSI, ()),
-        (1.8e6, ("1.8 MPa is more than its sources put in",)),
+        (1.8e6, ("1.8 MPa is more than its sources use",)),
         # A peak of a computed contact: more than the mix bears once.
         (np.array([[0.1e6, 3.4e6, np.nan]]), ("3.4 MPa exceeds the strength of the mix, 2 MPa; it is a peak",)),
     ],

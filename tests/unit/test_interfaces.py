@@ -211,12 +211,12 @@ def test_the_verdict_finds_where_and_when(bonded):
     text = verdict.summary()
     assert "interface 1, below wearing course (60 mm deep)" in text
     assert "interface 2, below base" in text
-    assert "parts first" in text
+    assert "fails first" in text
 
 
 def test_verdicts_in_all_states(bonded):
     weak = assess_bonds(bonded, InterfaceStrength(1e3))
-    assert "the first pass parts" in weak.summary()
+    assert "fails in the first pass" in weak.summary()
     asked = assess_bonds(bonded, [InterfaceStrength(1e6), None])
     assert asked.first == 0
     assert "no strength given" in asked.summary()

@@ -230,7 +230,7 @@ material = { modulus = "60 MPa", poisson = 0.35 }
         ('PF3" }', 'PF3", temperature = 15 }', "temperatures of [climate]"),
         ('{ deviation = "250 mm" }', "{ offsets = [0, 0.1], shares = [0.5, 0.4] }", "sum to 1, got 0.9"),
         ("growth = 0.02", 'growth = 0.02\nkind = "geometrical"', "geometric"),
-        ("years = 20", "years = 0", "years of design must be a positive number, got 0; leave them out"),
+        ("years = 20", "years = 0", "the design life must be a positive number of years, got 0; leave it out"),
     ],
 )
 def test_wrong_tables_are_named(old, new, words):

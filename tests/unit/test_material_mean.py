@@ -156,7 +156,7 @@ def test_nothing_cracks_where_nothing_is_tensile():
 @pytest.mark.parametrize(
     ("law", "more", "words"),
     [
-        (ShearFatigue(-0.2), {}, "reads the utilisation of the bond; take a law of extension"),
+        (ShearFatigue(-0.2), {}, "reads the utilisation of the bond; take a law for an extension"),
         (
             MepdgTopDown(5e9, 0.15, 0.06, 0.11),
             {"depth": 0.06},

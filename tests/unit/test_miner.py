@@ -176,7 +176,7 @@ def test_damage_at_the_end_of_the_design_life():
     traffic = Traffic(classes(1.0), 1e5, growth=0.03, years=20)
     life = miner(values, CRITERIA[:1], traffic, Climate.constant(15.0), y=Y)
     assert life.dataset["design_damage"].item() == pytest.approx(traffic.passes(20) / LINE.allowable_passes(120e-6))
-    with pytest.raises(InputError, match="years of design"):
+    with pytest.raises(InputError, match="design life"):
         Traffic(classes(1.0), 1e5, years=0)
 
 

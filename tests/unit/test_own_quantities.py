@@ -261,7 +261,7 @@ def test_a_line_of_any_strain_and_a_power_of_anything():
     same = PowerLine(EXTENSION, "100 microstrain", -0.2)
     assert same.allowable_passes(150e-6) == pytest.approx(line.allowable_passes(150e-6), rel=1e-12)
     mazars = FatigueLine(100e-6, -0.2, MazarsStrain())
-    assert str(mazars) == "fatigue line of the equivalent strain of Mazars, ε₆ = 100 microstrain, slope -0.2"
+    assert str(mazars) == "fatigue line of the Mazars equivalent strain, ε₆ = 100 microstrain, slope -0.2"
     assert Criterion("a", mazars).quantity == MazarsStrain()
     assert PowerLine(OctahedralShear(), "0.4 MPa", -0.1).at_a_million == 0.4e6
     assert Criterion("a", FatigueLine(1e-4, -0.2, Extension("principal"))).quantity.strain == "principal"

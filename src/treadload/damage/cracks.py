@@ -30,7 +30,7 @@ def gridded(response: Source) -> xr.Dataset:
     data = dataset_of(response)
     if "point" in data.dims:
         raise InputError(
-            f"this needs a grid, the response is one at {data.sizes['point']} points; solve_response with x and y"
+            f"this needs a grid, the response is at {data.sizes['point']} points; call solve_response with x and y"
         )
     return data
 
@@ -52,8 +52,8 @@ def crack_plane(direction: Array) -> tuple[Array, Array]:
 def orientation(angle: Array, dip: Array, tolerance: float) -> Array:
     """Codes of `ORIENTATIONS` (...) from the angle of the trace and the dip (...), rad; none where dip is NaN.
 
-    A plane nearer to the horizontal than to the vertical is horizontal: it parts the road, no crack runs down it.
-    tolerance: of the trace, rad, see `assess`.
+    A plane nearer to the horizontal than to the vertical is horizontal: it splits the road, no crack runs down from
+    it. tolerance: of the trace, rad, see `assess`.
     """
     steep = np.abs(angle)
     code = np.full(np.shape(dip), OBLIQUE, dtype=np.int8)
@@ -107,8 +107,8 @@ def envelope(
         "crack_orientation": (dims, orientation(angle, dip, oblique_tolerance)),
     }
     said = [
-        f"{cut.sum()} of {cut.size} points extend most at the first or last x of the response: the passage is cut; "
-        "solve it further out"
+        f"{cut.sum()} of {cut.size} points have their largest extension at the first or last x of the response: the "
+        "passage is cut short; solve it further out"
     ]
     return variables.dataset(
         fields,
@@ -156,7 +156,7 @@ def crack_rose(
     counts = np.where((strain > threshold) & (codes != NONE), _areas(cracks["crack_dip"]), 0.0)
     if weight == "damage":
         if law is None:
-            raise InputError('weight="damage" needs a law that tells the passes; give law=')
+            raise InputError('weight="damage" needs a law that gives the passes; give law=')
         counts = counts / np.where(counts > 0, law.allowable_passes(strain), 1.0)
     elif weight != "area":
         raise InputError(f'weight must be "area" or "damage", got {weight!r}')

@@ -38,7 +38,7 @@ class Criterion:
     m, see `response.material`; None for the points themselves, which depend on the cells there.
     reads: what the law reads, with details that the law leaves open, as the strength of a bond.
     An extension at the top of a layer counts only where a principal stress is tensile: no crack opens elsewhere.
-    Raises InputError for a law at a place of which it does not speak: one of the bottom of the asphalt, of the
+    Raises InputError for a law at a place that it does not apply to: one of the bottom of the asphalt, of the
     surface, of the top of the subgrade, of a bond.
     """
 
@@ -67,7 +67,7 @@ class Criterion:
         if self.reads is not None and not law.reads.admits(self.reads):
             raise InputError(
                 f"the criterion {self.name!r} reads the {self.reads}, but the numbers of its law, {law}, hold for "
-                f"the {law.reads}; take a law of what it should read"
+                f"the {law.reads}; take a law for what it should read"
             )
         if self.place not in where.places:
             at = "an interface" if self.place == "interface" else f"the {self.place} of a layer"
@@ -83,7 +83,7 @@ class Criterion:
 
     @classmethod
     def of_bond(cls, name: str, strength: BondStrength, law: ShearFatigue, interface: int = 0) -> Self:
-        """The bond of an interface: after how many passes its layers part.
+        """The bond of an interface: after how many passes it fails.
 
         name: for tables and figures. strength, law: of the bond; strength at the temperature of the layer above.
         interface: counted from the surface, 0 below the top layer, negative from the lowest.
@@ -120,7 +120,7 @@ class Criterion:
         if not -count <= self.layer < count:
             raise InputError(
                 f"the criterion {self.name!r} reads layer {self.layer}, the road has {count}: "
-                f"{-count} to {count - 1} are there"
+                f"valid are {-count} to {count - 1}"
             )
         return self.layer % count
 
@@ -149,10 +149,10 @@ class Criterion:
     def read(self, data: xr.Dataset) -> Array:
         """What the law reads (y, x) of a response at the criterion's one depth, positive where it does harm."""
         quantity = self.quantity
-        found = quantity.values(data)
+        values = quantity.values(data)
         if self.place == "top" and quantity.needs_tension:
-            return np.where(quantity.opens(data), found, np.minimum(found, 0.0))
-        return found
+            return np.where(quantity.opens(data), values, np.minimum(values, 0.0))
+        return values
 
     def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
         """Angle of the trace and dip (y, x), rad, of the crack across what it reads; NaN for none."""
@@ -167,6 +167,6 @@ def interface_number(road: Pavement, interface: int) -> int:
     """Number of an interface between layers from the surface. Raises InputError for one that is not there."""
     count = len(road.layers) - 1
     if not -count <= interface < count:
-        there = f"{-count} to {count - 1} are there" if count else "there is none"
+        there = f"valid are {-count} to {count - 1}" if count else "there is none"
         raise InputError(f"the road has {count} interface(s) between layers, got interface {interface}; {there}")
     return interface % count

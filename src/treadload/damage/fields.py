@@ -21,9 +21,9 @@ NEAR_SURFACE = 0.05
 
 
 def known_quantities() -> dict[str, Quantity]:
-    """Quantities by their names that a response tells anywhere in the road, without anything else being given.
+    """Quantities by their names that a response gives anywhere in the road, without anything else being given.
 
-    Ours, and what this session registered; those of other packages are found by their names.
+    Ours, and what this session registered; those of other packages are looked up by name.
     """
     makers = (QUANTITIES.find(name).target for name in QUANTITIES.own())
     made = [make() for make in makers if not _needs_more(make)]

@@ -1,4 +1,4 @@
-"""Stress that a road carries besides that of the wheel on it: of the wheels before, and of the cold."""
+"""Stress in a road besides that of the wheel on it: left by earlier wheels, and thermal."""
 
 from __future__ import annotations
 

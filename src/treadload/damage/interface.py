@@ -1,4 +1,4 @@
-"""What the interfaces of a layered road bear under a load, and where and when its layers part."""
+"""What the interfaces of a layered road bear under a load, and where and when their bonds fail."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class BondVerdict(BaseResult, group="bonds"):
 
     dataset: the fields of `interface_fields`, utilisation and, with a law, bond_passes (interface, y, x), NaN where
     no strength is given; largest_utilisation, parting_x, parting_y and parting_passes (interface).
-    strengths: one for each interface, None where not asked. law: of fatigue, or None. warnings: for the user.
+    strengths: one for each interface, None where not assessed. law: of fatigue, or None. warnings: for the user.
     """
 
     dataset: xr.Dataset
@@ -112,11 +112,11 @@ class BondVerdict(BaseResult, group="bonds"):
 
     @property
     def first(self) -> int:
-        """Number of the interface that parts first: the one whose bond is used up most."""
+        """Number of the interface that fails first: the one with the largest utilisation."""
         return int(np.nanargmax(self.dataset["largest_utilisation"].to_numpy()))
 
     def summary(self) -> str:
-        """Shear, pressure and utilisation at the worst place of every interface, and where and when layers part."""
+        """Shear, pressure and utilisation at the worst place of every interface, and where and when bonds fail."""
         data = self.dataset
         lines = ["interfaces, from the surface down"]
         for k, strength in enumerate(self.strengths):
@@ -127,7 +127,7 @@ class BondVerdict(BaseResult, group="bonds"):
             worst = one.sel(x=one["parting_x"], y=one["parting_y"])
             lines += [
                 f"  {_named(one)}: {strength}",
-                f"    used up to {float(one['largest_utilisation']):.3g} at x = {_mm(one['parting_x'])} mm, "
+                f"    utilisation {float(one['largest_utilisation']):.3g} at x = {_mm(one['parting_x'])} mm, "
                 f"y = {_mm(one['parting_y'])} mm: shear {float(worst['interface_shear']) / 1e6:.3f} MPa under "
                 f"{float(worst['interface_pressure']) / 1e6:.3f} MPa",
             ]
@@ -135,14 +135,17 @@ class BondVerdict(BaseResult, group="bonds"):
         one = data.isel(interface=self.first)
         used = float(one["largest_utilisation"])
         if used >= 1:
-            lines.append(f"Verdict: the first pass parts {_named(one)}.")
+            lines.append(f"Verdict: {_named(one)} fails in the first pass.")
         elif self.law is None:
-            lines.append(f"Verdict: no bond parts at once; {_named(one)} is used most. Give a law for its passes.")
+            lines.append(
+                f"Verdict: no bond fails at once; the utilisation of {_named(one)} is largest. "
+                "Give a law for its passes."
+            )
         elif used == 0:
-            lines.append("Verdict: no bond is ever used.")
+            lines.append("Verdict: no bond carries any load.")
         else:
             lines.append(
-                f"Verdict: {_named(one)} parts first, after {float(one['parting_passes']):.2g} passes, "
+                f"Verdict: {_named(one)} fails first, after {float(one['parting_passes']):.2g} passes, "
                 f"from y = {_mm(one['parting_y'])} mm."
             )
         return "\n".join(lines)
@@ -157,12 +160,12 @@ def assess_bonds(
     *,
     temperature: float | Sequence[float] | None = None,
 ) -> BondVerdict:
-    """Where, and after how many passes, the layers of a road part under a load.
+    """Where, and after how many passes, the bonds of a road fail under a load.
 
     fields: of `interface_fields` or `solve_interfaces`, or a response that has the depth of every interface.
     strengths: one for all interfaces, or one for each from the surface down, None for
-    those that are not asked. law: fatigue of the bonds; left out, only the strength is asked. temperature: of the
-    interfaces, °C, one or one each, for strengths that depend on it.
+    those that are not assessed. law: fatigue of the bonds; left out, only the strength is assessed. temperature: of
+    the interfaces, °C, one or one for each, for strengths that depend on it.
     x is where the worst place stands in the frame of the load: as a wheel rolls by, every point at that y sees it.
     Returns a BondVerdict. Raises InputError for a wrong number of strengths or temperatures, or one that is missing.
     """
@@ -182,10 +185,10 @@ def assess_bonds(
     shear, pressed = (fields[f"interface_{name}"].transpose(*_DIMS).to_numpy() for name in ("shear", "pressure"))
     used = np.full(shear.shape, np.nan)
     said: list[str] = json.loads(fields.attrs.get("warnings", "[]"))
-    found: list[BondStrength | None] = []
+    warmed: list[BondStrength | None] = []
     for k, (strength, degrees) in enumerate(zip(given, warm, strict=True)):
         at = strength if strength is None or degrees is None else strength.at(float(degrees))
-        found.append(at)
+        warmed.append(at)
         if at is not None:
             used[k] = at.utilisation(shear[k], pressed[k])
             said += [f"{_named(fields.isel(interface=k))}: {text}" for text in _doubts(at, pressed[k])]
@@ -194,7 +197,7 @@ def assess_bonds(
     asked = ~np.isnan(largest)
     x, y = fields["x"].to_numpy(), fields["y"].to_numpy()
     said += [
-        f"{_named(fields.isel(interface=k))}: used most at the edge of the points; solve it further out"
+        f"{_named(fields.isel(interface=k))}: utilisation largest at the edge of the points; solve it further out"
         for k, peak in enumerate(peaks)
         if largest[k] > 0 and _on_edge(peak, used[k].shape)
     ]
@@ -209,7 +212,7 @@ def assess_bonds(
         added["parting_passes"] = (("interface",), law.allowable_passes(largest))
         said += warnings_of(law, largest)
     dataset = fields.assign({name: (dims, data, variables.attributes(name)) for name, (dims, data) in added.items()})
-    return BondVerdict(dataset, tuple(found), law, tuple(dict.fromkeys(said)))
+    return BondVerdict(dataset, tuple(warmed), law, tuple(dict.fromkeys(said)))
 
 
 def _peak(used: Array) -> tuple[int, int]:
@@ -228,7 +231,7 @@ def _doubts(strength: BondStrength, pressed: Array) -> list[str]:
     tension = float(-pressed.min())
     # Tension that matters: a hundredth of what presses. Less stands everywhere around a load.
     if tension > 0.01 * float(np.abs(pressed).max()) and math.isinf(strength.tension_limit):
-        said.append(f"tension up to {tension / 1e3:.3g} kPa acts and is not judged; give a tensile_strength")
+        said.append(f"tension up to {tension / 1e3:.3g} kPa acts and is not assessed; give a tensile_strength")
     return said
 
 

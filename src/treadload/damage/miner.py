@@ -30,7 +30,7 @@ _MOSTLY = 0.2
 class Life(BaseResult, group="life"):
     """How long a road lasts under a traffic.
 
-    dataset: damage_per_year (criterion, y), of the first year, after wander unless the criterion's law holds it;
+    dataset: damage_per_year (criterion, y), of the first year, with wander unless the criterion's law includes it;
     damage_share (criterion, axle_class, season) of it at the worst y; life_years, life_passes, worst_y,
     largest_reading (criterion); where the traffic wanders, life_years_without_wander and life_years_with_wander,
     whichever the law takes; with a design life design_damage; with cracks first_crack_angle, first_crack_dip
@@ -58,11 +58,11 @@ class Life(BaseResult, group="life"):
         return float(self.dataset["life_years"].sel(criterion=criterion))
 
     def summary(self) -> str:
-        """Life of every criterion, the governing one, and what uses it up."""
+        """Life of every criterion, the governing one, and what does most of its damage."""
         data = self.dataset
         lines = [
             f"life under {self.traffic.passes_per_year:.4g} passes in the first year, growth "
-            f"{100 * self.traffic.growth:g} % a year, {self.traffic.wander}, {len(self.climate.seasons)} season(s)"
+            f"{100 * self.traffic.growth:g} % per year, {self.traffic.wander}, {len(self.climate.seasons)} season(s)"
         ]
         for criterion in self.criteria:
             row = data.sel(criterion=criterion.name)
@@ -84,7 +84,7 @@ class Life(BaseResult, group="life"):
         if self.stats:
             lines.append(
                 "solved: {contacts} contacts and {responses} responses for {combinations} combinations; readings "
-                "interpolated over the climate err by {interpolation_error:.1g} at most".format(**self.stats)
+                "interpolated over the climate are off by at most {interpolation_error:.1g}".format(**self.stats)
             )
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
@@ -103,15 +103,15 @@ def miner(
 ) -> Life:
     """Life of a road by Miner's sum, D = Σ n / N, over classes of axles and seasons, after wander.
 
-    readings: (criterion, axle_class, season, y), what each criterion's law reads as a wheel passes, in the order
-    of criteria, traffic.classes and climate.seasons; one cycle a passage. Or (criterion, axle_class, season, turn,
-    y): peak, valley, peak, ... of a group of axles, zeros behind the last; a valley takes back what the rise to the
-    next peak does not do again, D = Σ 1/N(peak) - Σ 1/N(valley). y: evenly spaced, m; left out, the coordinate of
+    readings: (criterion, axle_class, season, y), what each criterion's law reads as a wheel passes, in the order of
+    criteria, traffic.classes and climate.seasons; one cycle per passage. Or (criterion, axle_class, season, turn, y):
+    peak, valley, peak, ... of a group of axles, zeros behind the last; a valley takes back what the rise to the next
+    peak does not do again, D = Σ 1/N(peak) - Σ 1/N(valley). y: evenly spaced, m; left out, the coordinate of
     readings. layer_temperatures: (criterion, season), °C, for laws that depend on it; left out, the seasons' one
-    temperature. cracks: angle of the trace and dip, rad, (criterion, axle_class, season, y), NaN for none.
-    Wander counts for laws that do not hold it (`includes_wander`); with those that do, such as the French ones whose
-    k_c was fitted to roads on which wheels wander, it would count twice: a warning tells both lives.
-    The years are those after which the damage at the worst place is 1. Raises InputError for wrong shapes.
+    temperature. cracks: angle of the trace and dip, rad, (criterion, axle_class, season, y), NaN for none. Wander
+    counts for laws that do not include it (`includes_wander`); with those that do, such as the French ones whose k_c
+    was fitted to roads on which wheels wander, it would count twice: a warning gives both lives. The years are those
+    after which the damage at the worst place is 1. Raises InputError for wrong shapes.
     """
     values = np.asarray(readings, dtype=float)
     expected = (len(criteria), len(traffic.classes), len(climate.seasons))
@@ -212,7 +212,7 @@ def miner(
 
 
 def wander_of(law: FatigueLaw, traffic: Traffic) -> Wander:
-    """The wander of a traffic that counts with a law: none for a law that holds it."""
+    """The wander of a traffic that counts with a law: none for a law that includes it."""
     return Wander.none() if law.includes_wander else traffic.wander
 
 
@@ -240,7 +240,7 @@ def passes_in_two_phases(before: Array, after: Array, change: float) -> Array:
     """Passes until Miner's sum is 1 where the road changes on the way: n₁ d₁ + (n - n₁) d₂ = 1.
 
     before, after: d₁ and d₂, damage of a pass, any shape, >= 0. change: n₁, passes until the change, >= 0 or inf.
-    What is used up before the change fails as if there were none; inf where no damage is done.
+    What fails before the change does so as if there were none; inf where no damage is done.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         alone = np.where(before > 0, 1 / before, np.inf)
@@ -288,8 +288,8 @@ def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
         return []
     shares = data["orientation_damage"].sel(orientation=ORIENTATIONS[HORIZONTAL]).to_numpy()
     return [
-        f"{name}: {100 * share:.0f} % of its damage is read across planes nearer to the horizontal than 45°, which "
-        "part the road parallel to its surface: no crack from the surface down, nor from the bottom up; read "
+        f"{name}: {100 * share:.0f} % of its damage is read across planes closer to horizontal than 45°, which "
+        "split the road parallel to its surface: no crack from the surface down, nor from the bottom up; read "
         + ('strain = "in-plane" for those' if one.quantity.extends else "in_plane_extension for those")
         for name, share, one in zip(data["criterion"].to_numpy(), shares, criteria, strict=True)
         if share > _MOSTLY and not one.quantity.between_layers

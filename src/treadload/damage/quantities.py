@@ -1,6 +1,6 @@
 """The quantities that laws and criteria read: extensions, compression on the soil, tension, equivalent strains.
 
-Each is a word of a case and of `compute_quantities`; see `damage.quantity` for what one must tell.
+Each is a word of a case and of `compute_quantities`; see `damage.quantity` for what one must provide.
 """
 
 from __future__ import annotations
@@ -80,12 +80,12 @@ class Extension(Quantity):
         return _along(tensors.in_plane_principal(strain)[1])
 
     def values(self, data: xr.Dataset) -> Array:
-        """As the response tells it, or of its strain."""
+        """As the response gives it, or from its strain."""
         name = "principal_strain_1" if self.strain == "principal" else "in_plane_strain_1"
         return part(data, name) if name in data else super().values(data)
 
     def crack(self, data: xr.Dataset) -> Array | None:
-        """Its direction as the response tells it, or of its strain."""
+        """Its direction as the response gives it, or from its strain."""
         if self.strain == "principal":
             name = "principal_direction_1"
             return part(data, name) if name in data else super().crack(data)
@@ -177,10 +177,10 @@ class HorizontalTension(Quantity):
 @QUANTITIES.register("mazars_strain")
 @dataclass(frozen=True)
 class MazarsStrain(Quantity):
-    """Equivalent strain of Mazars, √Σ⟨ε⟩², of the extensions alone; its crack opens across the largest of them."""
+    """Mazars equivalent strain, √Σ⟨ε⟩², of the extensions alone; its crack opens across the largest of them."""
 
     name = "mazars_strain"
-    words = "equivalent strain of Mazars"
+    words = "Mazars equivalent strain"
     shown = "microstrain"
     source = "Mazars (1986), Eng. Fract. Mech. 25"
     needs = STRAIN
@@ -198,7 +198,7 @@ class MazarsStrain(Quantity):
 @QUANTITIES.register("mazars_onset_ratio")
 @dataclass(frozen=True)
 class MazarsOnset(MazarsStrain):
-    """Equivalent strain of Mazars over the strain at which damage begins.
+    """Mazars equivalent strain over the strain at which damage begins.
 
     onset: that strain, from memory: 50 to 100 microstrain. Raises InputError.
     """
@@ -206,7 +206,7 @@ class MazarsOnset(MazarsStrain):
     onset: Strain = MAZARS_ONSET
 
     name = "mazars_onset_ratio"
-    words = "equivalent strain of Mazars over that at which damage begins"
+    words = "Mazars equivalent strain over that at which damage begins"
     shown = ""
 
     def __post_init__(self) -> None:
@@ -226,10 +226,10 @@ class MazarsOnset(MazarsStrain):
 @QUANTITIES.register("von_mises_strain")
 @dataclass(frozen=True)
 class VonMisesStrain(Quantity):
-    """Equivalent strain of von Mises, √(½ Σ (εᵢ - εⱼ)²)."""
+    """Von Mises equivalent strain, √(½ Σ (εᵢ - εⱼ)²)."""
 
     name = "von_mises_strain"
-    words = "equivalent strain of von Mises"
+    words = "von Mises equivalent strain"
     shown = "microstrain"
     source = "Sousa; the strain of a four-point beam test stands for (1 + ν) times itself"
     needs = STRAIN
@@ -274,10 +274,10 @@ class MeanStress(Quantity):
 @QUANTITIES.register("distortion_energy")
 @dataclass(frozen=True)
 class DistortionEnergy(Quantity):
-    """Energy of the change of shape per volume."""
+    """Distortion energy per unit volume."""
 
     name = "distortion_energy"
-    words = "energy of the change of shape"
+    words = "distortion energy"
     unit, shown = "J/m^3", "J/m³"
     source = "Kunst"
 
@@ -305,7 +305,7 @@ class VerticalShear(Quantity):
 @QUANTITIES.register("dissipated_energy")
 @dataclass(frozen=True)
 class DissipatedEnergy(Quantity):
-    """Energy per volume that one passage of a moving wheel leaves in viscoelastic layers, the same all along x."""
+    """Energy per unit volume that a passage of a moving wheel leaves in viscoelastic layers, the same all along x."""
 
     name = "dissipated_energy"
     words = "dissipated energy"
@@ -315,11 +315,11 @@ class DissipatedEnergy(Quantity):
     remedy = "solve a moving wheel on a viscoelastic road"
 
     def of(self, stress: Array, strain: Array) -> Array:
-        """Not told by stress and strain of an instant: raises InputError."""
-        raise InputError("stress and strain do not tell the dissipated energy; read it of a response")
+        """Not given by the stress and strain of an instant: raises InputError."""
+        raise InputError("stress and strain do not give the dissipated energy; read it from a response")
 
     def values(self, data: xr.Dataset) -> Array:
-        """What the response tells, at every x."""
+        """What the response gives, at every x."""
         self.check(data)
         told, dims = data[self.name], ordered(data)
         whole = told.expand_dims({dim: data.sizes[dim] for dim in dims if dim not in told.dims})
@@ -329,7 +329,7 @@ class DissipatedEnergy(Quantity):
         """None: energy has no direction."""
 
     def field(self, data: xr.Dataset) -> xr.DataArray:
-        """What the response tells, over (depth, y)."""
+        """What the response gives, over (depth, y)."""
         self.check(data)
         return data[self.name]
 

@@ -46,7 +46,7 @@ _DIMS = ("depth", "y", "x")
 _TENSION = 1e-9
 # Unit in which people read a quantity, and the factor to it from SI.
 _SHOWN: Mapping[str, float] = MappingProxyType({"microstrain": 1e6, "MPa": 1e-6, "kPa": 1e-3, "mm": 1e3})
-_NO_CRACK = "no direction told"
+_NO_CRACK = "no crack direction"
 
 
 @dataclass(frozen=True)
@@ -83,13 +83,12 @@ class Quantity(ABC):
     """What is read of a field of stress and strain, positive where it does harm; subclasses are frozen dataclasses.
 
     name: the word for it in cases and files. words: in sentences, "reads the ...". unit: SI, "1" of strains. shown:
-    the unit in which people read it, "microstrain", "MPa" or "" for the SI unit. source: who asks for it. where: in a
-    road it is read. harm: what a report says where no crack opens. needs: variables of a response; remedy: what to do
-    without them.
-    bounded: False if it has no bound under the edge of a rib, so that a mean over a length of road is read near the
-    surface. extends: True for an extension, which `assess` can judge; strain: whether it is one in space or in the
-    horizontal plane. needs_tension: True if it does harm only where a principal stress is tensile. between_layers:
-    True if it tells when the two layers of an interface part.
+    the unit in which people read it, "microstrain", "MPa" or "" for the SI unit. source: the law or author that uses
+    it. where: in a road it is read. harm: what a report says where no crack opens. needs: variables of a response;
+    remedy: what to do without them. bounded: False if it has no bound under the edge of a rib, so that a mean over a
+    length of road is read near the surface. extends: True for an extension, which `assess` can judge; strain: whether
+    it is one in space or in the horizontal plane. needs_tension: True if it does harm only where a principal stress
+    is tensile. between_layers: True if it says when the bond of an interface fails.
     """
 
     name: str
@@ -125,7 +124,7 @@ class Quantity(ABC):
 
     @property
     def lacks(self) -> str:
-        """What must be given before it can be read of a response, in words; empty if nothing."""
+        """What must be given before it can be read from a response, in words; empty if nothing."""
         return ""
 
     def at(self, temperature: float) -> Self:
@@ -183,13 +182,13 @@ class Quantity(ABC):
         return f"{number:.0f} {unit}" if number >= 100 else f"{number:.3g} {unit}"
 
     def number(self, value: float | str) -> float:
-        """A reading in SI: a bare number is that already, a text carries its unit. Raises InputError."""
+        """A reading in SI: a bare number is that already, text carries its unit. Raises InputError."""
         # A pressure and an energy per volume are one to the reader of units.
         return quantity(value, {"1": "", "J/m^3": "Pa"}.get(self.unit, self.unit))
 
     @property
     def about(self) -> dict[str, Any]:
-        """What a file tells of it, so that its readings are understood without this program."""
+        """What a file says of it, so that its readings are understood without this program."""
         shown = self.shown or ("" if self.unit == "1" else self.unit)
         return {"name": self.name, "words": self.words, "shown": shown, "factor": self.factor, "harm": self.harm}
 

@@ -48,8 +48,8 @@ class Field:
     @cached_property
     def value(self) -> Array:
         """What is read: the extension, and nothing where no crack can open."""
-        found: Array = np.where(self.quantity.opens(self.data), self.extension, np.minimum(self.extension, 0.0))
-        return found
+        value: Array = np.where(self.quantity.opens(self.data), self.extension, np.minimum(self.extension, 0.0))
+        return value
 
     @cached_property
     def crack(self) -> tuple[Array, Array]:
@@ -71,7 +71,9 @@ class Field:
 def check_law(line: PowerLaw) -> None:
     """Raise InputError for a law that reads no extension."""
     if not line.reads.extends:
-        raise InputError(f"a verdict reads an extension, but {line} reads the {line.reads}; take a law of extension")
+        raise InputError(
+            f"a verdict reads an extension, but {line} reads the {line.reads}; take a law for an extension"
+        )
 
 
 def local_field(response: Source, line: PowerLaw, depth: float) -> xr.Dataset:
@@ -87,7 +89,7 @@ def local_field(response: Source, line: PowerLaw, depth: float) -> xr.Dataset:
 
 
 def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Dataset, list[str]]:
-    """Means over a length, m, at the depths of a response that the law speaks of; and what to say of the others.
+    """Means over a length, m, at the depths of a response that the law applies to; and what to say of the others.
 
     A response that is a mean is taken as it is. Raises InputError for one without its road.
     """
@@ -110,7 +112,7 @@ def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Data
 
 
 def closer(response: Source, field: Field) -> Field | None:
-    """The field on points close to each other around its worst point; None where the road cannot be asked again.
+    """The field on points close to each other around its worst point; None where the road cannot be solved again.
 
     field: means over (depth, y, x). The map's points lie as far apart as its cells, and the largest reading lies
     between them: by round maxima a little higher, by the line where tension ends, which cuts the reading off at once,
@@ -118,10 +120,10 @@ def closer(response: Source, field: Field) -> Field | None:
     """
     if not isinstance(response, Response) or response.road is None:
         return None
-    found = [near for at in _rivals(field) if (near := _nearer(response, field, at)) is not None]
-    if not found:
+    fields = [near for at in _rivals(field) if (near := _nearer(response, field, at)) is not None]
+    if not fields:
         return None
-    best = max(found, key=lambda near: float(near.value[near.worst]))
+    best = max(fields, key=lambda near: float(near.value[near.worst]))
     finer = {
         name: _between(best.data[name].to_numpy(), k) for name, k in zip(("y", "x"), best.worst[1:], strict=True)
     }
@@ -183,7 +185,7 @@ def _around(at: Array, k: int, length: float) -> Array | None:
 
 
 def _asked(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
-    """Depths that a law speaks of: the surface, or the top layer, whose fatigue it tells."""
+    """Depths that a law applies to: the surface, or the top layer."""
     depths = data["depth"].to_numpy()
     if line.reads.where.at_surface:
         surface = same_depth(depths, 0.0)
@@ -193,20 +195,20 @@ def _asked(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
     own = data["layer"].to_numpy() == 0
     if not own.any():
         raise InputError(
-            "no depth of the response lies in the top layer, whose fatigue the law tells; give depth= to read "
+            "no depth of the response lies in the top layer, to which the law applies; give depth= to read "
             "another layer with its own law"
         )
     if own.all():
         return depths, []
     left = ", ".join(f"{1e3 * z:g}" for z in depths[~own])
     return depths[own], [
-        f"the depths {left} mm lie below the top layer, whose fatigue the law tells, and are not read; give depth= "
+        f"the depths {left} mm lie below the top layer, to which the law applies, and are not read; give depth= "
         "for one of them and the law of its layer"
     ]
 
 
 def _check_place(data: xr.Dataset, line: PowerLaw, depth: float) -> None:
-    """Refuse a law at a depth of which it does not speak."""
+    """Refuse a law at a depth that it does not apply to."""
     if line.reads.where.at_surface and not same_depth(depth, 0.0):
         raise InputError(f"{line} reads the {line.reads}, got depth {depth:g} m; give depth 0")
     if not line.reads.where.at_bottom or "layer" not in data.coords:

@@ -74,7 +74,7 @@ class AxleClass:
 class Wander:
     """Where the wheels run across the road, as offsets from the middle of the wheel path.
 
-    offsets: m, rising. shares: of the passes at each offset, summing to 1; none at all for a normal law.
+    offsets: m, increasing. shares: of the passes at each offset, summing to 1; none at all for a normal law.
     deviation: standard deviation of a normal law, m, >= 0; 0 for wheels that never wander.
     Build it with none, normal or measured. Raises InputError.
     """
@@ -92,7 +92,7 @@ class Wander:
             if self.deviation:
                 raise InputError("wander is either normal or measured: give a deviation or offsets, not both")
             if not (np.diff(self.offsets) > 0).all():
-                raise InputError(f"the offsets of wander must rise, got {list(self.offsets)} m")
+                raise InputError(f"the offsets of wander must increase, got {list(self.offsets)} m")
             _check_shares("wander", self.shares)
 
     @classmethod
@@ -107,7 +107,7 @@ class Wander:
 
     @classmethod
     def measured(cls, offsets: Sequence[float], shares: Sequence[float]) -> Wander:
-        """A measured distribution. offsets: m, rising. shares: of the passes at each, summing to 1."""
+        """A measured distribution. offsets: m, increasing. shares: of the passes at each, summing to 1."""
         return cls(0.0, tuple(float(o) for o in offsets), tuple(float(s) for s in shares))
 
     @property
@@ -124,19 +124,19 @@ class Wander:
         n = math.ceil(self.reach / spacing - 1e-9)
         tracks = np.arange(-n, n + 1) * spacing
         if self.offsets:
-            found = np.zeros(2 * n + 1)
+            shares = np.zeros(2 * n + 1)
             at = np.asarray(self.offsets) / spacing + n
             low = np.clip(np.floor(at).astype(int), 0, max(2 * n - 1, 0))
             part = np.minimum(at - low, 1.0) if n else np.zeros(len(at))
-            np.add.at(found, low, (1 - part) * self.shares)
+            np.add.at(shares, low, (1 - part) * self.shares)
             if n:
-                np.add.at(found, low + 1, part * self.shares)
+                np.add.at(shares, low + 1, part * self.shares)
         elif n:
             edges = np.append(tracks - spacing / 2, tracks[-1] + spacing / 2) / self.deviation
-            found = np.diff(ndtr(edges))
+            shares = np.diff(ndtr(edges))
         else:
-            found = np.ones(1)
-        weights: Array = found / found.sum()
+            shares = np.ones(1)
+        weights: Array = shares / shares.sum()
         return weights
 
     def spread(self, damage: Array, spacing: float) -> Array:
@@ -160,10 +160,10 @@ class Wander:
 
 @dataclass(frozen=True)
 class Traffic:
-    """What passes: classes of wheels, how many a year, how that grows, and how it wanders.
+    """What passes: classes of wheels, how many per year, how that grows, and how it wanders.
 
     classes: rows whose shares sum to 1. passes_per_year: of all classes, in the first year, over the wheel path.
-    growth: a year, > -1; kind: "geometric" or "arithmetic". wander: across the road. years: for which the road is
+    growth: per year, > -1; kind: "geometric" or "arithmetic". wander: across the road. years: for which the road is
     designed, > 0, or None. Raises InputError.
     """
 
@@ -186,7 +186,7 @@ class Traffic:
         if not (math.isfinite(self.passes_per_year) and self.passes_per_year >= 0):
             raise InputError(f"passes_per_year must be >= 0, got {self.passes_per_year}")
         if self.years is not None:
-            positive("years of design", self.years, remedy="leave them out for no design life")
+            positive("the design life", self.years, "years", "leave it out for none")
         growth_factor(self.years or 1.0, self.growth, self.kind)
 
     def passes(self, years: float) -> float:
@@ -249,7 +249,7 @@ class Climate:
 
     @classmethod
     def constant(cls, temperature: float) -> Climate:
-        """One temperature, °C, all the year, such as the equivalent one of a design method."""
+        """One temperature, °C, all year round, such as the equivalent one of a design method."""
         return cls((Season("all year", 1.0, temperature),))
 
     @classmethod

@@ -122,7 +122,7 @@ def assess(
     tensile; such points are not read.
 
     response: of `solve_response` on a grid. Its road is solved again for means over a cube of `mean_over`, m, at each
-    of its depths that lies in the top layer, whose fatigue the line tells, and around the worst of them on points
+    of its depths that lies in the top layer, to which the line applies, and around the worst of them on points
     closer to each other; the worst of all is the verdict. A response that already is a mean is read as it is.
     line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
     bottom needs `depth`.
@@ -131,8 +131,8 @@ def assess(
     Such a local reading has no limit under finer cells near the surface: at the edges of ribs and at the rear of the
     slip zone the exact field has roots and logarithms.
     strain: "in-plane" reads the largest extension in the horizontal plane, whose cracks are vertical; "principal"
-    that in space, whose cracks near the surface are usually upright where the road bends, and else part the road
-    parallel to its surface; left out, what the line reads, by custom the plane.
+    that in space, whose cracks near the surface are usually vertical where the road bends, and otherwise split the
+    road parallel to its surface; left out, what the line reads, by custom the plane.
     oblique_tolerance: rad, in (0, π/4]. A trace within it of the direction of travel is longitudinal, within
     it of across transverse, else oblique; a plane nearer to the horizontal than 45° is horizontal.
     Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance, for a law that reads something
@@ -218,7 +218,7 @@ def _no_crack(unread: float) -> str:
 
 def _crack_in_words(name: str, angle: float, dip: float) -> str:
     if name == ORIENTATIONS[HORIZONTAL]:
-        return f"closer to horizontal than to vertical, as when layers part (dip {math.degrees(dip):.0f}°)"
+        return f"closer to horizontal than to vertical, as when layers separate (dip {math.degrees(dip):.0f}°)"
     side = "right" if angle > 0 else "left"
     turned = f"{abs(math.degrees(angle)):.0f}° from travel" + (f" to the {side}" if name == "oblique" else "")
     return f"{name}, its trace {turned}, its plane {math.degrees(dip):.0f}° from the horizontal"

@@ -1,4 +1,4 @@
-"""What the bond between two layers bears: Coulomb's strength with a tensile limit, how much of it a load uses up, and
+"""What the bond between two layers bears: Coulomb's strength with a tensile limit, its utilisation by a load, and
 its fatigue in shear.
 
 Another strength is a subclass of `BondStrength`; a case names it by a quantity that makes its `BondUtilisation`, as
@@ -26,14 +26,14 @@ from treadload.units import Angle, Number, Pressure
 Strength = float | Callable[[float], float]
 
 LEUTNER_MINIMUM: Mapping[str, float] = MappingProxyType({"wearing": 15e3, "lower": 12e3})
-"""Shear forces, N, that cores of 150 mm must reach in Leutner's test, at 20 °C, as remembered from the German rules.
+"""Shear forces, N, that cores of 150 mm must reach in Leutner's test, at 20 °C, recalled from the German rules.
 
 "wearing": under the wearing course, "lower": between the courses below. No source with these two numbers was read.
 Proposals that were read: 16 to 25 kN (Stöckert and Grätz 2001, Forschung Straßenbau 829), and 21 kN under wearing
 courses just built (Swiss project FA 12/94, as its successor VSS 2005/503 reports).
 """
 _CORE = 0.15
-# Utilisation of a bond that has parted for certain: finite, so that readings can be interpolated.
+# Utilisation of a bond that has certainly failed: finite, so that readings can be interpolated.
 _PARTED = 1e3
 # Utilisation below this is the solver's round-off, as on an interface that bears no shear.
 _ROUND_OFF = 1e-6
@@ -50,7 +50,7 @@ class BondStrength(ABC):
 
     @abstractmethod
     def utilisation(self, shear: float | Array, normal: float | Array) -> Array:
-        """How much of the bond is used up; 1 parts it. shear: its size, Pa. normal: Pa, compression positive."""
+        """Utilisation of the bond; it fails at 1. shear: its size, Pa. normal: Pa, compression positive."""
 
     @property
     def tension_limit(self) -> float:
@@ -69,7 +69,7 @@ class InterfaceStrength(BondStrength):
     cohesion: c, Pa, >= 0, or a function that gives it at a temperature, °C. friction_angle: φ, rad, in [0, π/2).
     tensile_strength: Pa, or a function of °C likewise, at most c / tan φ, where the line ends; left out, the line's
     own end, and no limit where φ = 0. doubt: which numbers have no source that was read.
-    The law tells when a bond that holds would fail; friction on a face that has parted is another matter.
+    The law says when an intact bond would fail; friction on a debonded face is another matter.
     Raises InputError.
     """
 
@@ -159,10 +159,10 @@ class InterfaceStrength(BondStrength):
         return np.maximum(resisted, 0.0)
 
     def utilisation(self, shear: float | Array, normal: float | Array) -> Array:
-        """How much of the bond is used up: max(τ / (c + σ_n tan φ), -σ_n / f_t); 1 parts it.
+        """Utilisation of the bond: max(τ / (c + σ_n tan φ), -σ_n / f_t); it fails at 1.
 
         shear: τ, the size of the shear vector, Pa. normal: σ_n, Pa, compression positive. In compression the second
-        part is nothing; in tension the first has less cohesion left. Infinite where nothing resists: without
+        part is zero; in tension the first has less cohesion left. Infinite where nothing resists: without
         cohesion wherever nothing presses. Raises InputError for a strength that waits for its temperature.
         """
         size, pressed = np.broadcast_arrays(np.asarray(shear, dtype=float), np.asarray(normal, dtype=float))
@@ -185,17 +185,17 @@ class InterfaceStrength(BondStrength):
 
 
 def _ratio(part: Array, whole: float | Array) -> Array:
-    """Part / whole, both >= 0; nothing out of nothing is 0, something out of nothing infinite."""
+    """Part / whole, both >= 0; 0 / 0 is 0, anything else over 0 infinite."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(part == 0, 0.0, part / whole)
 
 
 @dataclass(frozen=True)
 class BondUtilisation(Quantity):
-    """How much of a bond a load uses up, at an interface of the road; 1 parts it.
+    """Utilisation of a bond by a load, at an interface of the road; it fails at 1.
 
-    strength: of the bond; left out, a response does not tell it. Readings are at most 1000, round-off of the solver,
-    as on an interface that bears no shear, is 0. The layers part in the horizontal plane.
+    strength: of the bond; left out, a response does not give it. Readings are at most 1000, round-off of the solver,
+    as on an interface that bears no shear, is 0. The layers separate along the horizontal plane.
     """
 
     strength: BondStrength | None = None
@@ -225,7 +225,7 @@ class BondUtilisation(Quantity):
     def of(self, stress: Array, strain: Array) -> Array:
         """The strength's utilisation by the shear of the horizontal plane and the pressure on it."""
         if self.strength is None:
-            raise InputError("no response tells the utilisation of a bond without its strength; give strength=")
+            raise InputError("no response gives the utilisation of a bond without its strength; give strength=")
         used = self.strength.utilisation(np.hypot(stress[4], stress[5]), -stress[2])
         return np.where(used < _ROUND_OFF, 0.0, np.minimum(used, _PARTED))
 
@@ -241,7 +241,7 @@ UTILISATION = BondUtilisation()
 def utilisation_of(
     cohesion: Pressure, friction_angle: Angle = 0.0, tensile_strength: Pressure | None = None
 ) -> BondUtilisation:
-    """How much of a bond with Coulomb's strength a load uses up, see `InterfaceStrength`.
+    """Utilisation by a load of a bond with Coulomb's strength, see `InterfaceStrength`.
 
     cohesion: c. friction_angle: φ. tensile_strength: left out, where Coulomb's line ends. Raises InputError.
     """
@@ -256,7 +256,7 @@ class ShearFatigue(PowerLaw):
     slope: b, in (-1, 0), from cyclic shear tests of this bond at this temperature. single_pass: u₁, utilisation that
     one pass bears; 1 ties the line to the strength itself. doubt: which numbers have no source that was read.
     reads: the utilisation of a bond, with its strength where a criterion reads it of a response.
-    It reads the largest utilisation, once as each axle passes, though shear turns round under it: take a slope
+    It reads the largest utilisation, once as each axle passes, though the shear reverses under it: take a slope
     counted likewise. Straight lines in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied
     Science 8(2); they depend on normal stress and temperature (Isailović, Cannone Falchetto and Wistuba 2017, AAPT).
     No slope is given here.

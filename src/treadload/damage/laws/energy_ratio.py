@@ -17,7 +17,7 @@ from treadload.units import PSI
 
 # Strength, Pa, at which the term of the tension vanishes in the regression.
 _STRENGTH_LIMIT = 6.36e6
-# Conventional stresses of the asphalt layer that reports put in: 150 and 230 psi.
+# Conventional stresses of the asphalt layer that reports use: 150 and 230 psi.
 _USUAL = 150 * PSI, 230 * PSI
 
 
@@ -30,7 +30,7 @@ class EnergyRatio:
     indirect tension of the mix at one temperature, by custom 10 °C.
     DCSE_f = FE - St²/(2 MR); a = 0.0299 σ^-3.10 (6.36 - St) + 2.46e-8, σ in psi, St in MPa, with D₁ in 1/psi and
     DCSE_f in kJ/m³. σ: a conventional tensile stress of the asphalt layer, the same for all mixes compared; reports
-    put in 150 psi (1.03 MPa), a thesis assumes 230 psi (1.59 MPa). It is not the peak that a computed contact leaves
+    use 150 psi (1.03 MPa), a thesis assumes 230 psi (1.59 MPa). It is not the peak that a computed contact leaves
     at the surface, which depends on the tread and on the cells and may exceed the strength: `warnings` says so.
     Not verified: read in a thesis of the University of Florida after Roque et al. (2004); the exponent -3.10 is
     from memory, the copy was partly illegible.
@@ -92,8 +92,8 @@ class EnergyRatio:
         return tension.copy(data=ratio).rename("energy_ratio").assign_attrs(about, warnings=said)
 
     def of(self, data: xr.Dataset) -> xr.DataArray:
-        """ER of what it reads of a response's dataset, with the sentences of `warnings`: a computed tension is none
-        that its sources put in.
+        """ER of what it reads of a response's dataset, with the sentences of `warnings`: a computed tension is not
+        one that its sources use.
         """
         return self.ratio(self.reads.field(data))
 
@@ -110,7 +110,7 @@ class EnergyRatio:
                 f"is a peak of a computed contact and depends on its cells: {asked}"
             )
         elif largest > high:
-            said.append(f"energy ratio: {largest:.3g} MPa is more than its sources put in; {asked}")
+            said.append(f"energy ratio: {largest:.3g} MPa is more than its sources use; {asked}")
         elif isinstance(tension, xr.DataArray) and "depth" in tension.coords and (tension["depth"] == 0).any():
             said.append(
                 f"energy ratio: the tension is that of a computed surface, {largest:.3g} MPa at most; {asked}"

@@ -12,7 +12,7 @@ from typing import Literal
 from treadload.errors import InputError, positive
 
 _DAYS = 365
-# Growth a year that no sum of years feels; far below it the quotient loses its digits.
+# Annual growth that changes no sum over years; far below it the quotient loses its digits.
 NO_GROWTH = 1e-15
 # Eleven times as many passes in each next year: no traffic does.
 _MOST_GROWTH = 10.0
@@ -39,7 +39,7 @@ def aggressiveness(
     power: float,
     reference: float = 130e3,
 ) -> float:
-    """CAM = Σ K n (P / P₀)^α / N: axles of the reference load that do the harm of one heavy vehicle.
+    """CAM = Σ K n (P / P₀)^α / N: axles of the reference load that do the damage of one heavy vehicle.
 
     axles: (load P of one axle, N; number n of such axles; K of its group). K is 1 for a single axle; in a tandem
     0.75 and in a tridem 1.1 for bituminous layers, 12 and 113 for hydraulic ones. vehicles: N, heavy vehicles
@@ -66,9 +66,9 @@ def equivalent_axles(
 ) -> float:
     """NE = 365 MJA C CAM: reference axles over the design life.
 
-    vehicles_per_day: MJA, heavy vehicles a day and direction in the first year. years: n. aggressiveness: CAM,
+    vehicles_per_day: MJA, heavy vehicles per day and direction in the first year. years: n. aggressiveness: CAM,
     as in `AGGRESSIVENESS`, or of axles that were weighed, see the function `aggressiveness`.
-    growth: t, a year. kind: C = ((1+t)^n - 1)/t "geometric", or n (1 + (n-1) t/2) "arithmetic". Raises InputError.
+    growth: t, per year. kind: C = ((1+t)^n - 1)/t "geometric", or n (1 + (n-1) t/2) "arithmetic". Raises InputError.
     """
     for name, value in {
         "vehicles_per_day": vehicles_per_day,
@@ -81,26 +81,26 @@ def equivalent_axles(
 
 
 def growth_factor(years: float, growth: float, kind: Literal["geometric", "arithmetic"] = "geometric") -> float:
-    """C: passes over years n, > 0, over those of the first year, for a growth t a year.
+    """C: passes over years n, > 0, over those of the first year, for an annual growth t.
 
     kind: ((1+t)^n - 1)/t "geometric", or n (1 + (n-1) t/2) "arithmetic". Raises InputError.
     """
     if not growth > -1:
-        raise InputError(f"growth must be above -1 a year, got {growth}; 2 % a year is 0.02")
+        raise InputError(f"growth must be above -1 per year, got {growth}; 2 % per year is 0.02")
     if growth > _MOST_GROWTH:
-        raise InputError(f"growth must be at most {_MOST_GROWTH:g} a year, got {growth:g}; 2 % a year is 0.02")
+        raise InputError(f"growth must be at most {_MOST_GROWTH:g} per year, got {growth:g}; 2 % per year is 0.02")
     if kind == "geometric":
         try:
             total = math.expm1(years * math.log1p(growth)) / growth if abs(growth) > NO_GROWTH else years
         except OverflowError as error:
             raise InputError(
-                f"a growth of {growth:g} a year over {years:g} years makes more passes than a number can hold; give "
-                'fewer years, less growth, or kind="arithmetic"'
+                f"a growth of {growth:g} per year over {years:g} years makes more passes than a number can hold; "
+                'give fewer years, less growth, or kind="arithmetic"'
             ) from error
     elif kind == "arithmetic":
         total = years * (1 + (years - 1) * growth / 2)
     else:
         raise InputError(f'kind must be "geometric" or "arithmetic", got {kind!r}')
     if not total > 0:
-        raise InputError(f"a growth of {growth:g} a year leaves no traffic over {years:g} years")
+        raise InputError(f"a growth of {growth:g} per year leaves no traffic over {years:g} years")
     return total

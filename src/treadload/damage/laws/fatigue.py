@@ -19,12 +19,12 @@ _MILLION = 1e6
 # No road material bears a million passes at one per cent: such a number is microstrain without its unit.
 _LARGEST = 0.01
 # Passes that laboratories and test roads have seen, and to which designs extrapolate them: a rule of this
-# house, no bound of a source.
+# package, not of a source.
 _SEEN = (1e4, 1e8)
 
 
 class FatigueLaw(Protocol):
-    """What every fatigue law can tell.
+    """What every fatigue law provides.
 
     A law reads one quantity of a loading, positive where it does harm: an extension, a compression on the
     subgrade, a tensile stress.
@@ -106,7 +106,7 @@ class PowerLaw(ABC):
 
     @property
     def validity(self) -> tuple[float, float]:
-        """Readings that allow 10⁸ and 10⁴ passes: what laboratories and test roads have seen, no source's bound."""
+        """Readings that allow 10⁸ and 10⁴ passes: what tests have seen, not a source's bound."""
         few, many = _SEEN
         return self.allowable_strain(many), self.allowable_strain(few)
 
@@ -187,7 +187,7 @@ class PowerLine(PowerLaw):
     """Passes N = 10⁶ (r / r₆)^(1/b) that a reading r of any quantity allows, by the user's numbers.
 
     reads: the quantity, in a case its word. reading_6: r₆, the reading that allows a million passes, > 0, in its SI
-    unit; a text carries its own, "0.4 MPa". slope: b, in (-1, 0). Raises InputError.
+    unit; text carries its own, "0.4 MPa". slope: b, in (-1, 0). Raises InputError.
     """
 
     reads: Quantity
@@ -219,7 +219,7 @@ class PowerLine(PowerLaw):
 def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
     """Sentences for the user on what a law says of a reading: numbers without a source, extrapolation.
 
-    strain: what the law reads, any shape; the largest finite value decides. Nothing is said of no reading.
+    strain: what the law reads, any shape; the largest finite value decides. Without a reading nothing is said.
     """
     said = [f"{law}: {law.doubt}"] if law.doubt else []
     given = np.asarray(strain, dtype=float)
@@ -228,8 +228,8 @@ def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
     if 0 < largest < low or largest > high:
         beyond, bound = ("above", high) if largest > high else ("below", low)
         said.append(
-            f"{law}: {law.reads.in_words(largest)} is {beyond} {law.reads.in_words(bound)}, the end of what it is "
-            f"held to cover; {law.allowable_passes(largest):.2g} passes are extrapolated"
+            f"{law}: {law.reads.in_words(largest)} is {beyond} {law.reads.in_words(bound)}, the limit of its "
+            f"range; {law.allowable_passes(largest):.2g} passes are extrapolated"
         )
     return tuple(said)
 

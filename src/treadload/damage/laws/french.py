@@ -21,7 +21,7 @@ _SOURCE = (
     "NF P98-086 (2019), as coded in the public program UI_ChausseeNeuve (romeoolouro, commit f00e26e), "
     "a secondary source"
 )
-_FAILS = "the layer has failed structurally with the probability that the law's risk names"
+_FAILS = "the layer has failed structurally with the probability given by the law's risk"
 # Strain lost per length of missing thickness, decades of strain per m: 0.02 per cm.
 _PER_THICKNESS = 2.0
 # Sh of treated layers, m.
@@ -171,7 +171,7 @@ class FrenchHydraulic(PowerLaw):
     ) -> FrenchHydraulic:
         """The law of a treated material of the catalogue; joints and thickness_scatter in place of its own.
 
-        Raises InputError where neither the material nor the caller tells the joints or the scatter.
+        Raises InputError where neither the material nor the caller gives the joints or the scatter.
         """
         k_d = mix.joints if joints is None else joints
         spread = mix.thickness_scatter if thickness_scatter is None else thickness_scatter

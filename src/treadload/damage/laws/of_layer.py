@@ -1,4 +1,4 @@
-"""Fatigue laws of a layer of a road: what of their numbers the layer gives where nobody else does.
+"""Fatigue laws of a layer of a road: which of their numbers come from the layer where they are not given.
 
 A law of `treadload.registry.CRITERIA` is a class whose arguments are its numbers, and `law_of_layer` looks for those
 that are missing; or a function with a parameter of type OnLayer, which looks itself.
@@ -23,7 +23,7 @@ Law = FatigueLaw | Callable[[float], FatigueLaw]
 
 @dataclass(frozen=True)
 class OnLayer:
-    """A layer that a law speaks of. name: of the criterion. road. number: of the layer, 0 at the surface."""
+    """A layer that a law applies to. name: of the criterion. road. number: of the layer, 0 at the surface."""
 
     name: str
     road: Pavement
@@ -48,7 +48,7 @@ class OnLayer:
             raise InputError(f"{self.name!r}: {error}") from error
 
     def needed(self, given: Mapping[str, Any], *names: str) -> None:
-        """Refuse what neither anybody nor the layer gives. Raises InputError."""
+        """Refuse what neither the caller nor the layer gives. Raises InputError."""
         missing = [name for name in names if given.get(name) is None]
         if missing:
             raise InputError(f"{self.name!r}: {missing[0]} is missing, and the layer does not give it")
