@@ -1,9 +1,9 @@
 """A braking wheel on 6 cm of wearing course over 15 cm of base: does the bond hold, and what if it does not?
 
 A truck wheel at 32.5 kN brakes at 4 m/s² on the French structure 6 BBSG3 / 15 GB3 / PF3 at 15 °C. Shear, pressure and
-utilisation of both interfaces; where the layers part first and after how many passes; then the lives of the road
+utilisation of both interfaces; where the bond fails first and after how many passes; then the lives of the road
 with its bond, without it, and with it until it fails. The strengths are those of a core that just passes Leutner's
-test, as from memory, above, and of a base bound to its platform by friction and 50 kPa, assumed, below; the slope of
+test, from memory, above, and of a base bound to its platform by friction and 50 kPa, assumed, below; the slope of
 the bond's fatigue is assumed too: replace all of them by tests of your road.
 
     python examples/delamination.py [folder]
@@ -71,7 +71,7 @@ def main(folder: Path, spacing: float = 6e-3, step: float = 9e-3) -> dict[str, f
 
 if __name__ == "__main__":
     found = main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path("delamination"))
-    # The least bond of Leutner's test, 0.849 MPa, is used by 30 % and parts after u^(1/slope) passes.
+    # The least bond of Leutner's test, 0.849 MPa, is used to 30 % and fails after u^(1/slope) passes.
     assert math.isclose(found["upper"], 0.294, rel_tol=0.01), found
     assert math.isclose(found["passes"], found["upper"] ** -10, rel_tol=1e-9), found
     assert math.isclose(found["bonded, then parted"], 8.9, rel_tol=0.02), found

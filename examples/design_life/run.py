@@ -47,7 +47,7 @@ def check(result: tl.LifeResult) -> None:
     found = result.sensitivity.dataset["elasticity"]
     strength = float(found.sel(input=f"strength of {life.governing}"))
     assert abs(strength / (-5 * float(found.sel(input="passes"))) - 1) < 1e-6
-    # The French laws hold the wander of traffic: their lives are those of one track, and the other is printed beside.
+    # The French laws include the wander of traffic: their lives are of one track; the other is printed too.
     for name, held in (("base, bottom-up", True), ("surface, top-down", False), ("platform, rutting", True)):
         row = data.sel(criterion=name)
         still, wide = float(row["life_years_without_wander"]), float(row["life_years_with_wander"])

@@ -41,7 +41,7 @@ def response_of(contact: tl.Contact, depth: float = 0.0) -> tl.Response:
 
 
 def layered_response(contact: tl.Contact) -> xr.Dataset:
-    """Strain in layers, in a section across the wheel, for figure 7; the paper tells no layers, these are ours."""
+    """Strain in layers, in a section across the wheel, for figure 7; the paper gives no layers, these are ours."""
     road = tl.Pavement.from_catalogue(STRUCTURE, temperature=15)
     depths = [
         0.0,
@@ -138,7 +138,7 @@ WHY = """
 Why they differ. Under pressure alone the surface extends only in the grooves, by (1+ν)(1-2ν)/2 · p/E of the
 pressure around: about 26 microstrain whatever the tread. The paper's 35 comes out a millimetre below the surface (in
 the horizontal plane), or with a tire of ν between 0.47 and 0.48, whose free rolling shears the road. Under traction
-the extension peaks at rib edges in the slip zone, where it grows without end as cells shrink: a number there belongs
+the extension peaks at rib edges in the slip zone, where it has no limit as cells shrink: a number there belongs
 to its cell size."""
 
 

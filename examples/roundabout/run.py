@@ -9,8 +9,8 @@ passes that the fatigue line allows.
 At the surface, where ribs end and slide, the exact extension has no bound: its largest value grows with every finer
 cell and the passes fall with it, as in the paper. The verdict reads its mean over a cube of 10 mm, the size of the
 mix's stones, which has one, in the horizontal plane, where it opens cracks downwards, and only where something is
-tensile: in a stiff course that bends, the largest extension in space stands upright below the wheel, where everything
-is pressed, and parts nothing.
+tensile: in a stiff course that bends, the largest extension in space is vertical below the wheel, where everything
+is compressed, and opens no crack.
 
     python examples/roundabout/run.py [folder] [--coarse]
 """
