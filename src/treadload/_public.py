@@ -48,7 +48,7 @@ def names() -> list[str]:
 
 
 def named(name: str) -> Any:
-    """What has a public name. Raises AttributeError that tells where else a name is, or which one was meant."""
+    """What has a public name. Raises AttributeError that says where else a name is, or which one was meant."""
     home = _HOMES.get(name)
     if home is None:
         raise AttributeError(_unknown(name))

@@ -126,7 +126,7 @@ BOUNDS = [
     (lambda v: Season("s", v, 10.0), 0.0, -JUST, "share"),
     (lambda v: Season("s", v, 10.0), 1.0, 1 + JUST, "share"),
     (lambda v: Wander(v), 0.0, -JUST, "deviation"),
-    (lambda v: Wander.measured([0.0, v], [0.5, 0.5]), JUST, 0.0, "rise"),
+    (lambda v: Wander.measured([0.0, v], [0.5, 0.5]), JUST, 0.0, "increase"),
     (lambda v: Traffic((ONE,), v), 0.0, -JUST, "passes_per_year"),
     (lambda v: Traffic((ONE,), 1.0, years=v), 1.0, 0.0, "design life"),
     (lambda v: Traffic((ONE,), 1.0).years_to(v), 0.0, -JUST, "passes must"),

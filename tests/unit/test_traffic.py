@@ -116,7 +116,7 @@ def test_forces_scale_with_the_load():
         (lambda: AxleClass("a", 1, 1e4, 8e5, wheels=(0.1, 0.2)), "pairs"),
         (lambda: Wander.normal(-0.1), "deviation of wander"),
         (lambda: Wander.measured([0, 0.1], [0.5, 0.6]), "sum to 1"),
-        (lambda: Wander.measured([0.1, 0.0], [0.5, 0.5]), "must rise"),
+        (lambda: Wander.measured([0.1, 0.0], [0.5, 0.5]), "must increase"),
         (lambda: Wander.measured([0.1, 0.2], [1.0]), "2 offsets but 1 shares"),
         (lambda: Climate(()), "at least one season"),
         (lambda: Climate((Season("a", 0.5, 20),)), "sum to 1"),

@@ -58,7 +58,7 @@ class CriterionTable(Made):
 
     @property
     def quantity(self) -> Quantity | None:
-        """What is read: as the table says, or as its law does; None where only the built law can tell."""
+        """What is read: as the table says, or as its law does; None where only the built law shows it."""
         table: Any = self
         if self.told_quantity:
             told: Quantity = _READS.build(table.reads)

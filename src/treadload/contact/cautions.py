@@ -1,4 +1,4 @@
-"""What a contact says about itself that its user should hear: sentences for `Contact.warnings`."""
+"""Warnings about a contact: sentences for `Contact.warnings`."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The fields of a contact, named and signed as results tell them: the one place where the solvers' signs turn.
+"""The fields of a contact, named and signed as in results: the one place where the solvers' signs turn.
 
-Inside the solvers shear acts on the tire and u = u_tire - u_road; results tell what the road feels and does.
+Inside the solvers shear acts on the tire and u = u_tire - u_road; results hold what the road feels and does.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ def contact_at(
     """The contact at the end of a step.
 
     creepages: given or solved for, NaN where nothing rolled; then there is no slip velocity over rolling speed
-    either, and `slip_distance_x`, `slip_distance_y` tell the slip over the step, m. warnings: besides those of the
+    either, and `slip_distance_x`, `slip_distance_y` hold the slip over the step, m. warnings: besides those of the
     tire and of results that are not numbers.
     """
     tangential, travel = state.tangential, state.stage.travel

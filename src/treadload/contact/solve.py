@@ -32,7 +32,7 @@ _LOCATING_CELLS = 64
 _MARGIN = 0.024
 _MOST_CELLS = 4_000_000
 _FINEST, _COARSEST = 1e-12, 1e-2
-# A change of compliance by the layers that a user should hear of.
+# A change of compliance by the layers that calls for a warning.
 _LAYERS_MATTER = 0.01
 
 
@@ -60,7 +60,7 @@ def solve_contact(
     tire: its surface and material; a viscoelastic one needs the rolling speed. rolling: load or approach,
     forces or creepages, friction.
     road: road_compliance says how its surface gives way: as a "half_space" of the top layer's material, which
-    serves every soft tire, or as the "layers" do, which a steel wheel or a plate needs. The stats tell how much
+    serves every soft tire, or as the "layers" do, which a steel wheel or a plate needs. The stats say how much
     of the compliance is the road's (road_share) and what its layers change (layer_share); a warning says when
     layers left out matter. An elastic tire and elastic layers only.
     spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
@@ -277,7 +277,7 @@ def _contact(
         *cautions.of_numbers(tire, rolling, grid),
     ]
     if pair.splitting:
-        warnings.append(f"Newton's method stalled; {pair.splitting} steps of the slower splitting helped it on")
+        warnings.append(f"Newton's method stalled and went on after {pair.splitting} steps of the slower splitting")
     share = _share(scene, float((normal.pressure > 0).sum()) * grid.cell_area)
     layered = road_compliance == "layers" and not road.is_homogeneous
     if share is not None:

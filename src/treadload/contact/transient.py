@@ -1,8 +1,8 @@
 """A tire that starts to roll, brakes, steers in: tire and road over a travelled distance.
 
 The wheel first stands under its load without a force along the road. Then it rolls step by step, and every
-particle of the tread remembers where it stuck. Steady rolling is the end of the story, two to three lengths of
-the contact later.
+particle of the tread remembers where it stuck. Steady rolling is reached two to three lengths of the contact
+later.
 """
 
 from __future__ import annotations

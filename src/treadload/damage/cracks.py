@@ -73,13 +73,12 @@ def envelope(
     field along x is its history; each (depth, y) has one history, the same for all points along the road.
     A crack opens at the instant of the largest extension, across its direction at that instant.
 
-    response: on x that reach from before the wheel to behind it. strain, oblique_tolerance: see `assess`.
-    Returns a dataset over (depth, y): extension_strain; instant_x, where the point stands in the response's
-    x at its worst instant; extension_direction (component); crack_angle, crack_dip, crack_orientation, NaN and
-    "none" where nothing ever extends, or no principal stress is tensile as it extends most. The instant is one of
-    the response's x: the strain errs by the square of their distance. Its attribute `warnings` says where the worst
-    instant is the first or the last x.
-    Raises InputError for a response of a single x.
+    response: on x that reach from before the wheel to behind it. strain, oblique_tolerance: see `assess`. Returns a
+    dataset over (depth, y): extension_strain; instant_x, where the point stands in the response's x at its worst
+    instant; extension_direction (component); crack_angle, crack_dip, crack_orientation, NaN and "none" where there is
+    never an extension, or no principal stress is tensile when it is largest. The instant is one of the response's x:
+    the strain errs by the square of their distance. Its attribute `warnings` says where the worst instant is the
+    first or the last x. Raises InputError for a response of a single x.
     """
     check_tolerance(oblique_tolerance)
     data = gridded(response)

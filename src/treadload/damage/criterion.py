@@ -87,7 +87,7 @@ class Criterion:
 
         name: for tables and figures. strength, law: of the bond; strength at the temperature of the layer above.
         interface: counted from the surface, 0 below the top layer, negative from the lowest.
-        Tension counts only where the strength has a limit for it; `assess_bonds` tells how much of it there is.
+        Tension counts only where the strength has a limit for it; `assess_bonds` says how much of it there is.
         """
         return cls(name, law, interface, "interface", reads=BondUtilisation(strength))
 

@@ -20,7 +20,7 @@ def plain_map(fields: Source, name: str, *, depth: float | None = None, ax: Axes
     """A variable in plan, at true scale, in its own unit.
 
     fields: a result or its dataset. name: of a variable over (y, x), or (depth, y, x) and the like. depth: m; left
-    out, the first of what it is over besides. Returns the figure. Raises InputError for a variable that is no map.
+    out, the first of what it is over besides. Returns the figure. Raises InputError for a variable that is not a map.
     """
     data = fields_of(fields, name)
     if not {"x", "y"} <= set(data[name].dims):

@@ -117,7 +117,7 @@ def _contact(case: ReportCase) -> Iterator[Picture]:
 def _strain(case: ReportCase) -> Iterator[Picture]:
     data, contact = case.group("response"), case.group("contact")
     if case.wheels_placed:
-        # The contact lies at the origin; the stress at the surface tells the outlines of all wheels.
+        # The contact lies at the origin; the stress at the surface shows the outlines of all wheels.
         contact = None
     if data is not None:
         plots = ResponsePlots(data)

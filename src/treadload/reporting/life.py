@@ -103,7 +103,7 @@ def changed_life(name: str, elasticity: float) -> str:
 
 
 def _row(row: xr.Dataset, name: str, reads: Mapping[str, Any]) -> tuple[str, ...]:
-    """Cells of `COLUMNS`. reads: what the file tells of the quantity, see `damage.quantity.Quantity.about`."""
+    """Cells of `COLUMNS`. reads: what the file says of the quantity, see `damage.quantity.Quantity.about`."""
     reading, unit = float(row["largest_reading"]) * float(reads["factor"]), str(reads["shown"])
     read = f"{measure(reading) if unit == 'microstrain' else f'{reading:.3g}'} {unit}".strip()
     return (

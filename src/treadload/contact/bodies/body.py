@@ -1,9 +1,9 @@
 """What a surface does under pressure and shear: the seam at which a kind of body meets the solvers.
 
-A body tells the displacement of its surface by a uniformly loaded cell, at any distances along x from it, and the
+A body gives the displacement of its surface by a uniformly loaded cell, at any distances along x from it, and the
 compliance of its surface to a wave. Two bodies in contact are the sum of both. Signs are those of a pair (Kalker
 1990): q acts on body 1, p presses the bodies together, u = u1 - u2, u_n opens the gap; a body on the side of the road
-tells its displacement with the sign of -u2. Then for every pair
+gives its displacement with the sign of -u2. Then for every pair
 
     u_n = N ∗ p + k_x ∗ q_x + k_y ∗ q_y
     u_x = T_xx ∗ q_x + T_xy ∗ q_y - k_x ∗ p
@@ -61,7 +61,7 @@ class Waves:
 
     @cached_property
     def k(self) -> Array:
-        """|k| (ny, nx // 2 + 1), 1/m; at k = 0 that of the finite patch: a uniform load on it is no rigid motion."""
+        """|k| (ny, nx // 2 + 1), 1/m; at k = 0 that of the finite patch: a uniform load there is not a rigid motion."""
         k = np.hypot(*self._vector)
         short, long = sorted((self.shape[1] * self.dx, self.shape[0] * self.dy))
         # A uniform load sinks a long strip by the logarithm of its slenderness.
@@ -101,7 +101,7 @@ class Body(ABC):
 
     @property
     def at_rest(self) -> Body:
-        """The body under loads that stay: itself, unless it remembers."""
+        """The body under loads that stay: itself, unless it has memory."""
         return self
 
     @abstractmethod

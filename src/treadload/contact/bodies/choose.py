@@ -68,7 +68,7 @@ class Pair:
     ) -> Pair:
         """The bodies of a tire and a road; the road as a half-space of its top layer, or as its layers.
 
-        speed: of rolling, m/s, for bodies that remember. Raises InputError for what they refuse.
+        speed: of rolling, m/s, for bodies with memory. Raises InputError for what they refuse.
         """
         return cls(surface_of(tire.carcass, is_tire=True, speed=speed), road_surface(road, road_compliance))
 

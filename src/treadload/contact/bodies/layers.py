@@ -1,6 +1,6 @@
 """Layers of a road: what they add to the half-space of their top layer, by images of the load.
 
-See `kernels.layers.images`. Under a soft tire that is next to nothing: `road_share` tells.
+See `kernels.layers.images`. Under a soft tire that is next to nothing: see `road_share`.
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ class Interface:
 
 
 class FrictionLaw(ABC):
-    """What every friction law tells.
+    """What every friction law provides.
 
     axes: (d_x, d_y) with d_x d_y = 1: shear is bounded by the ellipse (q_x/d_x)² + (q_y/d_y)² ≤ (μp)², and slips
     against its normal (the associated rule); (1, 1) is the disc. needs_speed: μ depends on the slip speed, in m/s.
@@ -143,7 +143,7 @@ class _Falling(FrictionLaw):
         if self.kinetic > self.static:
             raise InputError(
                 f"kinetic friction must be at most the static, got {self.kinetic:g} > {self.static:g}; "
-                "friction that rises with slip is not known here"
+                "friction that rises with slip is not supported"
             )
         positive("reference_speed", self.reference_speed, "m/s", "without a fall, friction is a number")
 

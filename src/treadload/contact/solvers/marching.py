@@ -208,7 +208,7 @@ def _shear(
 def _start(
     influence: Influence, stage: Stage, state: State | None, earlier: State | None
 ) -> TangentialSolution | None:
-    """What the last two steps let expect of the next; None where the solution on half the grid tells more."""
+    """What the last two steps predict for the next; None where the solution on half the grid is the better start."""
     if state is None or earlier is None or stage.travel > _FAR * influence.dx:
         return None
     if not (_goes_on(earlier.stage, state.stage) and _goes_on(state.stage, stage)):
@@ -236,7 +236,7 @@ def _press(
 ) -> State:
     """A step under a load or an approach: pressure and shear in turn, until the pressure no longer changes.
 
-    The change in the first round tells how strongly the two are coupled: bodies nearly alike need no second.
+    The change in the first round shows how strongly the two are coupled: bodies nearly alike need no second.
     """
     coupled = influence.coupled
     if not coupled and state is not None and state.normal is not None and _same_load(state.stage, stage):

@@ -73,7 +73,7 @@ def solve_tangential(
     g, w = bound[rows, columns], rigid[:, rows, columns]
     small = replace(influence, shape=g.shape)
     if start is not None:
-        # A rigid slip that is known now is no unknown, whatever it was in the start.
+        # A rigid slip that is known now is not an unknown, whatever it was in the start.
         unknown = [force is not None for force in forces]
         q, xi = start.shear[:, rows, columns], np.where(unknown, start.rigid, 0.0)
     elif min(g.shape) >= _COARSEST:
