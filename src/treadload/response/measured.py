@@ -68,11 +68,11 @@ def read_csv(
     Semicolons, tabs, commas or blanks separate, and points or commas are decimal marks, as `tables.read_table`
     recognises them; # starts a comment line.
 
-    spacing: of the cells, m or a text with a unit, or (dx, dy); a matrix needs it, a table where its coordinates
-    do not tell. x0, y0: of a matrix, centre of the first cell, m; None: the origin lies in the middle.
+    spacing: of the cells, m or text with a unit, or (dx, dy); a matrix needs it, a table where its coordinates
+    do not give it. x0, y0: of a matrix, centre of the first cell, m; None: the origin lies in the middle.
     units: column → unit where the header names none, {"pressure": "kPa"}; otherwise SI. missing: what stands where
     a cell is empty, says NaN or NoData, or is absent: "error", "zero", or "keep" for NaN. noise: pressures this far
-    below zero, Pa or a text with a unit, are set to zero. decimal: "." or ",", where the file can be read in two
+    below zero, Pa or text with a unit, are set to zero. decimal: "." or ",", where the file can be read in two
     ways. strict: refuse what names no unit, which is SI otherwise.
     Raises InputError that names the line for what cannot be read.
     """
@@ -117,7 +117,7 @@ def of_dataset(
 
     where: the file it comes from, for errors. units: of variables that name none; strict: refuse those that neither
     names, which are SI otherwise. Attributes dx and dy give the cell, m, where a single coordinate cannot.
-    Raises InputError if pressure or a coordinate is missing, no number, or not evenly spaced.
+    Raises InputError if pressure or a coordinate is missing, not a number, or not evenly spaced.
     """
     units = dict(units or {})
     missing = [name for name in ("pressure", "x", "y") if name not in data.variables]
@@ -160,7 +160,7 @@ def grid_of(
     x0: float | None,
     y0: float | None,
 ) -> Grid:
-    """Grid of (ny, nx) cells; spacing: m or a text, or (dx, dy). x0, y0: m, None centres the grid on the origin."""
+    """Grid of (ny, nx) cells; spacing: m or text, or (dx, dy). x0, y0: m, None centres the grid on the origin."""
     (ny, nx), (dx, dy) = shape, _spacing(spacing)
     return Grid(
         nx, ny, dx, dy, -0.5 * (nx - 1) * dx if x0 is None else x0, -0.5 * (ny - 1) * dy if y0 is None else y0
@@ -243,13 +243,13 @@ def _table(
     at: dict[str, Array] = {}
     for (name, unit), column in zip(named.items(), values.T, strict=True):
         with np.errstate(over="ignore"):
-            found: Array = column * (1.0 if unit is None else factor(unit, _COLUMNS[name]))
+            scaled: Array = column * (1.0 if unit is None else factor(unit, _COLUMNS[name]))
         if name in ("x", "y"):
-            if np.isnan(found).any():
-                raise InputError(f"{path}, line {lines[int(np.isnan(found).argmax())]}: {name} is missing")
-            at[name] = found
+            if np.isnan(scaled).any():
+                raise InputError(f"{path}, line {lines[int(np.isnan(scaled).argmax())]}: {name} is missing")
+            at[name] = scaled
         else:
-            at[name] = _checked(table, 1, name, found, missing, floor)
+            at[name] = _checked(table, 1, name, scaled, missing, floor)
     steps = (None, None) if spacing is None else _spacing(spacing)
     x0, nx, dx, i = _places(path, "x", at["x"], lines, steps[0])
     y0, ny, dy, j = _places(path, "y", at["y"], lines, steps[1])
@@ -259,8 +259,8 @@ def _table(
     for row, cell in enumerate(zip(j, i, strict=True)):
         if owner[cell] >= 0:
             raise InputError(
-                f"{path}, line {lines[row]}: the point x = {at['x'][row]:g} m, y = {at['y'][row]:g} m stood in line "
-                f"{lines[owner[cell]]} already"
+                f"{path}, line {lines[row]}: the point x = {at['x'][row]:g} m, y = {at['y'][row]:g} m is "
+                f"already in line {lines[owner[cell]]}"
             )
         owner[cell] = row
     if missing == "error" and (owner < 0).any():
@@ -303,7 +303,7 @@ def _columns(table: Table, units: Mapping[str, str]) -> tuple[dict[str, int], di
                 'with units like "pressure [kPa]"'
             )
         if name in columns:
-            raise InputError(f"{path}, line {line}: the column {name} stands there twice")
+            raise InputError(f"{path}, line {line}: the column {name} occurs twice")
         if unit is not None and name in units:
             raise InputError(f"{path}, line {line}: {name} has a unit in the header, [{unit}]; leave it out of units")
         if unit is None and name in units:
@@ -336,7 +336,7 @@ def _places(
     worst = int(off.argmax())
     if not off[worst] <= _EVEN:
         raise InputError(
-            f"{path}, line {lines[worst]}: {name} = {values[worst]:g} m is no whole number of steps of {step:g} m "
+            f"{path}, line {lines[worst]}: {name} = {values[worst]:g} m is not a whole number of steps of {step:g} m "
             f"from {first:g} m; resample onto an even grid"
         )
     if index.max() > _MOST:
@@ -357,7 +357,7 @@ def _evenly(name: str, values: Array, single: object) -> tuple[float, int, float
         uneven = float(np.abs(np.diff(values) - spacing).max())
     if not (spacing > 0 and uneven <= _EXACT * spacing):
         raise InputError(
-            f"{name} must rise in even steps: the mean step is {spacing:g} m, the worst differs by {uneven:g} m; "
+            f"{name} must increase in even steps: the mean step is {spacing:g} m, the worst differs by {uneven:g} m; "
             "sort or resample the load"
         )
     return float(values[0]), len(values), spacing

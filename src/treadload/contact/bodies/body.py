@@ -61,7 +61,7 @@ class Waves:
 
     @cached_property
     def k(self) -> Array:
-        """|k| (ny, nx // 2 + 1), 1/m; at k = 0 that of the finite patch: a uniform load there is not a rigid motion."""
+        """|k| (ny, nx // 2 + 1), 1/m; at k = 0 that of the finite patch: a uniform load is not a rigid motion."""
         k = np.hypot(*self._vector)
         short, long = sorted((self.shape[1] * self.dx, self.shape[0] * self.dy))
         # A uniform load sinks a long strip by the logarithm of its slenderness.
