@@ -334,3 +334,19 @@ def real_array(values: object, what: str) -> NDArray[np.float64]:
     except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{what} must be an array of numbers: {' '.join(str(error).split())}") from error
     raise InputError(f"{what} must be an array of numbers, got values of type {array.dtype}")
+
+
+def finite_list(values: object, what: str, unit: str = "") -> NDArray[np.float64]:
+    """One-dimensional finite numbers, at least one; a number is a list of one.
+
+    Raises InputError, naming what it is and the unit, as in "rad", and what of it is wrong.
+    """
+    import numpy as np
+
+    array = np.atleast_1d(real_array(values, what))
+    asked = f"{what} must be a list of finite numbers{f' in {unit}' if unit else ''}, at least one"
+    if array.ndim != 1 or array.size == 0:
+        raise InputError(f"{asked}, got shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError(f"{asked}, got {array[~np.isfinite(array)][0]}")
+    return array

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from treadload.errors import InputError
-from treadload.tables import read_table
+from treadload.tables import finite_list, read_table
 
 
 @pytest.fixture
@@ -60,3 +60,24 @@ def test_no_writer_of_decimal_commas_between_commas_is_read_wrong(read, form):
 def test_whole_numbers_that_no_decimals_explain_are_read(read, text):
     wanted = [[float(cell or "nan") for cell in line.split(",")] for line in text.split()]
     np.testing.assert_array_equal(read(text), wanted)
+
+
+@pytest.mark.parametrize("values", [0.5, [0.5], (0.5,), np.array([0.5])])
+def test_one_number_is_a_list_of_one(values):
+    np.testing.assert_array_equal(finite_list(values, "angles"), [0.5])
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ([], r"angles must be a list of finite numbers in rad, at least one, got shape \(0,\)"),
+        ([[1.0]], r"at least one, got shape \(1, 1\)"),
+        ([1.0, np.nan], "at least one, got nan"),
+        ([np.inf], "at least one, got inf"),
+        (["far"], "angles must be an array of numbers"),
+        (None, "angles must be an array of numbers"),
+    ],
+)
+def test_what_is_no_list_of_finite_numbers_is_refused(values, words):
+    with pytest.raises(InputError, match=words):
+        finite_list(values, "angles", "rad")

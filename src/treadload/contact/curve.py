@@ -17,6 +17,7 @@ from treadload.contact.solvers.coupling import Progress
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.pavement import Pavement
+from treadload.tables import finite_list
 from treadload.tire import Tire
 from treadload.variables import dataset
 
@@ -84,9 +85,7 @@ def creep_curve(
     Returns the curve in the order of the creepages. Raises InputError for creepages that are not numbers, and the
     errors of solve_contact.
     """
-    values = np.asarray(creepages, dtype=float)
-    if values.ndim != 1 or values.size == 0 or not np.isfinite(values).all():
-        raise InputError(f"creepages must be a list of finite numbers, got {creepages!r}")
+    values = finite_list(creepages, "creepages")
     if np.unique(values).size != values.size:
         raise InputError(f"creepages must differ from each other, got {creepages!r}")
     if along not in ("x", "y"):

@@ -32,6 +32,7 @@ from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
+from treadload.tables import finite_list
 from treadload.tire import Tire
 from treadload.variables import dataset
 
@@ -221,9 +222,7 @@ def _dataset(grid: Grid, rows: Sequence[dict[str, Any]]) -> xr.Dataset:
 
 
 def _checked_distances(distances: Sequence[float] | Array) -> Array:
-    ends = np.atleast_1d(np.asarray(distances, dtype=float))
-    if ends.ndim != 1 or ends.size == 0 or not np.isfinite(ends).all():
-        raise InputError("distances must be a list of finite numbers in m, at least one")
+    ends = finite_list(distances, "distances", "m")
     steps = np.diff(ends, prepend=0.0)
     if (steps < 0).any():
         where = int(np.argmax(steps < 0))

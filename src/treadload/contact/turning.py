@@ -29,6 +29,7 @@ from treadload.contact.transient import run, set_scene, stage_of, standing
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
+from treadload.tables import finite_list
 from treadload.tire import Tire
 from treadload.variables import dataset
 
@@ -176,9 +177,7 @@ def _dataset(rows: Sequence[dict[str, float]], limit: float) -> xr.Dataset:
 
 
 def _checked_angles(angles: Sequence[float] | Array) -> Array:
-    ends = np.atleast_1d(np.asarray(angles, dtype=float))
-    if ends.ndim != 1 or ends.size == 0 or not np.isfinite(ends).all():
-        raise InputError("angles must be a list of finite numbers in rad, at least one")
+    ends = finite_list(angles, "angles", "rad")
     if np.abs(ends).max() > math.pi:
         raise InputError(f"angles are in rad and at most π, got {np.abs(ends).max():g}; for degrees use math.radians")
     steps = np.diff(ends, prepend=0.0)
