@@ -25,7 +25,7 @@ def edges(grid):
     return [np.concatenate([a - 0.5 * d, [a[-1] + 0.5 * d]]) for a, d in ((grid.x, grid.dx), (grid.y, grid.dy))]
 
 
-def sensed(load, *, pitch=7e-3, cells=(44, 38), shift=(0.0, 0.0), angle=0.0, noise=0.0, threshold=0.0,
+def sensed(load, *, pitch=8e-3, cells=(38, 33), shift=(0.0, 0.0), angle=0.0, noise=0.0, threshold=0.0,
            saturation=np.inf, turns=0, mirrored=False, seed=1):  # fmt: skip
     """What a sensor tells of a load.
 

@@ -23,14 +23,14 @@ _COARSE = 40
 # And those on which the pose that is taken is refined: finer ones, such as pixels, tell no more.
 _ENOUGH = 160
 # Candidates whose correlation on coarse maps lies this far below the best are none.
-_PROMISING = 0.08
+_PROMISING = 0.05
 # A print that is turned or mirrored overlaps more than it does as it stands by this share of the pressure, or it is
 # not: treads are near enough symmetric for noise to choose between their images.
 CLEAR = 0.02
 # Step of the derivatives, in pitches.
 _STEP = 0.1
 # Accuracy of the pose, in pitches, and looks at the map: of candidates and of the one that is taken.
-_RUGGED, _FINE = (1e-2, 6), (1e-6, 40)
+_RUGGED, _FINE = (1e-2, 4), (1e-6, 40)
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,8 @@ def register(load: GridLoad, footprint: Footprint, *, turns: bool = True) -> Reg
     """
     poses = [(k, m) for m in (False, True) for k in range(4)] if turns else [(0, False)]
     coarse, rough = _coarse(load, footprint, _COARSE), _coarsened(footprint, _COARSE)
-    starts = {pose: _start(coarse, laid(rough, *pose)) for pose in poses}
+    windows: dict[tuple[float, float, float], tuple[Grid, Array]] = {}
+    starts = {pose: _start(coarse, laid(rough, *pose), windows) for pose in poses}
     best = max(score for score, _ in starts.values())
     found: dict[tuple[int, bool], tuple[float, Array]] = {}
     for pose, (score, start) in starts.items():
@@ -151,20 +152,21 @@ def _is_large(footprint: Footprint, most: int) -> bool:
     return _size(footprint, most) > 1.5 * max(footprint.pitch)
 
 
-def _start(load: GridLoad, print_: Footprint) -> tuple[float, Array]:
-    """Largest correlation of the maps over all shifts and a few angles, and its pose (x, y, angle)."""
+def _start(
+    load: GridLoad, print_: Footprint, windows: dict[tuple[float, float, float], tuple[Grid, Array]]
+) -> tuple[float, Array]:
+    """Largest correlation of the maps over all shifts and a few angles, and its pose (x, y, angle).
+
+    windows: cells about the load and what it presses on them, by angle and pitch: all poses need the same.
+    """
     grid, pressure = print_.grid, print_.pressure
-    length, width = load.grid.nx * load.grid.dx, load.grid.ny * load.grid.dy
-    side = math.hypot(length, width)
-    window = Grid.on_lattice(side, side, grid.dx, grid.dy)
-    centre_x, centre_y = _centre(load)
     best, pose = -1.0, np.zeros(3)
-    for angle in _STARTS:
-        # The window lies about the centre of the load.
-        cos, sin = math.cos(angle), math.sin(angle)
-        x, y = centre_x * cos + centre_y * sin, -centre_x * sin + centre_y * cos
-        placed = replace(window, x0=window.x0 + x, y0=window.y0 + y)
-        computed = seen(load, placed, float(angle))
+    for angle in map(float, _STARTS):
+        key = (angle, grid.dx, grid.dy)
+        if key not in windows:
+            placed = _window(load, *key)
+            windows[key] = placed, seen(load, placed, angle)
+        placed, computed = windows[key]
         size = math.sqrt(float((computed**2).sum() * (pressure**2).sum()))
         if size == 0:
             continue
@@ -176,6 +178,14 @@ def _start(load: GridLoad, print_: Footprint) -> tuple[float, Array]:
             best = float(scores[j, i])
             pose = np.array([placed.x0 + ahead * grid.dx - grid.x0, placed.y0 + right * grid.dy - grid.y0, angle])
     return best, pose
+
+
+def _window(load: GridLoad, angle: float, dx: float, dy: float) -> Grid:
+    """Cells about the centre of a load that hold it at an angle."""
+    side = math.hypot(load.grid.nx * load.grid.dx, load.grid.ny * load.grid.dy)
+    window = Grid.on_lattice(side, side, dx, dy)
+    (x, y), cos, sin = _centre(load), math.cos(angle), math.sin(angle)
+    return replace(window, x0=window.x0 + x * cos + y * sin, y0=window.y0 - x * sin + y * cos)
 
 
 def _refined(load: GridLoad, print_: Footprint, start: Array, accuracy: float, most: int) -> tuple[float, Array]:
