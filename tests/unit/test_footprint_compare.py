@@ -256,6 +256,10 @@ def test_figures(noisy):
     assert len(bars.patches) == 8
     with pytest.raises(tl.InputError, match="lies beyond the maps"):
         noisy.plot.cuts(x=9.0)
+    with pytest.raises(tl.InputError, match="this figure needs rib_left"):
+        tl.plots.FootprintComparisonPlots(noisy.dataset.drop_vars("rib_left")).ribs()
+    with pytest.raises(tl.InputError, match="print_load is not told of the map 'seen', only of computed"):
+        tl.plots.FootprintComparisonPlots(noisy.dataset.isel(map=[0])).maps()
 
 
 def test_the_command_line(tmp_path):

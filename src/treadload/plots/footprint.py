@@ -47,6 +47,7 @@ from treadload.plots.kit.style import (
 _COMPUTED, _MEASURED = CASES[0], CASES[1]
 # Width of a map, inches.
 _PANEL = 4.0
+_OF_RIBS = ("rib_share", "rib_left", "rib_right")
 # The scale of a difference covers all but this share of it: edges of contact, a sensel off, differ by all there is.
 _QUIET = 0.995
 
@@ -66,12 +67,13 @@ def comparison_maps(comparison: Source) -> Figure:
     aspect = float((view[3] - view[2]) / (view[1] - view[0]))
     figure = new_figure(3 * _PANEL + 1.9, min(9.0, (_PANEL - 0.55) * aspect + 1.35), "compressed")
     axes: list[Axes] = list(figure.subplots(1, 3, sharex=True, sharey=True))
-    for ax, here, title, row in zip(axes, values, ("Computed, through the sensor", "Measured"), (1, 2), strict=False):
+    titles = (("Computed, through the sensor", "seen"), ("Measured", "measured"))
+    for ax, here, (title, which) in zip(axes, values, titles, strict=False):
         mesh = draw_cells(ax, plan, np.where(here > 0, here, np.nan), sequential("pressure"), scale)
         draw_outline(ax, np.nan_to_num(here) > 0, plan, MUTED, 0.5)
         at = peak_of(here)
         mark_peak(ax, float(plan.x[at[1]]), float(plan.y[at[0]]), f"{measure(float(here[at]))} kPa")
-        headline(ax, title, _in_numbers(data, row), 30)
+        headline(ax, title, _in_numbers(data, which), 30)
     colour_bar(mesh, axes[1], "contact pressure (kPa)", scale)
     difference = plane(data, "pressure_difference") * KPA
     most = float(np.quantile(np.abs(difference[loaded]), _QUIET)) if loaded.any() else 1.0
@@ -98,10 +100,10 @@ def comparison_cuts(comparison: Source, *, x: float | None = None, y: float | No
     comparison: a FootprintComparison or its dataset. x, y: m; left out, through the middle of the rib that carries
     most, and through the centre of pressure. Returns the figure.
     """
-    data = fields_of(comparison, "computed_pressure", "measured_pressure")
+    data = fields_of(comparison, "computed_pressure", "measured_pressure", *(_OF_RIBS if y is None else ()))
     plan = Plan.of(data)
     row = _nearest(plan.y, _heaviest(data) if y is None else y, "y")
-    column = _nearest(plan.x, float(data["print_centre_x"].sel(map="measured")) if x is None else x, "x")
+    column = _nearest(plan.x, float(_of_map(data, "print_centre_x", "measured")) if x is None else x, "x")
     figure = new_figure(7.2, 5.8)
     upper, lower = figure.subplots(2, 1, sharey=True)
     for ax, at, cut in ((upper, plan.x, (row, slice(None))), (lower, plan.y, (slice(None), column))):
@@ -134,14 +136,14 @@ def comparison_cuts(comparison: Source, *, x: float | None = None, y: float | No
 @styled
 def rib_shares(comparison: Source, *, ax: Axes | None = None) -> Figure:
     """Share of the load on each rib, %, computed and measured. ax: axes to draw into. Returns the figure."""
-    data = fields_of(comparison, "rib_share")
+    data = fields_of(comparison, *_OF_RIBS)
     ribs = data["rib"].to_numpy()
     figure, ax = figure_and_axes(ax, 5.6, 3.6)
     for shift, name, words, colour in (
         (-0.2, "seen", "computed, through the sensor", _COMPUTED),
         (0.2, "measured", "measured", _MEASURED),
     ):
-        values = 100 * data["rib_share"].sel(map=name).to_numpy()
+        values = 100 * _of_map(data, "rib_share", name)
         bars = ax.bar(ribs + shift, values, 0.38, color=colour, label=words)
         ax.bar_label(bars, [f"{value:.1f}" for value in values], fontsize=8, padding=1.5)
     ax.set_xticks(ribs)
@@ -167,12 +169,9 @@ def _view(loaded: BoolArray, plan: Plan) -> tuple[float, float, float, float]:
     )
 
 
-def _in_numbers(data: xr.Dataset, row: int) -> str:
-    if "print_load" not in data:
-        return ""
-    one = data.isel(map=row)
-    load, area = float(one["print_load"]) / 1e3, float(one["net_area"]) * 1e6
-    return f"{load:.4g} kN on {thousands(area)} mm², mean {float(one['mean_pressure']) * KPA:.0f} kPa"
+def _in_numbers(data: xr.Dataset, which: str) -> str:
+    load, area, mean = (float(_of_map(data, name, which)) for name in ("print_load", "net_area", "mean_pressure"))
+    return f"{load / 1e3:.4g} kN on {thousands(area * 1e6)} mm², mean {mean * KPA:.0f} kPa"
 
 
 def _agreement(data: xr.Dataset) -> str:
@@ -188,9 +187,18 @@ def _askew(data: xr.Dataset) -> bool:
 
 def _heaviest(data: xr.Dataset) -> float:
     """Middle of the rib that carries most of what was measured, m."""
-    share = data["rib_share"].sel(map="measured").to_numpy()
+    share = _of_map(data, "rib_share", "measured")
     at = int(share.argmax())
     return 0.5 * float(data["rib_left"][at] + data["rib_right"][at])
+
+
+def _of_map(data: xr.Dataset, name: str, which: str) -> Array:
+    """Values of a measure for one of the maps. Raises InputError if they are not there."""
+    row = fields_of(data, name)[name]
+    known = [str(one) for one in row["map"].to_numpy()] if "map" in row.coords else []
+    if which not in known:
+        raise InputError(f"{name} is not told of the map {which!r}, only of {', '.join(known) or 'none'}")
+    return np.asarray(row.isel(map=known.index(which)).to_numpy(), dtype=float)
 
 
 def _nearest(at: Array, wanted: float, name: str) -> int:
