@@ -13,6 +13,7 @@ from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import GridLoad, UniformDisc
+from treadload.response.doubts import overlapping, road_doubts
 from treadload.response.fields import layer_in_words
 from treadload.response.moving import _cells_of_disc, _hats
 from treadload.response.superposition import merged
@@ -101,3 +102,78 @@ def test_loads_on_one_lattice_and_apart_from_it():
     np.testing.assert_array_equal(both[0].pressure, [[0, 0, 0, 1, 2], [0, 1, 2 + 3, 4, 5], [3, 4, 5, 0, 0]])
     assert len(merged([one, one.moved(x=0.01)])) == 2
     assert len(merged([one])) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "message"),
+    [
+        ("x,y,pressure\n0,0,1\n1,0,nan\n0,1,1\n1,1,1\n", {}, "line 3: pressure is missing"),
+        ("x,y,pressure\n0,0,1\n1,0,1\n0,1,-5\n1,1,1\n", {}, "line 4: pressure is negative, -5 Pa"),
+        ("1,nan\n3,4\n5,6\n", {"spacing": 0.01}, "line 1: pressure is missing"),
+        ("1,2\n3,-4\n5,6\n", {"spacing": 0.01}, "line 2: pressure is negative, -4 Pa"),
+        ("# a comment\n\n1,2\n3,-4\n5,6\n", {"spacing": 0.01}, "line 4: pressure is negative, -4 Pa"),
+        ("x,y,pressure\n0,0,1\n1,0,1\n2.7,0,1\n4,0,1\n", {"spacing": 1.0}, "line 4: x = 2.7 m is no whole number"),
+    ],
+)
+def test_a_wrong_number_is_told_with_its_line_wherever_it_stands(tmp_path, text, options, message):
+    path = tmp_path / "stress.csv"
+    path.write_text(text)
+    with pytest.raises(InputError, match=message):
+        GridLoad.from_csv(path, **options)
+
+
+def test_footprints_reach_into_each_other_by_their_sizes():
+    """Two wheels of 300 x 200 mm, 250 mm and 150 mm apart, share 50 mm by 50 mm."""
+    wheel = tl.UniformRectangle(0.3, 0.2, 8e5)
+    (said,) = overlapping([wheel, wheel.moved(x=0.25, y=0.15)])
+    assert "wheels 1 and 2 reach into each other by 50 mm along travel and 50 mm across" in said
+    assert "their centres are 250 and 150 mm apart" in said
+    assert overlapping([wheel, wheel.moved(x=0.31)]) == ()
+    assert overlapping([wheel, wheel.moved(y=0.21)]) == ()
+    # One above the other is one wheel in parts; a wheel that does not press stands nowhere.
+    assert overlapping([wheel, wheel]) == ()
+    assert overlapping([wheel, tl.UniformRectangle(0.3, 0.2, 0.0, y=0.1)]) == ()
+    (said,) = overlapping([tl.UniformRectangle(0.3, 0.2, 0.0), wheel, wheel.moved(y=0.1)])
+    assert "wheels 2 and 3" in said
+    disc = UniformDisc(0.1, 8e5)
+    (said,) = overlapping([disc, disc.moved(y=0.16)])
+    assert "by 200 mm along travel and 40 mm across" in said
+
+
+def test_a_footprint_reaches_as_far_as_anything_presses():
+    """A cross of cells is as long and as wide as its arms, and not as the rows that are pressed from end to end."""
+    pressed = np.zeros((9, 9))
+    pressed[4, 1:8] = pressed[1:8, 4] = 7e5
+    cross = GridLoad(Grid.centred(0.18, 0.18, 0.02), pressed)
+    (said,) = overlapping([cross, cross.moved(y=0.08)])
+    assert "by 140 mm along travel and 60 mm across" in said
+    assert overlapping([cross, cross.moved(y=0.14)]) == ()
+
+
+@pytest.mark.parametrize(("stiffness", "told"), [(1e3, True), (1e10, False), (0.0, False), (np.inf, False)])
+def test_a_bond_is_doubted_that_neither_holds_nor_slides(stiffness, told):
+    bond = tl.FRICTIONLESS if stiffness == 0 else tl.BONDED if stiffness == np.inf else tl.Bond(stiffness=stiffness)
+    road = Pavement([Layer(Elastic(5e9, 0.35), 0.1, bond=bond), Layer(Elastic(1e8, 0.35))])
+    assert any("bond" in text for text in road_doubts(road)) == told
+
+
+def test_a_pair_stands_beside_where_its_wheel_stood():
+    """Also of a footprint that is not centred, and that is not its own mirror image."""
+    grid = Grid(3, 4, 0.02, 0.03, 0.5, 0.2)
+    one = GridLoad(grid, np.arange(12.0).reshape(4, 3) * 1e4)
+    left, right = tl.response.dual_wheels(one, 0.34)
+    middle = sum(one.extent_y) / 2
+    assert sum(left.extent_y) / 2 == pytest.approx(middle - 0.17)
+    assert sum(right.extent_y) / 2 == pytest.approx(middle + 0.17)
+    np.testing.assert_array_equal(left.pressure, one.pressure[::-1])
+    np.testing.assert_array_equal(right.pressure, one.pressure)
+
+
+def test_a_chord_of_a_disc_is_as_long_as_geometry_says():
+    disc = UniformDisc(0.15, 8e5)
+    cells = _cells_of_disc(disc, np.array([0.0]))
+    y = cells.y0 + cells.dy * np.arange(cells.load.shape[1])
+    chords = cells.load[0].sum(axis=1) / 8e5 * cells.dx
+    inside = np.abs(y) < 0.14
+    # Means over rows of a hundred and twentieth of the diameter: the chord's own bend over them.
+    np.testing.assert_allclose(chords[inside], 2 * np.sqrt(0.15**2 - y[inside] ** 2), rtol=2e-3)

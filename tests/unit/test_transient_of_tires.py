@@ -319,3 +319,16 @@ def test_what_runs_back_is_named_with_where_it_was():
         solve_transient(TIRE, ROAD, wheel(), distances=[[0.1, 0.2], [0.3, 0.4]])
     with pytest.raises(InputError, match="one for each of the 2 distances; got 3"):
         solve_transient(TIRE, ROAD, [wheel()] * 3, distances=[0.1, 0.2])
+
+
+def test_where_nothing_rolls_nothing_creeps():
+    """The wheel that stands, and a step of no distance, have no creepage and no spin, whatever is prescribed."""
+    d = solve_transient(TIRE, ROAD, wheel(creepage_x=-0.02, spin=0.1), distances=[0.0, SPACING, SPACING]).dataset
+    for name, value in (("creepage_x", -0.02), ("creepage_y", 0.0), ("spin", 0.1)):
+        assert np.isnan(d[name].to_numpy()[[0, 1, 3]]).all(), name
+        if name != "creepage_y":
+            assert float(d[name][2]) == value
+    # Nothing moves there, and no work is lost.
+    for step in (0, 1, 3):
+        assert float(d.shift_x[step]) == pytest.approx(0, abs=1e-12)
+        assert float(d.friction_energy[step]) == pytest.approx(0, abs=1e-9)

@@ -28,6 +28,9 @@ class Ahead:
 
     def __call__(self, shear: Array, pressure: Array | None = None) -> Array:
         """Displacement by shear on body 1 (2, ny, nx), Pa, and by pressure (ny, nx), Pa, of dissimilar bodies."""
+        if not shear.any():
+            # Layers that drift under shear have no such kernels, and need none here.
+            return np.zeros(shear.shape) if pressure is None else self.by_pressure(pressure)
         padding = self.influence.padding
         xx, yy, xy = self._tangential
         x, y = padding.forward(shear)
