@@ -200,3 +200,15 @@ def test_bilinear_wake_is_that_of_finer_cells():
         assert np.abs(one[name] - other[name]).max() <= 5e-3 * max(
             float(np.abs(other[n]).max()) for n in (KINDS[6:12] if "strain" in name else KINDS[12:])
         ), name
+
+
+def test_creep_over_a_hair_is_nearly_all_of_it():
+    """A wheel so slow that creep ends within a tenth of a millimetre finds the road of slow loads, strains and all."""
+    disc, points = tl.UniformDisc(0.15, 8e5), {"depths": [0.05], "x": [-0.2, 0.0, 0.1], "y": [0.0, 0.1]}
+    longest = max(time for _, time in SOLID.creep_terms)
+    moved = tl.solve_response(disc, tl.Pavement.half_space(SOLID), speed=1e-4 / longest, **points).dataset
+    fixed = tl.solve_response(disc, tl.Pavement.half_space(SOLID.rubbery), **points).dataset
+    for name in KINDS:
+        # Fields move by the hair, 1e-4 of 50 mm of depth, and no more.
+        scale = float(np.abs(fixed[name]).max())
+        np.testing.assert_allclose(moved[name], fixed[name], atol=0.01 * scale, err_msg=name)
