@@ -112,7 +112,7 @@ def test_loads_on_one_lattice_and_apart_from_it():
         ("1,nan\n3,4\n5,6\n", {"spacing": 0.01}, "line 1: pressure is missing"),
         ("1,2\n3,-4\n5,6\n", {"spacing": 0.01}, "line 2: pressure is negative, -4 Pa"),
         ("# a comment\n\n1,2\n3,-4\n5,6\n", {"spacing": 0.01}, "line 4: pressure is negative, -4 Pa"),
-        ("x,y,pressure\n0,0,1\n1,0,1\n2.7,0,1\n4,0,1\n", {"spacing": 1.0}, "line 4: x = 2.7 m is no whole number"),
+        ("x,y,pressure\n0,0,1\n1,0,1\n2.7,0,1\n4,0,1\n", {"spacing": 1.0}, r"line 4: x = 2\.7 m is .* of 1 m"),
     ],
 )
 def test_a_wrong_number_is_told_with_its_line_wherever_it_stands(tmp_path, text, options, message):
@@ -126,7 +126,7 @@ def test_footprints_reach_into_each_other_by_their_sizes():
     """Two wheels of 300 x 200 mm, 250 mm and 150 mm apart, share 50 mm by 50 mm."""
     wheel = tl.UniformRectangle(0.3, 0.2, 8e5)
     (said,) = overlapping([wheel, wheel.moved(x=0.25, y=0.15)])
-    assert "wheels 1 and 2 reach into each other by 50 mm along travel and 50 mm across" in said
+    assert re.search("wheels 1 and 2 .* by 50 mm along travel and 50 mm across", said)
     assert "their centres are 250 and 150 mm apart" in said
     assert overlapping([wheel, wheel.moved(x=0.31)]) == ()
     assert overlapping([wheel, wheel.moved(y=0.21)]) == ()

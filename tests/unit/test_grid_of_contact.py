@@ -158,7 +158,7 @@ def test_cells_too_many_and_too_few_say_their_bound():
 def test_a_stalled_newton_step_is_said_and_one_that_goes_on_is_not(monkeypatch):
     given = {"spacing": CELL}
     smooth = solve_contact(TIRE, ROAD, wheel(300.0, tractive_force=90.0), **given)
-    assert not any("stalled" in text for text in smooth.warnings)
+    assert not any("Newton" in text for text in smooth.warnings)
     real = tangential.coulomb_newton.solve
     monkeypatch.setattr(
         tangential.coulomb_newton, "solve", lambda *args, **given: real(*args, **{**given, "max_iterations": 0})
@@ -166,7 +166,7 @@ def test_a_stalled_newton_step_is_said_and_one_that_goes_on_is_not(monkeypatch):
     stalled = solve_contact(TIRE, ROAD, wheel(300.0, tractive_force=90.0), **given)
     steps = stalled.stats["splitting_iterations"]
     assert steps > 0
-    assert sum(f"stalled; {steps} steps" in text for text in stalled.warnings) == 1
+    assert sum("Newton" in text and f" {steps} steps" in text for text in stalled.warnings) == 1
 
 
 def test_without_friction_no_step_is_counted():

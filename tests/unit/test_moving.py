@@ -203,7 +203,7 @@ def test_bilinear_wake_is_that_of_finer_cells():
 
 
 def test_creep_over_a_hair_is_nearly_all_of_it():
-    """A wheel so slow that creep ends within a tenth of a millimetre finds the road of slow loads, strains and all."""
+    """A wheel so slow that creep ends within a tenth of a millimetre finds the road of slow loads, strain and all."""
     disc, points = tl.UniformDisc(0.15, 8e5), {"depths": [0.05], "x": [-0.2, 0.0, 0.1], "y": [0.0, 0.1]}
     longest = max(time for _, time in SOLID.creep_terms)
     moved = tl.solve_response(disc, tl.Pavement.half_space(SOLID), speed=1e-4 / longest, **points).dataset
