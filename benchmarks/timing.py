@@ -4,14 +4,14 @@ import gc
 import time
 
 
-def best_of(run, repeats=3):
-    """Seconds of the fastest of some runs, and what the last one returned."""
+def best_of(run, repeats=3, clock=time.perf_counter):
+    """Seconds of the fastest of some runs, and what the last one returned. clock: process_time on a busy machine."""
     fastest = float("inf")
     for _ in range(repeats):
         gc.collect()
-        began = time.perf_counter()
+        began = clock()
         result = run()
-        fastest = min(fastest, time.perf_counter() - began)
+        fastest = min(fastest, clock() - began)
     return fastest, result
 
 

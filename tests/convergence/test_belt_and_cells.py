@@ -1,4 +1,4 @@
-"""What a tread on an inflated belt tells does not move with the cells; its peak at rib edges does and is not asked."""
+"""Deflection and area of a tread on an inflated belt do not move with the cells; peaks at rib edges do."""
 
 import pytest
 
