@@ -9,7 +9,9 @@ README = Path(__file__).parents[2] / "README.md"
 def run(number, folder, monkeypatch):
     code = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)[number]
     monkeypatch.chdir(folder)
-    exec(compile(code, str(README), "exec"), {})
+    made = {}
+    exec(compile(code, str(README), "exec"), made)
+    return made
 
 
 def test_the_first_python_of_the_readme(tmp_path, monkeypatch, capsys):
@@ -23,6 +25,11 @@ def test_the_road_in_july(tmp_path, monkeypatch, capsys):
     said = capsys.readouterr().out
     assert "depth 210 mm" in said
     assert "uniform disc" in said
+
+
+def test_the_tire_on_a_belt(tmp_path, monkeypatch):
+    made = run(2, tmp_path, monkeypatch)
+    assert made["tire"].carcass.belt is made["belt"]
 
 
 def test_its_pictures_exist():
