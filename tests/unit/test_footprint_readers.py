@@ -252,7 +252,7 @@ def test_a_colour_that_means_two_pressures_is_refused(tmp_path):
         (tekscan([MAP], units="furlong"), "UNITS says 'furlong' is not a unit of pressure"),
         (tekscan([MAP], without=["UNITS"]), "its values have no unit"),
         (tekscan([MAP], pitch="5"), "ROW_SPACING is '5', which needs a number and a unit"),
-        (tekscan([MAP], without=["ROW_SPACING"]), "does not tell the spacing of its sensels"),
+        (tekscan([MAP], without=["ROW_SPACING"]), "does not give the spacing of its sensels"),
         (tekscan([0 * MAP]), "nothing presses, no value lies above 0 Pa"),
         (tekscan([-MAP]), "row 2, column 3 has a pressure of -600000 Pa; compression counts positive"),
         (tekscan([np.where(MAP > 0, 500, 0)], lines=["SATURATION_PRESSURE 500 kPa"]),

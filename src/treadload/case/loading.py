@@ -70,8 +70,8 @@ class FootprintPart(Table):
             return Footprint(GridLoad.from_csv(path, **told))
         self._check(_OF_TEXT, f"{self.file} is an export of a sensor, and no table or matrix")
         asked = {name: getattr(self, name) for name in ("units", "spacing", *_OF_SENSORS)}
-        found = read_footprint(path, threshold=self.noise or None, **asked)
-        return replace(found, load=replace(found.load, interpolation=self.interpolation))
+        footprint = read_footprint(path, threshold=self.noise or None, **asked)
+        return replace(footprint, load=replace(footprint.load, interpolation=self.interpolation))
 
     def build(self, folder: Path) -> GridLoad:
         """The load; a relative path starts from the folder."""

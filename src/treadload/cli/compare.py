@@ -100,18 +100,18 @@ def compare(
         check_suffix(report, HTML, "the report")
     files: list[Path] = []
     with stages(shell.err, quiet=quiet) as tell:
-        found = compare_files(
+        comparison = compare_files(
             result, footprint, tell, units=units, spacing=spacing, frame=frame, travel=travel, seen_from=seen_from,
             calibration=calibration, load=load, threshold=threshold, saturation=saturation, dead=dead,
             colours=colours, scale=scale, registration=registration, load_tolerance=load_tolerance,
         )  # fmt: skip
         if output is not None:
-            files += write(to_tree(found), output)
+            files += write(to_tree(comparison), output)
         if report is not None:
             from treadload.reporting import report as write_page
 
             tell("drawing")
-            files.append(write_page(found, report, title=f"{result.name} and {footprint.name}"))
-    shell.out.print(found.summary(), markup=False)
+            files.append(write_page(comparison, report, title=f"{result.name} and {footprint.name}"))
+    shell.out.print(comparison.summary(), markup=False)
     if files:
         shell.written(files)

@@ -87,7 +87,7 @@ def card(
     inflation = None if pressures is None else [quantity(one, "Pa") for one in pressures.split(";")]
     files: list[Path] = []
     with stages(shell.err, quiet=quiet) as tell:
-        found = tire_card(
+        made = tire_card(
             question.build_tire(),
             question.pavement.build(),
             asked,
@@ -97,12 +97,12 @@ def card(
             progress=tell,
         )
         if output is not None:
-            files += write(to_tree(found), output)
+            files += write(to_tree(made), output)
         if report is not None:
             from treadload.reporting import report as write_page
 
             tell("drawing")
-            files.append(write_page(found, report, title=f"Tire card: {question.title or case.stem}"))
-    shell.out.print(found.summary(), markup=False)
+            files.append(write_page(made, report, title=f"Tire card: {question.title or case.stem}"))
+    shell.out.print(made.summary(), markup=False)
     if files:
         shell.written(files)

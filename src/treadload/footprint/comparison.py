@@ -1,4 +1,4 @@
-"""A computed contact beside a footprint, both as the sensor tells them."""
+"""A computed contact beside a footprint, both as the sensor reads them."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ from treadload.units import PSI
 MAPS = ("computed", "seen", "measured")
 """A contact on its own cells; as the sensor would tell it; what the sensor told."""
 
-# Loads that differ by more are told: what mats of sensors repeat a load to, after calibration.
+# Loads that differ by more are reported: what mats of sensors repeat a load to, after calibration.
 _LOAD_TOLD = 0.05
 # Judgement: share of the pressure that overlaps, and difference of the areas. Two prints of one tire on a mat reach
 # the first, prints of tires with other grooves stay below the second.
 _AGREES, _ROUGHLY = (0.85, 0.05), (0.70, 0.15)
-# A print askew by more is told, rad: over 300 mm a sensel of 5 mm.
+# A print askew by more is reported, rad: over 300 mm a sensel of 5 mm.
 _ASKEW = 0.017
-# A share of the contact beyond the sensor that is told.
+# A share of the contact beyond the sensor that is reported.
 _BEYOND = 0.01
 # What a pressure may have been written in, over what it was read in.
 _UNITS = {"kPa": 1e3, "MPa": 1e6, "kgf/cm2": KGF_CM2, "bar": 1e5, "psi": PSI, "Pa": 1.0}
@@ -137,14 +137,14 @@ def compare(
     if not load_tolerance > 0:
         raise InputError(f"load_tolerance must be above 0, got {load_tolerance}")
     warnings = [*sensor.warnings, *_check_loads(load, sensor, load_tolerance)]
-    found = registration if isinstance(registration, Registration) else _registered(load, sensor, registration)
+    pose = registration if isinstance(registration, Registration) else _registered(load, sensor, registration)
     # Arrays that nothing turned keep their own coordinates.
-    sensor = sensor if registration == "none" else laid(sensor, found.quarter_turns, found.mirrored)
-    sensor = sensor.moved(found.shift_x, found.shift_y)
-    data, more = _maps(load, sensor, found, ribs)
-    warnings += [*_pose_doubts(found), *more]
+    sensor = sensor if registration == "none" else laid(sensor, pose.quarter_turns, pose.mirrored)
+    sensor = sensor.moved(pose.shift_x, pose.shift_y)
+    data, more = _maps(load, sensor, pose, ribs)
+    warnings += [*_pose_doubts(pose), *more]
     told = replace(sensor, warnings=())
-    return FootprintComparison(data, told, found, {"candidates": dict(found.candidates)}, tuple(warnings))
+    return FootprintComparison(data, told, pose, {"candidates": dict(pose.candidates)}, tuple(warnings))
 
 
 def _load(result: Any) -> GridLoad:
@@ -211,30 +211,30 @@ def _registered(load: GridLoad, sensor: Footprint, how: str) -> Registration:
     return Registration() if how == "none" else register(load, sensor, turns=how == "full")
 
 
-def _pose_doubts(found: Registration) -> list[str]:
+def _pose_doubts(pose: Registration) -> list[str]:
     said = []
-    if found.quarter_turns or found.mirrored:
-        as_is = found.candidates.get("as it stands")
+    if pose.quarter_turns or pose.mirrored:
+        as_is = pose.candidates.get("as it stands")
         other = f", {100 * as_is:.0f} % as it stands" if as_is is not None else ""
-        remedy = 'seen_from="below"' if found.mirrored else "travel="
+        remedy = 'seen_from="below"' if pose.mirrored else "travel="
         said.append(
-            f"the footprint was {found.words}: so {100 * found.overlap:.0f} % of the pressure overlaps{other}; if "
+            f"the footprint was {pose.words}: so {100 * pose.overlap:.0f} % of the pressure overlaps{other}; if "
             f"that is how it was taken, read it with {remedy}, else the computed tire is the wrong way round"
         )
-    if abs(found.angle) > _ASKEW:
+    if abs(pose.angle) > _ASKEW:
         said.append(
-            f"the footprint lies askew by {abs(math.degrees(found.angle)):.1f}°; length, width and ribs are read "
+            f"the footprint lies askew by {abs(math.degrees(pose.angle)):.1f}°; length, width and ribs are read "
             "along travel, the maps along the sensor"
         )
     return said
 
 
 def _maps(
-    load: GridLoad, sensor: Footprint, found: Registration, ribs: Sequence[float] | None
+    load: GridLoad, sensor: Footprint, pose: Registration, ribs: Sequence[float] | None
 ) -> tuple[xr.Dataset, list[str]]:
     grid, there, measured = sensor.grid, sensor.sensels, np.maximum(sensor.pressure, 0.0)
     own = np.maximum(load.array[0], 0.0)
-    whole = seen(load, grid, found.angle)
+    whole = seen(load, grid, pose.angle)
     told = np.where(there, cut_off(whole, sensor.threshold, sensor.saturation), 0.0)
     if not (told * measured).any():
         raise InputError(
@@ -243,11 +243,11 @@ def _maps(
     cells = (grid.x, grid.y, grid.dx, grid.dy)
     of_maps = [
         measure(own, load.grid.x, load.grid.y, load.grid.dx, load.grid.dy),
-        measure(told, *cells, found.angle),
-        measure(measured, *cells, found.angle),
+        measure(told, *cells, pose.angle),
+        measure(measured, *cells, pose.angle),
     ]
     edges = find_ribs(own, load.grid.y, load.grid.dy) if ribs is None else check_ribs(ribs)
-    _, across = turn(*np.meshgrid(grid.x, grid.y), found.angle)
+    _, across = turn(*np.meshgrid(grid.x, grid.y), pose.angle)
     share = [
         shares(own, np.broadcast_to(load.grid.y[:, None], own.shape), edges),
         shares(told, across, edges),
@@ -267,14 +267,14 @@ def _maps(
         "overlap_of_area": ((), float(both.sum() / either.sum())),
         "rms_difference": ((), float(np.sqrt(np.mean(difference[either] ** 2)))),
         "correlation": ((), _correlation(told[there], measured[there])),
-        "registered_x": ((), found.shift_x),
-        "registered_y": ((), found.shift_y),
-        "registered_angle": ((), found.angle),
+        "registered_x": ((), pose.shift_x),
+        "registered_y": ((), pose.shift_y),
+        "registered_angle": ((), pose.angle),
     }
     coordinates = {"x": grid.x, "y": grid.y, "map": list(MAPS), "rib": np.arange(1, len(edges))}
     sentence = _judgement(of_maps, np.array(share), fields)
-    attrs = {"pose": found.words, "sentence": sentence, "footprint": sensor.source, "dx": grid.dx, "dy": grid.dy}
-    attrs |= {"candidates": json.dumps(found.candidates)}
+    attrs = {"pose": pose.words, "sentence": sentence, "footprint": sensor.source, "dx": grid.dx, "dy": grid.dy}
+    attrs |= {"candidates": json.dumps(pose.candidates)}
     beyond = 1 - float(whole.sum()) * grid.cell_area / load.normal_load
     doubts = []
     if beyond > _BEYOND:

@@ -24,17 +24,17 @@ _NAMED = 6
 
 def doubts_of(path: Path, pressure: Array, known: BoolArray, most: float, travel: str) -> list[str]:
     """Sentences about saturation, the sensor's edge, and lines that read nothing."""
-    found = []
+    sentences = []
     loaded = pressure > 0
     full = pressure >= most * (1 - 1e-9)
     if full.any():
-        found.append(
+        sentences.append(
             f"{path.name}: {int(full.sum())} of {int(loaded.sum())} loaded sensels read the saturation of "
             f"{most / 1e3:g} kPa; load and peak are lower bounds"
         )
     top = int((pressure >= pressure.max() * (1 - 1e-9)).sum())
     if math.isinf(most) and _EQUAL <= top < loaded.sum() and top > _EQUAL_SHARE * loaded.sum():
-        found.append(
+        sentences.append(
             f"{path.name}: {top} sensels read the same largest pressure, {pressure.max() / 1e3:g} kPa, as if they "
             "were saturated; give saturation= if they are"
         )
@@ -42,7 +42,7 @@ def doubts_of(path: Path, pressure: Array, known: BoolArray, most: float, travel
     rim[[0, -1]], rim[:, [0, -1]] = True, True
     share = float(pressure[rim & loaded].sum() / pressure.sum())
     if min(pressure.shape) > 4 and share > 0.01:
-        found.append(
+        sentences.append(
             f"{path.name}: the outermost sensels carry {100 * share:.2g} % of the load; the footprint goes on beyond "
             "the sensor"
         )
@@ -57,22 +57,24 @@ def doubts_of(path: Path, pressure: Array, known: BoolArray, most: float, travel
     ]
     if empty:
         named = ", ".join(str(n + 1) for n in empty[:_NAMED]) + (", …" if len(empty) > _NAMED else "")
-        found.append(
+        sentences.append(
             f"{path.name}: {'column' if upright else 'row'} {named} reads zero between loaded ones, a dead line of "
             "the sensor or a groove across the tread; write NaN there if it is dead"
         )
-    return found
+    return sentences
 
 
 def dead_in_words(path: Path, holes: BoolArray, stuck: BoolArray, dead: str, total: float) -> list[str]:
     """Sentences that name dead and stuck sensels. dead: what was done with them."""
-    found = []
+    sentences = []
     if holes.any():
         done = "filled from their neighbours" if dead == "fill" else 'left empty (dead="fill" fills them)'
-        found.append(f"{path.name}: dead sensels, which read nothing amid loaded ones: {_places(holes)}; {done}")
+        sentences.append(f"{path.name}: dead sensels, which read nothing amid loaded ones: {_places(holes)}; {done}")
     if stuck.any():
-        found.append(f"{path.name}: sensels that read pressure amid empty ones, as stuck ones do: {_places(stuck)}")
-    return found
+        sentences.append(
+            f"{path.name}: sensels that read pressure amid empty ones, as stuck ones do: {_places(stuck)}"
+        )
+    return sentences
 
 
 def _places(mask: BoolArray) -> str:

@@ -78,7 +78,7 @@ class Footprint(BaseResult, group="contact"):
 
     @property
     def sensels(self) -> BoolArray:
-        """(ny, nx), True where a sensel is that works."""
+        """(ny, nx), True where there is a working sensel."""
         return np.ones(self.grid.shape, dtype=bool) if self.missing is None else ~self.missing
 
     @property
@@ -206,17 +206,17 @@ class Footprint(BaseResult, group="contact"):
 
     def summary(self) -> str:
         """What presses where, what it measures, and where it was read."""
-        load, found = self.load, self.measures
+        load, measures = self.load, self.measures
         lines = [
             f"recorded footprint: {load}",
             f"tractive force {load.tractive_force / 1e3:z.2f} kN, lateral force {load.lateral_force / 1e3:z.2f} kN",
         ]
-        if found.net_area > 0:
+        if measures.net_area > 0:
             ribs = self.rib_shares()
             lines += [
-                f"length {found.length * 1e3:.0f} mm, width {found.width * 1e3:.0f} mm; net area "
-                f"{found.net_area * 1e6:.0f} mm², gross {found.gross_area * 1e6:.0f} mm², mean pressure "
-                f"{found.mean / 1e3:.0f} kPa",
+                f"length {measures.length * 1e3:.0f} mm, width {measures.width * 1e3:.0f} mm; net area "
+                f"{measures.net_area * 1e6:.0f} mm², gross {measures.gross_area * 1e6:.0f} mm², mean pressure "
+                f"{measures.mean / 1e3:.0f} kPa",
                 f"ribs carry {' / '.join(f'{100 * share:.1f}' for share in ribs)} % of the load"
                 if len(ribs) > 1
                 else "no groove along travel divides it into ribs",
@@ -226,7 +226,7 @@ class Footprint(BaseResult, group="contact"):
             full = int(self.saturated.sum())
             sensor.append(f"saturation {self.saturation / 1e3:.4g} kPa, reached by {full} sensels")
         if self.missing is not None:
-            sensor.append(f"{int(self.missing.sum())} cells without a sensel that works")
+            sensor.append(f"{int(self.missing.sum())} cells without a working sensel")
         lines += ["sensor: " + ", ".join(sensor)] if sensor else []
         lines += [f"read from {load.source}"] if load.source else []
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])

@@ -66,12 +66,12 @@ def read(
     if spacing is None:
         raise InputError(f'{path} is a picture and needs the size of a pixel, spacing="0.5 mm"')
     pixels = _pixels(path)
-    found = _scale(path, pixels, colours, scale, bar, steps)
+    legend = _scale(path, pixels, colours, scale, bar, steps)
     if bar is not None and crop is None:
         raise InputError(f"{path} holds its colour bar at {bar}; give crop=, the box of the map without it")
     chart = pixels if crop is None else _cut(path, pixels, crop, "crop")
     unique, which = np.unique(chart.reshape(-1, 3), axis=0, return_inverse=True)
-    pressures, fits = _pressures(unique.astype(float), found)
+    pressures, fits = _pressures(unique.astype(float), legend)
     if background is not None:
         ground = np.linalg.norm(unique - np.asarray(_colour(background), dtype=float), axis=1) <= TOLERANCE
         pressures[ground], fits[ground] = 0.0, True
@@ -87,9 +87,9 @@ def read(
         )
     values = np.where(wrong, np.nan, pressures[which])
     dx, dy = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
-    told = f"{path.name}: picture of {chart.shape[1]} x {chart.shape[0]} pixels, {len(found.colours)} colours from "
-    told += f"{found.pressures[0] / 1e3:g} to {found.pressures[-1] / 1e3:g} kPa"
-    top = float(found.pressures[-1])
+    told = f"{path.name}: picture of {chart.shape[1]} x {chart.shape[0]} pixels, {len(legend.colours)} colours from "
+    told += f"{legend.pressures[0] / 1e3:g} to {legend.pressures[-1] / 1e3:g} kPa"
+    top = float(legend.pressures[-1])
     return Frames(values[None], quantity(dy, "m"), quantity(dx, "m"), (1.0, 1.0), saturation=top, source=told)
 
 
@@ -128,13 +128,13 @@ def _scale(path: Path, pixels: Array, colours: Any, scale: Any, bar: Box | None,
             raise InputError("colours must be two or more pairs of a colour and its pressure")
         values = np.array([_pressure(pair[1]) for pair in pairs])
         if not (np.diff(values) > 0).all():
-            raise InputError(f"the pressures of colours must rise, got {[pair[1] for pair in pairs]!r}")
+            raise InputError(f"the pressures of colours must increase, got {[pair[1] for pair in pairs]!r}")
         return Scale(np.array([_colour(pair[0]) for pair in pairs], dtype=float), values, steps)
     if scale is None or len(scale) != 2:
         raise InputError('give scale=("0 kPa", "1000 kPa"), the pressures at both ends of the colours')
     low, high = (_pressure(one) for one in scale)
     if not 0 <= low < high:
-        raise InputError(f"scale must rise from 0 Pa or more, got {low:g} to {high:g} Pa")
+        raise InputError(f"scale must increase from 0 Pa or more, got {low:g} to {high:g} Pa")
     if bar is not None:
         box = _cut(path, pixels, bar, "bar").astype(float)
         # Rows of an upright bar count from its upper end; a lying one rises to the right.
@@ -182,7 +182,7 @@ def _cut(path: Path, pixels: Array, box: Box, what: str) -> Array:
 
 def _pressures(colours: Array, scale: Scale) -> tuple[Array, BoolArray]:
     """Pressure (n,), Pa, of colours (n, 3), and True where one place of the scale fits and no other."""
-    found, fits = np.zeros(len(colours)), np.zeros(len(colours), dtype=bool)
+    pressures, fits = np.zeros(len(colours)), np.zeros(len(colours), dtype=bool)
     count = len(scale.colours)
     step = max(1, _AT_ONCE // (3 * count))
     apart = 0.0 if scale.steps else _APART * float(scale.pressures[-1] - scale.pressures[0])
@@ -205,6 +205,6 @@ def _pressures(colours: Array, scale: Scale) -> tuple[Array, BoolArray]:
         chosen = np.where(same, values, 0.0).sum(axis=1) / same.sum(axis=1)
         # A place that fits as well, but for rounding, and says something else.
         rival = (away <= np.maximum(nearest, 1.0)[:, None] * 1.05 + 1.0) & (np.abs(values - chosen[:, None]) > apart)
-        found[start : start + step] = chosen
+        pressures[start : start + step] = chosen
         fits[start : start + step] = (nearest <= TOLERANCE) & ~rival.any(axis=1)
-    return found, fits
+    return pressures, fits

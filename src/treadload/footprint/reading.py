@@ -91,24 +91,24 @@ def read_footprint(
     asked = {"pressure": units} if isinstance(units, str) else dict(units or {})
     given = {"spacing": spacing, "units": asked, "noise": 0.0 if threshold is None else _pressure(threshold)}
     given["counts"] = calibration is not None or load is not None
-    found, told = _frames(path, _format_of(path, format), given, options)
-    found = _with_units(path, found, None if told else asked.get("pressure"), calibration, load is not None)
-    found = _with_spacing(path, found, spacing)
-    pressure, number = _frame(path, found, frame)
-    least = _limit(threshold, found.threshold, found, 0.0)
-    most = _limit(saturation, found.saturation, found, math.inf)
+    frames, told = _frames(path, _format_of(path, format), given, options)
+    frames = _with_units(path, frames, None if told else asked.get("pressure"), calibration, load is not None)
+    frames = _with_spacing(path, frames, spacing)
+    pressure, number = _frame(path, frames, frame)
+    least = _limit(threshold, frames.threshold, frames, 0.0)
+    most = _limit(saturation, frames.saturation, frames, math.inf)
     known = ~np.isnan(pressure)
     pressure = _checked(path, np.where(known, pressure, 0.0), least, most)
-    doubts = [*found.warnings, *doubts_of(path, pressure, known, most, travel)]
+    doubts = [*frames.warnings, *doubts_of(path, pressure, known, most, travel)]
     holes, stuck = lone(pressure, known)
     doubts += dead_in_words(path, holes, stuck, dead, float(pressure[known].sum()))
     if dead == "fill":
         pressure = filled(pressure, holes, known)
     else:
         known = known & ~holes
-    footprint = _turned(path, found, pressure, ~known, sign, travel, seen_from, number)
-    assert found.law is not None
-    doubts += peak_doubt(footprint, found.law[0]) if load is None else []
+    footprint = _turned(path, frames, pressure, ~known, sign, travel, seen_from, number)
+    assert frames.law is not None
+    doubts += peak_doubt(footprint, frames.law[0]) if load is None else []
     footprint = replace(footprint, threshold=least, saturation=most, warnings=tuple(doubts))
     return footprint if load is None else footprint.scaled_to(load)
 
@@ -178,20 +178,22 @@ def _frames(path: Path, name: str, given: dict[str, Any], options: dict[str, Any
             hint = nearest(option, own, "it takes") if own else "it takes none"
             raise InputError(f"the {name} reader of footprints knows no option {option!r}; {hint}")
     told = {key: value for key, value in given.items() if key in takes}
-    found = entry.target(path, **told, **options)
-    if not isinstance(found, Frames):
+    frames = entry.target(path, **told, **options)
+    if not isinstance(frames, Frames):
         raise InputError(
-            f"{entry.package} brings the {FOOTPRINTS.noun} {name!r}, which returned {type(found).__name__} and no "
+            f"{entry.package} brings the {FOOTPRINTS.noun} {name!r}, which returned {type(frames).__name__} and no "
             "Frames; repair that package"
         )
-    if found.values.ndim != 3 or not found.values.size:
-        raise InputError(f"{path} holds no map: its frames have shape {found.values.shape}; export it again")
-    return found, "units" in takes
+    if frames.values.ndim != 3 or not frames.values.size:
+        raise InputError(f"{path} holds no map: its frames have shape {frames.values.shape}; export it again")
+    return frames, "units" in takes
 
 
-def _with_units(path: Path, found: Frames, unit: str | None, calibration: float | str | None, scaled: bool) -> Frames:
+def _with_units(
+    path: Path, frames: Frames, unit: str | None, calibration: float | str | None, scaled: bool
+) -> Frames:
     """Frames with a law from values to pascals: the file's, the caller's, or that of counts under a known load."""
-    if calibration is not None and (found.calibrated or unit is not None):
+    if calibration is not None and (frames.calibrated or unit is not None):
         raise InputError(
             f"{path} has pressures with their unit, and calibration= is for counts; leave it out, or give load= to "
             "scale to a known load"
@@ -200,31 +202,31 @@ def _with_units(path: Path, found: Frames, unit: str | None, calibration: float 
         one = _pressure(calibration)
         if not one > 0:
             raise InputError(f"calibration must be the pressure of one count, above 0 Pa, got {calibration!r}")
-        return replace(found, law=(one, 1.0))
+        return replace(frames, law=(one, 1.0))
     if unit is not None:
         worth = pressure_factor(unit)
-        if found.law is not None and not (found.calibrated and math.isclose(found.law[0], worth)):
-            told = f"in a unit of {found.law[0]:g} Pa" if found.calibrated else "counts with a calibration"
+        if frames.law is not None and not (frames.calibrated and math.isclose(frames.law[0], worth)):
+            told = f"in a unit of {frames.law[0]:g} Pa" if frames.calibrated else "counts with a calibration"
             raise InputError(f"{path} says that its values are {told}, and units= {unit!r}; leave units= out")
-        return replace(found, law=(worth, 1.0))
-    if found.law is None and not scaled:
+        return replace(frames, law=(worth, 1.0))
+    if frames.law is None and not scaled:
         raise InputError(
             f'{path}: its values have no unit; give units="kPa" or whatever they are, calibration= for the pressure '
             "of a count, or load= for the load that they carry"
         )
-    return found if found.law is not None else replace(found, law=(1.0, 1.0))
+    return frames if frames.law is not None else replace(frames, law=(1.0, 1.0))
 
 
-def _with_spacing(path: Path, found: Frames, spacing: Any) -> Frames:
-    if found.row_spacing is not None and found.column_spacing is not None:
-        return found
+def _with_spacing(path: Path, frames: Frames, spacing: Any) -> Frames:
+    if frames.row_spacing is not None and frames.column_spacing is not None:
+        return frames
     if spacing is None:
-        raise InputError(f'{path} does not tell the spacing of its sensels; give spacing="5 mm", or (columns, rows)')
+        raise InputError(f'{path} does not give the spacing of its sensels; give spacing="5 mm", or (columns, rows)')
     both = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
     if len(both) != 2:
         raise InputError(f"spacing must be one length or (columns, rows), got {len(both)} values")
     dx, dy = (quantity(one, "m") for one in both)
-    return replace(found, row_spacing=dy, column_spacing=dx)
+    return replace(frames, row_spacing=dy, column_spacing=dx)
 
 
 def _pressure(value: float | str) -> float:
@@ -235,28 +237,28 @@ def _pressure(value: float | str) -> float:
     return number * pressure_factor(unit) if unit else quantity(value, "Pa")
 
 
-def _limit(asked: float | str | None, told: float | None, found: Frames, otherwise: float) -> float:
+def _limit(asked: float | str | None, told: float | None, frames: Frames, otherwise: float) -> float:
     """A threshold or a saturation, Pa: of the caller, else of the file, in its unit."""
     if asked is not None:
         return _pressure(asked)
-    if told is None or found.law is None:
+    if told is None or frames.law is None:
         return otherwise
-    return float(found.law[0] * told ** found.law[1])
+    return float(frames.law[0] * told ** frames.law[1])
 
 
-def _frame(path: Path, found: Frames, frame: int | str) -> tuple[Array, str]:
+def _frame(path: Path, frames: Frames, frame: int | str) -> tuple[Array, str]:
     """Pressure (rows, columns), Pa, of the frame that was asked for, and which it is, in words."""
-    assert found.law is not None
-    scale, exponent = found.law
+    assert frames.law is not None
+    scale, exponent = frames.law
     with np.errstate(over="ignore", invalid="ignore"):
-        values = found.values if exponent == 1.0 else np.maximum(found.values, 0.0) ** exponent
+        values = frames.values if exponent == 1.0 else np.maximum(frames.values, 0.0) ** exponent
         pressure = scale * values
         endless = np.isinf(pressure)
         top = float(np.nanmax(pressure, initial=0.0))
         endless |= not math.isfinite(top * pressure.size)
     if endless.any():
         raise InputError(f"{path} holds a pressure of {top:g} Pa, beyond all numbers; check its values and its unit")
-    numbers = found.numbers or tuple(range(1, len(pressure) + 1))
+    numbers = frames.numbers or tuple(range(1, len(pressure) + 1))
     if frame not in ("peak", "mean"):
         if isinstance(frame, bool) or not isinstance(frame, int | np.integer) or frame not in numbers:
             raise InputError(
@@ -303,7 +305,7 @@ def _checked(path: Path, pressure: Array, least: float, most: float) -> Array:
 
 def _turned(
     path: Path,
-    found: Frames,
+    frames: Frames,
     pressure: Array,
     holes: BoolArray,
     sign: float,
@@ -312,10 +314,10 @@ def _turned(
     number: str,
 ) -> Footprint:
     """The footprint in the axes of travel."""
-    assert found.column_spacing is not None
-    assert found.row_spacing is not None
-    dx, dy = found.column_spacing, found.row_spacing
-    axes = found.x0 is not None or found.traction_x is not None or found.traction_y is not None
+    assert frames.column_spacing is not None
+    assert frames.row_spacing is not None
+    dx, dy = frames.column_spacing, frames.row_spacing
+    axes = frames.x0 is not None or frames.traction_x is not None or frames.traction_y is not None
     if axes and (travel != "right" or seen_from != "above"):
         raise InputError(
             f"{path} has axes of its own, x along travel and y to the right; leave travel= and seen_from= out"
@@ -326,12 +328,12 @@ def _turned(
     pressure, holes = np.rot90(pressure, _TURNS[travel]), np.rot90(holes, _TURNS[travel])
     if seen_from == "below":
         pressure, holes = pressure[::-1], holes[::-1]
-    grid: Grid = measured.grid_of(pressure.shape, (dx, dy), found.x0, found.y0)
+    grid: Grid = measured.grid_of(pressure.shape, (dx, dy), frames.x0, frames.y0)
     along, across = (
-        None if part is None else np.where(holes, 0.0, sign * part) for part in (found.traction_x, found.traction_y)
+        None if part is None else np.where(holes, 0.0, sign * part) for part in (frames.traction_x, frames.traction_y)
     )
     how = [number] if number else []
     how += [f"travel {travel} on the page"] if travel != "right" else []
     how += ["seen from below"] if seen_from == "below" else []
-    source = ", ".join([found.source or path.name, *how])
+    source = ", ".join([frames.source or path.name, *how])
     return Footprint(GridLoad(grid, pressure, along, across, source=source), missing=holes)

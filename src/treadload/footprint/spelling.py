@@ -42,12 +42,14 @@ def pressure_factor(unit: str) -> float:
     """Pascals of a unit of pressure as a file or a person spells it. Raises InputError for anything else."""
     text = unit.strip()
     try:
-        found = factor(_PRESSURES.get(text, text), "Pa")
+        pascals = factor(_PRESSURES.get(text, text), "Pa")
     except InputError as error:
         raise InputError(f"{unit!r} is not a unit of pressure such as kPa, MPa, psi, bar or kgf/cm2") from error
-    if found < _LEAST:
-        raise InputError(f"{unit!r} is {found:g} Pa, which no footprint is counted in; did you mean {_larger(text)}?")
-    return found
+    if pascals < _LEAST:
+        raise InputError(
+            f"{unit!r} is {pascals:g} Pa, which no footprint is counted in; did you mean {_larger(text)}?"
+        )
+    return pascals
 
 
 def length(text: str) -> float:

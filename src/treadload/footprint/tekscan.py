@@ -108,22 +108,22 @@ class _Header:
         if said is None:
             return None
         try:
-            found = length(said)
+            metres = length(said)
         except InputError as error:
             raise self.fault(key, f"is {said!r}, which needs a number and a unit such as mm or cm") from error
-        if not found > 0:
+        if not metres > 0:
             raise self.fault(key, f"is {said!r} and must be above 0; correct the header or give spacing=")
-        return found
+        return metres
 
 
 def _keys(lines: Sequence[str]) -> dict[str, tuple[int, str]]:
     """Keys of a header with the number of their line; of one that comes twice the first."""
-    found: dict[str, tuple[int, str]] = {}
+    keys: dict[str, tuple[int, str]] = {}
     for number, line in enumerate(lines, start=1):
         match = _KEY.fullmatch(line.strip("\ufeff \t") + " ")
         if match is not None:
-            found.setdefault(match["key"].upper(), (number, match["rest"].strip()))
-    return found
+            keys.setdefault(match["key"].upper(), (number, match["rest"].strip()))
+    return keys
 
 
 def _frames(path: Path, lines: Sequence[str], start: int) -> list[_Frame]:

@@ -40,7 +40,7 @@ def read(
     is_table = read_table(path, decimal=decimal).has_header
     bare = counts and "pressure" not in asked and not is_table
     try:
-        found = measured.read_csv(
+        recorded = measured.read_csv(
             path,
             spacing=spacing,
             units=asked,
@@ -53,17 +53,17 @@ def read(
         if "noise= says" not in str(error):
             raise
         raise InputError(str(error).replace("noise= says", "threshold= says")) from error
-    grid, source = found.grid, found.source
+    grid, source = recorded.grid, recorded.source
     if units and "pressure" in units:
         source = source.replace(asked["pressure"], units["pressure"])
     return Frames(
-        found.pressure[None],
+        recorded.pressure[None],
         grid.dy,
         grid.dx,
         None if bare else (1.0, 1.0),
         not bare,
-        traction_x=None if found.traction_x is None else np.nan_to_num(found.traction_x),
-        traction_y=None if found.traction_y is None else np.nan_to_num(found.traction_y),
+        traction_x=None if recorded.traction_x is None else np.nan_to_num(recorded.traction_x),
+        traction_y=None if recorded.traction_y is None else np.nan_to_num(recorded.traction_y),
         x0=grid.x0 if is_table else None,
         y0=grid.y0 if is_table else None,
         source=source.replace("pressure in Pa", "counts") if bare else source,

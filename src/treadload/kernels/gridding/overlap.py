@@ -58,7 +58,7 @@ def _askew(values: Array, x_edges: Array, y_edges: Array, cell_x: Array, cell_y:
         (centre_x > x_edges[0] - reach_x) & (centre_x < x_edges[-1] + reach_x)
         & (centre_y > y_edges[0] - reach_y) & (centre_y < y_edges[-1] + reach_y)
     )  # fmt: skip
-    found = np.zeros(centre_x.size)
+    means = np.zeros(centre_x.size)
     first_x = np.floor((centre_x - reach_x - x_edges[0]) / dx).astype(int)
     first_y = np.floor((centre_y - reach_y - y_edges[0]) / dy).astype(int)
     count_x, count_y = int(2 * reach_x / dx) + 2, int(2 * reach_y / dy) + 2
@@ -76,8 +76,8 @@ def _askew(values: Array, x_edges: Array, y_edges: Array, cell_x: Array, cell_y:
         shares[shares < _NOTHING * wide * high] = 0.0
         inside = (np.clip(j + count_y, 0, padded.shape[0] - 1), np.clip(i + count_x, 0, padded.shape[1] - 1))
         there = padded[inside[0][:, :, None], inside[1][:, None, :]]
-        found[part] = (shares * there).sum(axis=(1, 2)) / (wide * high)
-    return found.reshape(len(cell_y) - 1, len(cell_x) - 1)
+        means[part] = (shares * there).sum(axis=(1, 2)) / (wide * high)
+    return means.reshape(len(cell_y) - 1, len(cell_x) - 1)
 
 
 def _areas(corners: Array, left: Array, right: Array, low: Array, high: Array) -> Array:
