@@ -11,7 +11,7 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | meshes | 5 | 0 to 200 | 3: facets through the tire, a diameter beyond the bound |
 | meshes | 7 | 0 to 1 000 | 3: torn vertices, and one of the attack itself |
 | meshes | 7 | 0 to 1 478 once more, stopped | 4: pass when repeated |
-| footprints | 11 | 0 to 30 000 | 0 |
+| footprints | 11 | 0 to 41 000 | 3: frames of unlike shapes, a picture of 13 million pixels |
 | results | 7 | 0 to 4 700, of an older form of the attack | 18, of which seven causes in the package |
 
 Not yet run: meshes to 20 000, results to 10 000, and all of it again after the last repairs.

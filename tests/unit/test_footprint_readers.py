@@ -249,6 +249,7 @@ def test_a_colour_that_means_two_pressures_is_refused(tmp_path):
         (tekscan([MAP / 10], units="RAW", movie=',"Raw Sum=999"'), "sums up to 300.05 and says Raw Sum=999"),
         (tekscan([MAP / 10], units="RAW", lines=["SCALE_FACTOR 1", "EXPONENT 1", "SATURATION_PRESSURE 9 MPa"]),
          "SATURATION_PRESSURE is 9 MPa, and SCALE_FACTOR * 255 ** EXPONENT 255; one of them is wrong"),
+        (tekscan([MAP, MAP[:2]], without=["ROWS"]), "frame 2 has 2 x 4 values, the first frame 3 x 4"),
         (tekscan([MAP], units="furlong"), "UNITS says 'furlong' is not a unit of pressure"),
         (tekscan([MAP], without=["UNITS"]), "its values have no unit"),
         (tekscan([MAP], pitch="5"), "ROW_SPACING is '5', which needs a number and a unit"),
@@ -274,6 +275,8 @@ def test_closed_formats_and_files_that_are_none(tmp_path):
     assert "closed; export it from I-Scan as ASCII" in said(written(tmp_path, "x", "a.fsx"))
     assert "export a plain matrix" in said(written(tmp_path, "x", "a.xsn"))
     assert "there is no file" in said(tmp_path / "none.csv")
+    wide = picture(tmp_path, np.zeros((1, 4_000_001, 3)), "wide.png")
+    assert "has 4000001 x 1 pixels, more than 4e+06; make it smaller" in said(wide, colours=PAIRS, spacing=1)
     assert "as a picture" in said(written(tmp_path, "no picture", "a.png"), colours=PAIRS, spacing=1)
     assert "knows no option 'colors'; did you mean 'colours'" in said(written(tmp_path, b"", "a.png"), colors="jet")
     assert "travel must be one of" in said(written(tmp_path, tekscan([MAP])), travel="north")

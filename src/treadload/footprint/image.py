@@ -22,7 +22,7 @@ TOLERANCE = 12.0
 # Share of the scale by which two places that a colour fits may lie apart.
 _APART = 0.06
 # Colours of a colour map by its name, and pixels that a picture may have.
-_SAMPLES, _LARGEST = 256, 16_000_000
+_SAMPLES, _LARGEST = 256, 4_000_000
 _AT_ONCE = 4_000_000
 _ROUND_OFF = 1e-6
 _HEX = re.compile("#[0-9a-fA-F]{6}")
@@ -70,7 +70,9 @@ def read(
     if bar is not None and crop is None:
         raise InputError(f"{path} holds its colour bar at {bar}; give crop=, the box of the map without it")
     chart = pixels if crop is None else _cut(path, pixels, crop, "crop")
-    unique, which = np.unique(chart.reshape(-1, 3), axis=0, return_inverse=True)
+    # Whole numbers sort in a tenth of the time of rows.
+    packed, which = np.unique(chart.astype(np.int64) @ np.array([65536, 256, 1]), return_inverse=True)
+    unique = np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=1)
     pressures, fits = _pressures(unique.astype(float), legend)
     if background is not None:
         ground = np.linalg.norm(unique - np.asarray(_colour(background), dtype=float), axis=1) <= TOLERANCE

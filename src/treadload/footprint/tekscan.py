@@ -53,8 +53,14 @@ def read(path: Path, text: str) -> Frames:
     frames = _frames(path, lines, start + 1)
     if not frames:
         raise InputError(f"{path} has no frame behind {_DATA}; export the frames with the header")
-    values = np.stack([_values(path, frame, header) for frame in frames])
-    return _assembled(path, header, frames, values)
+    maps = [_values(path, frame, header) for frame in frames]
+    for frame, one in zip(frames, maps, strict=True):
+        if one.shape != maps[0].shape:
+            raise InputError(
+                f"{path}, line {frame.line}: frame {frame.number} has {one.shape[0]} x {one.shape[1]} values, the "
+                f"first frame {maps[0].shape[0]} x {maps[0].shape[1]}; the file is cut or was edited: export it again"
+            )
+    return _assembled(path, header, frames, np.stack(maps))
 
 
 @dataclass(frozen=True)
