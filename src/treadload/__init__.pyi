@@ -50,6 +50,7 @@ from treadload.response import solve_response as solve_response
 from treadload.results import open_results as open_results
 from treadload.results import save_results as save_results
 from treadload.study import LifeResult as LifeResult
+from treadload.study import calibrate as calibrate
 from treadload.study import compare_uniform as compare_uniform
 from treadload.study import run_case as run_case
 from treadload.study import run_life as run_life

@@ -36,6 +36,9 @@ _EXAMPLES = {
     "Pa": '"8.2 bar" or "5400 MPa"',
     "m^2": '"0.4 cm^2"',
     "Pa/m": '"1000 MPa/m"',
+    "N/m": '"436 N/mm"',
+    "N/rad": '"198 kN/rad"',
+    "N m/rad": '"9 kN m/rad"',
     "N": '"32.5 kN"',
     "s": '"10 ms"',
     "m/s": '"70 km/h"',
@@ -256,6 +259,11 @@ Stiffness = Annotated[float, Unit("Pa/m")]
 Force = Annotated[float, Unit("N")]
 PerLength = Annotated[float, Unit("1/m")]
 BendingStiffness = Annotated[float, Unit("N m")]
+Area = Annotated[float, Unit("m^2")]
+Moment = Annotated[float, Unit("N m")]
+SpringStiffness = Annotated[float, Unit("N/m")]
+CorneringStiffness = Annotated[float, Unit("N/rad")]
+AligningStiffness = Annotated[float, Unit("N m/rad")]
 Speed = Annotated[float, Unit("m/s")]
 SlidingSpeed = Annotated[float, Unit("m/s", "sliding speed")]
 Acceleration = Annotated[float, Unit("m/s^2")]

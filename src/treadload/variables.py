@@ -145,6 +145,25 @@ _UNIFORM = {
     "uniform_area": ("m^2", "area of each uniform load"),
 }
 
+_CALIBRATION = {
+    "start_value": ("1", "number that the search began with, in its SI unit"),
+    "fitted_value": ("1", "number that fits the data best, in its SI unit"),
+    "standard_deviation": ("1", "standard deviation of a fitted number, in its SI unit"),
+    "lower_bound": ("1", "lower bound of a number, in its SI unit"),
+    "upper_bound": ("1", "upper bound of a number, in its SI unit"),
+    "at_bound": ("1", "-1 at the lower bound, 1 at the upper one, else 0"),
+    "number_correlation": ("1", "correlation of two fitted numbers"),
+    "singular_value": ("1", "change of the readings over their errors, per relative change of the numbers"),
+    "direction_part": ("1", "relative change of a number in the direction of a singular value"),
+    "measured_reading": ("1", "reading that was measured, in its SI unit"),
+    "fitted_reading": ("1", "reading of the fitted tire, in its SI unit"),
+    "reading_before": ("1", "reading of the tire that the search began with, in its SI unit"),
+    "reading_error": ("1", "standard deviation of a reading, in its SI unit"),
+    "residual": ("1", "fitted less measured reading, over its error"),
+    "residual_before": ("1", "the same of the tire that the search began with"),
+    "reading_slope": ("1", "change of a reading over its error, per relative change of a number"),
+}
+
 _LIFE = {
     "damage_per_year": ("1", "Miner's damage of the first year, with wander where it applies; 1 is failure"),
     "damage_share": ("1", "share of the damage at the worst place"),
@@ -237,6 +256,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_MOVING,
     **_DAMAGE,
     **_QUANTITIES,
+    **_CALIBRATION,
     **_LIFE,
     **_INTERFACES,
     **_UNIFORM,

@@ -337,7 +337,7 @@ def test_shells_can_complete():
     assert done.stdout.split() == ["catalogue"]
 
 
-@pytest.mark.parametrize("kind", ["run", "life"])
+@pytest.mark.parametrize("kind", ["run", "life", "calibrate"])
 def test_init_writes_a_case_that_can_be_run_and_spares_what_is_there(kind, tmp_path):
     path = tmp_path / "my.toml"
     made = call("init", kind, "-o", path)

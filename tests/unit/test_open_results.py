@@ -98,6 +98,11 @@ def viscoelastic_tire():
     )
 
 
+def calibration():
+    rows = [tl.footprint.Measured(load=load, deflection=depth) for load, depth in ((200, 2.9e-3), (300, 3.8e-3))]
+    return tl.calibrate(TIRE, ["modulus"], rows, road=ROAD, tolerance=1e-6)
+
+
 MADE = {
     "Contact": contact,
     "Response": response,
@@ -123,6 +128,8 @@ MADE = {
     "RollingResistance": viscoelastic_tire,
     "Footprint": footprint,
     "FootprintComparison": footprint_comparison,
+    "TireCard": lambda: tl.study.tire_card(TIRE, ROAD, [200, 300], stiffness=False),
+    "Calibration": calibration,
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
 FIGURES = {
@@ -130,7 +137,7 @@ FIGURES = {
     "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
     "BondComparison": "lives", "Sensitivity": "inputs", "UniformComparison": "strains", "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
-    "FootprintComparison": "maps",
+    "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
 }  # fmt: skip
 
 

@@ -13,6 +13,7 @@ from pydantic import Field, ValidationError
 from treadload.case.changes import changed
 from treadload.errors import InputError
 from treadload.files import parse_toml
+from treadload.pavement import Pavement
 from treadload.read import Table, in_words
 
 
@@ -79,6 +80,10 @@ class FilePart(Table):
     def _given(self) -> dict[str, Any]:
         """What was given, as nested tables in SI units."""
         return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)
+
+    def build_road(self) -> Pavement | None:
+        """The road, before any temperature where its materials wait for one; None where the case gives none."""
+        return None
 
     def to_toml(self) -> str:
         """The case as TOML text in SI units; what was left out stays out."""

@@ -10,6 +10,9 @@ _HERE = Path(__file__).parent
 
 
 def first_case(name: str = "run") -> str:
-    """TOML text of a case that runs as it is, each key explained. name: "run" or "life". Raises InputError."""
+    """TOML text of a case that runs as it is, each key explained.
+
+    name: "run", "life" or "calibrate". Raises InputError.
+    """
     kind_of_case(name)
     return (_HERE / f"first_{name}.toml").read_text(encoding="utf-8")

@@ -121,6 +121,10 @@ class Case(FilePart):
         speed: float | None = None if self.rolling is None else self.rolling.speed
         return speed
 
+    def build_road(self) -> Pavement:
+        """The road."""
+        return self.pavement.build()
+
     def build_tire(self) -> Tire:
         """The tire, read from its file if it has one. Raises InputError for a case of a recorded footprint."""
         if self.tire is None:

@@ -3,33 +3,39 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
+from treadload.case.calibration import CalibrationCase
 from treadload.case.file import FilePart
 from treadload.case.life import LifeCase
 from treadload.case.model import Case
 from treadload.errors import InputError, nearest
 from treadload.read import REFERENCE, Choice, choice_named, sentences
 
-KINDS: dict[str, type[FilePart]] = {"run": Case, "life": LifeCase}
+KINDS: dict[str, type[FilePart]] = {"run": Case, "life": LifeCase, "calibrate": CalibrationCase}
 """Cases by the command that runs them."""
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 _DEFINED = "#/$defs/"
 
 
 def kind_of_case(name: str) -> type[FilePart]:
-    """A kind of case by the command that runs it: "run" or "life". Raises InputError."""
+    """A kind of case by the command that runs it, "run", "life" or "calibrate". Raises InputError."""
     if name not in KINDS:
         raise InputError(f"no kind of case {name!r}; {nearest(name, KINDS)}")
     return KINDS[name]
 
 
+def kind_of_table(table: Mapping[str, Any]) -> type[FilePart]:
+    """The kind of case that a table with its own tables is; Case where none tells."""
+    return next((kind for kind in KINDS.values() if any(key in table for key in kind.own_tables)), Case)
+
+
 def json_schema(name: str = "run") -> dict[str, Any]:
     """JSON schema (draft 2020-12) of a case, with what other packages bring.
 
-    name: "run" or "life", the command that runs the case. Every key has its words and unit. The rules that hold
-    between keys are the reader's: a file that the schema takes may still be refused, with a sentence.
+    name: "run", "life" or "calibrate", the command that runs the case. Every key has its words and unit. The rules
+    that hold between keys are the reader's: a file that the schema takes may still be refused, with a sentence.
     Raises InputError for another name, and for a package whose law or material cannot be loaded.
     """
     case = kind_of_case(name)

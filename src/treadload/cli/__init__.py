@@ -21,6 +21,7 @@ app = typer.Typer(
 for _command in (
     cases.run,
     cases.life,
+    cases.calibrate,
     cases.init,
     cases.schema,
     results.report,

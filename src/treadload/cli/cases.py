@@ -1,4 +1,4 @@
-"""`treadload init`, `schema`, `run` and `life`: cases, and what comes of them."""
+"""`treadload init`, `schema`, `run`, `life` and `calibrate`: cases, and what comes of them."""
 
 from __future__ import annotations
 
@@ -62,6 +62,37 @@ def life(
         return shell.planned(plan_life(question), path)
     with counts(shell.err, quiet=quiet) as tell:
         result = run_life(question, sensitivity=sensitivity, workers=workers, progress=tell)
+    files = write(result.to_tree(), path)
+    shell.out.print(result.summary(), markup=False)
+    shell.written(files)
+
+
+def calibrate(
+    case: Annotated[Path, typer.Argument(help="The calibration case, a TOML file.")],
+    output: shell.Output = None,
+    jobs: Annotated[int, typer.Option(min=1, help="Processes.")] = 1,
+    state: Annotated[
+        Path | None,
+        typer.Option(help="File that keeps what was solved; a search goes on from it.", show_default=False),
+    ] = None,
+    changes: shell.Changes = None,
+    dry_run: shell.DryRun = False,
+    quiet: shell.Quiet = False,
+) -> None:
+    """Fit numbers of a tire to what was measured of it, with error bars, and write them."""
+    from treadload.case import CalibrationCase
+    from treadload.files import check_writable
+    from treadload.results.exports import check_output, write
+    from treadload.study import plan_calibration, run_calibration
+
+    path = output or case.with_suffix(".nc")
+    check_output(path)
+    question = CalibrationCase.from_toml(case, changes=changes or ())
+    check_writable(path)
+    if dry_run:
+        return shell.planned(plan_calibration(question), path)
+    with counts(shell.err, quiet=quiet) as tell:
+        result = run_calibration(question, jobs=jobs, state=state, progress=tell)
     files = write(result.to_tree(), path)
     shell.out.print(result.summary(), markup=False)
     shell.written(files)

@@ -35,7 +35,7 @@ Changes = Annotated[
         show_default=False,
     ),
 ]
-Kind = Annotated[str, typer.Argument(help="The command that runs the case: run or life.")]
+Kind = Annotated[str, typer.Argument(help="The command that runs the case: run, life or calibrate.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and say what would be solved.")]
 
 

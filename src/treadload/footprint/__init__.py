@@ -1,8 +1,9 @@
-"""Measured footprints: readers, what they measure, and how a computed contact compares with them."""
+"""Measured footprints: readers, measures, a computed contact beside them; other data of a tire."""
 
 from treadload.footprint.comparison import FootprintComparison, compare
 from treadload.footprint.footprint import Footprint
 from treadload.footprint.frames import Frames
+from treadload.footprint.measured import Measured, Unknown
 from treadload.footprint.measures import Measures
 from treadload.footprint.reading import is_sensor_file, read_footprint
 from treadload.footprint.registration import Registration, register
@@ -11,8 +12,10 @@ __all__ = [
     "Footprint",
     "FootprintComparison",
     "Frames",
+    "Measured",
     "Measures",
     "Registration",
+    "Unknown",
     "compare",
     "is_sensor_file",
     "read_footprint",

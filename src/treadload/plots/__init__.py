@@ -2,6 +2,7 @@
 
 from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
 from treadload.plots.bowl import deflection_bowl
+from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.energy import dissipated_energy
@@ -17,6 +18,7 @@ from treadload.plots.material import black_diagram, cole_cole, master_curve, shi
 from treadload.plots.others import (
     BondComparisonPlots,
     BondVerdictPlots,
+    CalibrationPlots,
     CreepCurvePlots,
     FieldsPlots,
     FootprintComparisonPlots,
@@ -39,6 +41,7 @@ from treadload.plots.verdict import fatigue_line
 __all__ = [
     "BondComparisonPlots",
     "BondVerdictPlots",
+    "CalibrationPlots",
     "ContactPlots",
     "CreepCurvePlots",
     "FieldsPlots",
@@ -56,6 +59,8 @@ __all__ = [
     "bond_utilisation",
     "bonded_and_parted",
     "both_sides",
+    "calibration_fit",
+    "calibration_numbers",
     "cole_cole",
     "compare_pressure",
     "compare_roads",

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from treadload.accessors import offers
 from treadload.composing import Source, dataset_of
+from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.curve import creep_curves
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.history import transient_history, turn_history
@@ -135,6 +136,19 @@ class TurnPlots(_Plots):
     def history(self) -> Figure:
         """Torque and slip against the angle."""
         return turn_history(self._result)
+
+
+@offers("plot", "Calibration")
+class CalibrationPlots(_Plots):
+    """Figures of a calibration; those of its footprints are `calibration.comparisons[0].plot`."""
+
+    def fit(self) -> Figure:
+        """Data against the fitted tire, and the residuals of all readings."""
+        return calibration_fit(self._result)
+
+    def numbers(self) -> Figure:
+        """How sure the numbers are, and which go together."""
+        return calibration_numbers(self._result)
 
 
 @offers("plot", "RollingResistance")

@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from treadload.case import Case, LifeCase
 from treadload.case.criteria import CRITERION, CriterionTable, quantity_of
+from treadload.case.file import FilePart
+from treadload.case.schema import kind_of_table
 from treadload.damage.quantity import Quantity
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import MISSING, Row, Section
@@ -82,8 +83,8 @@ def _table(case: ReportCase) -> dict[str, Any]:
         return {}
 
 
-def _model(table: Mapping[str, Any]) -> type[Case] | type[LifeCase]:
-    return LifeCase if {"traffic", "criteria"} & set(table) else Case
+def _model(table: Mapping[str, Any]) -> type[FilePart]:
+    return kind_of_table(table)
 
 
 def _asked(case: ReportCase) -> dict[Key, str]:

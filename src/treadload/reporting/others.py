@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from treadload.plots import (
     BondComparisonPlots,
     BondVerdictPlots,
+    CalibrationPlots,
     ContactPlots,
     CreepCurvePlots,
     FieldsPlots,
@@ -23,6 +24,7 @@ from treadload.reporting.pictures import Picture, picture
 from treadload.reporting.reading import Other, summary_of
 
 HEADINGS = {
+    "calibration": "Calibration of the tire",
     "bonds": "Bonds between layers",
     "bond_comparison": "Road with and without its bond",
     "comparison": "Computed and measured footprint",
@@ -63,6 +65,25 @@ def _pictures(other: Other) -> list[Picture]:
         case "bond_comparison":
             caption = "Life by every criterion with the bond, without it, and with it until it fails."
             return picture("Life with and without the bond", caption, BondComparisonPlots(data).lives, wide=True)
+        case "calibration":
+            fitted = CalibrationPlots(data)
+            drawn = picture(
+                "Data and fitted tire",
+                "Dots: measured, lines: fitted; residuals are counted in standard deviations of the readings.",
+                fitted.fit,
+                wide=True,
+            )
+            drawn += picture(
+                "Numbers and their error bars",
+                "95 % intervals of the fitted numbers, and their correlations.",
+                fitted.numbers,
+                wide=True,
+            )
+            if "comparison" in inside:
+                caption = "Means over the sensels of the sensor, on one scale; red: more was computed than measured."
+                beside = FootprintComparisonPlots(inside["comparison"])
+                drawn += picture("Computed, measured, and their difference", caption, beside.maps, wide=True)
+            return drawn
         case "comparison":
             plots = FootprintComparisonPlots(data)
             drawn = picture(

@@ -7,8 +7,9 @@ from typing import Any, Protocol
 
 import xarray as xr
 
-from treadload.case import Case, LifeCase
+from treadload.case import Case
 from treadload.case.choices import TIRE_MATERIAL
+from treadload.case.file import FilePart
 from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Verdict
@@ -30,7 +31,7 @@ class Opened(Protocol):
     tree: xr.DataTree
 
     @property
-    def case(self) -> Case | LifeCase | None:
+    def case(self) -> FilePart | None:
         """The case that they answer."""
 
     @property

@@ -11,7 +11,8 @@ from typing import Any
 
 import xarray as xr
 
-from treadload.case import Case, LifeCase
+from treadload.case.file import FilePart
+from treadload.case.schema import kind_of_table
 from treadload.composing import BaseResult
 from treadload.errors import InputError
 from treadload.pavement import Pavement
@@ -127,13 +128,12 @@ class Results(Study):
         return self._where
 
     @functools.cached_property
-    def case(self) -> Case | LifeCase | None:
+    def case(self) -> FilePart | None:
         """The case that they answer, whose tire and road can be built again; None without one."""
         text = str(self.tree.attrs.get("case", ""))
         if not text:
             return None
-        kind = LifeCase if "traffic" in tomllib.loads(text) else Case
-        return kind.from_text(text, name=f"{self._where}: its case")
+        return kind_of_table(tomllib.loads(text)).from_text(text, name=f"{self._where}: its case")
 
     @property
     def road(self) -> Pavement:
@@ -144,7 +144,10 @@ class Results(Study):
                 return road
         if self.case is None:
             raise InputError(f"{self._where} does not hold its road; give it again, Pavement([...])")
-        return self.case.pavement.build() if isinstance(self.case, Case) else self.case.build_road()
+        built: Pavement | None = self.case.build_road()
+        if built is None:
+            raise InputError(f"{self._where}: its case has no road; give one, Pavement([...])")
+        return built
 
     def to_tree(self) -> xr.DataTree:
         """The tree that they come from."""

@@ -20,7 +20,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.case import Case, LifeCase
+from treadload.case.file import FilePart
+from treadload.case.schema import KINDS
 from treadload.composing import BaseResult, result_classes
 from treadload.errors import InputError, one_line
 from treadload.registry import load_point
@@ -32,7 +33,7 @@ _OURS = "treadload"
 # At which functions of temperature are tabulated, °C.
 _DEGREES = range(-30, 71)
 _GROUPS = "treadload."
-_CASES: Mapping[str, type[Case] | type[LifeCase]] = {"Case": Case, "LifeCase": LifeCase}
+_CASES: Mapping[str, type[FilePart]] = {kind.__name__: kind for kind in KINDS.values()}
 
 
 @dataclass(frozen=True)
@@ -113,7 +114,7 @@ class Writer:
             return {"fields": {key: self.value(one) for key, one in _parts_of(value).items()}}
         if isinstance(value, BaseResult):
             return {"part": self.name_of(value)}
-        if isinstance(value, Case | LifeCase):
+        if isinstance(value, FilePart):
             return {"case": value.to_toml(), "of": type(value).__name__}
         # A tire can all that its surface can.
         scanned = isinstance(value, Surface) and not isinstance(value, Tire | RecordedSurface)
@@ -232,8 +233,8 @@ def _fields_back(reader: Reader, told: Any, _: Any) -> xr.DataArray:
         raise InputError(f"{reader.where}: an input cannot be read: {_said(error)}") from error
 
 
-def _case(reader: Reader, told: Any, whole: Any) -> Case | LifeCase:
-    kind = _CASES.get(whole.get("of"), Case)
+def _case(reader: Reader, told: Any, whole: Any) -> FilePart:
+    kind = _CASES.get(whole.get("of"), _CASES["Case"])
     return kind.from_text(str(told), name=f"{reader.where}: the case")
 
 

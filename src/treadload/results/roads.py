@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from treadload.case import Case, LifeCase
+from treadload.case import Case
+from treadload.case.file import FilePart
 from treadload.pavement import LayerRow, Pavement, layer_rows
 
 
@@ -26,7 +27,7 @@ def road_in_rows(road: Pavement, case: Case | None = None) -> str:
     return "\n".join(lines)
 
 
-def rows_of(road: Pavement | None, case: Case | LifeCase | None) -> tuple[LayerRow, ...]:
+def rows_of(road: Pavement | None, case: FilePart | None) -> tuple[LayerRow, ...]:
     """The layers of a road, at the temperatures that the case gives; empty without a road."""
     if road is None:
         return ()

@@ -18,7 +18,8 @@ from typing import Any
 import xarray as xr
 
 from treadload._version import __version__
-from treadload.case import Case, LifeCase
+from treadload.case import Case
+from treadload.case.file import FilePart
 from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Life, Season, Verdict
@@ -46,7 +47,7 @@ _NAME = re.compile(r"\w[\w \-+.,=%°()]*(?<! )")
 def to_tree(
     parts: Any,
     *,
-    case: Case | LifeCase | None = None,
+    case: FilePart | None = None,
     road: Pavement | None = None,
     season: Season | None = None,
     title: str = "",

@@ -1,10 +1,12 @@
 """From a case to its results, from a traffic to a life."""
 
+from treadload.study.calibration import Calibration, calibrate
 from treadload.study.delamination import BondComparison, compare_bonds, solve_interfaces
 from treadload.study.life import solve_life
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.plan import plan_case, plan_life
 from treadload.study.run import Result, run_case
+from treadload.study.run_calibration import CalibrationResult, plan_calibration, run_calibration
 from treadload.study.run_life import LifeResult, run_life
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 from treadload.study.tire_card import TireCard, tire_card
@@ -13,6 +15,8 @@ from treadload.study.uniform import UniformComparison, compare_uniform
 
 __all__ = [
     "BondComparison",
+    "Calibration",
+    "CalibrationResult",
     "LifeResult",
     "Passages",
     "Result",
@@ -20,11 +24,14 @@ __all__ = [
     "TireCard",
     "UniformComparison",
     "assess_on_two_grids",
+    "calibrate",
     "compare_bonds",
     "compare_uniform",
     "life_sensitivity",
+    "plan_calibration",
     "plan_case",
     "plan_life",
+    "run_calibration",
     "run_case",
     "run_life",
     "solve_interfaces",

@@ -1,0 +1,130 @@
+"""Evaluations of a model: each point once, several at a time, and kept in a file from which a search goes on."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from treadload.errors import InputError
+from treadload.files import check_writable, replacing
+from treadload.kernels.arrays import Array
+from treadload.study.calibration.problem import Model, Problem
+
+Progress = Callable[[int, int, str], None]
+"""(done, of how many, what) of the solves; how many are needed is a guess until the search ends."""
+Point = tuple[float, ...]
+Task = tuple[Point, int]
+
+# Of a search, each with its slopes; for the first guess of how many contacts there will be.
+_USUAL_STEPS = 5
+# The model of a process that works for another.
+_MODEL: list[Model] = []
+
+
+class Evaluations:
+    """Readings of a problem at points, all of which are kept.
+
+    jobs: processes. state: file of the points, read at the start and written whole after every round. progress:
+    called after every solve.
+    """
+
+    def __init__(
+        self, problem: Problem, *, jobs: int, state: str | os.PathLike[str] | None, progress: Progress | None
+    ) -> None:
+        self.problem, self.jobs = problem, jobs
+        self._state = None if state is None else Path(state)
+        self._model = Model(problem)
+        self._pool: ProcessPoolExecutor | None = None
+        self._tell = progress or (lambda done, total, what: None)
+        self.solved = 0
+        self.expected = _USUAL_STEPS * (len(problem.sought) + 1) * len(problem.data)
+        self.known: dict[Task, Array] = {}
+        if self._state is not None:
+            check_writable(self._state)
+            if self._state.exists():
+                self.known = _read(self._state, problem)
+        self.found_before = len(self.known)
+
+    @contextmanager
+    def open(self) -> Iterator[Evaluations]:
+        """Processes, while they are needed."""
+        if self.jobs == 1:
+            yield self
+            return
+        with ProcessPoolExecutor(self.jobs, initializer=_begin, initargs=(self.problem,)) as pool:
+            self._pool = pool
+            try:
+                yield self
+            finally:
+                self._pool = None
+
+    def at(self, points: Sequence[Point]) -> list[Array]:
+        """All readings at each point, SI."""
+        rows = range(len(self.problem.data))
+        tasks = [(point, row) for point in dict.fromkeys(points) for row in rows]
+        new = [task for task in tasks if task not in self.known]
+        self.expected = max(self.expected, self.solved + len(new))
+        solved = map(self._solve, new) if self._pool is None else self._pool.map(_work, new)
+        try:
+            for task, values in zip(new, solved, strict=True):
+                self.known[task] = values
+                self.solved += 1
+                self._tell(self.solved, self.expected, "contact")
+        finally:
+            # What was found before an error or an interruption is not lost.
+            if new and self._state is not None:
+                self._write(self._state)
+        return [np.concatenate([self.known[point, row] for row in rows]) for point in points]
+
+    def _solve(self, task: Task) -> Array:
+        return self._model.readings(*task)
+
+    def _write(self, path: Path) -> None:
+        points = [
+            {"at": list(point), "row": row, "readings": values.tolist()}
+            for (point, row), values in self.known.items()
+        ]
+        told = {"calibration": self.problem.fingerprint, "points": points}
+        with replacing(path) as temporary:
+            temporary.write_text(json.dumps(told), encoding="utf-8")
+
+
+def _begin(problem: Problem) -> None:
+    _MODEL[:] = [Model(problem)]
+
+
+def _work(task: Task) -> Array:
+    return _MODEL[0].readings(*task)
+
+
+def _read(path: Path, problem: Problem) -> dict[Task, Array]:
+    """Points of a file. Raises InputError for a broken file and for one of another question."""
+    try:
+        told = json.loads(path.read_text(encoding="utf-8"))
+        same = told["calibration"] == problem.fingerprint
+        found = {
+            (tuple(float(value) for value in one["at"]), int(one["row"])): np.array(one["readings"], dtype=float)
+            for one in told["points"]
+        }
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        raise InputError(
+            f"the state {path} cannot be read as points of a calibration ({type(error).__name__}); remove it to "
+            "begin anew"
+        ) from error
+    sizes = [sum(1 for one in problem.readings if one[0] == row) for row in range(len(problem.data))]
+    fits = all(
+        len(at) == len(problem.sought) and 0 <= row < len(sizes) and values.shape == (sizes[row],)
+        for (at, row), values in found.items()
+    )
+    if not (same and fits):
+        raise InputError(
+            f"the state {path} belongs to another calibration: its tire, data, unknowns or cells differ; remove it, "
+            "or name another file"
+        )
+    return found

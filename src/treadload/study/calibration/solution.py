@@ -1,0 +1,336 @@
+"""The result of a calibration: the fitted tire, its error bars, and in words what the data cannot tell."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy import stats as distributions
+
+from treadload import variables
+from treadload.composing import BaseResult
+from treadload.describing import first_line
+from treadload.errors import InputError, nearest
+from treadload.footprint import FootprintComparison, compare
+from treadload.footprint.measured import READINGS, Measured, Unknown
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.pavement import Pavement
+from treadload.response import GridLoad
+from treadload.study.calibration.problem import Model, Problem, inflated
+from treadload.tire import Tire
+from treadload.units import Unit
+
+# Data that leave a number, or numbers together, uncertain by half of their size do not decide them.
+_UNDECIDED = 0.5
+# Part in a direction above which a number belongs to it; correlations above which a pair is named.
+_BELONGS, _CORRELATED = 0.3, 0.9
+# Data contradict the model, or each other, where scatter as large would come by chance less often than this.
+_CHANCE = 0.01
+_SHOWN = {
+    "modulus": (1e-6, "MPa"), "radius": (1.0, "m"), "m": (1e3, "mm"), "Pa": (1e-6, "MPa"), "Pa/m": (1e-6, "MPa/m"),
+    "rad": (180 / math.pi, "°"),
+}  # fmt: skip
+_LENGTHS_OF_CELLS = ("edge_radius", "shoulder_radius")
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Where a search ended. Arrays over the numbers sought, and over the readings.
+
+    start, values, low, high: SI. size: what slopes are taken per. at_bound: -1, 0 or 1. before, model, measured,
+    errors: readings at the start, at the end, as measured, and their standard deviations, SI. given: whether the
+    errors were. slopes: (readings, numbers), SI per size.
+    """
+
+    start: Array
+    values: Array
+    low: Array
+    high: Array
+    size: Array
+    at_bound: Array
+    before: Array
+    model: Array
+    measured: Array
+    errors: Array
+    given: Array
+    slopes: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration(BaseResult, group="calibration"):
+    """Numbers of a tire that fit what was measured, with their error bars.
+
+    dataset: numbers over `unknown`, readings over `reading`, correlations, singular values of the slopes with their
+    directions; see `treadload.variables`. tire: the fitted one. friction: fitted or given. road, sought, data:
+    what was asked. before: the tire that the search began with. comparisons: of the rows with a footprint. warnings:
+    sentences for the user.
+    """
+
+    dataset: xr.Dataset
+    tire: Tire
+    friction: float
+    road: Pavement
+    sought: tuple[Unknown, ...]
+    data: tuple[Measured, ...]
+    before: Tire
+    comparisons: tuple[FootprintComparison, ...] = ()
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    def value(self, name: str) -> float:
+        """The fitted number of this name, SI. Raises InputError if it was not sought."""
+        return float(self._of(name)["fitted_value"])
+
+    def standard_deviation(self, name: str) -> float:
+        """Of a fitted number, SI; NaN where the data do not tell it, or it ended at a bound."""
+        return float(self._of(name)["standard_deviation"])
+
+    def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
+        """Between what a number lies with a probability, SI.
+
+        Normal where the errors were given, else Student's with the degrees of freedom left; linear in the number.
+        """
+        if not 0 < level < 1:
+            raise InputError(f"level must lie in (0, 1), got {level:g}; 0.95 is the default")
+        free = float(self.dataset.attrs["degrees_of_freedom"])
+        given = bool(self.dataset.attrs["errors_given"])
+        tail = 0.5 * (1 + level)
+        reach = float(
+            distributions.norm.ppf(tail) if given else distributions.t.ppf(tail, free) if free > 0 else math.nan
+        )
+        half = reach * self.standard_deviation(name)
+        return self.value(name) - half, self.value(name) + half
+
+    @property
+    def undecided(self) -> tuple[str, ...]:
+        """Sentences on what these data cannot tell."""
+        return tuple(self.dataset.attrs["undecided"])
+
+    def _of(self, name: str) -> xr.Dataset:
+        known = [str(one) for one in self.dataset["unknown"].to_numpy()]
+        if name not in known:
+            raise InputError(f"{name!r} was not sought; {nearest(name, known, 'it sought')}")
+        return self.dataset.sel(unknown=name)
+
+    def summary(self) -> str:
+        """Numbers with error bars, how well they fit, and what the data cannot tell."""
+        d = self.dataset
+        rows = [("number", "fitted", "± std. dev.", "95 % between", "before")]
+        for one in self.sought:
+            factor, unit = shown(one.unit)
+            value, error = self.value(one.name), self.standard_deviation(one.name)
+            low, high = self.interval(one.name)
+            part = f" ({100 * error / abs(value):.2g} %)" if value and math.isfinite(error) else ""
+            before = float(d["start_value"].sel(unknown=one.name))
+            bars = f"± {factor * error:.2g}{part}" if math.isfinite(error) else "not told"
+            between = f"{factor * low:.4g} to {factor * high:.4g}" if math.isfinite(low) else "–"
+            rows.append((one.name, f"{factor * value:.4g} {unit}".rstrip(), bars, between, f"{factor * before:.4g}"))
+        widths = [max(len(row[k]) for row in rows) for k in range(5)]
+        table = [
+            "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows
+        ]
+        readings, free = d.sizes["reading"], int(d.attrs["degrees_of_freedom"])
+        lines = [
+            f"calibration of {self.tire.name or 'a tire'}: {len(self.sought)} numbers from {readings} readings",
+            *table,
+            f"residuals      {_rms(d['residual']):.2f} errors rms (before {_rms(d['residual_before']):.2f}), "
+            f"{free} degrees of freedom",
+            "errors         "
+            + ("as given" if d.attrs["errors_given"] else "customary ones; their size from the scatter"),
+        ]
+        worst = int(np.abs(d["residual"].to_numpy()).argmax())
+        lines.append(f"worst reading  {d['label'].to_numpy()[worst]}: {float(d['residual'][worst]):+.1f} errors")
+        lines += [f"correlation    {text}" for text in _correlations(d)]
+        stats = self.stats
+        if stats:
+            lines.append(
+                f"solved         {stats['contacts']} contacts, {stats['evaluations']} evaluations, "
+                f"{stats['seconds']:.0f} s"
+            )
+        lines += list(self.undecided)
+        return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
+
+    __repr__ = first_line
+
+
+def shown(unit: Unit) -> tuple[float, str]:
+    """Factor and unit that people count a number in."""
+    return _SHOWN.get(unit.kind or unit.si, (1.0, unit.symbol))
+
+
+def solution(problem: Problem, found: Found, stats: Mapping[str, Any]) -> Calibration:
+    """The result of a search: covariance, what is not decided, warnings."""
+    names = [one.name for one in problem.sought]
+    free = found.at_bound == 0
+    # Relative changes of the fitted numbers, so that directions compare.
+    size = np.maximum(np.abs(found.values), np.where(np.abs(found.values) < 0.1 * found.size, found.size, 0.0))
+    slopes = found.slopes * (size / found.size) / found.errors[:, None]
+    residual, before = ((told - found.measured) / found.errors for told in (found.model, found.before))
+    # Shares make 1 together: one of each set is told by the others.
+    sets = sum(1 for one in problem.data for name in ("rib_shares", "footprint") if name in one.readings)
+    left = len(residual) - sets - int(free.sum())
+    square = float(residual @ residual)
+    given = bool(found.given.all())
+    scatter = 1.0 if given else math.sqrt(square / left) if left > 0 else math.nan
+    values, directions, deviations, correlation = _spread(slopes, free, scatter)
+    taken = scatter if math.isfinite(scatter) else 1.0
+    undecided = _undecided(names, values, directions, taken)
+    # Numbers at a bound, one by one: some are pushed there, others have drifted.
+    lost = ~free & (np.linalg.norm(slopes, axis=0) * _UNDECIDED < taken)
+    undecided += [f"these data leave {name} undecided: it drifted to its bound" for name in np.array(names)[lost]]
+    labels = [_label(problem, *reading) for reading in problem.readings]
+    rows = [problem.data[row] for row, _, _ in problem.readings]
+    pressures = [one.inflation_pressure or problem.tire.inflation_pressure or math.nan for one in rows]
+    over, read = ("unknown",), ("reading",)
+    dataset = variables.dataset(
+        {
+            "start_value": (over, found.start),
+            "fitted_value": (over, found.values),
+            "standard_deviation": (over, deviations * size),
+            "lower_bound": (over, found.low),
+            "upper_bound": (over, found.high),
+            "at_bound": (over, found.at_bound),
+            "number_correlation": (("unknown", "other"), correlation),
+            "singular_value": (("direction",), values),
+            "direction_part": (("direction", "unknown"), directions),
+            "measured_reading": (read, found.measured),
+            "fitted_reading": (read, found.model),
+            "reading_before": (read, found.before),
+            "reading_error": (read, found.errors),
+            "residual": (read, residual),
+            "residual_before": (read, before),
+            "reading_slope": (("reading", "unknown"), slopes),
+        },
+        {
+            "unknown": names,
+            "other": names,
+            "label": ("reading", labels),
+            "kind": ("reading", [name for _, name, _ in problem.readings]),
+            "wheel_load": ("reading", [float(one.load or math.nan) for one in rows]),
+            "inflation_pressure": ("reading", pressures),
+        },
+        degrees_of_freedom=left,
+        errors_given=int(given),
+        scatter=scatter,
+        undecided=list(undecided),
+    )
+    tire, friction = problem.at(found.values)
+    comparisons = _compared(problem, tire)
+    warnings = [
+        *_doubts(problem, found, lost, square, left, given),
+        *(f"footprint: {text}" for one in comparisons for text in one.warnings),
+    ]
+    return Calibration(
+        dataset, tire, friction, problem.road, problem.sought, problem.data, problem.tire, comparisons, dict(stats),
+        tuple(warnings),
+    )  # fmt: skip
+
+
+def _spread(slopes: Array, free: BoolArray, scatter: float) -> tuple[Array, Array, Array, Array]:
+    """Singular values and directions of the slopes, relative deviations, correlations. Numbers at bounds are held."""
+    count = slopes.shape[1]
+    values, directions = np.zeros(0), np.zeros((0, count))
+    deviations = np.full(count, math.nan)
+    correlation = np.full((count, count), math.nan)
+    if free.any():
+        _, values, right = np.linalg.svd(slopes[:, free], full_matrices=False)
+        directions = np.zeros((len(values), count))
+        directions[:, free] = right
+        # What the slopes cannot tell from nothing is not told: below round-off of the largest.
+        sure = values > 1e-10 * values[0]
+        inverse = np.where(sure, 1 / np.where(sure, values, 1.0), math.inf)
+        covariance = np.full((count, count), math.nan)
+        with np.errstate(invalid="ignore"):
+            parts = np.where(right == 0, 0.0, right * inverse[:, None])
+            covariance[np.ix_(free, free)] = parts.T @ parts
+            deviations = scatter * np.sqrt(np.diag(covariance))
+            own = np.sqrt(np.diag(covariance))
+            correlation = covariance / np.outer(own, own)
+    deviations = np.where(np.isfinite(deviations), deviations, math.nan)
+    return values, directions, deviations, correlation
+
+
+def _undecided(names: list[str], values: Array, directions: Array, scatter: float) -> list[str]:
+    """A sentence for each direction that the data leave uncertain by half of the numbers' size."""
+    said = []
+    for value, parts in zip(values, directions, strict=True):
+        reach = scatter / value if value > 0 else math.inf
+        if reach <= _UNDECIDED:
+            continue
+        # The largest first, and going up.
+        order = [k for k in np.argsort(-np.abs(parts)) if abs(parts[k]) >= _BELONGS]
+        sign = 1.0 if parts[order[0]] > 0 else -1.0
+        told = " and ".join(names[k] for k in order) if len(order) < 3 else ", ".join(names[k] for k in order)
+        if not reach < 10:
+            what = "it" if len(order) == 1 else "their change together"
+            said.append(f"these data leave {told} undecided: no reading feels {what}")
+        elif len(order) == 1:
+            said.append(f"these data leave {told} undecided: its standard deviation is {100 * reach:.0f} % of it")
+        else:
+            changes = ", ".join(f"{names[k]} by {100 * sign * parts[k] * reach:+.0f} %" for k in order)
+            said.append(
+                f"these data leave {told} undecided: changing {changes} moves the readings by no more than "
+                "their errors"
+            )
+    return said
+
+
+def _doubts(problem: Problem, found: Found, lost: BoolArray, square: float, left: int, given: bool) -> list[str]:
+    said = []
+    for one, value, side, drifted in zip(problem.sought, found.values, found.at_bound, lost, strict=True):
+        if side and not drifted:
+            factor, unit = shown(one.unit)
+            said.append(
+                f"{one.name} ended at its bound of {factor * value:.4g} {unit}: the data want it "
+                f"{'lower' if side < 0 else 'higher'} still; it has no error bar, and those of the others hold it "
+                "there. Widen the bound if a tire can have that, or doubt the data or the model"
+            )
+        if problem.spacing is not None and one.name in _LENGTHS_OF_CELLS and value < 2 * problem.spacing:
+            said.append(
+                f"{one.name} of {value * 1e3:.2g} mm is hardly seen on cells of {problem.spacing * 1e3:g} mm; give a "
+                f"spacing of {max(value, 2e-3) * 500:.2g} mm or less"
+            )
+    if left <= 0:
+        said.append("as many numbers as readings: nothing checks the fit; measure more")
+    elif given and distributions.chi2.sf(square, left) < _CHANCE:
+        said.append(
+            f"the readings scatter about the fit {math.sqrt(square / left):.2g} times as much as their errors say: "
+            "they contradict each other or the model, and the error bars are too narrow by as much"
+        )
+    if not given and found.given.any():
+        said.append("some errors were given and some are customary; all are scaled by the scatter")
+    return said
+
+
+def _compared(problem: Problem, tire: Tire) -> tuple[FootprintComparison, ...]:
+    """Rows with a footprint beside the fitted contact."""
+    model, made = Model(problem), []
+    for row, one in enumerate(problem.data):
+        if one.footprint is not None:
+            pressure, grid, _ = model.pressed(inflated(tire, one), row)
+            made.append(compare(GridLoad(grid, pressure), one.footprint))
+    return tuple(made)
+
+
+def _label(problem: Problem, row: int, name: str, number: int) -> str:
+    """What a reading is called in figures."""
+    one, kind = problem.data[row], READINGS[name]
+    count = f" {number + 1}" if name in ("rib_shares", "footprint") else ""
+    pressure = "" if one.inflation_pressure is None else f", {one.inflation_pressure / 1e3:.4g} kPa"
+    at = f"{float(one.load or 0.0) / 1e3:.4g} kN{pressure}"
+    return f"{kind.words}{count}, {one.name or at}"
+
+
+def _correlations(data: xr.Dataset) -> list[str]:
+    """Pairs that go together."""
+    names, matrix = data["unknown"].to_numpy(), data["number_correlation"].to_numpy()
+    pairs = [(i, j) for i in range(len(names)) for j in range(i) if abs(matrix[i, j]) >= _CORRELATED]
+    return [f"{names[j]} and {names[i]} {matrix[i, j]:+.2f}" for i, j in pairs]
+
+
+def _rms(values: xr.DataArray) -> float:
+    return float(np.sqrt(np.mean(np.square(values.to_numpy()))))
