@@ -23,8 +23,8 @@ from treadload.tire import Tire
 
 # Flat track of a test rig.
 STEEL = Elastic(210e9, 0.3)
-# Coarser than a contact of its own: deflections, moments and extents below the size of a cell move by half a percent
-# from 6 mm to 3 mm. Ribs are whole cells wide: their shares of the load move by a point, and ask for the finer ones.
+# Coarser than a contact of its own: deflections, moments and extents below the size of a cell move by less than a
+# percent from 6 mm to 3 mm. Ribs are whole cells wide: their shares of the load move by a point, and ask for 3 mm.
 SPACING = 2 * DEFAULT_SPACING
 _BY_RIBS = ("rib_shares", "footprint", "width")
 # Steps of the derivatives, of a number's size. The readings of a standing tire are known to the tolerance, 1e-8: a
