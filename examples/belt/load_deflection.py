@@ -17,9 +17,10 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy.optimize import minimize_scalar, nnls
+from scipy.optimize import nnls
 
 import treadload as tl
+from treadload.footprint import Measured
 from treadload.plots import new_figure, save
 from treadload.plots.kit.style import CASES, open_axes, styled
 
@@ -30,8 +31,6 @@ ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 BELTED = tl.Tire.from_scan(tl.example_mesh(), inflation_pressure=95 * PSI, belt=tl.Belt())
 SOLID = replace(BELTED, belt=None, material=tl.Elastic(3e6, 0.5))
 LARGEST = 0.08  # m; the point beyond is not fitted
-# Sidewalls at which the belt is solved, 1/m; between them its loads are a parabola, right to 1e-3.
-FOUNDATIONS = np.array([3.0, 4.5, 6.0])
 
 
 def measured() -> np.ndarray:
@@ -63,14 +62,10 @@ def rms(found: np.ndarray, loads: np.ndarray) -> float:
     return float(np.sqrt(np.mean((found / loads - 1) ** 2)))
 
 
-def fit_belt(solved: np.ndarray, loads: np.ndarray) -> float:
-    """Foundation, 1/m, of least squares. solved: loads at FOUNDATIONS, a row each."""
-    parabola = np.polyfit(FOUNDATIONS, solved, 2)
-
-    def misfit(foundation: float) -> float:
-        return rms(np.polyval(parabola, foundation), loads)
-
-    return float(minimize_scalar(misfit, bounds=(1.0, 8.0), method="bounded", options={"xatol": 1e-4}).x)
+def fit_belt(rows: np.ndarray, spacing: float) -> tl.study.Calibration:
+    """The foundation of the sidewalls from measured deflections, with its standard deviation."""
+    data = [Measured(load=force, deflection=w, inflation_pressure=p) for p, w, force in rows.tolist()]
+    return tl.calibrate(BELTED, ["foundation"], data, road=ROAD, spacing=spacing, tolerance=1e-6)
 
 
 def scaled(shape: np.ndarray, fitted: np.ndarray, loads: np.ndarray) -> np.ndarray:
@@ -123,8 +118,8 @@ def main(folder: Path, spacing: float = 6e-3) -> dict[str, Any]:
     rows = measured()
     pressures, deflections, loads = rows.T
     fitted = deflections < LARGEST
-    solved = np.array([on_belt(rows, one, spacing) for one in FOUNDATIONS])
-    foundation = fit_belt(solved[:, fitted], loads[fitted])
+    calibration = fit_belt(rows[fitted], spacing)
+    foundation = calibration.tire.belt.foundation
     # The load of a half-space at a deflection is linear in its modulus.
     solid = np.array([load(SOLID, w, spacing) for w in deflections]) / 3e6
     eq15 = np.array([tl.tire.modulus_from_inflation(p) for p in pressures])
@@ -144,11 +139,12 @@ def main(folder: Path, spacing: float = 6e-3) -> dict[str, Any]:
     print(f"{'measured load (kN)':31s}" + "".join(f"{one / 1e3:8.2f}" for one in loads) + "  % of load")
     for name, values in models.items():
         print(f"{name:31s}" + "".join(f"{one / 1e3:8.2f}" for one in values) + f"{100 * errors[name]:10.1f}")
+    print("\n" + calibration.summary())
     print(f"\nequation 15 anew: E [MPa] = {slope:.2f}e-3 p [kPa] + {offset:.2f}; as printed: 2.70e-3, 0.70")
     alone = {}
     for p in np.unique(pressures):
-        own = fitted & (pressures == p)
-        alone[round(p / PSI)] = fit_belt(solved[:, own], loads[own])
+        own = fit_belt(rows[fitted & (pressures == p)], spacing)
+        alone[round(p / PSI)] = own.tire.belt.foundation
     wanted = ", ".join(f"{value:.2f} at {p} psi" for p, value in alone.items())
     print(f"sidewalls that each pressure alone asks for, 1/m: {wanted}")
     print("\nthe measured load at one deflection, from pressure to pressure:")
@@ -166,6 +162,7 @@ def main(folder: Path, spacing: float = 6e-3) -> dict[str, Any]:
     save(draw(rows, panels), folder / "load_deflection.png")
     return {
         "foundation": foundation,
+        "deviation": calibration.standard_deviation("foundation"),
         "alone": alone,
         "line": (float(slope), float(offset)),
         "growth": growth(rows),
