@@ -43,11 +43,11 @@ COARSE = {"spacing": 12e-3, "workers": 1}
 
 def test_interpolated_readings_stay_within_the_tolerance():
     traffic = Traffic((LIGHT, HEAVY), 1e5)
-    climate = Climate.equal_parts([2.0, 6.0, 11.0, 15.0, 19.0, 24.0, 28.0])
+    climate = Climate.equal_parts([2.0, 8.0, 15.0, 22.0, 28.0])
     exact = solve_passages(TIRE, ROAD, traffic, climate, CRITERIA, tolerance=0, **COARSE)
     few = solve_passages(TIRE, ROAD, traffic, climate, CRITERIA, tolerance=0.02, **COARSE)
-    assert exact.responses == 14
-    assert few.responses < 14
+    assert exact.responses == 10
+    assert few.responses < 10
     assert few.interpolation_error <= 0.02
     size = exact.readings.max("y")
     error = float((abs(few.readings - exact.readings).max("y") / size).max())
@@ -162,10 +162,12 @@ def test_a_bond_that_parts_at_once_lives_no_pass():
 def test_axles_far_apart_are_as_many_cycles():
     """Three axles 6 m apart do three times the harm of one: nothing is left of one when the next comes."""
     road = Pavement.half_space(Elastic(5e9, 0.35))
+    # Points take a tenth of the time of means over a cube, and only the ratio counts.
+    criterion = replace(CRITERIA[0], length=None)
     lives = {}
     for name, wheels in (("one", ((0.0, 0.0),)), ("three", ((-6.0, 0.0), (0.0, 0.0), (6.0, 0.0)))):
         traffic = Traffic((AxleClass(name, 1.0, 32.5e3, 820e3, wheels),), 1e5)
-        lives[name] = solve_life(TIRE, road, traffic, Climate.constant(15.0), CRITERIA[:1], **COARSE)
+        lives[name] = solve_life(TIRE, road, traffic, Climate.constant(15.0), (criterion,), **COARSE)
     ratio = lives["one"].dataset["life_passes"].item() / lives["three"].dataset["life_passes"].item()
     # Strain falls like the inverse square of the distance: (0.1 / 6)² of the largest is left of each of two axles at
     # 6 m, which the slope of the law takes five times.
