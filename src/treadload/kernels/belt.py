@@ -82,11 +82,7 @@ def coefficients(sheet: Sheet, ny: int, nx: int, dx: float, dy: float, first: fl
 def _coefficients(sheet: Sheet, ny: int, nx: int, dx: float, dy: float, first: float) -> Array:
     x, y = first + dx * np.arange(nx), dy * np.arange(ny)
     width = max(_NARROWEST, float(y[-1]) + _APART * sheet.decay[1])
-    kx, ky = _harmonics(sheet.circumference, dx), _harmonics(width, dy)
-    # Each harmonic but the zeroth stands for its mirror image as well; sinc carries the loaded cell.
-    along = np.where(kx > 0, 2.0, 1.0) * np.sinc(kx * dx / (2 * np.pi)) * dx / sheet.circumference
-    across = np.where(ky > 0, 2.0, 1.0) * np.sinc(ky * dy / (2 * np.pi)) * dy / width
-    spectrum = along * across[:, None] / sheet.stiffness(kx, ky[:, None])
+    kx, ky, spectrum = _spectrum(sheet, width, dx, dy)
     cos_x, sin_x = np.cos(np.outer(kx, x)), kx[:, None] * np.sin(np.outer(kx, x))
     cos_y, sin_y = np.cos(np.outer(y, ky)), ky * np.sin(np.outer(y, ky))
     even, odd = spectrum @ cos_x, spectrum @ sin_x
@@ -104,6 +100,16 @@ def _coefficients(sheet: Sheet, ny: int, nx: int, dx: float, dy: float, first: f
     )
     sums.flags.writeable = False
     return sums
+
+
+@lru_cache(maxsize=2)
+def _spectrum(sheet: Sheet, width: float, dx: float, dy: float) -> tuple[Array, Array, Array]:
+    """Harmonics along x and across, 1/m, and what each adds to the deflection by a unit load on a cell, m/Pa."""
+    kx, ky = _harmonics(sheet.circumference, dx), _harmonics(width, dy)
+    # Each harmonic but the zeroth stands for its mirror image as well; sinc carries the loaded cell.
+    along = np.where(kx > 0, 2.0, 1.0) * np.sinc(kx * dx / (2 * np.pi)) * dx / sheet.circumference
+    across = np.where(ky > 0, 2.0, 1.0) * np.sinc(ky * dy / (2 * np.pi)) * dy / width
+    return kx, ky, along * across[:, None] / sheet.stiffness(kx, ky[:, None])
 
 
 def string(stiffness: float, length: float, x: Array, dx: float, dy: float) -> Array:
