@@ -8,6 +8,8 @@ results; whoever defines a class of results has it written, read back and report
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
@@ -16,9 +18,6 @@ import xarray as xr
 from treadload.accessors import offered, room_of
 from treadload.describing import as_html
 from treadload.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 _CLASSES: dict[str, type[BaseResult]] = {}
 
@@ -32,13 +31,48 @@ class HasDataset(Protocol):
         """Fields by name."""
 
 
+@dataclass(frozen=True)
+class Holds:
+    """What the dataset of a class of results must hold so that its methods can read it; a file without is refused.
+
+    Names are words with blanks between, and so are the dimensions behind them: "" of a single number, "..." for any
+    further ones, in any order.
+    fields: variables and coordinates of numbers → their dimensions. known: those with a number that is not NaN.
+    maybe: as fields, of what may be missing. labels: coordinates of texts → their dimensions. values: coordinate →
+    all the names that it has. each: dimension → field of the class with one entry for each of its places; where the
+    entries have names, the coordinate has the same. sizes: dimension → fewest and most places.
+    numbers, texts, lists: attributes that are finite numbers, texts, lists of texts as JSON. maybe_numbers: of which
+    some may be missing. together: attributes of which the first needs the others. positive: fields and numbers that
+    are above zero. asked: field of the class → what of `maybe` is there unless the field is None. stats: entries of
+    `stats` of which the first needs the others, all numbers.
+    """
+
+    fields: Mapping[str, str] = field(default_factory=dict)
+    known: str = ""
+    maybe: Mapping[str, str] = field(default_factory=dict)
+    asked: Mapping[str, str] = field(default_factory=dict)
+    labels: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    each: Mapping[str, str] = field(default_factory=dict)
+    numbers: str = ""
+    texts: str = ""
+    lists: str = ""
+    maybe_numbers: str = ""
+    together: tuple[str, ...] = ()
+    stats: tuple[str, ...] = ()
+    positive: str = ""
+    sizes: Mapping[str, tuple[int, float]] = field(default_factory=dict)
+
+
 class BaseResult(ABC):
     """Base of all results: one question, one dataset, one summary.
 
     group: of the class, its name in a tree of results; `group_name` may tell results of one class apart.
+    holds: what a dataset from a file must have before it becomes an object of the class.
     """
 
     group: ClassVar[str]
+    holds: ClassVar[Holds] = Holds()
 
     if TYPE_CHECKING:
 

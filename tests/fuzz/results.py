@@ -196,11 +196,14 @@ def _files() -> list[bytes]:
                 _of(tree.attrs, {name: tree[name].to_dataset() for name in part}), Path(folder) / "result.nc"
             ).read_bytes()
             for tree in _bases()
-            for part in (("contact", "response"), ("slice_along", "damage"), ("life",))
+            for part in _PARTS
             if set(part) <= set(tree.children)
         ]
 
 
+# Without what they were asked, as earlier versions wrote them, and with it.
+_PARTS = (("contact", "response"), ("slice_along", "damage"), ("life",), ("contact", "asked"), ("response", "asked"),
+          ("damage", "asked"), ("life", "asked"))  # fmt: skip
 _READ = ("principal_strain_1", "principal_direction_1", "in_plane_strain_1", "in_plane_angle_1", "displacement_z",
          "dissipated_energy", "stress_zz")  # fmt: skip
 
@@ -327,9 +330,18 @@ def _break_file(rng: random.Random, path: Path) -> None:
                 lambda: _odd_attribute(rng, rng.choice((file, node))),
                 lambda: node.attrs.clear(),
                 lambda: _replaced(rng, node),
+                *([lambda: _asked_otherwise(rng, file["asked"])] * 3 if "asked" in file else []),
             )
         )
         change()
+
+
+def _asked_otherwise(rng: random.Random, group: Any) -> None:
+    """Break what the parts were asked."""
+    told = json.loads(group.attrs["questions"])
+    for _ in range(rng.choice((1, 1, 3))):
+        told = _broken_json(rng, told)
+    group.attrs["questions"] = json.dumps(told)
 
 
 def _odd_attribute(rng: random.Random, node: Any) -> None:

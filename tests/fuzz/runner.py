@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import importlib
 import random
 import shutil
 import signal
@@ -71,6 +72,21 @@ class Tally:
             lines.append(f"\n{len(members)} x {what}, attacks {', '.join(str(one.index) for one in members[:8])}")
             lines.append(members[0].story)
         return "\n".join(lines)
+
+
+def attack_of(kind: str) -> Attack:
+    """The attack of a kind."""
+    module = importlib.import_module(f"fuzz.{kind}")
+    if hasattr(module, "prepare"):
+        module.prepare()
+    made: Attack = module.attack
+    return made
+
+
+def batch(work: tuple[str, int, range, Path]) -> Tally:
+    """Run the attacks of a kind, a seed and these indices; here, where other processes find it."""
+    kind, seed, indices, keep = work
+    return run(kind, attack_of(kind), seed, indices, keep)
 
 
 def run(kind: str, attack: Attack, seed: int, indices: range, keep: Path | None = None) -> Tally:

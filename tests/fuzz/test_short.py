@@ -2,8 +2,7 @@
 
 import pytest
 
-from fuzz.__main__ import attack_of
-from fuzz.runner import run
+from fuzz.runner import attack_of, run
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 import json
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import cache
 
 import numpy as np
@@ -17,6 +17,7 @@ from treadload.damage import Climate, Traffic, Wander
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
 from treadload.results import Fields, Footprint, as_tree
+from treadload.results.holding import check_dataset
 from treadload.study.two_grids import with_error
 
 RUBBER = tl.Elastic(3e6, 0.5)
@@ -195,6 +196,52 @@ def test_every_result_shows_itself_in_a_notebook(saved):
     assert type(result).__name__ in page
 
 
+def broken(data):
+    """Datasets that lack something, or hold it in another way, with the name of what it is."""
+    for name in map(str, data.variables):
+        field = data[name]
+        yield name, data.drop_vars(name)
+        if name not in data.dims:
+            yield name, data.assign({name: (field.dims, np.full(field.shape, "odd"), field.attrs)})
+            yield name, data.assign({name: (("other", *field.dims), field.to_numpy()[None], field.attrs)})
+            yield name, data.assign({name: (field.dims, np.zeros(field.shape), field.attrs)})
+    for name in data.attrs:
+        others = {key: value for key, value in data.attrs.items() if key != name}
+        yield name, data.drop_attrs(deep=False).assign_attrs(others)
+        for odd in (np.array([1.0, 2.0]), "[", 1e300):
+            yield name, data.assign_attrs({name: odd})
+    for dim in data.dims:
+        yield dim, data.isel({dim: slice(0, 0)})
+        yield dim, data.isel({dim: 0})
+
+
+def refusal(kind, data, told):
+    try:
+        check_dataset(kind, data, "x.nc: the part 'a'", told)
+    except tl.InputError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_dataset_that_cannot_be_read_is_refused_before_it_becomes_a_result(saved):
+    result, _ = saved
+    told = {one.name: getattr(result, one.name) for one in fields(result) if one.init}
+    if "dataset" not in told or type(result).__name__ == "Calibration":
+        return  # made of its inputs alone; what a calibration must hold is not yet stated
+    holds, refused = type(result).holds, set()
+    for name, data in broken(result.dataset):
+        said = refusal(type(result), data, told)
+        if said:
+            assert said.startswith("x.nc: the part 'a'")
+            assert len(said.splitlines()) == 1
+            refused.add(name)
+        else:
+            assert replace(result, dataset=data).summary()
+    needed = {one for names in (*holds.fields, *holds.labels, *holds.values) for one in names.split()}
+    assert refused >= needed | set(f"{holds.numbers} {holds.texts} {holds.lists}".split())
+
+
 def test_every_result_is_reported(saved, tmp_path):
     result, opened = saved
     page = tl.report(result, tmp_path / "r.html").read_text()
@@ -335,6 +382,50 @@ def test_a_file_of_the_format_before_without_a_case_is_refused_part_by_part(tmp_
     assert opened.tree["contact"].pressure.size
 
 
+OLD_BREAKS = {
+    "without an approach": ("contact", lambda d: d.drop_vars("approach"), "lacks 'approach'"),
+    "without cells": (
+        "contact",
+        lambda d: d.drop_attrs(deep=False).assign_attrs({k: v for k, v in d.attrs.items() if k != "dx"}),
+        "lacks the attribute 'dx'",
+    ),
+    "without a strain": ("response", lambda d: d.drop_vars("in_plane_strain_1"), "lacks 'in_plane_strain_1'"),
+    "without a dip": ("damage", lambda d: d.drop_vars("worst_crack_dip"), "lacks 'worst_crack_dip'"),
+    "with a list of strains": (
+        "damage",
+        lambda d: d.assign_attrs(largest_principal_strain=np.array([1.0, 2.0])),
+        "largest_principal_strain must be a finite number",
+    ),
+    "with torn warnings": ("damage", lambda d: d.assign_attrs(warnings="["), "warnings must be texts as JSON"),
+    "with another strain": ("damage", lambda d: d.assign_attrs(strain="odd"), 'must be "principal" or "in-plane"'),
+}
+
+
+@pytest.mark.parametrize("name", OLD_BREAKS)
+def test_a_part_of_the_format_before_that_lacks_something_is_refused_alone(coarse_result, tmp_path, name):
+    part, change, words = OLD_BREAKS[name]
+    old = without_questions(coarse_result.to_tree())
+    old[part] = xr.DataTree(change(old[part].to_dataset()))
+    opened = tl.open_results(tl.save_results(old, tmp_path / "old.nc"))
+    with pytest.raises(tl.InputError) as caught:
+        getattr(opened, part).summary()
+    assert f"old.nc: the part {part!r}" in str(caught.value)
+    assert words in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+    other = "response" if part != "response" else "contact"
+    assert getattr(opened, other).summary() == getattr(coarse_result, other).summary()
+
+
+def test_what_presses_nowhere_and_what_is_nowhere_known_says_so():
+    data = contact().dataset
+    assert "mean pressure nan" in replace(contact(), dataset=data.assign(pressure=0 * data.pressure)).summary()
+    deep = response().dataset.copy(deep=True)
+    deep["principal_strain_1"][1] = np.nan
+    lines = replace(response(), dataset=deep).summary().splitlines()
+    assert lines[:4] == response().summary().splitlines()[:4]
+    assert lines[5] == "  unknown: it is NaN everywhere"
+
+
 def test_a_file_of_a_later_format_is_refused(tmp_path):
     tree = tl.results.to_tree([footprint()])
     tree.attrs["results_format"] = 99
@@ -372,6 +463,14 @@ def into(questions, value, *keys):
         ({"part": "contact"}, ("contact", "with", "road"), "an input of itself"),
         ({"number": "1e5"}, ("contact", "with", "road"), "is not a number"),
         ({"odd": 1}, ("contact", "with", "road"), "not a possible input of a result"),
+        (3, ("contact", "with", "road"), "x.nc: the part 'contact': the road of a Contact cannot be 3"),
+        ({"tuple": [3]}, ("contact", "with", "warnings"), r"warnings of a Contact cannot be \(3,\)"),
+        ([], ("contact", "attrs"), "the part 'contact' cannot be read"),
+        (
+            {"table": [["road_share", 0.1], ["layer_share", "a"], ["layers_solved", True]]},
+            ("contact", "with", "stats"),
+            "the entry layer_share of stats must be a finite number",
+        ),
     ],
 )
 def test_a_question_that_was_tampered_with_is_refused_in_a_sentence(value, keys, message, tmp_path):

@@ -108,6 +108,19 @@ BREAKS = {
         lambda d: d.assign_coords(layer=("depth", d["depth"].to_numpy() + 0.5)),
         "layer has values other",
     ),
+    "with cells of no size": ("contact", lambda d: d.assign_attrs(dx=0.0), "attribute dx must be above zero, got 0"),
+    "with a pressure beyond all": (
+        "contact",
+        lambda d: d.assign(pressure=(d.pressure.dims, np.full(d.pressure.shape, 1e300))),
+        "values beyond 1e+30, which no road and no tire reaches",
+    ),
+    "with a strain at a million beyond all": (
+        "damage",
+        lambda d: d.assign_attrs(epsilon_6=1e300),
+        "epsilon_6 must be at most 1e+30, got 1e+300",
+    ),
+    "with passes of zero": ("damage", lambda d: d.assign(worst_passes=0.0), "1 of 1 values that are not above zero"),
+    "inside several": ("response", lambda d: d.assign_attrs(part_of=np.array([1.0, 2.0])), "part_of must be text"),
     "with torn names": ("response", lambda d: d.assign_attrs(layer_names="["), "layer_names must be a list as JSON"),
 }
 
@@ -127,6 +140,8 @@ def test_a_broken_group(tree, tmp_path, name):
         ({"layers": "[1]"}, "layer 1"),
         ({"layers": "3"}, "layers must be a list as JSON"),
         ({"case": 3}, "the attribute case must be text"),
+        ({"created": np.array(["a", "b"])}, "the attribute created must be text"),
+        ({"title": np.zeros(99)}, "the attribute title must be text, got array([0., 0."),
         ({"case": "a = " + "9" * 5000}, "more than 4300 digits"),
     ],
 )
@@ -134,6 +149,21 @@ def test_a_broken_root(tree, tmp_path, attrs, words):
     odd = tree.copy()
     odd.attrs = {**tree.attrs, **attrs}
     assert words in refusal(odd, tmp_path)
+
+
+@pytest.mark.parametrize("odd", [np.array([2, 3]), 1.5, "2"])
+def test_a_format_that_is_no_whole_number(tree, tmp_path, odd):
+    wrong = tree.copy()
+    wrong.attrs = {**tree.attrs, "results_format": odd}
+    with pytest.raises(tl.InputError, match="results_format must be a whole number"):
+        open_results(save_results(wrong, tmp_path / "odd.nc"))
+
+
+def test_passes_beyond_all_that_is_drawn_leave_a_sentence(tree, tmp_path):
+    far = tree["damage"].to_dataset().assign(worst_passes=1e300)
+    page = write_report({"odd": with_group(tree, "damage", far)}, tmp_path / "r.html").read_text()
+    assert "1e+300 passes lie beyond all that is drawn" in page
+    assert "math domain" not in page
 
 
 def test_the_file_of_a_broken_result_is_refused_too(tree, tmp_path):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
@@ -41,6 +41,13 @@ class CreepCurve(BaseResult, group="creep_curve"):
     of a contact. along: "x" or "y". contacts: the contact of every creepage, in the order given.
     """
 
+    holds: ClassVar[Holds] = Holds(
+        {
+            "creepage friction normal_load tractive_force lateral_force aligning_moment slip_fraction": "creepage",
+        },
+        each={"creepage": "contacts"},
+    )
+
     dataset: xr.Dataset
     along: str
     contacts: tuple[Contact, ...]
@@ -53,8 +60,8 @@ class CreepCurve(BaseResult, group="creep_curve"):
     def summary(self) -> str:
         """A table: creepage, forces over friction times load, slip, moment."""
         lines = [f"creepage along {self.along}   Q_x/μP   Q_y/μP   slip, %   moment, N m"]
-        for creepage in self.dataset.creepage.values:
-            row = self.dataset.sel(creepage=creepage)
+        for number, creepage in enumerate(self.dataset.creepage.values):
+            row = self.dataset.isel(creepage=number)
             limit = float(row.friction * row.normal_load) or 1.0
             along, across = float(row.tractive_force) / limit, float(row.lateral_force) / limit
             lines.append(

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.contact.rolling_state import Rolling
 from treadload.pavement import Pavement
 from treadload.tire import Tire
@@ -22,6 +22,17 @@ class Contact(BaseResult, group="contact"):
     dataset: fields on (y, x) and scalars, named and signed as docs/explanation/conventions.md says.
     stats: iterations, residuals, seconds. warnings: sentences for the user.
     """
+
+    holds: ClassVar[Holds] = Holds(
+        {
+            "pressure traction_x traction_y state": "y x",
+            "approach normal_load tractive_force lateral_force aligning_moment creepage_x creepage_y spin": "",
+        },
+        maybe={"friction_work_total friction_power_total": "", "flash_temperature": "y x"},
+        numbers="dx dy",
+        positive="dx dy",
+        stats=("road_share layer_share layers_solved",),
+    )
 
     dataset: xr.Dataset
     tire: Tire
@@ -51,12 +62,13 @@ class Contact(BaseResult, group="contact"):
         d = self.dataset
         shear = np.hypot(d.traction_x, d.traction_y)
         dx, dy = d.attrs["dx"] * 1e3, d.attrs["dy"] * 1e3
-        mean = float(d.normal_load) / self.area / 1e3
+        area = self.area
+        mean = float(d.normal_load) / area / 1e3 if area else np.nan
         lines = [
             f"contact       {self.rolling}",
             f"grid          {d.sizes['x']} x {d.sizes['y']} cells of {dx:g} x {dy:g} mm",
             f"normal load   {float(d.normal_load) / 1e3:.3f} kN at an approach of {float(d.approach) * 1e3:.2f} mm",
-            f"contact area  {self.area * 1e6:.0f} mm², mean pressure {mean:.0f} kPa",
+            f"contact area  {area * 1e6:.0f} mm², mean pressure {mean:.0f} kPa",
             f"peak pressure {float(d.pressure.max()) / 1e3:.0f} kPa",
             f"peak shear    {float(shear.max()) / 1e3:.0f} kPa",
             f"forces        Qx = {float(d.tractive_force):z.1f} N, Qy = {float(d.lateral_force):z.1f} N, "

@@ -10,12 +10,12 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
 from treadload.contact.fields import Scene, tractions
@@ -44,6 +44,10 @@ class TransientResult(BaseResult, group="transient"):
     dataset: over (step,), step 0 being the standing wheel; fields over (step, y, x) when they were asked for.
     contact: the fields at the end. rolling: the state of every step. stats: iterations, seconds.
     """
+
+    holds: ClassVar[Holds] = Holds(
+        {"distance tractive_force lateral_force creepage_x creepage_y slip_fraction friction_energy": "step"}
+    )
 
     dataset: xr.Dataset
     contact: Contact

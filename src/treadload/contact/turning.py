@@ -11,12 +11,12 @@ import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.contact.bodies.choose import RoadCompliance
 from treadload.contact.fields import Scene
 from treadload.contact.rolling_state import Rolling
@@ -43,6 +43,11 @@ class TurnResult(BaseResult, group="turn"):
     friction. pivot: the point that was held, m, or None. stats: iterations, seconds.
     """
 
+    holds: ClassVar[Holds] = Holds(
+        {"turn_angle steering_torque slip_fraction friction_energy": "step", "sliding_torque": ""},
+        sizes={"step": (2, math.inf)},
+    )
+
     dataset: xr.Dataset
     contact: Contact
     rolling: Rolling
@@ -58,7 +63,8 @@ class TurnResult(BaseResult, group="turn"):
     def stiffness(self) -> float:
         """Torque over angle of the first increment, N m/rad."""
         d = self.dataset
-        return float(d.steering_torque[1] / d.turn_angle[1])
+        angle = float(d.turn_angle[1])
+        return float(d.steering_torque[1]) / angle if angle else math.nan
 
     def summary(self) -> str:
         """A screenful: torque and slip over the angle."""

@@ -7,12 +7,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.composing import BaseResult, Source, dataset_of
+from treadload.composing import BaseResult, Holds, Source, dataset_of
 from treadload.damage.cracks import gridded
 from treadload.damage.criterion import interface_number
 from treadload.damage.laws.bond import BondStrength, ShearFatigue
@@ -105,6 +106,20 @@ class BondVerdict(BaseResult, group="bonds"):
     strengths: one for each interface, None where not assessed. law: of fatigue, or None. warnings: for the user.
     """
 
+    holds: ClassVar[Holds] = Holds(
+        {
+            "x": "x",
+            "y": "y",
+            "interface depth largest_utilisation parting_x parting_y": "interface",
+            "interface_shear interface_pressure utilisation": "interface y x",
+        },
+        known="largest_utilisation",
+        maybe={"parting_passes": "interface", "bond_passes": "interface y x"},
+        asked={"law": "parting_passes"},
+        labels={"between": "interface"},
+        each={"interface": "strengths"},
+    )
+
     dataset: xr.Dataset
     strengths: tuple[BondStrength | None, ...]
     law: ShearFatigue | None = None
@@ -124,7 +139,7 @@ class BondVerdict(BaseResult, group="bonds"):
             if strength is None:
                 lines.append(f"  {_named(one)}: no strength given")
                 continue
-            worst = one.sel(x=one["parting_x"], y=one["parting_y"])
+            worst = one.sel(x=one["parting_x"], y=one["parting_y"], method="nearest")
             lines += [
                 f"  {_named(one)}: {strength}",
                 f"    utilisation {float(one['largest_utilisation']):.3g} at x = {_mm(one['parting_x'])} mm, "

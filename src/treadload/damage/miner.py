@@ -6,13 +6,13 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
@@ -38,6 +38,16 @@ class Life(BaseResult, group="life"):
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
     season. stats: solves and errors behind the readings. warnings: sentences for the user.
     """
+
+    holds: ClassVar[Holds] = Holds(
+        {
+            "life_years life_passes worst_y largest_reading": "criterion",
+            "damage_share": "criterion axle_class season",
+        },
+        labels={"criterion": "criterion", "axle_class": "axle_class", "season": "season"},
+        each={"criterion": "criteria"},
+        stats=("contacts responses combinations interpolation_error",),
+    )
 
     dataset: xr.Dataset
     criteria: tuple[Criterion, ...]

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.composing import BaseResult, Source
+from treadload.composing import BaseResult, Holds, Source
 from treadload.damage.cracks import (
     HORIZONTAL,
     OBLIQUE_TOLERANCE,
@@ -40,9 +41,22 @@ class Verdict(BaseResult, group="damage"):
     strain: the strain that the verdict reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
     """
 
+    holds: ClassVar[Holds] = Holds(
+        {"depth": "depth", "worst_x worst_y worst_depth worst_strain worst_passes": "",
+         "worst_crack_angle worst_crack_dip worst_crack_orientation": ""},
+        numbers="largest_principal_strain largest_in_plane_strain largest_unread",
+        texts="reading",
+        lists="warnings",
+        maybe_numbers="coarse_strain coarse_spacing spacing",
+        together=("coarse_strain coarse_spacing spacing",),
+    )  # fmt: skip
+
     dataset: xr.Dataset
     line: PowerLaw
     strain: str
+
+    def __post_init__(self) -> None:
+        check_reading(self.strain)
 
     @property
     def orientation(self) -> str:

@@ -7,13 +7,13 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.composing import BaseResult, HasDataset
+from treadload.composing import BaseResult, HasDataset, Holds
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.footprint.footprint import Footprint
@@ -51,6 +51,18 @@ class FootprintComparison(BaseResult, group="comparison"):
     registration: how. warnings: sentences for the user.
     """
 
+    holds: ClassVar[Holds] = Holds(
+        {
+            "print_load net_area gross_area print_length print_width mean_pressure largest_pressure": "map",
+            "rib": "rib",
+            "rib_share": "map rib",
+            "overlap_of_pressure overlap_of_area rms_difference correlation": "",
+        },
+        values={"map": MAPS},
+        positive="print_load net_area gross_area print_length print_width mean_pressure largest_pressure",
+        texts="sentence",
+    )
+
     dataset: xr.Dataset
     footprint: Footprint
     registration: Registration
@@ -80,8 +92,8 @@ class FootprintComparison(BaseResult, group="comparison"):
             lines.append(
                 f"{words:15}{cells[0]:>12}{cells[1]:>16}{cells[2]:>12}{100 * self.difference(name):>+z10.1f} %"
             )
-        for rib in d["rib"].to_numpy() if d.sizes["rib"] > 1 else ():
-            one = 100 * d["rib_share"].sel(rib=rib).to_numpy()
+        for number, rib in enumerate(d["rib"].to_numpy() if d.sizes["rib"] > 1 else ()):
+            one = 100 * d["rib_share"].isel(rib=number).sel(map=list(MAPS)).to_numpy()
             lines.append(
                 f"{f'rib {rib}, %':15}{one[0]:>12.1f}{one[1]:>16.1f}{one[2]:>12.1f}{one[1] - one[2]:>+z10.1f} pt"
             )

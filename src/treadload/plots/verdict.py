@@ -57,6 +57,8 @@ _LABELLED = 0.7
 _CROWDED = 0.1
 # Decades of passes above the fewest that get a colour of their own.
 _DECADES = 6
+# Passes between which figures are drawn: laws reach 10³⁰⁸, of which no axis can show a decade more.
+_DRAWN = (1e-30, 1e30)
 
 
 @styled
@@ -80,6 +82,7 @@ def fatigue_line(
     lines = [_line(case) for case in cases]
     figure, ax = figure_and_axes(ax, 7.2, 4.7)
     points = [(float(c["worst_passes"]), float(c["worst_strain"]) * MICRO) for c in cases]
+    _check_drawn([n for n, strain in points if strain > 0 and math.isfinite(n)])
     reached = [n for n, strain in points if strain > 0 and math.isfinite(n)] + [_MILLION]
     low = 10.0 ** math.floor(math.log10(min(1e4, min(reached) / 4)))
     # The label stands right of its point, where the line has gone down: leave room for it.
@@ -129,6 +132,7 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
         headline(ax, "Allowable passes")
         return figure
     least = float(finite.min())
+    _check_drawn([least])
     low, high = 10.0 ** math.floor(math.log10(least)), 10.0 ** (math.floor(math.log10(least)) + _DECADES)
     mesh = draw_cells(ax, plan, np.minimum(values, 10 * high), sequential("strain").reversed(), Limits(low, high))
     mesh.set_norm(LogNorm(low, high))
@@ -188,6 +192,15 @@ def _decade(passes: float) -> str:
 
 def _listed(verdicts: Source | Sequence[Source]) -> list[Source]:
     return list(verdicts) if isinstance(verdicts, Sequence) else [verdicts]
+
+
+def _check_drawn(passes: Sequence[float]) -> None:
+    beyond = [n for n in passes if not _DRAWN[0] <= n <= _DRAWN[1]]
+    if beyond:
+        low, high = _DRAWN
+        raise InputError(
+            f"{beyond[0]:.2g} passes lie beyond all that is drawn, {low:g} to {high:g}; read the numbers"
+        )
 
 
 def _line(data: xr.Dataset) -> FatigueLine:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 import tomllib
@@ -19,7 +18,7 @@ from treadload.plots.kit.plan import MICRO, MM, Plan, peak_of, plane
 from treadload.plots.kit.style import power_of_ten, signed
 from treadload.reporting.life import exhausted, sentence
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
-from treadload.results.schema import check_tree
+from treadload.results.schema import check_tree, read_json
 from treadload.results.tree import ASKED
 
 # Kinds with tables and figures of their own; whatever else a tree holds is shown by its summary and figures.
@@ -123,7 +122,7 @@ class ReportCase:
             parts.append(f"computed by treadload {self.attrs['treadload_version']}")
         if self.attrs.get("created"):
             parts.append(f"on {str(self.attrs['created']).replace('T', ' ').replace('+00:00', ' UTC')}")
-        versions = _json(self.attrs.get("versions"), {})
+        versions = read_json(self.attrs.get("versions"), {})
         if versions:
             parts.append("with " + ", ".join(f"{name} {version}" for name, version in versions.items()))
         return " ".join(parts)
@@ -131,12 +130,12 @@ class ReportCase:
     @property
     def citations(self) -> list[str]:
         """References of the methods used."""
-        return [str(text) for text in _json(self.attrs.get("citations"), [])]
+        return [str(text) for text in read_json(self.attrs.get("citations"), [])]
 
     @property
     def layers(self) -> list[dict[str, Any]]:
         """The road's layers from the surface down, with the keys of `pavement.LayerRow`; empty if unknown."""
-        return [dict(layer) for layer in _json(self.attrs.get("layers"), [])]
+        return [dict(layer) for layer in read_json(self.attrs.get("layers"), [])]
 
     @property
     def laws(self) -> dict[str, str]:
@@ -145,7 +144,7 @@ class ReportCase:
         if life is None or "criterion" not in life.coords:
             return {}
         names = [str(name) for name in np.atleast_1d(life["criterion"].to_numpy())]
-        laws = [str(law) for law in _json(life.attrs.get("laws"), [])]
+        laws = [str(law) for law in read_json(life.attrs.get("laws"), [])]
         return dict(zip(names, laws, strict=True)) if len(names) == len(laws) else {}
 
     @property
@@ -167,13 +166,13 @@ class ReportCase:
     def warnings(self) -> list[str]:
         """Warnings of all groups, each once."""
         held = [*self.groups.values(), *(other.dataset for other in self.others)]
-        texts = [str(text) for data in held for text in _json(data.attrs.get("warnings"), [])]
+        texts = [str(text) for data in held for text in read_json(data.attrs.get("warnings"), [])]
         return list(dict.fromkeys(texts))
 
     def statistics(self, group: str) -> dict[str, Any]:
         """Statistics of the solver of a group."""
         data = self.group(group)
-        return dict(_json(data.attrs.get("stats"), {})) if data is not None else {}
+        return dict(read_json(data.attrs.get("stats"), {})) if data is not None else {}
 
     @property
     def surface(self) -> xr.Dataset | None:
@@ -324,14 +323,3 @@ def _with_sensitivity(life: xr.Dataset, more: xr.Dataset) -> xr.Dataset:
 
 def _raised(match: re.Match[str]) -> str:
     return power_of_ten(float(match[0]))
-
-
-def _json(text: Any, otherwise: Any) -> Any:
-    """What JSON text holds, of the same kind as `otherwise`; that if it holds something else."""
-    if not isinstance(text, str):
-        return otherwise
-    try:
-        value = json.loads(text)
-    except (ValueError, RecursionError):
-        return otherwise
-    return value if isinstance(value, type(otherwise)) else otherwise

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
@@ -27,6 +27,19 @@ class Response(BaseResult, group="response"):
     stress that was added to both horizontal normal stresses, Pa, one per depth; empty where none was, see
     `add_thermal_stress`.
     """
+
+    # On a grid, or at a list of points.
+    holds: ClassVar[Holds] = Holds(
+        {
+            "depth": "depth",
+            "x y": "...",
+            "principal_strain_1 in_plane_strain_1 in_plane_angle_1": "depth ...",
+            "principal_direction_1": "depth component ...",
+        },
+        known="principal_strain_1 in_plane_strain_1",
+        maybe_numbers="mean_over",
+        sizes={"component": (3, 3)},
+    )
 
     dataset: xr.Dataset
     stats: Mapping[str, Any] = field(default_factory=dict)
@@ -57,10 +70,13 @@ class Response(BaseResult, group="response"):
             f"{data.sizes['depth']} depth(s) of {_count(data)} points"
             + (f"; means over {data.attrs['mean_over'] * 1e3:g} mm" if "mean_over" in data.attrs else "")
         ]
-        for depth in data["depth"].values:
-            plane = data.sel(depth=depth)
+        for row, depth in enumerate(data["depth"].values):
+            plane = data.isel(depth=row)
             side = layer_in_words(plane)
             lines.append(f"depth {depth * 1e3:g} mm{f' ({side})' if side else ''}, largest extension strain")
+            if plane[["principal_strain_1", "in_plane_strain_1"]].isnull().all().to_array().any():
+                lines.append("  unknown: it is NaN everywhere")
+                continue
             where = _largest(plane["principal_strain_1"])
             words = direction_in_words(plane["principal_direction_1"].isel(where).to_numpy())
             lines.append(f"  three-dimensional: {_at(plane['principal_strain_1'].isel(where), words)}")

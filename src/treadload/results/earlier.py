@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any, Protocol
 
 import xarray as xr
@@ -17,6 +16,8 @@ from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.grid import Grid
 from treadload.response import GridLoad, Response
+from treadload.results.holding import check_dataset, made
+from treadload.results.schema import read_json
 from treadload.tire import Tire
 from treadload.tire.recorded import RecordedSurface
 
@@ -46,18 +47,27 @@ def from_case(name: str, data: xr.Dataset, opened: Opened) -> BaseResult:
         raise InputError(_untold(name, opened, "and has no case that holds them"))
     kept = data.attrs if name != "contact" else {k: v for k, v in data.attrs.items() if k not in _TOLD}
     bare = data.drop_attrs(deep=False).assign_attrs({k: v for k, v in kept.items() if k not in ("stats", "sentence")})
-    stats, warnings = _json(data, "stats", {}), tuple(_json(data, "warnings", []))
+    where = f"{opened.where}: the part {name!r}"
+    about: dict[str, Any] = {
+        "dataset": bare,
+        "stats": read_json(data.attrs.get("stats"), {}),
+        "warnings": tuple(read_json(data.attrs.get("warnings"), [])),
+    }
     road = case.pavement.build()
     if name == "contact" and case.footprint is None:
-        return Contact(bare, _tire(data, case), road, case.build_rolling(), stats, warnings)
+        check_dataset(Contact, bare, where)
+        asked: dict[str, Any] = {"tire": _tire(data, case), "road": road, "rolling": case.build_rolling()}
+        return made(Contact, about | asked, where)  # type: ignore[no-any-return]
     if name == "contact":
         return Footprint(GridLoad.from_dataset(data), road)
     if name in _RESPONSES and "contact" in opened.tree.children:
         loads = tuple(case.response.place(GridLoad.from_dataset(opened.tree["contact"].to_dataset())))
         speed = case.speed if road.is_viscoelastic else None
-        return Response(bare, stats, warnings, loads, road, speed, case.response.side)
+        asked = {"loads": loads, "road": road, "speed": speed, "side": case.response.side}
+        return made(Response, about | asked, where)  # type: ignore[no-any-return]
     if name == "damage" and case.damage is not None:
-        return Verdict(bare, case.damage.fatigue.build(), str(data.attrs.get("strain", case.damage.strain)))
+        asked = {"line": case.damage.fatigue.build(), "strain": data.attrs.get("strain", case.damage.strain)}
+        return made(Verdict, {"dataset": bare, **asked}, where)  # type: ignore[no-any-return]
     raise InputError(_untold(name, opened, "and its case does not hold them"))
 
 
@@ -77,11 +87,3 @@ def _tire(data: xr.Dataset, case: Case) -> Tire:
     words = str(data.attrs.get("tire", "a tire"))
     surface = RecordedSurface(words, (grid.nx * grid.dx, grid.ny * grid.dy))
     return Tire(surface, TIRE_MATERIAL.build(case.tire.material), case.tire.inflation_pressure)
-
-
-def _json(data: xr.Dataset, name: str, otherwise: Any) -> Any:
-    try:
-        value = json.loads(data.attrs.get(name, ""))
-    except (TypeError, ValueError):
-        return otherwise
-    return value if isinstance(value, type(otherwise)) else otherwise

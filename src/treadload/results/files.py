@@ -6,13 +6,14 @@ import os
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from treadload._version import __version__
 from treadload.errors import InputError
 from treadload.files import NETCDF, check_suffix, read_tree, replacing
 from treadload.results.opened import Results
-from treadload.results.schema import check_tree
+from treadload.results.schema import check_tree, short
 from treadload.results.tree import FORMAT, as_tree
 
 
@@ -44,8 +45,8 @@ def open_results(path: str | os.PathLike[str]) -> Results:
     if "treadload_version" not in loaded.attrs:
         raise InputError(f"{path} is a NetCDF file, but not a result of treadload: it lacks treadload_version")
     written = loaded.attrs.get("results_format", 1)
-    if isinstance(written, bool) or (not isinstance(written, int) and not hasattr(written, "__index__")):
-        raise InputError(f"{path}: the attribute results_format must be a whole number, got {written!r}")
+    if isinstance(written, bool) or not isinstance(written, int | np.integer):
+        raise InputError(f"{path}: the attribute results_format must be a whole number, got {short(written)}")
     if int(written) > FORMAT:
         raise InputError(
             f"{path} was written by treadload {loaded.attrs['treadload_version']} in the format {int(written)} of "

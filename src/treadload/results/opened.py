@@ -93,7 +93,7 @@ class Results(Study):
         data = self.tree[name].to_dataset()
         questions = self._questions
         if name in questions:
-            return self._reader.result(questions[name], data)
+            return self._reader.result(questions[name], data, name)
         return from_case(name, data, self)
 
     @functools.cached_property

@@ -23,8 +23,9 @@ import xarray as xr
 from treadload.case.file import FilePart
 from treadload.case.schema import KINDS
 from treadload.composing import BaseResult, result_classes
-from treadload.errors import InputError, one_line
+from treadload.errors import InputError
 from treadload.registry import load_point
+from treadload.results.holding import made, said
 from treadload.tire import Tire
 from treadload.tire.recorded import RecordedSurface
 from treadload.tire.surface import Surface
@@ -148,18 +149,22 @@ class Reader:
     part: Callable[[str], Any]
     where: str
 
-    def result(self, told: Any, dataset: xr.Dataset) -> BaseResult:
-        """The result that was asked this, with its dataset. Raises InputError."""
+    def result(self, told: Any, dataset: xr.Dataset, name: str) -> BaseResult:
+        """The result that was asked this, with its dataset. name: of the part. Raises InputError."""
         kinds = result_classes()
         try:
             kind = kinds[told["is"]]
             given = {str(name): self.value(one) for name, one in told["with"].items()}
             attrs = self.value(told["attrs"])
         except (KeyError, TypeError, AttributeError) as error:
-            raise InputError(f"{self.where}: the inputs of the result cannot be read: {_said(error)}") from error
+            raise InputError(
+                f"{self.where}: the inputs of the part {name!r} cannot be read: {said(error)}"
+            ) from error
+        if not isinstance(attrs, dict):
+            raise InputError(f"{self.where}: the inputs of the part {name!r} cannot be read: {_cut(attrs)}")
         if any(one.name == "dataset" for one in dataclasses.fields(kind)):  # type: ignore[arg-type]
             given["dataset"] = dataset.drop_attrs(deep=False).assign_attrs(attrs)
-        return self._made(kind, given)  # type: ignore[no-any-return]
+        return made(kind, given, f"{self.where}: the part {name!r}")  # type: ignore[no-any-return]
 
     def value(self, told: Any) -> Any:
         """The value that `Writer.value` wrote. Raises InputError."""
@@ -204,7 +209,7 @@ class Reader:
             raise InputError(f"{self.where}: {error}") from error
         except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
             raise InputError(
-                f"{self.where}: no {kind.__name__} can be made of what it holds: {_said(error)}"
+                f"{self.where}: no {kind.__name__} can be made of what it holds: {said(error)}"
             ) from error
 
 
@@ -230,7 +235,7 @@ def _fields_back(reader: Reader, told: Any, _: Any) -> xr.DataArray:
     try:
         return xr.DataArray(**parts)
     except (TypeError, ValueError) as error:
-        raise InputError(f"{reader.where}: an input cannot be read: {_said(error)}") from error
+        raise InputError(f"{reader.where}: an input cannot be read: {said(error)}") from error
 
 
 def _case(reader: Reader, told: Any, whole: Any) -> FilePart:
@@ -293,7 +298,3 @@ def _table(told: Any) -> dict[Any, Any]:
 
 def _cut(told: Any) -> str:
     return repr(told)[:60]
-
-
-def _said(error: Exception) -> str:
-    return one_line(f"{type(error).__name__}: {error}")[:120]

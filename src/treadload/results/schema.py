@@ -9,42 +9,57 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from treadload.errors import InputError
+from treadload.errors import InputError, one_line
 from treadload.files import parse_toml
+from treadload.kernels.arrays import Array
 from treadload.variables import VARIABLES
 
 _RESPONSES = ("response", "slice", "slice_along", "slice_across", "bowl")
 _OVER_SPEED = ("slip_x", "slip_y", "creepage_x", "creepage_y")
 _OVER_DISTANCE = ("slip_distance_x", "slip_distance_y")
+# Texts that a file and each of its groups may have.
+_TEXTS = ("title", "case", "treadload_version", "created", "season", "summary")
+_TEXTS_OF_A_GROUP = ("result", "part_of", "summary", "sentence")
 # Dimensions that lie in the road, with a coordinate of numbers; the others are counted or named.
 _LENGTHS = ("x", "y", "depth")
 _COMPONENTS = 3
 # More than any road has; what is beyond numbers no layer.
 _MOST_LAYERS = 10_000
+# No quantity of a tire or a road reaches it in SI units, and figures overflow not far beyond.
+_LARGEST = 1e30
+# Letters of a wrong value in a sentence.
+_SHOWN = 100
+# A life that changes by e⁵⁰⁰ is none, and the percentage that is shown of it overflows at e⁷⁰⁹.
+_STEEPEST = 500.0
 
 
 @dataclass(frozen=True)
 class _Field:
     """A variable of a group. dims: in any order. finite: "all" of its values, "some", or "any" number, infinity too.
 
-    codes: it holds whole numbers from 0, this many.
+    codes: it holds whole numbers from 0, this many. positive: all that is not NaN is above zero. largest: size that
+    its values can have; where infinity will do, any.
     """
 
     dims: frozenset[str]
     finite: str = "any"
     codes: int = 0
+    positive: bool = False
+    largest: float = _LARGEST
 
 
 @dataclass(frozen=True)
 class _Group:
     """What a group holds. needed: variables and coordinates without which it says nothing. with_it: variable → what
     it is read with. numbers: attributes that are finite numbers. texts: JSON attributes → kind of what they hold.
+    positive: numbers above zero.
     """
 
     fields: Mapping[str, _Field]
@@ -52,10 +67,11 @@ class _Group:
     with_it: Mapping[str, str]
     numbers: tuple[str, ...]
     texts: Mapping[str, type]
+    positive: tuple[str, ...] = ()
 
 
-def _fields(names: str, dims: Iterable[str], finite: str = "any", codes: int = 0) -> dict[str, _Field]:
-    return dict.fromkeys(names.split(), _Field(frozenset(dims), finite, codes))
+def _fields(names: str, dims: Iterable[str], finite: str = "any", **more: Any) -> dict[str, _Field]:
+    return dict.fromkeys(names.split(), _Field(frozenset(dims), finite, **more))
 
 
 _MAP, _SPACE = ("y", "x"), ("depth", "y", "x")
@@ -75,6 +91,7 @@ _CONTACT = _Group(
     {},
     ("dx", "dy"),
     {},
+    ("dx", "dy"),
 )
 _TENSOR = ("xx", "yy", "zz", "xy", "xz", "yz")
 _ROAD = _Group(
@@ -96,26 +113,30 @@ _ROAD = _Group(
 _DAMAGE = _Group(
     {
         **_fields("extension_strain", _MAP, "some"),
-        **_fields("allowable_passes crack_angle crack_dip", _MAP),
+        **_fields("allowable_passes", _MAP, positive=True),
+        **_fields("crack_angle crack_dip", _MAP),
         **_fields("crack_orientation", _MAP, codes=5),
         **_fields("worst_x worst_y worst_strain", (), "all"),
         **_fields("worst_depth", (), "all"),
         **_fields("worst_crack_orientation", (), codes=5),
-        **_fields("worst_passes worst_crack_angle worst_crack_dip", ()),
+        **_fields("worst_passes", (), positive=True),
+        **_fields("worst_crack_angle worst_crack_dip", ()),
     },
     ("x", "y", "worst_strain", "worst_passes", "worst_x", "worst_y", "worst_depth", "worst_crack_orientation"),
     {},
     ("epsilon_6", "slope", "depth", "oblique_tolerance"),
     {},
+    ("epsilon_6",),
 )
 _LIFE = _Group(
     {
         **_fields("damage_per_year", ("criterion", "y"), "all"),
         **_fields("damage_share", ("criterion", "axle_class", "season"), "all"),
         **_fields("worst_y largest_reading design_damage", ("criterion",), "all"),
-        **_fields("life_years life_passes first_crack_angle first_crack_dip read_depth", ("criterion",)),
+        **_fields("life_years life_passes", ("criterion",), positive=True),
+        **_fields("first_crack_angle first_crack_dip read_depth", ("criterion",)),
         **_fields("orientation_damage", ("criterion", "orientation"), "all"),
-        **_fields("elasticity", ("input",), "all"),
+        **_fields("elasticity", ("input",), "all", largest=_STEEPEST),
     },
     ("criterion", "life_years", "life_passes", "worst_y", "largest_reading"),
     {
@@ -127,17 +148,27 @@ _LIFE = _Group(
         "stats": dict, "laws": list, "sources": list, "doubts": list, "reads": list, "ends": list,
         "groups": list,
     },
+    ("design_years",),
 )  # fmt: skip
 _SENSITIVITY = _Group(
-    _fields("elasticity", ("input",), "all"),
+    _fields("elasticity", ("input",), "all", largest=_STEEPEST),
     ("elasticity",),
     {"elasticity": "input"},
     ("contacts", "responses", "coverage"),
     {},
 )
+_POINTS = replace(
+    _ROAD,
+    fields={
+        name: replace(rule, dims=rule.dims - {"y", "x"} | {"point"}) if {"y", "x"} <= rule.dims else rule
+        for name, rule in _ROAD.fields.items()
+        if name != "dissipated_energy"
+    },
+)
 _GROUPS: Mapping[str, _Group] = {
     "contact": _CONTACT,
     **dict.fromkeys(_RESPONSES, _ROAD),
+    "points": _POINTS,
     "damage": _DAMAGE,
     "life": _LIFE,
     "sensitivity": _SENSITIVITY,
@@ -151,21 +182,31 @@ def check_tree(tree: xr.DataTree, name: str) -> None:
     """Raise InputError that says what in a tree of results cannot be read. name: of the file or case."""
     _check_root(tree.attrs, name)
     for group, node in tree.children.items():
-        said = node.attrs.get("result", group)
-        kind = said if isinstance(said, str) and said else str(group)
         where = f"{name}: the group /{group}"
-        if node.data_vars and kind in _GROUPS:
-            _check_group(node.to_dataset(), _GROUPS[kind], where)
-            if kind == "contact":
-                _check_slip(node.to_dataset(), where)
-            if kind == "life":
-                _check_life(node.to_dataset(), where)
+        check_texts(node.attrs, _TEXTS_OF_A_GROUP, where)
+        if node.data_vars:
+            check_kind(node.to_dataset(), node.attrs.get("result") or str(group), where)
+
+
+def check_kind(data: xr.Dataset, kind: str, where: str) -> None:
+    """Raise InputError where what a group of this kind holds is not as it must be. where: the file and the group."""
+    if kind in _GROUPS:
+        _check_group(data, _GROUPS[kind], where)
+    if kind == "contact":
+        _check_slip(data, where)
+    if kind == "life":
+        _check_life(data, where)
+
+
+def check_texts(attrs: Mapping[Any, Any], names: Iterable[str], where: str) -> None:
+    """Raise InputError where an attribute of these names is there and no text."""
+    for key in names:
+        if not isinstance(attrs.get(key, ""), str):
+            raise InputError(f"{where}: the attribute {key} must be text, got {short(attrs[key])}")
 
 
 def _check_root(attrs: Mapping[Any, Any], name: str) -> None:
-    for key in ("title", "case", "treadload_version"):
-        if not isinstance(attrs.get(key, ""), str):
-            raise InputError(f"{name}: the attribute {key} must be text, got {attrs[key]!r}")
+    check_texts(attrs, _TEXTS, name)
     parse_toml(attrs.get("case", ""), f"{name}: the case that it holds")
     held = _json_attributes(attrs, {"layers": list}, name)
     for number, layer in enumerate(held.get("layers", ()), start=1):
@@ -191,8 +232,8 @@ def _check_group(data: xr.Dataset, rules: _Group, where: str) -> None:
         if name in data.variables:
             _check_field(data[name], rule, f"{where}: {name}")
     for name in rules.numbers:
-        if name in data.attrs and not _is_number(data.attrs[name]):
-            raise InputError(f"{where}: the attribute {name} must be a finite number, got {data.attrs[name]!r}")
+        if name in data.attrs:
+            check_number(data.attrs[name], f"{where}: the attribute {name}", positive=name in rules.positive)
     _json_attributes(data.attrs, rules.texts, where)
     _check_interfaces(data.attrs, where)
 
@@ -209,23 +250,48 @@ def _check_coordinate(data: xr.Dataset, name: str, where: str) -> None:
         raise InputError(f"{where}: {name} does not increase everywhere; sort it")
 
 
-def _check_field(field: xr.DataArray, rule: _Field, who: str) -> None:
-    if set(field.dims) != rule.dims:
-        got, wanted = (", ".join(sorted(map(str, dims))) or "no dimension" for dims in (field.dims, rule.dims))
+def check_number(value: Any, who: str, *, positive: bool = False) -> None:
+    """Raise InputError for what is no number of a quantity. who: the file, the group and the attribute."""
+    if not _is_number(value):
+        raise InputError(f"{who} must be a finite number, got {short(value)}")
+    if abs(value) > _LARGEST or (positive and not value > 0):
+        bound = "above zero" if positive and not value > 0 else f"at most {_LARGEST:g}"
+        raise InputError(f"{who} must be {bound}, got {value:g}")
+
+
+def check_numbers(field: xr.DataArray, dims: AbstractSet[str], who: str, *, more: bool = False) -> Array:
+    """Values of a variable over these dimensions, or over others besides, in the unit of results.
+
+    who: the file, the group and the name. Raises InputError where they are no numbers, none at all, of another unit.
+    """
+    if set(field.dims) != dims and not (more and dims < set(field.dims)):
+        got, wanted = (", ".join(sorted(map(str, one))) or "no dimension" for one in (field.dims, dims))
         raise InputError(f"{who} is over {got}, not {wanted}")
     if not field.size:
         raise InputError(f"{who} is empty")
-    values = field.to_numpy()
+    values: Array = field.to_numpy()
     if values.dtype.kind not in "fiu":
         raise InputError(f"{who} holds {values.dtype}, not numbers")
-    unit, said = VARIABLES[str(field.name)][0], field.attrs.get("units")
-    if said is not None and str(said) != unit:
+    unit, said = VARIABLES.get(str(field.name), (None, ""))[0], field.attrs.get("units")
+    if said is not None and unit is not None and str(said) != unit:
         raise InputError(f"{who} is in {said!s}, results are in {unit if unit != '1' else 'pure numbers'}")
+    return values
+
+
+def _check_field(field: xr.DataArray, rule: _Field, who: str) -> None:
+    values = check_numbers(field, rule.dims, who)
     finite = np.isfinite(values)
     if rule.finite == "all" and not finite.all():
         raise InputError(f"{who} has {int((~finite).sum())} of {values.size} values that are NaN or infinite")
     if rule.finite == "some" and (np.isinf(values).any() or not finite.any()):
         raise InputError(f"{who} is infinite somewhere or NaN everywhere")
+    if rule.finite != "any" and (beyond := np.abs(values[finite]) > rule.largest).any():
+        raise InputError(
+            f"{who} has {int(beyond.sum())} of {values.size} values beyond {rule.largest:g}, which no road "
+            "and no tire reaches"
+        )
+    if rule.positive and (values <= 0).any():
+        raise InputError(f"{who} has {int((values <= 0).sum())} of {values.size} values that are not above zero")
     if rule.codes and not np.isin(values, np.arange(rule.codes)).all():
         raise InputError(f"{who} has values other than 0 to {rule.codes - 1}")
 
@@ -247,7 +313,7 @@ def _check_interfaces(attrs: Mapping[Any, Any], where: str) -> None:
     given = np.atleast_1d(np.asarray(attrs.get("interfaces", [])))
     if given.size and (given.dtype.kind not in "fiu" or not (np.diff(given, prepend=0.0) > 0).all()):
         raise InputError(
-            f"{where}: the attribute interfaces must be increasing depths in m, got {attrs['interfaces']!r}"
+            f"{where}: the attribute interfaces must be increasing depths in m, got {short(attrs['interfaces'])}"
         )
 
 
@@ -288,8 +354,25 @@ def _json_attributes(attrs: Mapping[Any, Any], kinds: Mapping[str, type], where:
             held[name] = None
         if not isinstance(held[name], kind):
             meant = "a list" if kind is list else "a table"
-            raise InputError(f"{where}: the attribute {name} must be {meant} as JSON text, got {attrs[name]!r}")
+            raise InputError(f"{where}: the attribute {name} must be {meant} as JSON text, got {short(attrs[name])}")
     return held
+
+
+def read_json(text: Any, otherwise: Any) -> Any:
+    """What JSON text holds, of the same kind as `otherwise`; that if it holds something else."""
+    if not isinstance(text, str):
+        return otherwise
+    try:
+        value = json.loads(text)
+    except (ValueError, RecursionError):
+        return otherwise
+    return value if isinstance(value, type(otherwise)) else otherwise
+
+
+def short(value: Any) -> str:
+    """A value from a file in so few letters that a sentence stays one."""
+    said = one_line(repr(value))
+    return said if len(said) <= _SHOWN else f"{said[: _SHOWN - 1]}…"
 
 
 def _key(table: Any, key: str) -> Any:

@@ -6,13 +6,14 @@ import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from treadload import variables
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criterion import Criterion, interface_number
 from treadload.damage.interface import delaminate, interface_fields, interface_in_words
@@ -65,6 +66,13 @@ class BondComparison(BaseResult, group="bond_comparison"):
     failed bond's own criterion means nothing there. bonded, parted: the lives of both roads. interface: that
     fails, counted from the surface. bond: what is left of it. criterion: name of the bond that fails first.
     """
+
+    holds: ClassVar[Holds] = Holds(
+        {"largest_reading life_passes life_years": "state criterion", "parting_passes parting_years": ""},
+        labels={"criterion": "criterion"},
+        values={"state": (BEFORE, AFTER, PARTING)},
+        texts="between",
+    )
 
     dataset: xr.Dataset
     bonded: Life

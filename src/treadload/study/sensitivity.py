@@ -7,13 +7,13 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criterion import Criterion
@@ -46,6 +46,8 @@ class Sensitivity(BaseResult, group="sensitivity"):
     its damage in the classes and seasons that were solved again. contacts, responses: how many were solved. skipped:
     inputs that could not be changed, and why.
     """
+
+    holds: ClassVar[Holds] = Holds({"elasticity": "input"}, labels={"input": "input"})
 
     dataset: xr.Dataset
     criterion: str

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.contact import Contact, Rolling, solve_contact, solve_transient
 from treadload.contact.solvers.coupling import Progress
 from treadload.describing import first_line
@@ -26,6 +26,23 @@ _FRICTION, _CREEPAGE = 1.0, 1e-3
 # Force sideways of a standing wheel, over its load: small, so that it sticks.
 _PUSH = 0.02
 
+# Of the table: heading, unit, variable, factor, digits, and whether it is told over the load.
+_COLUMNS: tuple[tuple[str, str, str, float, int, bool], ...] = (
+    ("pressure", "kPa", "inflation_pressure", 1e-3, 0, False),
+    ("load", "kN", "wheel_load", 1e-3, 1, False),
+    ("deflection", "mm", "approach", 1e3, 2, False),
+    ("Re/R", "–", "effective_radius_ratio", 1.0, 4, False),
+    ("length", "mm", "print_length", 1e3, 0, False),
+    ("net area", "mm²", "net_area", 1e6, 0, False),
+    ("mean/p", "–", "mean_over_inflation", 1.0, 3, False),
+    ("outer/mid", "–", "shoulder_over_centre", 1.0, 3, False),
+    ("Kx/Fz", "–", "longitudinal_stiffness", 1.0, 2, True),
+    ("Ky/Fz", "1/rad", "cornering_stiffness", 1.0, 2, True),
+    ("trail", "mm", "pneumatic_trail", 1e3, 1, False),
+    ("lateral", "N/mm", "lateral_stiffness", 1e-3, 0, False),
+    ("relaxation", "m", "relaxation_length", 1.0, 3, False),
+)
+
 
 @dataclass(frozen=True, eq=False)
 class TireCard(BaseResult, group="tire_card"):
@@ -34,6 +51,12 @@ class TireCard(BaseResult, group="tire_card"):
     dataset: over (inflation_pressure, wheel_load), and rib shares over rib as well; see `treadload.variables`. The
     attributes `tydex` and `iso_8855` of a variable are its names there. warnings: of all contacts.
     """
+
+    holds: ClassVar[Holds] = Holds(
+        {"wheel_load": "wheel_load", "inflation_pressure": "inflation_pressure"},
+        maybe={" ".join(one[2] for one in _COLUMNS[2:]): "inflation_pressure wheel_load"},
+        positive="wheel_load",
+    )
 
     dataset: xr.Dataset
     tire: Tire
@@ -129,22 +152,6 @@ def tire_card(
     return TireCard(data, tire, road, tuple(shown))
 
 
-# Of the table: heading, unit, variable, factor, digits, and whether it is told over the load.
-_COLUMNS: tuple[tuple[str, str, str, float, int, bool], ...] = (
-    ("pressure", "kPa", "inflation_pressure", 1e-3, 0, False),
-    ("load", "kN", "wheel_load", 1e-3, 1, False),
-    ("deflection", "mm", "approach", 1e3, 2, False),
-    ("Re/R", "–", "effective_radius_ratio", 1.0, 4, False),
-    ("length", "mm", "print_length", 1e3, 0, False),
-    ("net area", "mm²", "net_area", 1e6, 0, False),
-    ("mean/p", "–", "mean_over_inflation", 1.0, 3, False),
-    ("outer/mid", "–", "shoulder_over_centre", 1.0, 3, False),
-    ("Kx/Fz", "–", "longitudinal_stiffness", 1.0, 2, True),
-    ("Ky/Fz", "1/rad", "cornering_stiffness", 1.0, 2, True),
-    ("trail", "mm", "pneumatic_trail", 1e3, 1, False),
-    ("lateral", "N/mm", "lateral_stiffness", 1e-3, 0, False),
-    ("relaxation", "m", "relaxation_length", 1.0, 3, False),
-)
 # Names of ISO 8855 and channels of TYDEX, where they have one.
 _NAMES = {
     "wheel_load": ("vertical tyre force", "FZW"),

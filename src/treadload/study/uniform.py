@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from treadload import variables
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.contact import Contact
 from treadload.damage import Extension, HorizontalTension, Quantity, VerticalCompression, VerticalShear
 from treadload.describing import first_line
@@ -42,6 +43,12 @@ class UniformComparison(BaseResult, group="uniform"):
     dataset: readings over (load, depth), see `treadload.variables`, with the loads' areas and pressures.
     """
 
+    holds: ClassVar[Holds] = Holds(
+        {"depth": "depth", "largest_extension largest_in_plane_extension largest_vertical_shear": "load depth"},
+        labels={"load": "load"},
+        maybe_numbers="mean_over",
+    )
+
     dataset: xr.Dataset
 
     def ratio(self, reading: str, load: str = DISC) -> xr.DataArray:
@@ -60,8 +67,8 @@ class UniformComparison(BaseResult, group="uniform"):
             f"(microstrain), {reading}",
             "depth (mm)  " + "  ".join(f"{name:>24}" for name in names),
         ]
-        for depth in data["depth"].to_numpy():
-            row = data.sel(depth=depth)
+        for number, depth in enumerate(data["depth"].to_numpy()):
+            row = data.isel(depth=number)
             cells = [
                 " / ".join(
                     f"{1e6 * float(row[reading].sel(load=name)):.1f}"
