@@ -23,7 +23,7 @@ import numpy as np
 from treadload.kernels.arrays import Array
 
 # Decay lengths of the sheet that lie between the farthest point asked for and the next image of the load across.
-_APART = 12.0
+_APART = 10.0
 _NARROWEST = 2.0
 
 
