@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from treadload.errors import InputError
 from treadload.reporting.pictures import picture
-from treadload.reporting.reading import _json
+from treadload.results.schema import read_json
 
 
 def one_place():
@@ -39,4 +39,4 @@ def test_a_figure_without_extent_leaves_a_sentence(draw):
 
 
 def test_citations_too_deep_in_each_other_are_none():
-    assert _json("[" * 3000, []) == []
+    assert read_json("[" * 3000, []) == []
