@@ -41,10 +41,10 @@ class Holds:
     maybe: as fields, of what may be missing. labels: coordinates of texts → their dimensions. values: coordinate →
     all the names that it has. each: dimension → field of the class with one entry for each of its places; where the
     entries have names, the coordinate has the same. sizes: dimension → fewest and most places.
-    numbers, texts, lists: attributes that are finite numbers, texts, lists of texts as JSON. maybe_numbers: of which
-    some may be missing. together: attributes of which the first needs the others. positive: fields and numbers that
-    are above zero. asked: field of the class → what of `maybe` is there unless the field is None. stats: entries of
-    `stats` of which the first needs the others, all numbers.
+    numbers, texts, lists, members: attributes that are finite numbers, texts, lists of texts as JSON, lists of texts.
+    maybe_numbers: numbers of which some may be missing. together: attributes of which the first needs the others.
+    positive: fields and numbers that are above zero. asked: field of the class → what of `maybe` is there unless the
+    field is None. stats: entries of `stats` of which the first needs the others, all numbers.
     """
 
     fields: Mapping[str, str] = field(default_factory=dict)
@@ -57,6 +57,7 @@ class Holds:
     numbers: str = ""
     texts: str = ""
     lists: str = ""
+    members: str = ""
     maybe_numbers: str = ""
     together: tuple[str, ...] = ()
     stats: tuple[str, ...] = ()

@@ -14,10 +14,10 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | footprints | 11 | 0 to 41 000 | 3: frames of unlike shapes, a picture of 13 million pixels |
 | results | 7 | 0 to 4 700, of an older form of the attack | 18, of which seven causes in the package |
 | results | 7 | 0 to 10 000 | 30 of 15 causes: parts that lack what a summary reads, numbers beyond all |
-| results | 8 | the 125 on files of 0 to 1 500, which now break inputs of results too | 0 |
+| results | 8 | 0 to 1 500, which now break inputs of results too | 0 |
 
-Not yet run: meshes to 20 000, results in memory since inputs are broken too, and all of it again after the last
-repairs.
+Not yet run: meshes to 20 000, results to 10 000 since inputs are broken too, and all of it again after the
+last repairs.
 """
 
 from __future__ import annotations

@@ -109,7 +109,7 @@ def _check_places(data: xr.Dataset, given: Mapping[str, Any], holds: Holds, wher
 
 def _check_attributes(data: xr.Dataset, holds: Holds, where: str) -> None:
     attrs = data.attrs
-    needed = [*holds.numbers.split(), *holds.texts.split(), *holds.lists.split()]
+    needed = [*holds.numbers.split(), *holds.texts.split(), *holds.lists.split(), *holds.members.split()]
     for together in (one.split() for one in holds.together):
         needed += together if together[0] in attrs else []
     for name in needed:
@@ -121,6 +121,9 @@ def _check_attributes(data: xr.Dataset, holds: Holds, where: str) -> None:
     for name in holds.texts.split():
         if not isinstance(attrs[name], str):
             raise InputError(f"{where}: the attribute {name} must be text, got {short(attrs[name])}")
+    for name in holds.members.split():
+        if not _fits(attrs[name], list[str]):
+            raise InputError(f"{where}: the attribute {name} must be a list of texts, got {short(attrs[name])}")
     for name in holds.lists.split():
         if not _fits(read_json(attrs[name], [None]), list[str]):
             raise InputError(f"{where}: the attribute {name} must be texts as JSON, got {short(attrs[name])}")

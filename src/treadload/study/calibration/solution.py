@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
 from scipy import stats as distributions
 
 from treadload import variables
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Holds
 from treadload.describing import first_line
 from treadload.errors import InputError, nearest
 from treadload.footprint import FootprintComparison, compare
@@ -69,6 +69,20 @@ class Calibration(BaseResult, group="calibration"):
     what was asked. before: the tire that the search began with. comparisons: of the rows with a footprint. warnings:
     sentences for the user.
     """
+
+    holds: ClassVar[Holds] = Holds(
+        {
+            "start_value fitted_value standard_deviation": "unknown",
+            "number_correlation": "unknown other",
+            "residual residual_before": "reading",
+        },
+        known="residual",
+        labels={"unknown": "unknown", "other": "other", "label": "reading"},
+        each={"unknown": "sought", "other": "sought"},
+        numbers="degrees_of_freedom errors_given",
+        members="undecided",
+        stats=("contacts evaluations seconds", "seconds contacts", "evaluations contacts"),
+    )
 
     dataset: xr.Dataset
     tire: Tire
