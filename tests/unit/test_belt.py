@@ -74,7 +74,7 @@ def test_the_string_holds_a_uniform_load_by_its_foundation():
 
 @pytest.mark.parametrize("belt", [BELT, tl.Belt(tread=tl.Elastic(5e6, 0.5), arm=0.0)], ids=["whole", "no arm"])
 def test_the_operator_is_symmetric_and_positive(belt):
-    n, cell = 8, 8e-3
+    n, cell = 16, 8e-3
     influence = Influence((n, n), cell, cell, belt_surface(inflated(belt)))
     matrix = np.empty((3 * n * n, 3 * n * n))
     for column in range(3 * n * n):
