@@ -103,6 +103,8 @@ def test_a_card_can_be_kept_drawn_and_reported(card, tmp_path):
     text = page.read_text()
     assert "Tire card" in text
     assert "outer/mid" in text
+    # A card judges no road.
+    assert "erdict" not in text
 
 
 @pytest.mark.parametrize(
