@@ -55,6 +55,7 @@ def test_a_uniform_load_fills_its_extent():
         (2, 0.3, ["wearing course", "base", ""], "top of layer 3"),
         (2, 0.3, ["wearing course"], "top of layer 3"),
         (0, 0.05, ["wearing course"], ""),
+        (3, 0.1, ["wearing course", "base", ""], ""),
     ],
 )
 def test_sides_of_interfaces_in_words(layer, depth, names, words):

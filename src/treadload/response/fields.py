@@ -72,12 +72,15 @@ def response_dataset(
 def layer_in_words(plane: xr.Dataset) -> str:
     """Which side of an interface a plane at one depth was read on, "bottom of GB3"; empty where it is on none.
 
-    plane: with the coordinates depth and layer, of a dataset of `response_dataset`; without layer nothing is known.
+    plane: with the coordinates depth and layer, of a dataset of `response_dataset`; without layer, or with one that
+    lies beyond the interfaces, nothing is known.
     """
     ends = np.atleast_1d(np.asarray(plane.attrs.get("interfaces", []), dtype=float))
     if "layer" not in plane.coords or not len(ends) or not on_interface(float(plane["depth"]), ends)[0]:
         return ""
     number = int(plane["layer"])
+    if not 0 <= number <= len(ends):
+        return ""
     given = json.loads(plane.attrs.get("layer_names", "[]"))
     name = given[number] if number < len(given) and given[number] else f"layer {number + 1}"
     top = number > 0 and bool(same_depth(float(plane["depth"]), ends[number - 1]))
