@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from treadload.cli import shell
 from treadload.cli.progress import counts, stages
+from treadload.describing import HasSummary
 
 
 def run(
@@ -20,23 +22,16 @@ def run(
 ) -> None:
     """Compute a case and write its result."""
     from treadload.case import Case
-    from treadload.files import check_writable
-    from treadload.results.exports import check_output, write
+    from treadload.results.exports import write
     from treadload.study import plan_case, run_case
 
-    path = output or case.with_suffix(".nc")
-    # A path that cannot be written is refused before the computation, not after it.
-    check_output(path)
-    question = Case.from_toml(case, changes=changes or ())
-    check_writable(path)
-    if dry_run:
-        return shell.planned(plan_case(question), path)
-    with stages(shell.err, quiet=quiet) as tell:
-        result = run_case(question, progress=tell)
-        tell(f"writing {path}")
-        files = write(result.to_tree(), path)
-    shell.out.print(result.summary(), markup=False)
-    shell.written(files)
+    def solve(question: Case, path: Path) -> tuple[HasSummary, tuple[Path, ...]]:
+        with stages(shell.err, quiet=quiet) as tell:
+            result = run_case(question, progress=tell)
+            tell(f"writing {path}")
+            return result, write(result.to_tree(), path)
+
+    _answer(case, Case, plan_case, solve, output, changes, dry_run=dry_run)
 
 
 def life(
@@ -50,21 +45,15 @@ def life(
 ) -> None:
     """Compute the life of a road under its traffic and climate, and write it."""
     from treadload.case import LifeCase
-    from treadload.files import check_writable
-    from treadload.results.exports import check_output, write
+    from treadload.results.exports import write
     from treadload.study import plan_life, run_life
 
-    path = output or design.with_suffix(".nc")
-    check_output(path)
-    question = LifeCase.from_toml(design, changes=changes or ())
-    check_writable(path)
-    if dry_run:
-        return shell.planned(plan_life(question), path)
-    with counts(shell.err, quiet=quiet) as tell:
-        result = run_life(question, sensitivity=sensitivity, workers=workers, progress=tell)
-    files = write(result.to_tree(), path)
-    shell.out.print(result.summary(), markup=False)
-    shell.written(files)
+    def solve(question: LifeCase, path: Path) -> tuple[HasSummary, tuple[Path, ...]]:
+        with counts(shell.err, quiet=quiet) as tell:
+            result = run_life(question, sensitivity=sensitivity, workers=workers, progress=tell)
+        return result, write(result.to_tree(), path)
+
+    _answer(design, LifeCase, plan_life, solve, output, changes, dry_run=dry_run)
 
 
 def calibrate(
@@ -81,19 +70,39 @@ def calibrate(
 ) -> None:
     """Fit numbers of a tire to what was measured of it, with error bars, and write them."""
     from treadload.case import CalibrationCase
-    from treadload.files import check_writable
-    from treadload.results.exports import check_output, write
+    from treadload.results.exports import write
     from treadload.study import plan_calibration, run_calibration
 
-    path = output or case.with_suffix(".nc")
+    def solve(question: CalibrationCase, path: Path) -> tuple[HasSummary, tuple[Path, ...]]:
+        with counts(shell.err, quiet=quiet) as tell:
+            result = run_calibration(question, jobs=jobs, state=state, progress=tell)
+        return result, write(result.to_tree(), path)
+
+    _answer(case, CalibrationCase, plan_calibration, solve, output, changes, dry_run=dry_run)
+
+
+def _answer(
+    file: Path,
+    kind: Any,
+    plan: Callable[[Any], str],
+    solve: Callable[[Any, Path], tuple[HasSummary, tuple[Path, ...]]],
+    output: Path | None,
+    changes: list[str] | None,
+    *,
+    dry_run: bool,
+) -> None:
+    """Read a case of a kind; print its plan, or solve it, write its result and print its summary."""
+    from treadload.files import check_writable
+    from treadload.results.exports import check_output
+
+    path = output or file.with_suffix(".nc")
+    # A path that cannot be written is refused before the computation, not after it.
     check_output(path)
-    question = CalibrationCase.from_toml(case, changes=changes or ())
+    question = kind.from_toml(file, changes=changes or ())
     check_writable(path)
     if dry_run:
-        return shell.planned(plan_calibration(question), path)
-    with counts(shell.err, quiet=quiet) as tell:
-        result = run_calibration(question, jobs=jobs, state=state, progress=tell)
-    files = write(result.to_tree(), path)
+        return shell.planned(plan(question), path)
+    result, files = solve(question, path)
     shell.out.print(result.summary(), markup=False)
     shell.written(files)
 

@@ -72,7 +72,7 @@ def compare(
     result: Annotated[Path, typer.Argument(help="Result file of `treadload run`, with a contact.")],
     footprint: Footprint,
     output: shell.Output = None,
-    report: Annotated[Path | None, typer.Option(help="Page to write, .html.", show_default=False)] = None,
+    report: shell.Report = None,
     units: Units = None,
     spacing: Spacing = None,
     frame: Frame = "peak",
@@ -90,28 +90,14 @@ def compare(
     quiet: shell.Quiet = False,
 ) -> None:
     """Lay a measured footprint onto a computed contact, and tell how they agree."""
-    from treadload.files import HTML, check_suffix
-    from treadload.results import to_tree
-    from treadload.results.exports import check_output, write
-
-    if output is not None:
-        check_output(output)
-    if report is not None:
-        check_suffix(report, HTML, "the report")
-    files: list[Path] = []
+    shell.check_files(output, report)
     with stages(shell.err, quiet=quiet) as tell:
         comparison = compare_files(
             result, footprint, tell, units=units, spacing=spacing, frame=frame, travel=travel, seen_from=seen_from,
             calibration=calibration, load=load, threshold=threshold, saturation=saturation, dead=dead,
             colours=colours, scale=scale, registration=registration, load_tolerance=load_tolerance,
         )  # fmt: skip
-        if output is not None:
-            files += write(to_tree(comparison), output)
-        if report is not None:
-            from treadload.reporting import report as write_page
-
-            tell("drawing")
-            files.append(write_page(comparison, report, title=f"{result.name} and {footprint.name}"))
+        files = shell.write_files(comparison, output, report, f"{result.name} and {footprint.name}", tell)
     shell.out.print(comparison.summary(), markup=False)
     if files:
         shell.written(files)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Annotated, NoReturn, ParamSpec
+from typing import Annotated, Any, NoReturn, ParamSpec
 
 import typer
 from rich.console import Console
@@ -24,6 +24,7 @@ Output = Annotated[
     Path | None,
     typer.Option("--output", "-o", help="File to write: .nc (NetCDF), .csv or .xlsx.", show_default=False),
 ]
+Report = Annotated[Path | None, typer.Option(help="Page to write, .html.", show_default=False)]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on stderr.")]
 Changes = Annotated[
     list[str] | None,
@@ -70,6 +71,35 @@ def planned(plan: str, path: Path) -> None:
     """Print a plan, and the file that would be written."""
     out.print(plan, markup=False)
     out.print(f"\nwould be written: {path}", markup=False)
+
+
+def check_files(output: Path | None, report: Path | None) -> None:
+    """Refuse names that a result or a page cannot have, before anything is computed."""
+    from treadload.files import HTML, check_suffix
+    from treadload.results.exports import check_output
+
+    if output is not None:
+        check_output(output)
+    if report is not None:
+        check_suffix(report, HTML, "the report")
+
+
+def write_files(
+    result: Any, output: Path | None, report: Path | None, title: str, tell: Callable[[str], None]
+) -> list[Path]:
+    """Write a result to a file and a page, those that are asked for; returns what was written."""
+    from treadload.results import to_tree
+    from treadload.results.exports import write
+
+    files: list[Path] = []
+    if output is not None:
+        files += write(to_tree(result), output)
+    if report is not None:
+        from treadload.reporting import report as write_page
+
+        tell("drawing")
+        files.append(write_page(result, report, title=title))
+    return files
 
 
 def written(files: Iterable[Path]) -> None:

@@ -63,29 +63,22 @@ def card(
     ] = None,
     stiffness: Annotated[bool, typer.Option(help="Slip and lateral stiffnesses, which cost most.")] = True,
     output: shell.Output = None,
-    report: Annotated[Path | None, typer.Option(help="Page to write, .html.", show_default=False)] = None,
+    report: shell.Report = None,
     changes: shell.Changes = None,
     quiet: shell.Quiet = False,
 ) -> None:
     """Deflection, footprint and stiffnesses of a freely rolling tire, over loads and inflation pressures."""
     from treadload.case import Case
     from treadload.errors import InputError
-    from treadload.files import HTML, check_suffix
-    from treadload.results import to_tree
-    from treadload.results.exports import check_output, write
     from treadload.study import tire_card
     from treadload.units import quantity
 
-    if output is not None:
-        check_output(output)
-    if report is not None:
-        check_suffix(report, HTML, "the report")
+    shell.check_files(output, report)
     question = Case.from_toml(case, changes=changes or ())
     if question.tire is None:
         raise InputError(f"{case} has a recorded footprint and no tire; a card needs [tire]")
     asked = [quantity(one, "N") for one in loads.split(";")]
     inflation = None if pressures is None else [quantity(one, "Pa") for one in pressures.split(";")]
-    files: list[Path] = []
     with stages(shell.err, quiet=quiet) as tell:
         made = tire_card(
             question.build_tire(),
@@ -96,13 +89,7 @@ def card(
             spacing=question.spacing,
             progress=tell,
         )
-        if output is not None:
-            files += write(to_tree(made), output)
-        if report is not None:
-            from treadload.reporting import report as write_page
-
-            tell("drawing")
-            files.append(write_page(made, report, title=f"Tire card: {question.title or case.stem}"))
+        files = shell.write_files(made, output, report, f"Tire card: {question.title or case.stem}", tell)
     shell.out.print(made.summary(), markup=False)
     if files:
         shell.written(files)

@@ -68,6 +68,7 @@ class Sheet:
         return lengths[0], lengths[1]
 
 
+@lru_cache(maxsize=16)
 def coefficients(sheet: Sheet, ny: int, nx: int, dx: float, dy: float, first: float = 0.0) -> Array:
     """Displacement at the arm by unit loads on a cell of dx by dy, at distances from its centre: (6, ny, nx), m/Pa.
 
@@ -75,11 +76,6 @@ def coefficients(sheet: Sheet, ny: int, nx: int, dx: float, dy: float, first: fl
     (even), u_x by q_y = u_y by q_x (odd in both), k_x (odd in x), k_y (odd in y) with w = k_x ∗ q_x + k_y ∗ q_y and
     u = -k ∗ p; w positive away from the load.
     """
-    return _coefficients(sheet, ny, nx, dx, dy, first)
-
-
-@lru_cache(maxsize=16)
-def _coefficients(sheet: Sheet, ny: int, nx: int, dx: float, dy: float, first: float) -> Array:
     x, y = first + dx * np.arange(nx), dy * np.arange(ny)
     width = max(_NARROWEST, float(y[-1]) + _APART * sheet.decay[1])
     kx, ky, spectrum = _spectrum(sheet, width, dx, dy)

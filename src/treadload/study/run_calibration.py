@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from typing import Any
 
 import xarray as xr
 
@@ -15,7 +16,6 @@ from treadload.results import Study, to_tree
 from treadload.study.calibration import Calibration, calibrate
 from treadload.study.calibration.evaluations import Progress
 from treadload.study.calibration.fit import pose
-from treadload.study.calibration.problem import Problem
 from treadload.study.calibration.solution import shown
 
 
@@ -44,7 +44,7 @@ class CalibrationResult(Study):
 
 def plan_calibration(case: CalibrationCase) -> str:
     """What `run_calibration` would do, as text: what is sought by what. Reads the tire. Raises InputError."""
-    problem = _posed(case)
+    problem = pose(**_asked(case))
     lines = [f"tire      {problem.tire}"]
     for one in problem.sought:
         factor, unit = shown(one.unit)
@@ -61,18 +61,19 @@ def plan_calibration(case: CalibrationCase) -> str:
     return "\n".join(lines)
 
 
-def _posed(case: CalibrationCase) -> Problem:
+def _asked(case: CalibrationCase) -> dict[str, Any]:
+    """What a case asks, as the arguments of `pose` and `calibrate`."""
     asked = case.calibration
-    return pose(
-        case.build_tire(),
-        asked.build_sought(),
-        case.build_data(),
-        road=case.build_road(),
-        friction=asked.friction,
-        errors=asked.errors,
-        spacing=case.spacing,
-        tolerance=case.tolerance,
-    )
+    return {
+        "tire": case.build_tire(),
+        "sought": asked.build_sought(),
+        "data": case.build_data(),
+        "road": case.build_road(),
+        "friction": asked.friction,
+        "errors": asked.errors,
+        "spacing": case.spacing,
+        "tolerance": case.tolerance,
+    }
 
 
 def run_calibration(
@@ -83,18 +84,5 @@ def run_calibration(
     progress: Progress | None = None,
 ) -> CalibrationResult:
     """The calibration of a case. jobs, state, progress: as in `calibrate`; raises its errors and those of reading."""
-    asked = case.calibration
-    found = calibrate(
-        case.build_tire(),
-        asked.build_sought(),
-        case.build_data(),
-        road=case.build_road(),
-        friction=asked.friction,
-        errors=asked.errors,
-        spacing=case.spacing,
-        tolerance=case.tolerance,
-        jobs=jobs,
-        state=state,
-        progress=progress,
-    )
+    found = calibrate(**_asked(case), jobs=jobs, state=state, progress=progress)
     return CalibrationResult(case, found)
