@@ -18,6 +18,7 @@ import xarray as xr
 from treadload.accessors import offered, room_of
 from treadload.describing import as_html
 from treadload.errors import InputError
+from treadload.variables import in_order
 
 _CLASSES: dict[str, type[BaseResult]] = {}
 
@@ -128,11 +129,11 @@ Source = xr.Dataset | HasDataset
 
 
 def dataset_of(source: Source) -> xr.Dataset:
-    """The fields of a result, or of a dataset. Raises InputError for anything else."""
+    """The fields of a result, or of a dataset, their dimensions in order. Raises InputError for anything else."""
     if isinstance(source, xr.Dataset):
-        return source
+        return in_order(source)
     if isinstance(source, HasDataset):
-        return source.dataset
+        return in_order(source.dataset)
     raise InputError(
         f"this takes a result of treadload or its dataset, got {type(source).__name__}; give what a verb such as "
         "solve_response returned"

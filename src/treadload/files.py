@@ -7,6 +7,7 @@ import os
 import sys
 import tempfile
 import tomllib
+import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 # Tables in tables that a file may hold.
 _DEEPEST = 60
+# What xarray says, and goes on, of a variable that has a dimension twice.
+_TWICE = "Duplicate dimension names"
 # Suffixes, and what a file of that name holds.
 NETCDF = {".nc": "NetCDF", ".nc4": "NetCDF", ".h5": "NetCDF"}
 TABLE = {".csv": "tables"}
@@ -100,13 +103,18 @@ def read_tree(path: Path, kind: str) -> xr.DataTree:
         with h5py.File(path, "r") as probe:
             probe.attrs.get("_nc3_strict")
         # Units are read by who needs them: none of them is a date.
-        with xr.open_datatree(path, engine="h5netcdf", decode_times=False) as tree:
-            loaded: xr.DataTree = tree.load()
+        with warnings.catch_warnings():
+            warnings.filterwarnings("error", _TWICE, UserWarning)
+            with xr.open_datatree(path, engine="h5netcdf", decode_times=False) as tree:
+                loaded: xr.DataTree = tree.load()
         # A variable whose dimensions were lost shows when its group is put together.
         for node in loaded.subtree:
             node.to_dataset()
     except Exception as error:
-        raise InputError(f"cannot read {path} as {kind}: {one_line(str(error))}") from error
+        why = one_line(str(error))
+        if why.startswith(_TWICE):
+            why = "a variable has the same dimension twice; give the second another name"
+        raise InputError(f"cannot read {path} as {kind}: {why}") from error
     return loaded
 
 

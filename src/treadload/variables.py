@@ -264,6 +264,29 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_TIRE_CARD,
 }
 
+# In this order an array has its dimensions, and who takes its values counts on it.
+_ORDER = (
+    "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "other", "load", "map",
+    "inflation_pressure", "wheel_load", "rib", "step", "interface", "depth", "point", "y", "x", "component",
+    "orientation",
+)  # fmt: skip
+_RANK = {name: rank for rank, name in enumerate(_ORDER)}
+
+
+def in_order(data: xr.Dataset) -> xr.Dataset:
+    """The dataset with the dimensions of its variables in the order of results; itself where they are.
+
+    Other programs write and `transpose` leaves them in any order. Variables and dimensions of other names stay.
+    """
+    turned = {}
+    for name, field in data.variables.items():
+        if name in VARIABLES and field.ndim > 1:
+            ranked = iter(sorted((dim for dim in field.dims if dim in _RANK), key=lambda dim: _RANK[str(dim)]))
+            dims = tuple(next(ranked) if dim in _RANK else dim for dim in field.dims)
+            if dims != field.dims:
+                turned[name] = field.transpose(*dims)
+    return data.assign(turned) if turned else data
+
 
 def attributes(name: str) -> dict[str, str]:
     """Attributes `units` and `long_name` of a variable."""

@@ -291,7 +291,8 @@ def _broken_group(rng: random.Random, data: xr.Dataset) -> xr.Dataset:
     if which == 9 and field.size and field.ndim:
         return data.assign({name: field.isel({field.dims[0]: 0}, drop=True).variable}) if name not in dims else data
     if which == 10 and name not in dims:
-        return data.assign({name: (("other", *field.dims), field.to_numpy()[None])})
+        further = next(one for one in ("other", "another", "a third", "a fourth") if one not in field.dims)
+        return data.assign({name: ((further, *field.dims), field.to_numpy()[None])})
     if which == 11 and field.ndim > 1:
         return data.assign({name: field.transpose(*field.dims[::-1]).variable})
     values = np.array(field.to_numpy())

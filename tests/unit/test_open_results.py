@@ -12,13 +12,15 @@ import xarray as xr
 import treadload as tl
 from cases import COARSE_CASE
 from treadload.case import Case
-from treadload.composing import BaseResult, result_classes
+from treadload.composing import BaseResult, dataset_of, result_classes
 from treadload.damage import Climate, Traffic, Wander
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
+from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
 from treadload.study.two_grids import with_error
+from treadload.variables import in_order
 
 RUBBER = tl.Elastic(3e6, 0.5)
 ROAD = tl.Pavement([tl.Layer(tl.Elastic(5.4e9, 0.35), 0.08, name="asphalt"), tl.Layer(tl.Elastic(2e8, 0.35))])
@@ -194,6 +196,40 @@ def test_every_result_shows_itself_in_a_notebook(saved):
     page = result._repr_html_()
     assert page.count("<details>") >= 2
     assert type(result).__name__ in page
+
+
+def backwards(data):
+    """The dataset with the dimensions of every variable the other way round, as other programs write it."""
+    return data.assign({name: field.transpose(*field.dims[::-1]) for name, field in data.variables.items()})
+
+
+def test_dimensions_in_another_order_are_put_back(saved, tmp_path):
+    """The order of the table is that of every class, so that whoever takes values has rows for rows."""
+    result, _ = saved
+    data = result.dataset
+    assert in_order(data) is data
+    xr.testing.assert_identical(dataset_of(backwards(data)), data)
+    tree = tl.results.to_tree(result)
+    groups = {f"/{name}": backwards(node.to_dataset()) for name, node in tree.children.items() if name != "asked"}
+    groups["/asked"] = tree["asked"].to_dataset()
+    odd = xr.DataTree.from_dict({"/": xr.Dataset(attrs=tree.attrs), **groups})
+    opened = tl.open_results(tl.save_results(odd, tmp_path / "x.nc"))
+    back = opened[result.group_name]
+    xr.testing.assert_identical(back.dataset, data)
+    assert back.summary() == result.summary()
+    (case, *_) = ReportCase.all_of("x", opened.tree)
+    (shown, *_) = [*case.groups.values(), *(other.dataset for other in case.others)]
+    for name, field in shown.variables.items():
+        assert field.dims == data[name].dims, name
+
+
+def test_a_figure_of_shares_has_classes_for_rows_whatever_the_order():
+    made = life()
+    turned = made.dataset.assign(damage_share=made.dataset["damage_share"].transpose("criterion", "season", ...))
+    for drawn in (made, turned):
+        axes = tl.plots.life_shares(drawn).axes[0]
+        told = np.asarray(axes.collections[0].get_array()).reshape(2, 2)
+        np.testing.assert_array_equal(told, 100 * made.dataset["damage_share"].sel(criterion=made.governing))
 
 
 def broken(data):

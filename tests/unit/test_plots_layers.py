@@ -113,6 +113,13 @@ def test_layer_without_a_depth_is_hatched_instead_of_painted(above):
     assert [p.get_height() for p in hatched] == [pytest.approx(150)]
 
 
+@pytest.mark.parametrize("depths", [[1e-300, 1e-300], [-0.2, -0.1], [-0.1, 0.0]])
+def test_section_without_an_extent_in_the_road_is_refused(above, depths):
+    flat = above.isel(depth=[0, 1]).assign_coords(depth=depths)
+    with pytest.raises(InputError, match=f"depths that differ and lie in the road, .* {depths[0]:g} to"):
+        ResponsePlots(flat).depth_slice()
+
+
 def test_labels_of_thin_layers_do_not_overlap():
     data = _slice()
     ends = np.array([0.002, 0.004, 0.006, 0.1])

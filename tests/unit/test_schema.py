@@ -6,6 +6,7 @@ import json
 import sys
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 import pytest
 import xarray as xr
@@ -66,6 +67,16 @@ BREAKS = {
     "of one row": ("contact", lambda d: d.assign(pressure=d.pressure.isel(y=0)), "pressure is over x, not x, y"),
     "empty": ("contact", lambda d: d.isel(x=slice(0, 0)), "it has no x"),
     "backwards": ("contact", lambda d: d.isel(x=slice(None, None, -1)), "x does not increase"),
+    "over the road": (
+        "response",
+        lambda d: d.assign_coords(depth=d["depth"] - 1.0),
+        "depth is -1 m, above the road; depth counts downwards",
+    ),
+    "with three sides of an interface": (
+        "slice_along",
+        lambda d: d.assign_coords(depth=np.concatenate([[0.0] * 3, d["depth"].to_numpy()[3:]])),
+        "depth 0 m is there more than twice",
+    ),
     "nowhere": ("contact", lambda d: d.drop_vars("x"), "does not say where"),
     "of a fourth state": ("contact", lambda d: d.assign(state=d.state + 3), "values other than 0 to 2"),
     "with a force of NaN": (
@@ -204,5 +215,20 @@ def test_a_variable_that_lost_its_dimensions(tree, tmp_path, monkeypatch):
         xr, "open_datatree", lambda *_, **__: contextlib.nullcontext(SimpleNamespace(load=lambda: lost))
     )
     with pytest.raises(tl.InputError, match=r"cannot read .*torn\.nc") as caught:
+        open_results(path)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_variable_over_the_same_dimension_twice(tree, tmp_path):
+    path = save_results(tree, tmp_path / "twice.nc")
+    with h5py.File(path, "r+") as file:
+        group = file["contact"]
+        values = group["pressure"][:]
+        del group["pressure"]
+        square = group.create_dataset("pressure", data=np.resize(values, (group["x"].size, group["x"].size)))
+        for dim in square.dims:
+            dim.attach_scale(group["x"])
+    with pytest.raises(tl.InputError, match=r"twice\.nc .* has the same dimension twice; give the second") as caught:
         open_results(path)
     assert len(str(caught.value).splitlines()) == 1

@@ -20,6 +20,7 @@ from treadload.reporting.life import exhausted, sentence
 from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
 from treadload.results.schema import check_tree, read_json
 from treadload.results.tree import ASKED
+from treadload.variables import in_order
 
 # Kinds with tables and figures of their own; whatever else a tree holds is shown by its summary and figures.
 GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
@@ -69,12 +70,13 @@ class ReportCase:
         Raises InputError if it holds no results, or some that cannot be read.
         """
         check_tree(tree, label)
-        nodes = {str(name): node for name, node in tree.children.items() if name != ASKED and node.data_vars}
+        held = {str(name): node for name, node in tree.children.items() if name != ASKED and node.data_vars}
+        nodes = {name: in_order(node.to_dataset()) for name, node in held.items()}
         inside: dict[str, dict[str, xr.Dataset]] = {}
         for name, node in nodes.items():
             owner = node.attrs.get("part_of")
             if isinstance(owner, str) and owner:
-                inside.setdefault(owner, {}).setdefault(kind_of(name, node.attrs), node.to_dataset())
+                inside.setdefault(owner, {}).setdefault(kind_of(name, node.attrs), node)
         by_case: dict[str, tuple[dict[str, xr.Dataset], list[Other]]] = {}
         for name, node in nodes.items():
             if node.attrs.get("part_of"):
@@ -82,12 +84,12 @@ class ReportCase:
             kind = _ALSO.get(kind_of(name, node.attrs), kind_of(name, node.attrs))
             groups, others = by_case.setdefault(_called(name, kind, label), ({}, []))
             if kind in GROUPS and kind not in groups:
-                groups[kind] = node.to_dataset()
+                groups[kind] = node
             else:
-                others.append(Other(name, kind, node.to_dataset(), inside.get(name, {})))
+                others.append(Other(name, kind, node, inside.get(name, {})))
         if not by_case:
-            held = ", ".join(tree.children) or "nothing"
-            raise InputError(f"the tree of {label!r} holds {held}; a report needs a result such as a contact")
+            there = ", ".join(tree.children) or "nothing"
+            raise InputError(f"the tree of {label!r} holds {there}; a report needs a result such as a contact")
         attrs = {str(name): value for name, value in tree.attrs.items()}
         cases = []
         for called, (groups, others) in by_case.items():

@@ -15,6 +15,7 @@ import xarray as xr
 from treadload.composing import BaseResult, Holds
 from treadload.errors import InputError, one_line
 from treadload.results.schema import check_kind, check_number, check_numbers, read_json, short
+from treadload.variables import in_order
 
 # What a class raises that is made of the wrong things.
 _WRONG = (TypeError, ValueError, AttributeError, ArithmeticError, LookupError)
@@ -33,6 +34,7 @@ def made(kind: type[BaseResult], given: Mapping[str, Any], where: str) -> Any:
     dataset = given.get("dataset")
     if isinstance(dataset, xr.Dataset):
         check_dataset(kind, dataset, where, given)
+        given = {**given, "dataset": in_order(dataset)}
     try:
         return kind(**given)
     except InputError as error:

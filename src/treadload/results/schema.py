@@ -239,7 +239,7 @@ def _check_group(data: xr.Dataset, rules: _Group, where: str) -> None:
 
 
 def _check_coordinate(data: xr.Dataset, name: str, where: str) -> None:
-    """Coordinates present, finite, in m and increasing; depths may be repeated, for both sides of an interface."""
+    """Coordinates present, finite, in m, increasing; depths in the road, repeated for both sides of an interface."""
     if not data.sizes[name]:
         raise InputError(f"{where} is empty: it has no {name}")
     if name not in data.coords:
@@ -248,6 +248,18 @@ def _check_coordinate(data: xr.Dataset, name: str, where: str) -> None:
     steps = np.diff(data[name].to_numpy())
     if (steps < 0).any() or (name != "depth" and (steps == 0).any()):
         raise InputError(f"{where}: {name} does not increase everywhere; sort it")
+    if name == "depth":
+        _check_depths(data[name].to_numpy(), where)
+
+
+def _check_depths(depths: Array, where: str) -> None:
+    if depths[0] < 0:
+        raise InputError(f"{where}: depth is {depths[0]:g} m, above the road; depth counts downwards")
+    often = depths[2:][depths[2:] == depths[:-2]]
+    if often.size:
+        raise InputError(
+            f"{where}: depth {often[0]:g} m is there more than twice, and an interface has two sides; compute it anew"
+        )
 
 
 def check_number(value: Any, who: str, *, positive: bool = False) -> None:

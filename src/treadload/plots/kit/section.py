@@ -12,6 +12,7 @@ from matplotlib.collections import QuadMesh
 from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.layers.depths import same_depth
 from treadload.plots.kit.layers import Layers, draw_interfaces, hatch_unknown
 from treadload.plots.kit.plan import (
     DEPTH_LABEL,
@@ -63,6 +64,11 @@ class Section:
                 f"{data.sizes.get('depth', 1)} and {data.sizes[name]}; solve the response at more depths"
             )
         data = data.sortby("depth")
+        top, bottom = data["depth"].to_numpy()[[0, -1]]
+        if same_depth(max(top, 0.0), max(bottom, 0.0)):
+            raise InputError(
+                f"a section needs depths that differ and lie in the road, the response has {top:g} to {bottom:g} m"
+            )
         data = data.isel({other: _position(data, other, at)})
         direction = data["principal_direction_1"].transpose("depth", name, "component").to_numpy()
         return cls(
