@@ -50,3 +50,11 @@ def test_iterations_on_a_grooved_tire_stay_flat():
 @pytest.mark.parametrize("cells", [512, 1024])
 def test_iterations_on_a_fine_grooved_tire(cells):
     assert grooved_tire(cells).iterations <= 30
+
+
+def test_products_on_a_grooved_tire():
+    """One before, one after, a few for cells that left: 17 to 19 on each grid before single precision came in."""
+    for cells in (64, 128, 256):
+        found = grooved_tire(cells)
+        assert found.products <= 16
+        assert found.residual <= 1e-6

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from treadload.contact.solvers.levels import double, halve, interpolate
+from treadload.contact.solvers.levels import double, halve, interpolate, refine
 
 SHAPES = [(6, 8), (7, 8), (6, 9), (5, 3), (1, 4)]
 
@@ -52,3 +52,12 @@ def test_unknown_cells_are_not_looked_at(shape):
     # Next to known cells all weight is theirs; further away nothing is known.
     np.testing.assert_allclose(fine[:, :5], 7.0, rtol=1e-14)
     assert not fine[:, 5:].any()
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_refining_is_interpolation_between_cells_that_are_all_known(shape):
+    coarse = np.random.default_rng(4).normal(size=(-(-shape[0] // 2), -(-shape[1] // 2)))
+    np.testing.assert_allclose(
+        refine(coarse, shape), interpolate(coarse, np.ones_like(coarse, bool), shape), atol=1e-15
+    )
+    assert refine(coarse.astype(np.float32), shape).dtype == np.float32

@@ -88,3 +88,33 @@ def test_it_says_how_far_it_came():
         solve_normal(INFLUENCE, DOME, load=LOAD, tolerance=1e-18)
     assert 0 < caught.value.residual < 1e-9
     assert f"{caught.value.residual:.2e}" in str(caught.value)
+
+
+def test_the_residual_is_that_of_a_product_in_double_precision():
+    """Corrections are found in single precision, which alone would end near 1e-7 of the approach."""
+    for tolerance in (1e-6, 1e-9):
+        found = solve_normal(INFLUENCE, DOME, load=LOAD, tolerance=tolerance)
+        gap = DOME + INFLUENCE.normal(found.pressure) - found.approach
+        violation = max(np.abs(gap[found.pressure > 0]).max(), -gap.min(), 0.0)
+        assert violation / (found.approach - DOME.min()) == pytest.approx(found.residual, rel=1e-3, abs=1e-14)
+        assert found.residual <= tolerance
+
+
+def test_a_start_that_lacks_a_contact_far_away_finds_it():
+    """The search is confined to where contact is; what a start does not know must widen it."""
+    two = np.minimum(DOME, (X[None, :] - 0.025) ** 2 / 0.02 + (X[:, None] + 0.03) ** 2 / 0.02 + 2e-4)
+    alone = solve_normal(INFLUENCE, DOME, load=LOAD, tolerance=1e-9).pressure
+    found = solve_normal(INFLUENCE, two, load=LOAD, start=alone, tolerance=1e-9)
+    nested = solve_normal(INFLUENCE, two, load=LOAD, tolerance=1e-9)
+    assert (found.pressure[X < -0.025, :][:, X > 0.02] > 0).any()
+    np.testing.assert_allclose(found.pressure, nested.pressure, atol=1e-6 * nested.pressure.max())
+
+
+def test_a_grid_larger_than_the_contact_changes_nothing():
+    large = Influence((3 * N, 2 * N), DX, DX, HalfSpaces(BODIES))
+    gap = np.full(large.shape, np.nan)
+    gap[N : 2 * N, N // 2 : N // 2 + N] = DOME
+    found, alone = (solve_normal(at, h, load=LOAD, tolerance=1e-9) for at, h in ((large, gap), (INFLUENCE, DOME)))
+    assert found.approach == pytest.approx(alone.approach, rel=1e-8)
+    inside = found.pressure[N : 2 * N, N // 2 : N // 2 + N]
+    np.testing.assert_allclose(inside, alone.pressure, atol=1e-6 * alone.pressure.max())

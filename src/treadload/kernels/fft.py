@@ -1,7 +1,130 @@
-"""The fast Fourier transform: the one place that names its backend; another one goes in here."""
+"""The array library: transforms, and where arrays live. The one place that names its backends; another goes in here.
+
+NumPy arrays are transformed by SciPy. Any other array that follows the array API standard is transformed by its own
+library, and a loop written in nothing but the standard runs on it: `namespace` of an array gives its functions.
+TREADLOAD_DEVICE=cuda puts the arrays of such loops on a GPU by CuPy.
+
+Source: Python array API standard (2023.12), data-apis.org/array-api.
+"""
 
 from __future__ import annotations
 
-from scipy.fft import fft, fftfreq, ifft, irfft, irfft2, next_fast_len, rfft, rfft2, rfftfreq
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any
 
-__all__ = ["fft", "fftfreq", "ifft", "irfft", "irfft2", "next_fast_len", "rfft", "rfft2", "rfftfreq"]
+import numpy as np
+from scipy import fft as _scipy
+from scipy.fft import fftfreq, next_fast_len, rfftfreq
+
+__all__ = [
+    "cosine2", "device", "fft", "fftfreq", "ifft", "irfft", "irfft2", "namespace", "next_fast_len", "on", "portions",
+    "rfft", "rfft2", "rfftfreq", "to_device", "to_host",
+]  # fmt: skip
+
+# Numbers that are transformed at once: what a processor's cache holds, what a GPU keeps busy with.
+_AT_ONCE, _AT_ONCE_ELSEWHERE = 2**16, 2**27
+
+_chosen: ContextVar[Any] = ContextVar("treadload_array_library", default=None)
+
+
+def namespace(array: Any) -> Any:
+    """The functions of the library that an array belongs to."""
+    # NumPy 1.26 has what the loops use, but not the method.
+    return np if isinstance(array, np.ndarray) else array.__array_namespace__()
+
+
+def device() -> Any:
+    """The library whose arrays the loops run on: NumPy, or that of TREADLOAD_DEVICE, or that of `on`.
+
+    Raises ValueError for a device that there is not.
+    """
+    chosen = _chosen.get()
+    if chosen is not None:
+        return chosen
+    name = os.environ.get("TREADLOAD_DEVICE") or "cpu"
+    if name == "cpu":
+        return np
+    if name != "cuda":
+        raise ValueError(f"TREADLOAD_DEVICE is {name!r}; it can be cpu or cuda")
+    try:
+        import cupy
+    except ImportError as missing:
+        raise ValueError(
+            "TREADLOAD_DEVICE is 'cuda', and CuPy is not installed; install cupy-cuda12x or leave the variable out"
+        ) from missing
+    return cupy
+
+
+@contextmanager
+def on(library: Any) -> Iterator[None]:
+    """Loops inside run on the arrays of a library that follows the standard, whatever TREADLOAD_DEVICE says."""
+    token = _chosen.set(library)
+    try:
+        yield
+    finally:
+        _chosen.reset(token)
+
+
+def to_device(array: Any) -> Any:
+    """An array of `device`."""
+    return device().asarray(array)
+
+
+def to_host(array: Any) -> Any:
+    """A NumPy array."""
+    if isinstance(array, np.ndarray):
+        return array
+    return array.get() if hasattr(array, "get") else np.array(np.from_dlpack(array))
+
+
+def portions(array: Any, lines: int, length: int) -> Iterator[slice]:
+    """Slices that share out some lines, so many at a time as are best transformed at once, each of some length."""
+    step = max(1, (_AT_ONCE if isinstance(array, np.ndarray) else _AT_ONCE_ELSEWHERE) // length)
+    for first in range(0, lines, step):
+        yield slice(first, min(first + step, lines))
+
+
+def fft(x: Any, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> Any:
+    """As SciPy's; arrays of other libraries are not overwritten."""
+    if isinstance(x, np.ndarray):
+        return _scipy.fft(x, n=n, axis=axis, overwrite_x=overwrite_x)
+    return namespace(x).fft.fft(x, n=n, axis=axis)
+
+
+def ifft(x: Any, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> Any:
+    """As SciPy's; arrays of other libraries are not overwritten."""
+    if isinstance(x, np.ndarray):
+        return _scipy.ifft(x, n=n, axis=axis, overwrite_x=overwrite_x)
+    return namespace(x).fft.ifft(x, n=n, axis=axis)
+
+
+def rfft(x: Any, n: int | None = None, axis: int = -1) -> Any:
+    """As SciPy's."""
+    return (_scipy if isinstance(x, np.ndarray) else namespace(x).fft).rfft(x, n=n, axis=axis)
+
+
+def irfft(x: Any, n: int | None = None, axis: int = -1) -> Any:
+    """As SciPy's."""
+    return (_scipy if isinstance(x, np.ndarray) else namespace(x).fft).irfft(x, n=n, axis=axis)
+
+
+def rfft2(x: Any, s: tuple[int, int] | None = None) -> Any:
+    """As SciPy's, over the last two axes."""
+    if isinstance(x, np.ndarray):
+        return _scipy.rfft2(x, s=s)
+    return namespace(x).fft.rfftn(x, s=x.shape[-2:] if s is None else s, axes=(-2, -1))
+
+
+def irfft2(x: Any, s: tuple[int, int]) -> Any:
+    """As SciPy's, over the last two axes."""
+    if isinstance(x, np.ndarray):
+        return _scipy.irfft2(x, s=s)
+    return namespace(x).fft.irfftn(x, s=s, axes=(-2, -1))
+
+
+def cosine2(quadrant: Any) -> Any:
+    """The transform (ny, nx) of what is even both ways about both ends of a quadrant (ny, nx), of which it is one."""
+    return _scipy.dctn(quadrant, type=1)

@@ -123,6 +123,10 @@ class Body(ABC):
         It serves as a preconditioner: near is enough.
         """
 
+    def normal_compliance(self, waves: Waves) -> Array | ComplexArray:
+        """The first of `compliance`, (ny, nx // 2 + 1), where it can be had without the others."""
+        return np.asarray(self.compliance(waves)[0])
+
     @abstractmethod
     def across(self, k: Array) -> Array:
         """The same of u_n by p, and of the coupling, u_k by p, to waves |k| (n,), 1/m: (2, n), 1/Pa.
@@ -189,6 +193,10 @@ class Sum(Body):
     def compliance(self, waves: Waves) -> Array | ComplexArray:
         """Added up."""
         return np.asarray(sum(part.compliance(waves) for part in self.parts))
+
+    def normal_compliance(self, waves: Waves) -> Array | ComplexArray:
+        """Added up."""
+        return np.asarray(sum(part.normal_compliance(waves) for part in self.parts))
 
     def across(self, k: Array) -> Array:
         """Added up."""

@@ -51,6 +51,10 @@ class HalfSpaces(Body):
         parts = [np.full_like(c, 1 - poisson), 1 - poisson * c**2, 1 - poisson * s**2, -poisson * c * s]
         return np.asarray(scale * np.array(parts))
 
+    def normal_compliance(self, waves: Waves) -> Array:
+        """As in `Body`: the same for every wave."""
+        return np.asarray(2 / self.elasticity.contact_modulus)
+
     def across(self, k: Array) -> Array:
         """As in `Body`."""
         parts = np.array([1 - self.elasticity.poisson, self.elasticity.difference])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from treadload.contact.bodies.body import Body, Offsets, Waves
 from treadload.kernels import fft
@@ -61,8 +62,28 @@ class Influence:
     @cached_property
     def normal(self) -> Convolution:
         """Gap opening by pressure, m/Pa."""
-        spectrum = self._spectra(self.padding, lambda at: self.pair.normal(at)[None], ((1, 1),))[0]
-        return Convolution(self.padding, np.ascontiguousarray(spectrum))
+        if self.symmetric:
+            return Convolution(self.padding, self.padding.even_spectrum(self._normal_quadrant))
+        return Convolution(
+            self.padding, self._spectra_of(self.padding, lambda at: self.pair.normal(at)[None], (1,))[0]
+        )
+
+    def normal_on(self, shape: tuple[int, int], real: DTypeLike) -> Convolution:
+        """`normal` of a symmetric pair on a part of (ny, nx) cells, in a precision."""
+        padding = Padding.of(shape)
+        rows, columns = padding.quadrant
+        spectrum = padding.even_spectrum(self._normal_quadrant[:rows, :columns].astype(real))
+        return Convolution(padding, spectrum)
+
+    def normal_stiffness_on(self, shape: tuple[int, int], real: DTypeLike) -> Array:
+        """`normal_stiffness` of a symmetric pair on periodic (ny, nx) cells, in a precision."""
+        waves = Waves(shape, self.dx, self.dy)
+        return np.asarray(waves.k / self.pair.normal_compliance(waves), real)
+
+    @property
+    def normal_self_influence(self) -> float:
+        """Gap opening of a cell by a unit pressure on itself, m/Pa."""
+        return float(self.pair.normal(Offsets(1, 1, self.dx, self.dy))[0, 0])
 
     def tangential(self, padding: Padding) -> Array | ComplexArray:
         """Symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy.
@@ -79,7 +100,7 @@ class Influence:
     @cached_property
     def normal_stiffness(self) -> Array | ComplexArray:
         """About the inverse of `normal`: its symbol (ny, nx // 2 + 1) on the unpadded, periodic grid, Pa/m."""
-        return np.asarray(self._waves.k / self._compliance[0])
+        return np.asarray(self._waves.k / self.pair.normal_compliance(self._waves))
 
     @cached_property
     def tangential_stiffness(self) -> Array | ComplexArray:
@@ -119,6 +140,11 @@ class Influence:
     def coupling_ahead(self, distance: float) -> ComplexArray:
         """Symbols k_x, k_y at a distance ahead of the cells along x, m, in `padding`."""
         return self._spectra_of(self.padding, self.pair.coupling, (1, -1), distance)
+
+    @cached_property
+    def _normal_quadrant(self) -> Array:
+        """The kernel of `normal` at the offsets of `Padding.quadrant`."""
+        return self.pair.normal(Offsets(*self.padding.quadrant, self.dx, self.dy))
 
     @cached_property
     def _waves(self) -> Waves:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.solvers.levels import double, halve
-from treadload.errors import ConvergenceError, GeometryError
+from treadload.contact.solvers.levels import halve, refine
+from treadload.errors import ConvergenceError, GeometryError, InputError
 from treadload.kernels import fft
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.complementarity import active_set, projected_cg
+from treadload.kernels.complementarity.active_set import PivotSolution
+from treadload.kernels.complementarity.projected_cg import BoundSolution
+
+Operator = Callable[[Array], Array]
 
 # Below this many cells a side a solve costs nothing and needs no start from a coarser one.
 _COARSEST = 24
@@ -57,30 +62,7 @@ def solve_normal(
         raise GeometryError("no cell of the height map has material: the contact has nothing to press with")
     if start is None:
         start = _start(influence, gap, load, approach)
-    symbol = influence.normal_stiffness
-
-    def precondition(residual: Array) -> Array:
-        inverse: Array = fft.irfft2(symbol * fft.rfft2(residual), s=influence.shape)
-        return inverse
-
-    cell = influence.dx * influence.dy
-    solve = projected_cg.solve if influence.symmetric else active_set.solve
-    solution = solve(
-        influence.normal,
-        gap,
-        start,
-        total=None if load is None else load / cell,
-        level=approach,
-        precondition=precondition,
-        tolerance=tolerance,
-    )
-    if not solution.converged:
-        raise ConvergenceError(
-            f"normal contact stopped after {solution.iterations} iterations with a residual of "
-            f"{solution.residual:.2e}, above the tolerance of {tolerance:.2e}; raise the tolerance or "
-            "smooth the height map",
-            solution.residual,
-        )
+    solution = _solve(influence, gap, load, approach, start, tolerance)
     return NormalSolution(
         solution.pressure,
         gap + solution.compliance - solution.level,
@@ -91,12 +73,88 @@ def solve_normal(
     )
 
 
+def _solve(
+    influence: Influence, gap: Array, load: float | None, approach: float | None, start: Array, tolerance: float
+) -> BoundSolution | PivotSolution:
+    total = None if load is None else load / (influence.dx * influence.dy)
+    solution: BoundSolution | PivotSolution
+    if influence.symmetric:
+        solution = _by_gradients(influence, gap, total, approach, start, tolerance)
+    else:
+        solution = active_set.solve(
+            influence.normal,
+            gap,
+            start,
+            total=total,
+            level=approach,
+            precondition=_inverse(influence.normal_stiffness, influence.shape),
+            tolerance=tolerance,
+        )
+    if not solution.converged:
+        raise ConvergenceError(
+            f"normal contact stopped after {solution.iterations} iterations with a residual of "
+            f"{solution.residual:.2e}, above the tolerance of {tolerance:.2e}; raise the tolerance or "
+            "smooth the height map",
+            solution.residual,
+        )
+    return solution
+
+
+def _by_gradients(
+    influence: Influence, gap: Array, total: float | None, approach: float | None, start: Array, tolerance: float
+) -> BoundSolution:
+    """The solution of a symmetric pair, found on the device of the kernels."""
+    try:
+        fft.device()
+    except ValueError as why:
+        raise InputError(str(why)) from why
+
+    def window(shape: tuple[int, int], single: bool) -> tuple[Operator, Operator]:
+        real = np.float32 if single else float
+        product = influence.normal_on(shape, real)
+        periodic = (int(fft.next_fast_len(shape[0])), int(fft.next_fast_len(shape[1], real=True)))
+        symbol = fft.to_device(influence.normal_stiffness_on(periodic, real))
+        return replace(product, spectrum=fft.to_device(product.spectrum)), _inverse(symbol, periodic)
+
+    # A start needs no more than single precision.
+    real = np.float32 if tolerance >= _START_TOLERANCE else float
+    product = influence.normal if real is float else influence.normal_on(influence.shape, real)
+    found = projected_cg.solve(
+        replace(product, spectrum=fft.to_device(product.spectrum)),
+        fft.to_device(gap.astype(real)),
+        fft.to_device(start.astype(real)),
+        total=total,
+        level=approach,
+        window=window,
+        self_influence=influence.normal_self_influence,
+        tolerance=tolerance,
+    )
+    return replace(found, pressure=fft.to_host(found.pressure), compliance=fft.to_host(found.compliance))
+
+
+def _inverse(symbol: Array | ComplexArray, periodic: tuple[int, int]) -> Operator:
+    """The convolution with a symbol on periodic cells (ny, nx), of which a residual is a part."""
+
+    def apply(residual: Array) -> Array:
+        ny, nx = residual.shape
+        transformed = fft.rfft2(residual, s=periodic)
+        transformed *= symbol
+        inverse: Array = fft.irfft2(transformed, s=periodic)[:ny, :nx]
+        return inverse
+
+    return apply
+
+
 def _start(influence: Influence, gap: Array, load: float | None, approach: float | None) -> Array:
-    """Pressure of the solution on half the grid, repeated; on the coarsest, of a first guess."""
+    """Pressure where the solution on half the grid makes contact likely; on the coarsest, a first guess."""
     if min(influence.shape) < _COARSEST:
         # Where a rigid tread sinks to the depth that half of all cells reach, it surely touches.
         return np.where(gap <= np.nanmedian(gap), 1.0, 0.0)
     coarse_gap = halve(gap)
     coarse = replace(influence, shape=coarse_gap.shape, dx=2 * influence.dx, dy=2 * influence.dy)
-    solution = solve_normal(coarse, coarse_gap, load=load, approach=approach, tolerance=_START_TOLERANCE)
-    return double(solution.pressure, influence.shape)
+    start = _start(coarse, coarse_gap, load, approach)
+    found = _solve(coarse, coarse_gap, load, approach, start, _START_TOLERANCE)
+    # Displacement is smooth, so that the fine gap is nearly known: what its cell would not push open is in contact.
+    pressure = refine(found.pressure, influence.shape)
+    separation = gap + refine(found.compliance, influence.shape) - found.level
+    return np.where(pressure * influence.normal_self_influence > separation, pressure, 0.0)

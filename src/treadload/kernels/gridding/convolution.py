@@ -34,9 +34,10 @@ class Padding:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Padded shape: load + field each way, rounded up to a fast FFT length."""
+        """Padded shape: load + field each way, rounded up to a fast FFT length that is even."""
         (ny, nx), (my, mx) = self.load_shape, self.field_shape
-        return int(fft.next_fast_len(ny + my)), int(fft.next_fast_len(nx + mx, real=True))
+        half_y, half_x = -(-(ny + my) // 2), -(-(nx + mx) // 2)
+        return 2 * int(fft.next_fast_len(half_y)), 2 * int(fft.next_fast_len(half_x, real=True))
 
     @property
     def quadrant(self) -> tuple[int, int]:
@@ -62,6 +63,12 @@ class Padding:
         spectrum: ComplexArray = fft.rfft2(kernel)
         return spectrum
 
+    def even_spectrum(self, quadrant: Array) -> Array:
+        """Spectrum (my, mx // 2 + 1), real, of a kernel even both ways, from its values (ky, kx) on `quadrant`."""
+        half = fft.cosine2(np.ascontiguousarray(quadrant.T))
+        # Columns lie side by side, as `Convolution` walks through them.
+        return np.concatenate([half, half[:, -2:0:-1]], axis=1).T
+
     def forward(self, load: Array) -> ComplexArray:
         """Spectrum (my, mx // 2 + 1) of a load (ny, nx) padded with zeros."""
         rows = fft.rfft(load, n=self.shape[1], axis=-1)
@@ -80,17 +87,34 @@ class Padding:
 class Convolution:
     """A scalar influence operator: field = Σ kernel(cell - load cell) · load.
 
-    padding: the padded space. spectrum: the kernel in it; real when the kernel is even.
+    padding: the padded space. spectrum: the kernel in it; real when the kernel is even. Of any array library, and
+    in the precision that loads come in.
     """
 
     padding: Padding
     spectrum: ComplexArray | Array
 
     def __call__(self, load: Array) -> Array:
-        """Field (ny, nx) under a load (ny, nx)."""
-        transformed = self.padding.forward(load)
-        transformed *= self.spectrum
-        return self.padding.inverse(transformed)
+        """Field (ny, nx) under a load (ny, nx), in nothing but the array API standard.
+
+        The padded space is walked through a few lines at a time: it is never there as a whole. Waves along x are
+        kept as rows, so that those lines lie side by side.
+        """
+        xp = fft.namespace(load)
+        (ny, nx), (my, mx) = self.padding.field_shape, self.padding.shape
+        loaded, spectrum = load.shape[0], self.spectrum.T
+        kind = xp.complex64 if load.dtype == xp.float32 else xp.complex128
+        waves = xp.empty((mx // 2 + 1, max(loaded, ny)), dtype=kind)
+        for some in fft.portions(load, loaded, mx):
+            waves[:, some] = fft.rfft(load[some, :], n=mx).T
+        for some in fft.portions(load, mx // 2 + 1, my):
+            padded = fft.fft(waves[some, :loaded], n=my)
+            padded *= spectrum[some, :]
+            waves[some, :ny] = fft.ifft(padded, overwrite_x=True)[:, :ny]
+        field: Array = xp.empty((ny, nx), dtype=load.dtype)
+        for some in fft.portions(load, ny, mx):
+            field[some, :] = fft.irfft(waves[:, some].T, n=mx)[:, :nx]
+        return field
 
 
 def _mirrored(n_padded: int, parity: int) -> tuple[Array, Array]:
