@@ -143,16 +143,20 @@ class _Preconditioner:
     """
 
     def __init__(self, influence: Influence, rolls: bool, axes: Axes) -> None:
-        symbols = influence.tangential_stiffness / _stretches(axes)
+        # On periodic cells of numbers that are fast to transform: near the patch, and near is enough.
+        ny, nx = influence.shape
+        self.shape = int(fft.next_fast_len(ny)), int(fft.next_fast_len(nx, real=True))
+        symbols = replace(influence, shape=self.shape).tangential_stiffness / _stretches(axes)
         self.symbols = symbols.astype(np.complex64 if np.iscomplexobj(symbols) else np.float32)
-        self.shape = influence.shape
         self.rolls = rolls
 
     def __call__(self, slip: Array, mask: BoolArray) -> Array:
         xx, yy, xy = self.symbols
-        x, y = fft.rfft2(slip)
-        shear: Array = fft.irfft2(np.stack([xx * x + xy * y, xy * x + yy * y]), s=self.shape)
-        shear *= mask
+        ny, nx = mask.shape
+        x, y = fft.rfft2(slip[0], s=self.shape), fft.rfft2(slip[1], s=self.shape)
+        shear = np.empty_like(slip)
+        np.multiply(fft.irfft2(xx * x + xy * y, s=self.shape)[:ny, :nx], mask, out=shear[0])
+        np.multiply(fft.irfft2(xy * x + yy * y, s=self.shape)[:ny, :nx], mask, out=shear[1])
         if self.rolls:
             shear = np.cumsum(shear[:, :, ::-1], axis=2)[:, :, ::-1] * mask
         return shear

@@ -52,16 +52,25 @@ class CoulombProblem:
 
     def apply(self, q: Array) -> Array:
         """S q (2, ny, nx), in the precision of q and the compliance."""
-        xx, yy, xy = self.compliance
-        x, y = self.padding.forward(q[0]), self.padding.forward(q[1])
-        spectrum = xx * x
-        spectrum += xy * y
-        u_x = self.padding.inverse(spectrum)
-        np.multiply(xy, x, out=spectrum)
-        y *= yy
-        spectrum += y
-        u = np.stack([u_x, self.padding.inverse(spectrum)])
-        return u[..., :-1] - u[..., 1:] if self.rolls else u
+        xx, yy, xy = self.compliance.transpose(0, 2, 1)
+
+        def mix(waves: list[ComplexArray], some: slice) -> list[ComplexArray]:
+            x, y = waves
+            u_x = xx[some] * x
+            u_x += xy[some] * y
+            x *= xy[some]
+            y *= yy[some]
+            y += x
+            return [u_x, y]
+
+        u_x, u_y = self.padding.through([q[0], q[1]], mix)
+        s = np.empty_like(q)
+        if not self.rolls:
+            s[0], s[1] = u_x, u_y
+            return s
+        np.subtract(u_x[:, :-1], u_x[:, 1:], out=s[0])
+        np.subtract(u_y[:, :-1], u_y[:, 1:], out=s[1])
+        return s
 
     def slip(self, q: Array, xi: Array) -> Array:
         """S q + w + e ξ (2, ny, nx), with ξ (2,) the rigid slips so far."""

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
-from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.arrays import Array, BoolArray, ComplexArray
 from treadload.kernels.complementarity.coulomb import CoulombProblem, project_disc, shrink
 from treadload.kernels.complementarity.coulomb_splitting import split
 
@@ -140,8 +140,9 @@ class _Newton:
 
     def __post_init__(self) -> None:
         # The Krylov solves only need two digits: half the precision is half the time.
-        full = self.problem.compliance
-        half = full.astype(np.complex64) if np.iscomplexobj(full) else full.astype(np.float32)
+        full = self.problem.compliance.transpose(0, 2, 1)
+        kind = np.complex64 if np.iscomplexobj(full) else np.float32
+        half: Array | ComplexArray = np.ascontiguousarray(full).astype(kind).transpose(0, 2, 1)
         self.single = replace(self.problem, compliance=half)
         self.contact = self.problem.bound > 0
         self.n_cells = int(self.contact.sum())
@@ -274,9 +275,10 @@ class _Rows:
         return self._pack(fields, state.imbalance[self.forced] / self.newton.n_cells)
 
     def _rows(self, dq: Array, slip: Array) -> Array:
-        along_t: Array = self.m * (self.across * (slip - dq)).sum(0) + (self.across * dq).sum(0)
+        tangent = _dot(self.across, dq)
+        along_t: Array = self.m * (_dot(self.across, slip) - tangent) + tangent
         rows: Array = self.across * along_t
-        rows += self.normal * (self.normal * dq).sum(0)
+        rows += self.normal * _dot(self.normal, dq)
         np.copyto(rows, slip, where=self.stick)
         return rows
 
@@ -286,10 +288,10 @@ class _Rows:
 
     def _inverse(self, rows: Array) -> Array:
         """Approximate solution of the rows of the cells: the preconditioner where they stick, or nearly do."""
-        mixed = self.across * ((self.across * rows).sum(0) * self.weight)
+        mixed = self.across * (_dot(self.across, rows) * self.weight)
         inverse: Array = self.newton.single.precondition(np.where(self.stick, rows, mixed), self.newton.contact)
         inverse /= self.r
-        sliding = rows - mixed + self.across * ((self.across * inverse).sum(0) * self.weight)
+        sliding = rows - mixed + self.across * (_dot(self.across, inverse) * self.weight)
         np.copyto(inverse, sliding, where=~self.stick)
         return inverse
 
@@ -309,3 +311,9 @@ class _Rows:
     def _unpack(self, v: Array) -> tuple[Array, Array]:
         size = self.normal.size
         return v[:size].reshape(self.normal.shape), v[size:]
+
+
+def _dot(one: Array, other: Array) -> Array:
+    product: Array = one[0] * other[0]
+    product += one[1] * other[1]
+    return product

@@ -7,12 +7,15 @@ Source: Liu, Wang & Liu (2000), Wear 243, 101-111 (discrete convolution and FFT)
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray
+
+Mix = Callable[[list[ComplexArray], slice], list[ComplexArray]]
 
 
 @dataclass(frozen=True)
@@ -82,6 +85,32 @@ class Padding:
         field: Array = fft.irfft(rows, n=mx, axis=-1)[..., :nx]
         return field
 
+    def through(self, loads: Sequence[Array], mix: Mix) -> list[Array]:
+        """Fields (ny, nx) under loads (ny, nx), as many, in nothing but the array API standard.
+
+        mix: spectra of the fields from those of the loads, both turned round: (waves along x, my), of some of the
+        waves along x. The padded space is walked through a few lines at a time: it is never there as a whole.
+        """
+        xp, load = fft.namespace(loads[0]), loads[0]
+        (loaded, _), (ny, nx), (my, mx) = load.shape, self.field_shape, self.shape
+        kind = xp.complex64 if load.dtype == xp.float32 else xp.complex128
+        # Waves along x are kept as rows, so that the lines across lie side by side.
+        waves = [xp.empty((mx // 2 + 1, max(loaded, ny)), dtype=kind) for _ in loads]
+        for into, load in zip(waves, loads, strict=True):
+            for some in fft.portions(load, loaded, mx):
+                into[:, some] = fft.rfft(load[some, :], n=mx).T
+        for some in fft.portions(load, mx // 2 + 1, my):
+            mixed = mix([fft.fft(one[some, :loaded], n=my) for one in waves], some)
+            for into, padded in zip(waves, mixed, strict=True):
+                into[some, :ny] = fft.ifft(padded, overwrite_x=True)[:, :ny]
+        fields = []
+        for one in waves:
+            field: Array = xp.empty((ny, nx), dtype=load.dtype)
+            for some in fft.portions(load, ny, mx):
+                field[some, :] = fft.irfft(one[:, some].T, n=mx)[:, :nx]
+            fields.append(field)
+        return fields
+
 
 @dataclass(frozen=True)
 class Convolution:
@@ -95,26 +124,14 @@ class Convolution:
     spectrum: ComplexArray | Array
 
     def __call__(self, load: Array) -> Array:
-        """Field (ny, nx) under a load (ny, nx), in nothing but the array API standard.
+        """Field (ny, nx) under a load (ny, nx), in nothing but the array API standard."""
+        spectrum = self.spectrum.T
 
-        The padded space is walked through a few lines at a time: it is never there as a whole. Waves along x are
-        kept as rows, so that those lines lie side by side.
-        """
-        xp = fft.namespace(load)
-        (ny, nx), (my, mx) = self.padding.field_shape, self.padding.shape
-        loaded, spectrum = load.shape[0], self.spectrum.T
-        kind = xp.complex64 if load.dtype == xp.float32 else xp.complex128
-        waves = xp.empty((mx // 2 + 1, max(loaded, ny)), dtype=kind)
-        for some in fft.portions(load, loaded, mx):
-            waves[:, some] = fft.rfft(load[some, :], n=mx).T
-        for some in fft.portions(load, mx // 2 + 1, my):
-            padded = fft.fft(waves[some, :loaded], n=my)
-            padded *= spectrum[some, :]
-            waves[some, :ny] = fft.ifft(padded, overwrite_x=True)[:, :ny]
-        field: Array = xp.empty((ny, nx), dtype=load.dtype)
-        for some in fft.portions(load, ny, mx):
-            field[some, :] = fft.irfft(waves[:, some].T, n=mx)[:, :nx]
-        return field
+        def mix(waves: list[ComplexArray], some: slice) -> list[ComplexArray]:
+            waves[0] *= spectrum[some, :]
+            return waves
+
+        return self.padding.through([load], mix)[0]
 
 
 def _mirrored(n_padded: int, parity: int) -> tuple[Array, Array]:
