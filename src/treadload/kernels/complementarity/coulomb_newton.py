@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
-from treadload.kernels.arrays import Array, BoolArray, ComplexArray
+from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.complementarity.coulomb import CoulombProblem, project_disc, shrink
 from treadload.kernels.complementarity.coulomb_splitting import split
 
@@ -141,9 +141,8 @@ class _Newton:
     def __post_init__(self) -> None:
         # The Krylov solves only need two digits: half the precision is half the time.
         full = self.problem.compliance.transpose(0, 2, 1)
-        kind = np.complex64 if np.iscomplexobj(full) else np.float32
-        half: Array | ComplexArray = np.ascontiguousarray(full).astype(kind).transpose(0, 2, 1)
-        self.single = replace(self.problem, compliance=half)
+        half = full.astype(np.complex64, "C") if np.iscomplexobj(full) else full.astype(np.float32, "C")
+        self.single = replace(self.problem, compliance=half.transpose(0, 2, 1))
         self.contact = self.problem.bound > 0
         self.n_cells = int(self.contact.sum())
 
