@@ -54,6 +54,7 @@ from treadload.study import calibrate as calibrate
 from treadload.study import compare_uniform as compare_uniform
 from treadload.study import run_case as run_case
 from treadload.study import run_life as run_life
+from treadload.study import sweep as sweep
 from treadload.tire import Belt as Belt
 from treadload.tire import Tire as Tire
 from treadload.tire import example_mesh as example_mesh

@@ -230,6 +230,14 @@ _FOOTPRINT = {
     "registered_angle": ("rad", "angle of the footprint's first axis from travel towards the right"),
 }
 
+_SWEEP = {
+    "status": ("1", "0 not solved yet, 1 solved, 2 failed"),
+    "seconds": ("s", "time that a case took"),
+    "largest_shear": ("Pa", "largest shear stress of a cell"),
+    "governing": ("1", "criterion that fails first"),
+    "governing_years": ("1", "years until the first criterion fails"),
+}
+
 _TIRE_CARD = {
     "inflation_pressure": ("Pa", "inflation pressure of the tire"),
     "wheel_load": ("N", "vertical load of the wheel"),
@@ -261,6 +269,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_INTERFACES,
     **_UNIFORM,
     **_FOOTPRINT,
+    **_SWEEP,
     **_TIRE_CARD,
 }
 

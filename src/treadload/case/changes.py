@@ -9,6 +9,7 @@ from typing import Any
 from treadload.errors import InputError
 from treadload.files import parse_toml
 
+_REMOVED = object()
 _EXAMPLE = 'rolling.friction=0.6 or pavement.layers.0.thickness="8 cm"'
 
 
@@ -25,11 +26,16 @@ def changed(table: dict[str, Any], changes: Sequence[str]) -> dict[str, Any]:
         path = key.strip().split(".")
         if not sign or not all(path):
             raise InputError(f"cannot set {change!r}: write key=value, such as {_EXAMPLE}")
-        _set(table, path, value.strip(), change)
+        _set(table, path, read_value(value.strip()) if value.strip() else _REMOVED, change)
     return table
 
 
-def _set(table: dict[str, Any], path: Sequence[str], value: str, change: str) -> None:
+def set_key(table: dict[str, Any], path: str, value: Any) -> None:
+    """Set a key in the tables of a case. path: parts joined by points. Raises InputError."""
+    _set(table, path.split("."), value, path)
+
+
+def _set(table: dict[str, Any], path: Sequence[str], value: Any, change: str) -> None:
     here: Any = table
     for number, part in enumerate(path[:-1]):
         before = ".".join(path[:number])
@@ -42,14 +48,14 @@ def _set(table: dict[str, Any], path: Sequence[str], value: str, change: str) ->
     last, before = path[-1], ".".join(path[:-1])
     if isinstance(here, list):
         row = _row(here, last, before, change)
-        if value:
-            here[row] = _read(value)
-        else:
+        if value is _REMOVED:
             del here[row]
+        else:
+            here[row] = value
     elif not isinstance(here, dict):
         raise InputError(f"cannot set {change!r}: {before} is {here!r} and has no keys")
-    elif value:
-        here[last] = _read(value)
+    elif value is not _REMOVED:
+        here[last] = value
     elif last in here:
         del here[last]
     else:
@@ -65,7 +71,7 @@ def _row(rows: list[Any], part: str, before: str, change: str) -> int:
     return int(part)
 
 
-def _read(value: str) -> Any:
+def read_value(value: str) -> Any:
     """A value of TOML, or the text itself."""
     try:
         table = parse_toml(f"value = {value}", value)

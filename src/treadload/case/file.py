@@ -71,13 +71,13 @@ class FilePart(Table):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Tables of kinds are made as they are read, and have no module to be found in.
-        return type(self)._again, (self._given(), self.folder)
+        return type(self)._again, (self.given(), self.folder)
 
     @classmethod
     def _again(cls, table: dict[str, Any], folder: Path) -> Self:
         return cls.from_dict(table, folder=folder)
 
-    def _given(self) -> dict[str, Any]:
+    def given(self) -> dict[str, Any]:
         """What was given, as nested tables in SI units."""
         return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)
 
@@ -87,4 +87,4 @@ class FilePart(Table):
 
     def to_toml(self) -> str:
         """The case as TOML text in SI units; what was left out stays out."""
-        return tomli_w.dumps(self._given())
+        return tomli_w.dumps(self.given())

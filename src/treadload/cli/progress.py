@@ -8,12 +8,31 @@ import time
 from collections.abc import Callable, Iterator
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TextColumn,
+    TimeRemainingColumn,
+)
+from rich.text import Text
 
 # Work shorter than this says nothing where there is no terminal, s; no two lines are closer than it.
 SHORT = 3.0
 # A stage that goes on is reported again after this long, s.
 AGAIN = 10.0
+
+
+class _Rate(ProgressColumn):
+    """How many a second, or how long each takes."""
+
+    def render(self, task: Task) -> Text:
+        """The rate of the last half minute."""
+        rate = task.speed
+        return Text("" if not rate else f"{rate:.2g}/s" if rate >= 1 else f"{1 / rate:.2g} s each")
+
 
 Stage = Callable[[str], None]
 Count = Callable[[int, int, str], None]
@@ -26,6 +45,7 @@ class Lines:
         self._write, self._short, self._again = write, SHORT, AGAIN
         self._began = self._last = time.monotonic() if began is None else began
         self._text, self._told = "", False
+        self._first: tuple[int, float] | None = None
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
 
@@ -35,7 +55,20 @@ class Lines:
 
     def count(self, done: int, total: int, what: str) -> None:
         """So many of so many are done."""
-        self._text = f"{done} of {total} {what}s"
+        self._text = f"{done} of {total} {what}s{self._pace(done, total)}"
+
+    def _pace(self, done: int, total: int) -> str:
+        """Rate and time left, once both can be told."""
+        now = time.monotonic()
+        if self._first is None or done < self._first[0]:
+            self._first = (done, now)
+        before, since = self._first
+        if done - before < 2 or now - since < self._short:
+            return ""
+        rate = (done - before) / (now - since)
+        left = (total - done) / rate
+        often = f"{rate:.2g} a second" if rate >= 1 else f"{1 / rate:.2g} s each"
+        return f", {often}, {f'{left:.0f} s' if left < 100 else f'{left / 60:.0f} min'} left"
 
     def tick(self, now: float) -> None:
         """Look at the clock, s, and write a line if it is time for one."""
@@ -81,7 +114,7 @@ def counts(console: Console, *, quiet: bool) -> Iterator[Count]:
         yield lambda done, total, what: None
     elif console.is_terminal:
         with Progress(
-            TextColumn("{task.description:10}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
+            TextColumn("{task.description:10}"), BarColumn(), MofNCompleteColumn(), _Rate(), TimeRemainingColumn(),
             console=console, transient=True,
         ) as bar:  # fmt: skip
             task = bar.add_task("reading", total=None)

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.table import Column
 from rich.text import Text
 
-from treadload.errors import ConvergenceError, TreadloadError
+from treadload.errors import TreadloadError
 
 DONE, FAILED, WRONG = 0, 1, 2
 _P = ParamSpec("_P")
@@ -53,9 +53,9 @@ def one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
         try:
             return command(*args, **kwargs)
         except TreadloadError as error:
-            _fail(str(error), FAILED if isinstance(error, ConvergenceError) else WRONG)
-        except KeyboardInterrupt:
-            _fail("interrupted; nothing more was written", FAILED)
+            _fail(str(error), WRONG if isinstance(error, ValueError) else FAILED)
+        except KeyboardInterrupt as error:
+            _fail(f"interrupted; {error or 'nothing more was written'}", FAILED)
         except MemoryError:
             _fail("out of memory: the grid is too fine for this machine; use a larger spacing", FAILED)
 

@@ -9,6 +9,7 @@ from treadload.study.run import Result, run_case
 from treadload.study.run_calibration import CalibrationResult, plan_calibration, run_calibration
 from treadload.study.run_life import LifeResult, run_life
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
+from treadload.study.sweeps import Sweep, open_sweep, sampled, sweep
 from treadload.study.tire_card import TireCard, tire_card
 from treadload.study.two_grids import assess_on_two_grids
 from treadload.study.uniform import UniformComparison, compare_uniform
@@ -21,6 +22,7 @@ __all__ = [
     "Passages",
     "Result",
     "Sensitivity",
+    "Sweep",
     "TireCard",
     "UniformComparison",
     "assess_on_two_grids",
@@ -28,14 +30,17 @@ __all__ = [
     "compare_bonds",
     "compare_uniform",
     "life_sensitivity",
+    "open_sweep",
     "plan_calibration",
     "plan_case",
     "plan_life",
     "run_calibration",
     "run_case",
     "run_life",
+    "sampled",
     "solve_interfaces",
     "solve_life",
     "solve_passages",
+    "sweep",
     "tire_card",
 ]

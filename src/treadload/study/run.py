@@ -87,72 +87,107 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     Raises the errors of reading, contact, response and verdict.
     """
     tell = progress or (lambda text: None)
-    road = case.pavement.build()
-    contact, footprint = None, None
+    load = load_case(case, tell)
+    response = load.solve(case.response.depths)
+    verdict = None
+    if case.damage is not None:
+        tell("verdict")
+        verdict = judge(case.damage, response)
+        if case.damage.error_estimate:
+            verdict = on_two_grids(case, load, verdict, tell)
+    tell("vertical slices")
+    road, grid = load.road, load.grid
+    worst_x, worst_y = _worst_point(response, verdict)
+    bottom = case.response.slices_to(road.interfaces.tolist(), rigid_base=road.rigid_base)
+    depths = slice_depths(bottom, load.wheel.grid.dx, road)
+    crossing = [(x, worst_y) for x in grid.x] + [(worst_x, y) for y in grid.y]
+    slices = load.solve(depths, points=crossing)
+    along, across = _line(slices, slice(grid.nx), "x"), _line(slices, slice(grid.nx, None), "y")
+    bowl = None
+    if not road.is_homogeneous:
+        tell("deflection bowl")
+        ahead, right = _centre(load.wheels[0])
+        steps = np.arange(-round(_BEHIND / _STEP), round(_AHEAD / _STEP) + 1) * _STEP
+        bowl = load.solve([0.0], x=ahead + steps, y=[right])
+        # For whoever draws it: a line of points does not say where the load's centre is.
+        bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
+    return Result(case, road, load.contact, load.footprint, response, along, across, bowl, verdict)
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """A road under the wheels of a case, ready to be read anywhere.
+
+    contact: None if a footprint was recorded. wheel: the load of one wheel; wheels: all of them in their places.
+    """
+
+    case: Case
+    road: Pavement
+    contact: Contact | None
+    footprint: Footprint | None
+    wheel: GridLoad
+    wheels: list[GridLoad]
+    tell: Progress
+
+    @property
+    def grid(self) -> Grid:
+        """The points of the maps."""
+        return map_grid(self.wheels, self.road)
+
+    def solve(self, depths: Sequence[float] | Array, *, mean_over: float | None = None, **points: Any) -> Response:
+        """The response at depths, m, at x and y or `points`; on the grid of the maps where none of them is given.
+
+        mean_over: length whose means are read near the surface, m, see `solve_response`.
+        """
+        if not points:
+            count = f" under {len(self.wheels)} wheels" if len(self.wheels) > 1 else ""
+            self.tell(f"stress and strain in the road{count}")
+            points = {"x": self.grid.x, "y": self.grid.y}
+        # The response of an elastic road does not depend on speed.
+        speed = self.case.speed if self.road.is_viscoelastic else None
+        return solve_response(
+            self.wheels, self.road, depths=depths, side=self.case.response.side, speed=speed, progress=self.tell,
+            mean_over=mean_over, **points,
+        )  # fmt: skip
+
+
+def load_case(case: Case, tell: Progress, *, start: Contact | None = None, contact: Contact | None = None) -> Loaded:
+    """The road of a case and what loads it.
+
+    start: a contact near that of the case, see `solve_contact`. contact: that of the case, where it is known already.
+    """
+    road, footprint = case.pavement.build(), None
     if case.footprint is None:
-        contact = _contact(case, road, tell)
+        contact = contact_of(case, road, tell, start=start) if contact is None else contact
         wheel = GridLoad.from_dataset(contact)
     else:
         tell("reading the footprint")
         footprint = case.footprint.read(case.folder)
         wheel = footprint.load
-    loads = case.response.place(wheel)
-    asked = case.response
-
-    # The response of an elastic road does not depend on speed.
-    speed = case.speed if road.is_viscoelastic else None
-
-    def solve(depths: Sequence[float] | Array, wheels: Sequence[GridLoad] = loads, **points: Any) -> Response:
-        return solve_response(wheels, road, depths=depths, side=asked.side, speed=speed, progress=tell, **points)
-
-    count = f" under {len(loads)} wheels" if len(loads) > 1 else ""
-    tell(f"stress and strain in the road{count}")
-    grid = map_grid(loads, road)
-    response = solve(asked.depths, x=grid.x, y=grid.y)
-    verdict = None
-    if case.damage is not None:
-        tell("verdict")
-        verdict = _verdict(case.damage, response)
-        if case.damage.error_estimate:
-            verdict = _on_two_grids(case, road, wheel.grid.dx, verdict, solve, tell)
-    tell("vertical slices")
-    worst_x, worst_y = _worst_point(response, verdict)
-    bottom = asked.slices_to(road.interfaces.tolist(), rigid_base=road.rigid_base)
-    depths = slice_depths(bottom, wheel.grid.dx, road)
-    crossing = [(x, worst_y) for x in grid.x] + [(worst_x, y) for y in grid.y]
-    slices = solve(depths, points=crossing)
-    along, across = _line(slices, slice(grid.nx), "x"), _line(slices, slice(grid.nx, None), "y")
-    bowl = None
-    if not road.is_homogeneous:
-        tell("deflection bowl")
-        ahead, right = _centre(loads[0])
-        steps = np.arange(-round(_BEHIND / _STEP), round(_AHEAD / _STEP) + 1) * _STEP
-        bowl = solve([0.0], x=ahead + steps, y=[right])
-        # For whoever draws it: a line of points does not say where the load's centre is.
-        bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
-    return Result(case, road, contact, footprint, response, along, across, bowl, verdict)
+    return Loaded(case, road, contact, footprint, wheel, case.response.place(wheel), tell)
 
 
-def _verdict(damage: DamagePart, response: Response) -> Verdict:
+def judge(damage: DamagePart, response: Response) -> Verdict:
+    """The verdict that a case asks for."""
     return assess(
         response, damage.fatigue.build(), depth=damage.depth, strain=damage.strain, mean_over=damage.mean_over
     )
 
 
-def _on_two_grids(
-    case: Case, road: Pavement, cell: float, verdict: Verdict, solve: Callable[..., Response], tell: Progress
-) -> Verdict:
+def on_two_grids(case: Case, load: Loaded, verdict: Verdict, tell: Progress) -> Verdict:
     """The verdict with what it is on cells twice as large."""
     assert case.damage is not None
     check_two_grids(None if case.tire is None else case.build_tire())
     tell("error estimate")
-    loads = case.response.place(GridLoad.from_dataset(_contact(case, road, tell, COARSER * cell)))
-    grid = map_grid(loads, road)
-    coarse = _verdict(case.damage, solve(case.response.depths, loads, x=grid.x, y=grid.y))
-    return with_error(verdict, coarse, cell)
+    cell = load.wheel.grid.dx
+    coarse = load_case(case, tell, contact=contact_of(case, load.road, tell, spacing=COARSER * cell))
+    return with_error(verdict, judge(case.damage, coarse.solve(case.response.depths)), cell)
 
 
-def _contact(case: Case, road: Pavement, tell: Progress, spacing: float | None = None) -> Contact:
+def contact_of(
+    case: Case, road: Pavement, tell: Progress, *, spacing: float | None = None, start: Contact | None = None
+) -> Contact:
+    """The contact of a case, on cells of its spacing or another. start: a contact near it, see `solve_contact`."""
     tell("reading the tire")
     return solve_contact(
         case.build_tire(),
@@ -161,6 +196,7 @@ def _contact(case: Case, road: Pavement, tell: Progress, spacing: float | None =
         spacing=case.spacing if spacing is None else spacing,
         tolerance=case.tolerance,
         road_compliance=case.road_compliance,
+        start=start,
         progress=tell,
     )
 

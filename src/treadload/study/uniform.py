@@ -25,7 +25,7 @@ from treadload.response.material import check_length
 COMPUTED, DISC, RECTANGLE = "computed contact", "uniform disc", "uniform rectangle"
 
 # Largest of a quantity over the plane at each depth.
-_READINGS: Mapping[str, Quantity] = {
+READINGS: Mapping[str, Quantity] = {
     "largest_extension": Extension("principal"),
     "largest_in_plane_extension": Extension(),
     "largest_vertical_shear": VerticalShear(),
@@ -124,7 +124,7 @@ def compare_uniform(
     if mean_over is not None:
         check_length(mean_over)
     at = _depths(road, load.grid.dx) if depths is None else np.unique(np.atleast_1d(np.asarray(depths, dtype=float)))
-    values = {name: np.empty((len(loads), len(at))) for name in _READINGS}
+    values = {name: np.empty((len(loads), len(at))) for name in READINGS}
     for number, one in enumerate(loads.values()):
         placed = [place_load(one, x=x, y=y) for x, y in wheels]
         for row, depth in enumerate(at):
@@ -171,4 +171,4 @@ def _largest(
     x = points(grid.x, grid.dx, sorted({x for x, _ in wheels}))
     y = points(grid.y, grid.dy, sorted({y for _, y in wheels}))
     data = solve_response(loads, road, depths=[depth], x=x, y=y, mean_over=mean_over).dataset.isel(depth=0)
-    return {name: float(quantity.values(data).max()) for name, quantity in _READINGS.items()}
+    return {name: float(quantity.values(data).max()) for name, quantity in READINGS.items()}

@@ -1,0 +1,83 @@
+"""The keys of a case by their paths, "pavement.layers.0.thickness": which there are, their units, their values."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, get_args, get_origin
+
+from treadload.case.changes import set_key
+from treadload.case.file import FilePart
+from treadload.errors import InputError, nearest
+from treadload.read import Table
+from treadload.read.table import Made, arms
+from treadload.units import Unit
+
+
+def keys_of(case: FilePart) -> dict[str, str | None]:
+    """Paths of all keys that the tables of a case know, and the SI unit of those that are numbers ("" if pure)."""
+    return dict(_keys(case, ""))
+
+
+def _keys(table: Table, before: str) -> Iterator[tuple[str, str | None]]:
+    told = table.hints if isinstance(table, Made) else {}
+    for name in type(table).known_keys():
+        path = f"{before}{name}"
+        field = type(table).model_fields[name]
+        own = told.get(name, Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation)
+        yield path, _unit(own)
+        value = getattr(table, name, None)
+        members = enumerate(value) if isinstance(value, tuple | list) else [(None, value)]
+        for number, one in members:
+            if isinstance(one, Table):
+                yield from _keys(one, f"{path}." if number is None else f"{path}.{number}.")
+
+
+def _unit(told: Any) -> str | None:
+    for arm in arms(told):
+        marks = get_args(arm)[1:] if get_origin(arm) is Annotated else ()
+        unit = next((mark.si for mark in marks if isinstance(mark, Unit)), None)
+        if unit is not None:
+            return str(unit)
+        inner = _unit(get_args(arm)[0]) if get_origin(arm) is Annotated else None
+        if inner is not None:
+            return inner
+        if arm is float:
+            return ""
+    return None
+
+
+def find_key(case: FilePart, name: str) -> str:
+    """The path that a name means: itself, or the one path that ends in it, "friction" for "rolling.friction".
+
+    Raises InputError for a name that no table has, and for one that several have.
+    """
+    known = keys_of(case)
+    if name in known or "." in name:
+        return name
+    ends = [path for path in known if path.rpartition(".")[2] == name]
+    if len(ends) == 1:
+        return ends[0]
+    if ends:
+        raise InputError(f"the key {name!r} may mean {', '.join(ends)}; write one of these")
+    short = sorted({path.rpartition(".")[2] for path in known})
+    raise InputError(f"the case has no key {name!r}; {nearest(name, short)}")
+
+
+def with_values(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy of the tables of a case with keys set. values: path → value. Raises InputError."""
+    changed = copy.deepcopy(dict(table))
+    for path, value in values.items():
+        set_key(changed, path, copy.deepcopy(value))
+    return changed
+
+
+def value_at(table: Mapping[str, Any], path: str) -> Any:
+    """The value of a key in the tables of a case; None where the case does not give it."""
+    here: Any = table
+    for part in path.split("."):
+        if isinstance(here, list | tuple):
+            here = here[int(part)] if part.isdigit() and int(part) < len(here) else None
+        else:
+            here = here.get(part) if isinstance(here, Mapping) else None
+    return here

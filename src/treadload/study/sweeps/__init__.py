@@ -1,0 +1,20 @@
+"""Studies of many cases: which, where they are solved, where their results are kept."""
+
+from treadload.study.sweeps.cluster import SchedulerLost
+from treadload.study.sweeps.design import Design, Input, bounds_of, over_points, sampled
+from treadload.study.sweeps.sweep import Sweep, open_sweep, sweep
+from treadload.study.sweeps.vary import from_file, from_texts
+
+__all__ = [
+    "Design",
+    "Input",
+    "SchedulerLost",
+    "Sweep",
+    "bounds_of",
+    "from_file",
+    "from_texts",
+    "open_sweep",
+    "over_points",
+    "sampled",
+    "sweep",
+]

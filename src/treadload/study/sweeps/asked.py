@@ -1,0 +1,126 @@
+"""What is kept of each case: its numbers always, fields by their names, and the largest or smallest of fields."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.case import Case, LifeCase
+from treadload.case.file import FilePart
+from treadload.errors import InputError, nearest
+from treadload.study.sweeps.parts import CASE_PARTS, LIFE_PARTS, Parts
+from treadload.study.sweeps.record import Values
+
+REDUCTIONS: Mapping[str, Callable[..., Any]] = {"max": np.nanmax, "min": np.nanmin, "mean": np.nanmean}
+_WORDS = {"max": "largest", "min": "smallest", "mean": "mean"}
+_ASKED = re.compile(r"(?:(?P<how>\w+)\()?(?:(?P<part>\w+)\.)?(?P<name>\w+)\)?")
+# Parts with places of their own: sections, whose depths are not those of the maps.
+_OF_THEIR_OWN = ("slice_along", "slice_across", "bowl")
+# Dimensions that a reduction leaves: it goes over the places of a plane.
+_PLACES = ("y", "x", "point")
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A field that is kept. text: as the user wrote it. how: "max", "min", "mean" or "". part: of a result, or ""."""
+
+    text: str
+    how: str
+    part: str
+    name: str
+
+    @property
+    def label(self) -> str:
+        """Its name in the results of a study."""
+        return f"{self.how}_{self.name}" if self.how else f"{self.part}.{self.name}" if self.part else self.name
+
+
+def asked_for(texts: Sequence[str], case: FilePart) -> tuple[Asked, ...]:
+    """What texts ask for: "pressure", "slice_along.strain_xx", "max(principal_strain_1)". Raises InputError."""
+    if isinstance(texts, str):
+        raise InputError(f"fields are a list of names, got the text {texts!r}; write [{texts!r}]")
+    return tuple(_asked(str(text).strip(), case) for text in dict.fromkeys(texts))
+
+
+def _asked(text: str, case: FilePart) -> Asked:
+    parts = LIFE_PARTS if isinstance(case, LifeCase) else CASE_PARTS
+    match = _ASKED.fullmatch(text)
+    if match is None or text.endswith(")") != bool(match["how"]):
+        raise InputError(
+            f"cannot ask for {text!r}: write a name, such as pressure, slice_along.strain_xx or "
+            "max(principal_strain_1)"
+        )
+    how, part, name = (match[key] or "" for key in ("how", "part", "name"))
+    if how and how not in REDUCTIONS:
+        raise InputError(f"cannot ask for {text!r}: {how} is not one of {', '.join(REDUCTIONS)}")
+    if part and part not in parts:
+        raise InputError(f"cannot ask for {text!r}: this case has no part {part!r}; {nearest(part, parts)}")
+    if name not in variables.VARIABLES:
+        raise InputError(f"no result has a field {name!r}; {nearest(name, variables.VARIABLES, 'see')[:300]}")
+    return Asked(text, how, part, name)
+
+
+def attributes(label: str) -> dict[str, str]:
+    """Units and long name of what a study holds under a label."""
+    how, _, name = label.partition("_")
+    if label not in variables.VARIABLES and how in REDUCTIONS:
+        about = variables.attributes(name)
+        return {**about, "long_name": f"{_WORDS[how]} over the plane: {about['long_name']}"}
+    name = label.rpartition(".")[2]
+    return variables.attributes(name) if name in variables.VARIABLES else {}
+
+
+def read(parts: Parts, asked: Sequence[Asked]) -> tuple[dict[str, Values], dict[str, Values], dict[str, Any]]:
+    """Numbers and fields of a case, and the coordinates of both. Raises InputError for a field that it lacks."""
+    numbers: dict[str, Values] = dict(parts.numbers())
+    fields: dict[str, Values] = {}
+    coordinates: dict[str, Any] = dict(parts.coordinates())
+    for one in asked:
+        array = _find(parts, one)
+        if one.how:
+            over = [dim for dim in array.dims if dim in _PLACES]
+            array = array.reduce(REDUCTIONS[one.how], over) if over else array
+        elif one.part in _OF_THEIR_OWN:
+            array = array.rename({dim: f"{one.part}_{dim}" for dim in array.dims})
+        for dim in map(str, array.dims):
+            if dim in array.coords:
+                array = _aligned(array, dim, coordinates)
+        is_field = not one.how and (array.ndim > 1 or any(dim in _PLACES for dim in array.dims))
+        (fields if is_field else numbers)[one.label] = (tuple(map(str, array.dims)), array.to_numpy())
+    return numbers, fields, coordinates
+
+
+def _aligned(array: xr.DataArray, dim: str, coordinates: dict[str, Any]) -> xr.DataArray:
+    """The array on the places that the case has along a dimension; new ones are added to these."""
+    own, known = array[dim].to_numpy(), coordinates.get(dim)
+    if known is None or np.array_equal(own, known):
+        coordinates[dim] = own
+        return array
+    if own.dtype.kind == "f" and np.isin(own.round(9), known.round(9)).all():
+        return array.reindex({dim: known}, method="nearest", tolerance=1e-9)
+    return _aligned(array.rename({dim: f"{array.name}_{dim}"}), f"{array.name}_{dim}", coordinates)
+
+
+def _find(parts: Parts, one: Asked) -> xr.DataArray:
+    looked = [one.part] if one.part else parts.searched
+    for part in looked:
+        data = parts.dataset(part)
+        if data is not None and one.name in data:
+            return data[one.name]
+    have = sorted({str(name) for part in looked if (data := parts.dataset(part)) is not None for name in data})
+    raise InputError(f"this case has no field {one.text!r}; {nearest(one.name, have, 'it has')}")
+
+
+def kind_of(case: FilePart) -> str:
+    """The name of a kind of case that can be varied. Raises InputError for another one."""
+    if not isinstance(case, Case | LifeCase):
+        raise InputError(
+            f"a study varies a Case or a LifeCase, got {type(case).__name__}; a calibration is no question to vary"
+        )
+    return type(case).__name__

@@ -1,0 +1,318 @@
+"""Which cases a study has: inputs that are varied, over named dimensions."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.stats import qmc
+
+from treadload.case.file import FilePart
+from treadload.case.keys import find_key, keys_of, value_at, with_values
+from treadload.errors import InputError
+from treadload.variables import VARIABLES
+
+CASE = "case"
+"""Dimension of cases that stand in a list."""
+METHODS = ("sobol", "latin", "random")
+# More cases than a study can hold in one table of scalars.
+_MOST = 10_000_000
+# Of a list of cases, read before any is solved.
+_TRIED = 8
+# Text that stands for a table or a list, at most so long.
+_LABEL = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """A key that is varied.
+
+    name: of it in results, as the user wrote it. key: its path in the case. unit: SI unit of numbers, "" of pure
+    ones, None for what is none. dims: dimensions that it varies over. values: what the case is given, an object array
+    over these dimensions. labels: the same as coordinates of a dataset.
+    """
+
+    name: str
+    key: str
+    unit: str | None
+    dims: tuple[str, ...]
+    values: np.ndarray
+    labels: np.ndarray
+
+    @property
+    def is_number(self) -> bool:
+        """True if all values are numbers."""
+        return self.labels.dtype.kind == "f"
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """The cases of a study. sizes: of its dimensions, in order. inputs: what is varied over them."""
+
+    sizes: Mapping[str, int]
+    inputs: tuple[Input, ...]
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions."""
+        return tuple(self.sizes)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Sizes of the dimensions."""
+        return tuple(self.sizes.values())
+
+    @property
+    def count(self) -> int:
+        """Number of cases."""
+        return math.prod(self.shape)
+
+    def at(self, number: int) -> dict[str, Any]:
+        """What case `number` is given, key → value; the last dimension runs fastest."""
+        place = dict(zip(self.dims, np.unravel_index(number, self.shape), strict=True))
+        return {one.key: one.values[tuple(place[dim] for dim in one.dims)] for one in self.inputs}
+
+    def said(self, number: int) -> str:
+        """Case `number` in words: "friction 0.3, normal_load 2e+04"."""
+        place = dict(zip(self.dims, np.unravel_index(number, self.shape), strict=True))
+        told = []
+        for one in self.inputs:
+            label = one.labels[tuple(place[dim] for dim in one.dims)]
+            unit = f" {one.unit}" if one.unit else ""
+            told.append(f"{one.name} {label:.6g}{unit}" if one.is_number else f"{one.name} {label}")
+        return ", ".join(told)
+
+    def coordinates(self) -> dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]:
+        """The inputs as coordinates of a dataset: name → (dimensions, values, attributes)."""
+        made = {}
+        for one in self.inputs:
+            leaf = one.key.rpartition(".")[2]
+            about = {"key": one.key, "long_name": VARIABLES[leaf][1] if leaf in VARIABLES else leaf.replace("_", " ")}
+            if one.unit is not None:
+                about["units"] = one.unit or "1"
+            made[one.name] = (one.dims, one.labels, about)
+        return made
+
+    def to_json(self) -> dict[str, Any]:
+        """The design as what JSON holds."""
+        return {
+            "sizes": dict(self.sizes),
+            "inputs": [
+                {"name": one.name, "key": one.key, "dims": list(one.dims), "values": one.values.ravel().tolist()}
+                for one in self.inputs
+            ],
+        }
+
+    @classmethod
+    def from_json(cls, told: Mapping[str, Any], case: FilePart) -> Design:
+        """The design that `to_json` wrote, of the same case. Raises InputError."""
+        try:
+            sizes = {str(dim): int(size) for dim, size in told["sizes"].items()}
+            parts = [
+                (str(one["name"]), str(one["key"]), tuple(map(str, one["dims"])), list(one["values"]))
+                for one in told["inputs"]
+            ]
+            if min(sizes.values(), default=0) < 1 or math.prod(sizes.values()) > _MOST:
+                raise ValueError("sizes of its dimensions")
+            known = keys_of(case)
+            inputs = []
+            for name, key, dims, values in parts:
+                array = _objects(values).reshape([sizes[dim] for dim in dims])
+                inputs.append(Input(name, key, known.get(key), dims, array, _labels(array)))
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            raise InputError(f"the design of the study cannot be read: {error}") from error
+        return cls(sizes, tuple(inputs))
+
+
+def product(case: FilePart, vary: Mapping[str, Any]) -> Design:
+    """Every combination of the values: one dimension for each input.
+
+    vary: key → values in SI units or with their units. Raises InputError for a key that the case does not have and
+    for a value that it does not take.
+    """
+    columns = {name: _listed(name, values) for name, values in vary.items()}
+    if not columns:
+        raise InputError("nothing is varied; give keys and values, such as {'rolling.friction': [0.3, 0.5, 0.7]}")
+    return _checked(case, {name: ((name,), _objects(values)) for name, values in columns.items()})
+
+
+def listed(case: FilePart, rows: Sequence[Mapping[str, Any]]) -> Design:
+    """Cases in a list, over the dimension "case".
+
+    rows: key → value of each, the same keys in all. Raises InputError.
+    """
+    if not rows:
+        raise InputError("the list of cases is empty; give at least one")
+    names = list(rows[0])
+    for number, row in enumerate(rows):
+        if set(row) != set(names):
+            raise InputError(f"case {number} gives {', '.join(row)}, the first one {', '.join(names)}; give the same")
+    return _checked(case, {name: ((CASE,), _objects([row[name] for row in rows])) for name in names})
+
+
+def from_dataset(case: FilePart, data: xr.Dataset) -> Design:
+    """Cases as a dataset tells them: variables, and coordinates of dimensions, are keys; dimensions are kept.
+
+    Raises InputError.
+    """
+    names = [*(str(dim) for dim in data.dims if dim in data.coords), *map(str, data.data_vars)]
+    if not names:
+        raise InputError("the dataset of cases has neither coordinates nor variables; name them by keys of the case")
+    given = {
+        name: (tuple(map(str, data[name].dims)), _objects_like(data[name].to_numpy().astype(object)))
+        for name in names
+    }
+    return _checked(case, given, tuple(map(str, data.dims)))
+
+
+def sampled(
+    case: FilePart, ranges: Mapping[str, tuple[Any, Any]], count: int, *, method: str = "sobol", seed: int = 0
+) -> Design:
+    """Cases spread over ranges, over the dimension "case".
+
+    ranges: key → (low, high), in SI units or with their units. count: of the cases. method: "sobol", a scrambled
+    Sobol sequence, best at powers of two; "latin", a Latin hypercube; "random". seed: of the scrambling; the same
+    gives the same cases. Raises InputError.
+    """
+    if method not in METHODS:
+        raise InputError(f"a sample is one of {', '.join(METHODS)}, got {method!r}")
+    if not 1 <= count <= _MOST:
+        raise InputError(f"a sample has 1 to {_MOST} cases, got {count}")
+    bounds = bounds_of(case, ranges)
+    unit = (
+        np.random.default_rng(seed).random((count, len(bounds)))
+        if method == "random"
+        else (qmc.Sobol if method == "sobol" else qmc.LatinHypercube)(len(bounds), rng=seed).random(count)
+    )
+    low, high = (np.array(ends) for ends in zip(*bounds.values(), strict=True))
+    return over_points(case, list(bounds), low + unit * (high - low))
+
+
+def over_points(case: FilePart, names: Sequence[str], points: np.ndarray) -> Design:
+    """Cases at points (n, len(names)) in SI units, over the dimension "case". Raises InputError."""
+    columns = {name: ((CASE,), _objects(points[:, k].tolist())) for k, name in enumerate(names)}
+    return _checked(case, columns)
+
+
+def bounds_of(case: FilePart, ranges: Mapping[str, tuple[Any, Any]]) -> dict[str, tuple[float, float]]:
+    """Ranges in SI units: name → (low, high). Raises InputError for what is no range of numbers."""
+    if not ranges:
+        raise InputError("nothing is varied; give keys and ranges, such as {'rolling.friction': (0.3, 0.9)}")
+    bounds = {}
+    for name, ends in ranges.items():
+        given = _listed(name, ends)
+        if len(given) != 2:
+            raise InputError(f"a sample of {name} needs its low and high end, got {len(given)} values")
+        design = product(case, {name: given})
+        if not design.inputs[0].is_number:
+            raise InputError(f"a sample needs numbers, and {name} is {given[0]!r}; list its values instead")
+        low, high = (float(value) for value in design.inputs[0].labels)
+        bounds[name] = (min(low, high), max(low, high))
+    return bounds
+
+
+def in_si(case: FilePart, values: Mapping[str, Any]) -> dict[str, Any]:
+    """What a case makes of values of keys: numbers in SI units, everything else as it is. Raises InputError."""
+    table = with_values(case.given(), values)
+    read = type(case).from_dict(table, folder=case.folder, name="the study").given()
+    return {key: value if (value := value_at(read, key)) is not None else given for key, given in values.items()}
+
+
+def _checked(
+    case: FilePart, given: Mapping[str, tuple[tuple[str, ...], np.ndarray]], dims: tuple[str, ...] | None = None
+) -> Design:
+    """A design of these values in SI units; every value of a dimension of its own is read by the case."""
+    keys = {name: find_key(case, name) for name in given}
+    twice = next((key for key in keys.values() if list(keys.values()).count(key) > 1), None)
+    if twice is not None:
+        raise InputError(f"{twice} is varied twice; vary each key once")
+    dims = dims or tuple(dict.fromkeys(dim for own, _ in given.values() for dim in own))
+    sizes = {dim: next(values.shape[own.index(dim)] for own, values in given.values() if dim in own) for dim in dims}
+    if math.prod(sizes.values()) > _MOST:
+        raise InputError(f"the study has {math.prod(sizes.values())} cases, more than {_MOST}; vary less, or sample")
+    units = keys_of(case)
+    first = {keys[name]: values[(0,) * values.ndim] for name, (_, values) in given.items()}
+    inputs = []
+    for name, (own, values) in given.items():
+        key = keys[name]
+        single = own == (name,) or values.ndim == 0
+        # Numbers are in SI units already; of text each is read once, beside the first of the other inputs.
+        known: dict[Any, Any] = {}
+        for value in values.flat:
+            if single or not _is_number(value):
+                label = repr(value)
+                known[label] = in_si(case, {**first, key: value})[key] if label not in known else known[label]
+        read = _objects([known.get(repr(value), value) for value in values.flat]).reshape(values.shape)
+        labels = _labels(read)
+        if single and len(np.unique(labels)) < labels.size:
+            raise InputError(f"values of {name} are given twice; give each once")
+        inputs.append(Input(name, key, units.get(key), own, read, labels))
+    design = Design(sizes, tuple(inputs))
+    if any(one.dims != (one.name,) for one in inputs):
+        _check_some(case, design)
+    return design
+
+
+def _check_some(case: FilePart, design: Design) -> None:
+    """Refuse a list of cases of which none of the first can be read; single ones may fail, and the study tells."""
+    errors = []
+    for number in range(min(design.count, _TRIED)):
+        try:
+            in_si(case, design.at(number))
+        except InputError as error:
+            errors.append(error)
+        else:
+            return
+    raise errors[0]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float | np.number) and not isinstance(value, bool | np.bool_)
+
+
+def _listed(name: str, values: Any) -> list[Any]:
+    if isinstance(values, str | bytes | Mapping) or not isinstance(values, Sequence | np.ndarray | xr.DataArray):
+        raise InputError(f"{name} needs a list of values, got {values!r}")
+    told = values.tolist() if hasattr(values, "tolist") else list(values)
+    if not told:
+        raise InputError(f"{name} has no values; give at least one")
+    return told
+
+
+def _objects(values: Sequence[Any]) -> np.ndarray:
+    array = np.empty(len(values), dtype=object)
+    array[:] = list(values)
+    return array
+
+
+def _objects_like(values: np.ndarray) -> np.ndarray:
+    return _objects([one.item() if hasattr(one, "item") else one for one in values.flat]).reshape(values.shape)
+
+
+def _labels(values: np.ndarray) -> np.ndarray:
+    """Values as coordinates: numbers, or texts that differ where they do."""
+    flat = list(values.flat)
+    if all(_is_number(value) for value in flat):
+        numbers = np.array(flat, dtype=float).reshape(values.shape)
+        if not np.isfinite(numbers).all():
+            raise InputError(f"values must be finite numbers, got {numbers[~np.isfinite(numbers)][0]}")
+        return numbers
+    texts = [value if isinstance(value, str) else _short(value) for value in flat]
+    whole = {text: [repr(v) for t, v in zip(texts, flat, strict=True) if t == text] for text in texts}
+    numbers_of = {text: itertools.count(1) for text, own in whole.items() if len(set(own)) > 1}
+    told = [f"{text} ({next(numbers_of[text])})" if text in numbers_of else text for text in texts]
+    return np.array(told, dtype=str).reshape(values.shape)
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, Mapping):
+        named = next((value[key] for key in ("name", "structure", "profile", "kind") if key in value), None)
+        if isinstance(named, str):
+            return named
+    text = "true" if value is True else "false" if value is False else str(value)
+    return text if len(text) <= _LABEL else f"{text[: _LABEL - 1]}…"

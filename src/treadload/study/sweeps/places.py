@@ -1,0 +1,182 @@
+"""Where the cases of a study are solved: here, in threads, or in processes of this machine.
+
+A place takes a question and its tasks, and yields records as they come, in any order. What a case raises is in its
+record; what ends a place is raised.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import signal
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from multiprocessing.connection import Connection
+from multiprocessing.connection import wait as wait_for
+from typing import Any
+
+from treadload.errors import InputError
+from treadload.study.sweeps.record import Record
+from treadload.study.sweeps.work import Question, Worker, solve_of
+
+Task = tuple[int, Mapping[str, Any]]
+
+# A process that dies takes its case along: once may be an accident, twice is the case.
+_DEATHS = 2
+# Neighbours that stay with one worker, which keeps what they share.
+_RUN = 16
+# Each process computes with one thread, or several would fight for the same cores.
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+DIED = (
+    "the process that solved it was killed twice, perhaps for lack of memory; use a larger spacing, fewer processes "
+    "or a machine with more memory"
+)
+
+
+def here(question: Question, tasks: Sequence[Task]) -> Iterator[Record]:
+    """One case after another in this process."""
+    worker = Worker(question)
+    for number, values in tasks:
+        yield worker.solve(number, values)
+
+
+def threads(question: Question, tasks: Sequence[Task], jobs: int, name: str) -> Iterator[Record]:
+    """Several cases at once in threads of this process."""
+    waiting = deque(tasks)
+    pool = ThreadPoolExecutor(jobs)
+    flying: set[Future[Record]] = set()
+    try:
+        while waiting or flying:
+            while waiting and len(flying) < 2 * jobs:
+                flying.add(pool.submit(solve_of, question, name, *waiting.popleft()))
+            done, flying = wait(flying, return_when=FIRST_COMPLETED)
+            for future in done:
+                yield future.result()
+    finally:
+        # A thread cannot be stopped: after an interruption those that run end with their case.
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def processes(question: Question, tasks: Sequence[Task], jobs: int) -> Iterator[Record]:
+    """Several cases at once in processes of their own; one that dies is replaced, and its case tried once more."""
+    runs = _runs(tasks, jobs)
+    crew = [_Process(question) for _ in range(min(jobs, len(tasks)))]
+    deaths: dict[int, int] = {}
+    again: deque[Task] = deque()
+    try:
+        for one in crew:
+            one.give(_next(one, crew, runs, again))
+        while any(one.task for one in crew):
+            busy = {one.pipe: one for one in crew if one.task}
+            for pipe in wait_for(list(busy)):
+                one = busy[pipe]  # type: ignore[index]
+                task, record = one.task, one.take()
+                assert task is not None
+                if record is None:
+                    if not one.has_begun:
+                        raise InputError(
+                            "the processes of the study cannot start; a script that asks for several needs "
+                            "'if __name__ == \"__main__\":' around what it does"
+                        )
+                    deaths[task[0]] = deaths.get(task[0], 0) + 1
+                    one.start()
+                    if deaths[task[0]] < _DEATHS:
+                        again.append(task)
+                    else:
+                        record = Record(task[0], 0.0, failure=DIED)
+                if record is not None:
+                    yield record
+                one.give(_next(one, crew, runs, again))
+    finally:
+        for one in crew:
+            one.stop()
+
+
+def _runs(tasks: Sequence[Task], jobs: int) -> list[deque[Task]]:
+    """Tasks in runs of neighbours, at least four for each process so that none waits long at the end."""
+    length = max(1, min(_RUN, -(-len(tasks) // (4 * jobs))))
+    return [deque(tasks[start : start + length]) for start in range(0, len(tasks), length)][::-1]
+
+
+def _next(one: _Process, crew: Sequence[_Process], runs: list[deque[Task]], again: deque[Task]) -> Task | None:
+    """The next case of a process: of its own run, of a new one, or the last of what waits for another process."""
+    if again:
+        return again.popleft()
+    if not one.run and runs:
+        one.run = runs.pop()
+    if one.run:
+        return one.run.popleft()
+    longest = max(crew, key=lambda other: len(other.run))
+    return longest.run.pop() if longest.run else None
+
+
+class _Process:
+    """A process that solves one case after another. task: that it has; run: neighbours that wait for it."""
+
+    def __init__(self, question: Question) -> None:
+        self._question = question
+        self.task: Task | None = None
+        self.run: deque[Task] = deque()
+        self.has_begun = False
+        self.start()
+
+    def start(self) -> None:
+        """Start it, or another in its place."""
+        # Whatever has threads or open files cannot be forked safely.
+        context = multiprocessing.get_context("spawn")
+        self.pipe, theirs = context.Pipe()
+        with _one_thread():
+            self._process = context.Process(target=_serve, args=(theirs, self._question), daemon=True)
+            self._process.start()
+        theirs.close()
+
+    def give(self, task: Task | None) -> None:
+        """Give it a case."""
+        self.task = task
+        if task is not None:
+            # A pipe that broke is noticed when its record is taken.
+            with contextlib.suppress(OSError):
+                self.pipe.send(task)
+
+    def take(self) -> Record | None:
+        """Its record; None if it has died."""
+        try:
+            record: Record = self.pipe.recv()
+        except (EOFError, OSError):
+            self._process.join()
+            self.pipe.close()
+            return None
+        self.has_begun = True
+        return record
+
+    def stop(self) -> None:
+        """End it, whatever it does."""
+        self.pipe.close()
+        self._process.terminate()
+        self._process.join()
+
+
+def _serve(pipe: Connection, question: Question) -> None:
+    """What a process does until its pipe closes, which it also does when the study is killed."""
+    # An interruption is for the study, which then ends its processes.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    worker = Worker(question)
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            pipe.send(worker.solve(*pipe.recv()))
+
+
+@contextlib.contextmanager
+def _one_thread() -> Iterator[None]:
+    before = {name: os.environ.get(name) for name in _THREADS}
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value

@@ -1,0 +1,265 @@
+"""Sweep: a case with some of its inputs varied, and what comes of it as one dataset."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+import xarray as xr
+
+from treadload.case import Case
+from treadload.case.file import FilePart
+from treadload.composing import BaseResult, Holds
+from treadload.describing import first_line
+from treadload.errors import InputError, positive
+from treadload.study.sweeps.asked import asked_for, kind_of
+from treadload.study.sweeps.cluster import SchedulerLost, cluster
+from treadload.study.sweeps.design import Design, from_dataset, listed, product
+from treadload.study.sweeps.gathered import FAILED, SOLVED, UNSOLVED, gathered, with_fields
+from treadload.study.sweeps.places import Task, here, processes, threads
+from treadload.study.sweeps.record import Record
+from treadload.study.sweeps.store import Store, about, begun, opened
+from treadload.study.sweeps.work import TANGENTIAL, Question
+
+Progress = Callable[[int, int, str], None]
+# Fewer neighbours than this do not pay for the contact that they start from.
+_FAMILY = 3
+# Results that a summary lists, and causes of failures and warnings.
+_SHOWN, _CAUSES = 12, 6
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep(BaseResult, group="sweep"):
+    """What a study gave.
+
+    dataset: results over the dimensions of the design, its inputs as coordinates; NaN where a case failed or was not
+    solved; `status` says which, `seconds` how long each took. Of a store, arrays are read when they are used.
+    case: the base case. path: of the store, "" in memory.
+    """
+
+    holds: ClassVar[Holds] = Holds({"status seconds": "..."}, texts="design failures warnings")
+
+    dataset: xr.Dataset
+    case: FilePart
+    path: str = ""
+
+    @cached_property
+    def design(self) -> Design:
+        """What was varied, over which dimensions."""
+        return Design.from_json(json.loads(self.dataset.attrs["design"]), self.case)
+
+    @property
+    def failures(self) -> tuple[tuple[int, str], ...]:
+        """Cases that failed, by their number in the design, and why."""
+        return tuple((int(number), str(reason)) for number, reason in json.loads(self.dataset.attrs["failures"]))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences for the user: those of the cases, each once with how many have it, and what failed."""
+        told = []
+        for text, numbers in _by_cause(json.loads(self.dataset.attrs["warnings"])).items():
+            told.append(text if self.design.count == 1 else f"{_cases(len(numbers))}: {text}")
+        return tuple([*told, *self._failed()])
+
+    @property
+    def stats(self) -> Mapping[str, Any]:
+        """How many cases were solved, failed and wait, and the time that they took, s."""
+        status = self.dataset["status"].to_numpy()
+        names = {"solved": SOLVED, "failed": FAILED, "unsolved": UNSOLVED}
+        counts = {name: int((status == code).sum()) for name, code in names.items()}
+        return {"cases": status.size, **counts, "seconds": float(np.nansum(self.dataset["seconds"].to_numpy()))}
+
+    @property
+    def results(self) -> tuple[str, ...]:
+        """Names of what is known of every case: numbers, without status and seconds."""
+        own = ("status", "seconds")
+        return tuple(str(name) for name, one in self.dataset.data_vars.items() if name not in own and _small(one))
+
+    def summary(self) -> str:
+        """What was varied, how it went, and the range of the results."""
+        stats = self.stats
+        lines = [f"study of {_cases(self.design.count)}{f': {self.case.title}' if self.case.title else ''}"]
+        for one in self.design.inputs:
+            labels = one.labels.ravel()
+            unit = f" {one.unit}" if one.unit else ""
+            span = (
+                f"{labels.min():.6g} to {labels.max():.6g}{unit}, {len(np.unique(labels))} values"
+                if one.is_number
+                else f"{', '.join(map(str, labels[:6]))}{' …' if labels.size > 6 else ''}"
+            )
+            lines.append(f"varied        {one.key}: {span}")
+        state = f"{stats['solved']} solved"
+        state += f", {stats['failed']} failed" if stats["failed"] else ""
+        state += f", {stats['unsolved']} not solved yet" if stats["unsolved"] else ""
+        lines.append(f"cases         {state}; {stats['seconds']:.3g} s of solving")
+        shown = [name for name in self.results if self.dataset[name].dtype.kind in "fiu"]
+        lines += [f"  {name}: {_range(self.dataset[name])}" for name in shown[:_SHOWN]]
+        if len(shown) > _SHOWN:
+            lines.append(f"  and {len(shown) - _SHOWN} more: {', '.join(shown[_SHOWN:])}")
+        return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
+
+    def _failed(self) -> Iterator[str]:
+        by_cause = _by_cause(_grouped(self.failures))
+        for text, numbers in list(by_cause.items())[:_CAUSES]:
+            yield f"{_cases(len(numbers))} failed, the first with {self.design.said(min(numbers))}: {text}"
+        if len(by_cause) > _CAUSES:
+            yield f"and {len(by_cause) - _CAUSES} more causes of failures"
+
+    __repr__ = first_line
+
+
+def sweep(
+    case: FilePart,
+    vary: Mapping[str, Any] | Sequence[Mapping[str, Any]] | xr.Dataset | Design,
+    *,
+    fields: Sequence[str] = (),
+    store: str | os.PathLike[str] | None = None,
+    jobs: int = 1,
+    in_threads: bool = False,
+    scheduler: Any = None,
+    progress: Progress | None = None,
+) -> Sweep:
+    """Solve a case for many values of its inputs.
+
+    case: a Case or a LifeCase. vary: key → values, of which every combination is solved, one dimension each; or a
+    list of such mappings, key → value, one for each case; or a dataset whose coordinates and variables are keys; or
+    a design, see `study.sampled`. A key is a path, "rolling.friction", or its end where that is clear, "friction";
+    numbers are SI, texts carry their unit.
+    fields: what is kept besides the numbers of every case: names of fields, "pressure", "slice_along.strain_xx", and
+    "max(principal_strain_1)", "min(…)", "mean(…)" over the plane.
+    store: folder *.zarr for the results, written as they come; a study that was interrupted goes on in it, and tries
+    again what failed. Left out, all is kept in memory, and lost with an interruption.
+    jobs: processes, or threads if `in_threads`, of this machine. scheduler: of a Dask cluster instead: its address,
+    "local" for `jobs` workers here, or a `distributed.Client`. The results are the same wherever they are solved.
+    progress: called with (done, total, "case") after every case.
+    Returns the Sweep. A case that fails is kept with its reason, and the others go on. Raises InputError for wrong
+    keys, values and fields, for a store of another study and a full disk; SchedulerLost.
+    """
+    kind = kind_of(case)
+    design = _design(case, vary)
+    if jobs != int(jobs) or jobs < 1:
+        positive("jobs", jobs, "", "1 solves one case after another")
+        raise InputError(f"jobs must be a whole number, got {jobs!r}")
+    question = Question(kind, case.given(), case.folder.resolve(), asked_for(fields, case), _anchor(case, design))
+    tell = progress or (lambda done, total, what: None)
+    if store is None:
+        records: dict[int, Record] = {}
+        for record in _solved(question, design, records, jobs, in_threads, scheduler, tell):
+            records[record.number] = record
+        known = [records[number] for number in sorted(records)]
+        data = with_fields(gathered(design, known), design, known)
+        return Sweep(data.assign_attrs(about(case, design, question)), case)
+    with begun(store, case, design, question) as keeping:
+        try:
+            for record in _solved(question, design, keeping.records, jobs, in_threads, scheduler, tell):
+                keeping.append(record)
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(_go_on(keeping)) from None
+        except SchedulerLost as error:
+            raise SchedulerLost(f"{error}; {_go_on(keeping)}") from error
+    return open_sweep(store)
+
+
+def open_sweep(path: str | os.PathLike[str]) -> Sweep:
+    """The study in a store, whether it has ended, is being solved or was killed. Raises InputError."""
+    return Sweep(*opened(path))
+
+
+def _solved(
+    question: Question, design: Design, known: Mapping[int, Record], jobs: int, in_threads: bool, scheduler: Any,
+    tell: Progress,
+) -> Iterator[Record]:  # fmt: skip
+    """Records of the cases that are not known yet, as they come."""
+    tasks: list[Task] = [(number, design.at(number)) for number in range(design.count) if number not in known]
+    if not tasks:
+        return
+    # Another study, or this one once more, must not be taken for it by workers that are still there.
+    name = f"{os.getpid():x}-{time.time_ns():x}"
+    if scheduler is not None:
+        place = cluster(question, tasks, scheduler, jobs, name)
+    elif jobs > 1:
+        place = threads(question, tasks, jobs, name) if in_threads else processes(question, tasks, jobs)
+    else:
+        place = here(question, tasks)
+    done = design.count - len(tasks)
+    tell(done, design.count, "case")
+    for record in place:
+        done += 1
+        yield record
+        tell(done, design.count, "case")
+
+
+def _design(case: FilePart, vary: Any) -> Design:
+    if isinstance(vary, Design):
+        return vary
+    if isinstance(vary, xr.Dataset):
+        return from_dataset(case, vary)
+    if isinstance(vary, Mapping):
+        return product(case, vary)
+    if isinstance(vary, Sequence) and not isinstance(vary, str | bytes) and all(isinstance(r, Mapping) for r in vary):
+        return listed(case, vary)
+    raise InputError(
+        f"cannot vary {type(vary).__name__}: give a mapping of keys to values, such as {{'rolling.friction': [0.3, "
+        "0.6]}, a list of mappings, or a dataset"
+    )
+
+
+def _anchor(case: FilePart, design: Design) -> dict[str, Any]:
+    """The contact that neighbours start from: the first values of what only shears it.
+
+    The same for all of them wherever and in whatever order they are solved, so that the results do not depend on it.
+    """
+    if not isinstance(case, Case):
+        return {}
+    own = {one.key: one for one in design.inputs if one.key in {f"rolling.{name}" for name in TANGENTIAL}}
+    others = {dim for one in design.inputs if one.key not in own for dim in one.dims}
+    dims = {dim for one in own.values() for dim in one.dims} - others
+    if np.prod([design.sizes[dim] for dim in dims], initial=1.0) < _FAMILY:
+        return {}
+    return {key: one.values.flat[0] for key, one in own.items() if set(one.dims) <= dims}
+
+
+def _go_on(store: Store) -> str:
+    return f"{store.told()}; the same command goes on from there"
+
+
+def _grouped(failures: Sequence[tuple[int, str]]) -> dict[str, list[int]]:
+    by_reason: dict[str, list[int]] = {}
+    for number, reason in failures:
+        by_reason.setdefault(reason, []).append(number)
+    return by_reason
+
+
+def _by_cause(by_text: Mapping[str, Sequence[int]]) -> dict[str, list[int]]:
+    """Texts that differ in their numbers alone become one, the first; the most frequent first."""
+    causes: dict[str, tuple[str, list[int]]] = {}
+    for text, numbers in by_text.items():
+        causes.setdefault(_NUMBER.sub("#", text), (text, []))[1].extend(map(int, numbers))
+    return dict(sorted(causes.values(), key=lambda one: -len(one[1])))
+
+
+def _cases(count: int) -> str:
+    return "1 case" if count == 1 else f"{count} cases"
+
+
+def _small(field: xr.DataArray) -> bool:
+    return not {"x", "y", "point"} & set(map(str, field.dims))
+
+
+def _range(field: xr.DataArray) -> str:
+    values = field.to_numpy()
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return "no numbers"
+    unit = str(field.attrs.get("units", "1"))
+    low, high = float(known.min()), float(known.max())
+    span = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+    return span if unit == "1" else f"{span} {unit}"

@@ -1,0 +1,148 @@
+"""What is varied, as texts and tables say it: "friction=0.3:0.9:7", a CSV file, a sheet of Excel."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from treadload.case.changes import read_value
+from treadload.case.file import FilePart
+from treadload.errors import InputError, how_to_install
+from treadload.files import EXCEL
+from treadload.study.sweeps.design import Design, bounds_of, listed, product, sampled
+from treadload.tables import read_table
+
+EXAMPLES = 'friction=0.3:0.9:7, normal_load="20 kN:40 kN:5" or pavement.temperature=[5, 15, 35]'
+# Values that one text may ask for.
+_MOST = 100_000
+_HEADING = re.compile(r"(?P<name>[^\[(]+?)\s*(?:[\[(](?P<unit>[^\])]*)[\])])?")
+
+
+def from_texts(case: FilePart, texts: Sequence[str], *, sample: str = "", seed: int = 0) -> Design:
+    """The cases that texts ask for.
+
+    texts: "key=low:high:count", evenly spaced, with ":log" behind it evenly in their logarithms; "key=[a, b, c]", a
+    list of TOML; every combination of them is a case. sample: "sobol:256", "latin:100" or "random:50": so many cases
+    spread over ranges "key=low:high" instead. seed: of the sample. Raises InputError.
+    """
+    pairs: dict[str, str] = {}
+    for text in texts:
+        name, sign, value = (part.strip() for part in text.partition("="))
+        if not sign or not name or not value:
+            raise InputError(f"cannot vary {text!r}: write key=values, such as {EXAMPLES}")
+        if name in pairs:
+            raise InputError(f"{name} is varied twice; give all its values at once")
+        pairs[name] = value.strip("\"'")
+    if sample:
+        method, _, count = sample.partition(":")
+        if not (count.isascii() and count.isdigit() and len(count) < 9):
+            raise InputError(f"cannot sample {sample!r}: write the method and how many cases, such as sobol:256")
+        ranges = {name: _ends(name, text) for name, text in pairs.items()}
+        return sampled(case, ranges, int(count), method=method, seed=seed)
+    return product(case, {name: _values(case, name, text) for name, text in pairs.items()})
+
+
+def _ends(name: str, text: str) -> tuple[Any, Any]:
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) != 2 or not all(parts):
+        raise InputError(f"a sample needs the low and the high end of {name}, as {name}=0.3:0.9, got {text!r}")
+    return read_value(parts[0]), read_value(parts[1])
+
+
+def _values(case: FilePart, name: str, text: str) -> list[Any]:
+    if text.startswith("["):
+        told = read_value(text)
+        if not isinstance(told, list):
+            raise InputError(f'cannot read the list {text!r} of {name}; write it as ["20 kN", "30 kN"]')
+        return told
+    parts = [part.strip() for part in text.split(":")]
+    spaced = parts[-1] == "log"
+    parts = parts[:-1] if spaced else parts
+    if len(parts) != 3 or not all(parts):
+        if "," in text or ";" in text:
+            raise InputError(f"{name}={text}: a list stands in brackets, as {name}=[0.3, 0.5]")
+        if len(parts) == 1:
+            return [read_value(text)]
+        raise InputError(f"{name}={text}: a range is low:high:count, such as {EXAMPLES}")
+    count = parts[2]
+    if not (count.isascii() and count.isdigit() and 2 <= int(count) <= _MOST):
+        raise InputError(f"{name}={text}: the count of a range is a whole number from 2 to {_MOST}, got {count!r}")
+    low, high = (read_value(part) for part in parts[:2])
+    # A unit behind the high end alone holds for both: "20:40 kN:5".
+    if isinstance(low, int | float) and isinstance(high, str) and (unit := re.search(r"[^\d.,\s+-].*$", high)):
+        low = f"{parts[0]} {unit[0]}"
+    start, end = bounds_of(case, {name: (low, high)})[name]
+    if spaced and start <= 0:
+        raise InputError(f"{name}={text}: logarithms need ends above zero, got {start:g}")
+    values = np.geomspace(start, end, int(count)) if spaced else np.linspace(start, end, int(count))
+    # Round-off in a step would make values that nobody typed: 0.6000000000000001.
+    return [float(f"{value:.12g}") for value in values]
+
+
+def from_file(case: FilePart, path: str | os.PathLike[str]) -> Design:
+    """Cases from a CSV file or the first sheet of an Excel workbook: headings are keys, rows are cases.
+
+    A heading may carry a unit, "normal_load [kN]"; a cell may, too. Raises InputError.
+    """
+    path = Path(path)
+    head, rows = _sheet(path) if path.suffix.lower() in EXCEL else _text(path)
+    columns = []
+    for cell in head:
+        match = _HEADING.fullmatch(str(cell).strip())
+        if match is None:
+            raise InputError(f"{path}: {cell!r} is no heading of a key, such as friction or normal_load [kN]")
+        columns.append((match["name"].strip(), (match["unit"] or "").strip()))
+    return listed(
+        case,
+        [
+            {name: _cell(cell, unit) for (name, unit), cell in zip(columns, row, strict=True)}
+            for row in rows
+        ],
+    )  # fmt: skip
+
+
+def _cell(cell: Any, unit: str) -> Any:
+    if isinstance(cell, str):
+        return f"{cell} {unit}" if unit and unit not in ("-", "1") else read_value(cell)
+    return f"{cell!r} {unit}" if unit and unit not in ("-", "1") else cell
+
+
+def _text(path: Path) -> tuple[Sequence[Any], Sequence[Sequence[Any]]]:
+    table = read_table(path)
+    if not table.has_header:
+        raise InputError(
+            f"{path}: the first line names the keys, such as friction;normal_load [kN]; it holds numbers"
+        )
+    for line, row in zip(table.lines, table.rows, strict=True):
+        if len(row) != len(table.rows[0]):
+            raise InputError(f"{path}, line {line}: {len(row)} values where the header has {len(table.rows[0])}")
+    return table.rows[0], table.rows[1:]
+
+
+def _sheet(path: Path) -> tuple[Sequence[Any], Sequence[Sequence[Any]]]:
+    try:
+        import openpyxl
+    except ImportError as error:
+        raise InputError(
+            f"cannot read {path}: Excel needs openpyxl, which is not installed; {how_to_install('excel')}, or give a "
+            "CSV file"
+        ) from error
+    try:
+        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
+        rows = [list(row) for row in book.worksheets[0].iter_rows(values_only=True)]
+        book.close()
+    except Exception as error:
+        raise InputError(f"cannot read {path} as an Excel workbook: {error}") from error
+    rows = [row for row in rows if any(cell is not None for cell in row)]
+    if not rows:
+        raise InputError(f"{path} holds no cases: its first sheet is empty")
+    width = max((k + 1 for k, cell in enumerate(rows[0]) if cell is not None), default=0)
+    for number, row in enumerate(rows, start=1):
+        if any(cell is None for cell in row[:width]) or any(cell is not None for cell in row[width:]):
+            raise InputError(f"{path}, row {number}: {width} cells are needed, one under each heading")
+    return rows[0][:width], [row[:width] for row in rows[1:]]

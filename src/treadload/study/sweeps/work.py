@@ -1,0 +1,125 @@
+"""What a worker does, here or on another machine: solve one case, and keep what the next one can use."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections import OrderedDict
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from treadload.case import Case, LifeCase
+from treadload.case.keys import with_values
+from treadload.contact import Contact
+from treadload.errors import TreadloadError, one_line
+from treadload.study.run import contact_of
+from treadload.study.sweeps.asked import Asked, read
+from treadload.study.sweeps.parts import CaseParts, LifeParts, Parts
+from treadload.study.sweeps.record import Record
+
+# Contacts that a worker keeps for cases that share them.
+_KEPT = 4
+# Keys of a case that its contact does not depend on, and those of rolling that leave where it is pressed on.
+_BEHIND = ("title", "response", "damage")
+TANGENTIAL = ("friction", "tractive_force", "creepage_x", "lateral_force", "creepage_y", "spin")
+
+
+@dataclass(frozen=True)
+class Question:
+    """What all cases of a study share.
+
+    kind: "Case" or "LifeCase". table: of the base case. folder: that its paths start from. asked: what is kept.
+    anchor: values of the keys of rolling that the study varies: a case starts from the contact with these.
+    """
+
+    kind: str
+    table: Mapping[str, Any]
+    folder: Path
+    asked: tuple[Asked, ...] = ()
+    anchor: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Worker:
+    """Solves cases of one question. Contacts that several of them share are solved once."""
+
+    def __init__(self, question: Question) -> None:
+        self.question = question
+        self._contacts: OrderedDict[str, Contact | TreadloadError] = OrderedDict()
+
+    def solve(self, number: int, values: Mapping[str, Any]) -> Record:
+        """The record of a case. What fails is recorded with its reason, and so is what nobody foresaw."""
+        began = time.perf_counter()
+        try:
+            parts = self._parts(values)
+            numbers, fields, coordinates = read(parts, self.question.asked)
+        except (TreadloadError, ArithmeticError, ValueError, LookupError, TypeError, AttributeError) as error:
+            known = isinstance(error, TreadloadError)
+            said = str(error) if known else f"{type(error).__name__}: {error}"
+            return Record(number, time.perf_counter() - began, failure=one_line(said))
+        except MemoryError:
+            return Record(number, time.perf_counter() - began, failure="out of memory; use a larger spacing")
+        seconds = time.perf_counter() - began
+        return Record(number, seconds, numbers, fields, coordinates, parts.warnings)
+
+    def _parts(self, values: Mapping[str, Any]) -> Parts:
+        asked = self.question
+        table = with_values(asked.table, values)
+        if asked.kind == LifeCase.__name__:
+            return LifeParts(
+                LifeCase.from_dict(table, folder=asked.folder),
+                sensitivity=any(one.part == "sensitivity" for one in asked.asked),
+            )
+        case = Case.from_dict(table, folder=asked.folder)
+        if case.footprint is not None:
+            return CaseParts(case)
+        return CaseParts(case, contact=self._contact(case))
+
+    def _contact(self, case: Case) -> Contact:
+        """The contact of a case, which cases that only read it elsewhere share."""
+        start = None
+        if self.question.anchor:
+            try:
+                near = Case.from_dict(with_values(case.given(), self.question.anchor), folder=case.folder)
+                start = self._once(near, None)
+            except TreadloadError:
+                # A start is a help; a case is solved without it where there is none.
+                start = None
+        return self._once(case, start)
+
+    def _once(self, case: Case, start: Contact | None) -> Contact:
+        key = json.dumps({name: part for name, part in case.given().items() if name not in _BEHIND}, sort_keys=True)
+        found = self._contacts.get(key)
+        if found is None:
+            try:
+                found = contact_of(case, case.pavement.build(), _quiet, start=start)
+            except TreadloadError as error:
+                found = error
+        self._contacts[key] = found
+        self._contacts.move_to_end(key)
+        while len(self._contacts) > _KEPT:
+            self._contacts.popitem(last=False)
+        if isinstance(found, TreadloadError):
+            raise found
+        return found
+
+
+def _quiet(text: str) -> None:
+    """Progress of a study is counted in cases."""
+
+
+# Of a thread that works for another: its worker, by the name of the question that it is for.
+_HERE = threading.local()
+
+
+def solve_of(question: Question, name: str, number: int, values: Mapping[str, Any]) -> Record:
+    """The record of a case of a question.
+
+    name: of the question; what its cases share is kept by the thread as long as it is asked the same.
+    """
+    if getattr(_HERE, "name", None) != name:
+        _HERE.name, _HERE.worker = name, Worker(question)
+    record: Record = _HERE.worker.solve(number, values)
+    return record
