@@ -17,6 +17,16 @@ from treadload.pavement import Pavement
 from treadload.read import Table, in_words
 
 
+def text_of(path: str | os.PathLike[str]) -> str:
+    """The text of the file of a case. Raises InputError."""
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"cannot read the case {path}: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path} is not a text file in UTF-8, so it is not a case; give a TOML file") from error
+
+
 class FilePart(Table):
     """What every kind of case has: a title, and the folder that paths in it start from."""
 
@@ -53,14 +63,7 @@ class FilePart(Table):
 
         changes: keys to set, "rolling.friction=0.6" or "pavement.layers.0.thickness=8 cm", see `case.changes`.
         """
-        path = Path(path)
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"cannot read the case {path}: {error.strerror or error}") from error
-        except UnicodeDecodeError as error:
-            raise InputError(f"{path} is not a text file in UTF-8, so it is not a case; give a TOML file") from error
-        return cls.from_text(text, folder=path.parent, name=str(path), changes=changes)
+        return cls.from_text(text_of(path), folder=Path(path).parent, name=str(path), changes=changes)
 
     @classmethod
     def from_text(

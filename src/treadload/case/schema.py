@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from treadload.case.calibration import CalibrationCase
-from treadload.case.file import FilePart
+from treadload.case.changes import changed
+from treadload.case.file import FilePart, text_of
 from treadload.case.life import LifeCase
 from treadload.case.model import Case
 from treadload.errors import InputError, nearest
+from treadload.files import parse_toml
 from treadload.read import REFERENCE, Choice, choice_named, sentences
 
 KINDS: dict[str, type[FilePart]] = {"run": Case, "life": LifeCase, "calibrate": CalibrationCase}
@@ -29,6 +33,12 @@ def kind_of_case(name: str) -> type[FilePart]:
 def kind_of_table(table: Mapping[str, Any]) -> type[FilePart]:
     """The kind of case that a table with its own tables is; Case where none tells."""
     return next((kind for kind in KINDS.values() if any(key in table for key in kind.own_tables)), Case)
+
+
+def read_case(path: str | os.PathLike[str], *, changes: Sequence[str] = ()) -> FilePart:
+    """A case of whatever kind from a TOML file. changes: see `FilePart.from_toml`. Raises InputError."""
+    table = changed(parse_toml(text_of(path), str(path)), changes)
+    return kind_of_table(table).from_dict(table, folder=Path(path).parent, name=str(path))
 
 
 def json_schema(name: str = "run") -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from treadload.study.sweeps.cluster import SchedulerLost
 from treadload.study.sweeps.design import Design, Input, bounds_of, over_points, sampled
+from treadload.study.sweeps.plan import plan_sweep
 from treadload.study.sweeps.sweep import Sweep, open_sweep, sweep
 from treadload.study.sweeps.vary import from_file, from_texts
 
@@ -15,6 +16,7 @@ __all__ = [
     "from_texts",
     "open_sweep",
     "over_points",
+    "plan_sweep",
     "sampled",
     "sweep",
 ]

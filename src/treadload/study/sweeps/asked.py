@@ -19,6 +19,8 @@ from treadload.study.sweeps.record import Values
 
 REDUCTIONS: Mapping[str, Callable[..., Any]] = {"max": np.nanmax, "min": np.nanmin, "mean": np.nanmean}
 _WORDS = {"max": "largest", "min": "smallest", "mean": "mean"}
+# Prefixes of names: a mean_stress is something else.
+_LABELS = {"max": "max", "min": "min", "mean": "mean_of"}
 _ASKED = re.compile(r"(?:(?P<how>\w+)\()?(?:(?P<part>\w+)\.)?(?P<name>\w+)\)?")
 # Parts with places of their own: sections, whose depths are not those of the maps.
 _OF_THEIR_OWN = ("slice_along", "slice_across", "bowl")
@@ -38,7 +40,9 @@ class Asked:
     @property
     def label(self) -> str:
         """Its name in the results of a study."""
-        return f"{self.how}_{self.name}" if self.how else f"{self.part}.{self.name}" if self.part else self.name
+        return (
+            f"{_LABELS[self.how]}_{self.name}" if self.how else f"{self.part}.{self.name}" if self.part else self.name
+        )
 
 
 def asked_for(texts: Sequence[str], case: FilePart) -> tuple[Asked, ...]:
@@ -68,10 +72,11 @@ def _asked(text: str, case: FilePart) -> Asked:
 
 def attributes(label: str) -> dict[str, str]:
     """Units and long name of what a study holds under a label."""
-    how, _, name = label.partition("_")
-    if label not in variables.VARIABLES and how in REDUCTIONS:
-        about = variables.attributes(name)
-        return {**about, "long_name": f"{_WORDS[how]} over the plane: {about['long_name']}"}
+    for how, prefix in _LABELS.items():
+        name = label.removeprefix(f"{prefix}_")
+        if label not in variables.VARIABLES and name in variables.VARIABLES and name != label:
+            about = variables.attributes(name)
+            return {**about, "long_name": f"{_WORDS[how]} over the plane: {about['long_name']}"}
     name = label.rpartition(".")[2]
     return variables.attributes(name) if name in variables.VARIABLES else {}
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 from collections import deque
 from collections.abc import Iterator, Sequence
+from concurrent.futures import CancelledError
 from typing import Any
 
 from treadload.errors import InputError, TreadloadError, how_to_install, one_line
@@ -16,6 +18,7 @@ LOCAL = "local"
 """Stands for a cluster of Dask on this machine."""
 # Cases that are on their way to each worker, so that none waits for the next.
 _AHEAD = 3
+_LOST = "the scheduler went away"
 # How often a silent scheduler is asked whether it still lives, s, and how long one may take to answer at first.
 _LOOK, _REACH = 1.0, 20
 
@@ -33,33 +36,58 @@ def cluster(question: Question, tasks: Sequence[Task], scheduler: Any, jobs: int
     """
     distributed = _distributed()
     with contextlib.ExitStack() as stack:
+        stack.enter_context(_quietly())
         client = _client(distributed, scheduler, jobs, stack)
+        stack.enter_context(client.as_current())
         waiting = deque(tasks)
         flying: dict[Any, int] = {}
         while waiting or flying:
-            room = _AHEAD * max(1, sum(client.nthreads().values()))
-            while waiting and len(flying) < room:
-                number, values = waiting.popleft()
-                future = client.submit(
-                    solve_of, question, name, number, values, key=f"treadload-{name}-{number}", pure=False
-                )
-                flying[future] = number
             try:
-                done = distributed.wait(list(flying), timeout=_LOOK, return_when="FIRST_COMPLETED").done
-            except TimeoutError:
-                done = set()
-            except Exception as error:
-                raise SchedulerLost(_lost(error)) from error
-            if client.status != "running" or any(future.status == "cancelled" for future in done):
-                raise SchedulerLost(_lost())
-            for future in done:
-                yield _record(distributed, future, flying.pop(future))
-                future.release()
+                room = _AHEAD * max(1, sum(client.nthreads().values()))
+                while waiting and len(flying) < room:
+                    number, values = waiting.popleft()
+                    key = f"treadload-{name}-{number}"
+                    flying[client.submit(solve_of, question, name, number, values, key=key, pure=False)] = number
+                done = _done(distributed, list(flying))
+                if client.status != "running" or any(future.status == "cancelled" for future in done):
+                    raise SchedulerLost(_LOST)
+                records = {future: _record(distributed, future, flying[future]) for future in done}
+            except (OSError, CancelledError) as error:
+                raise SchedulerLost(f"{_LOST} ({type(error).__name__})") from error
+            for future, record in records.items():
+                if record is not None:
+                    del flying[future]
+                    yield record
+                    future.release()
 
 
-def _record(distributed: Any, future: Any, number: int) -> Record:
+@contextlib.contextmanager
+def _quietly() -> Iterator[None]:
+    """Dask prints what ends a connection as a traceback; here it is one sentence."""
+    logger = logging.getLogger("distributed")
+    before = logger.level
+    logger.setLevel(logging.CRITICAL + 1)
     try:
-        record: Record = future.result(timeout=60)
+        yield
+    finally:
+        logger.setLevel(before)
+
+
+def _done(distributed: Any, futures: list[Any]) -> set[Any]:
+    """Futures that are done by now, or within a moment."""
+    try:
+        done: set[Any] = distributed.wait(futures, timeout=_LOOK, return_when="FIRST_COMPLETED").done
+    except TimeoutError:
+        return set()
+    return done
+
+
+def _record(distributed: Any, future: Any, number: int) -> Record | None:
+    """The record of a case; None where it was lost with its worker and is solved again."""
+    try:
+        record: Record = future.result(timeout=_REACH)
+    except TimeoutError:
+        return None
     except distributed.KilledWorker:
         return Record(number, 0.0, failure=(
             "every worker that solved it died, perhaps for lack of memory; use a larger spacing or workers with more "
@@ -69,13 +97,7 @@ def _record(distributed: Any, future: Any, number: int) -> Record:
         raise InputError(
             f"the workers cannot run treadload ({one_line(str(error))}); install the same version there"
         ) from error
-    except Exception as error:
-        raise SchedulerLost(_lost(error)) from error
     return record
-
-
-def _lost(error: Exception | None = None) -> str:
-    return f"the scheduler went away{f' ({type(error).__name__})' if error is not None else ''}"
 
 
 def _client(distributed: Any, scheduler: Any, jobs: int, stack: contextlib.ExitStack) -> Any:

@@ -340,6 +340,8 @@ def _to_zarr(data: xr.Dataset, path: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         data.to_zarr(path, mode="a", zarr_format=2, consolidated=False, encoding=fresh or None)
+        # Then `xarray.open_zarr` opens it at once, and does not stumble over the journal.
+        library.consolidate_metadata(path, zarr_format=2)
 
 
 def _write_fields(path: Path, design: Design, files: Mapping[int, Path]) -> None:
@@ -372,6 +374,9 @@ def _write_fields(path: Path, design: Design, files: Mapping[int, Path]) -> None
                 if name in one.fields:
                     place(rows[row : row + 1], one.fields[name], one.coordinates, axes)
             target[(*outer, slice(start, start + len(rows)))] = rows
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        zarr().consolidate_metadata(path, zarr_format=2)
 
 
 def _fields_of(number: int, file: Path, *, shapes_only: bool = False) -> Record:

@@ -31,8 +31,16 @@ from treadload.study.sweeps.work import TANGENTIAL, Question
 Progress = Callable[[int, int, str], None]
 # Fewer neighbours than this do not pay for the contact that they start from.
 _FAMILY = 3
-# Results that a summary lists, and causes of failures and warnings.
-_SHOWN, _CAUSES = 12, 6
+# Results that a summary gives with their range: what a reader looks for first, and what was asked for.
+_FIRST = (
+    "net_area", "largest_pressure", "largest_shear", "slip_fraction", "largest_extension", "worst_strain",
+    "worst_passes", "life_years", "governing_years",
+)  # fmt: skip
+_REDUCED = ("max_", "min_", "mean_of_")
+# Causes of failures that are told.
+_CAUSES = 6
+# Texts of an input that are written out.
+_LISTED = 6
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
@@ -87,23 +95,16 @@ class Sweep(BaseResult, group="sweep"):
         """What was varied, how it went, and the range of the results."""
         stats = self.stats
         lines = [f"study of {_cases(self.design.count)}{f': {self.case.title}' if self.case.title else ''}"]
-        for one in self.design.inputs:
-            labels = one.labels.ravel()
-            unit = f" {one.unit}" if one.unit else ""
-            span = (
-                f"{labels.min():.6g} to {labels.max():.6g}{unit}, {len(np.unique(labels))} values"
-                if one.is_number
-                else f"{', '.join(map(str, labels[:6]))}{' …' if labels.size > 6 else ''}"
-            )
-            lines.append(f"varied        {one.key}: {span}")
-        state = f"{stats['solved']} solved"
+        lines += varied(self.design)
+        state = str(stats["solved"])
         state += f", {stats['failed']} failed" if stats["failed"] else ""
         state += f", {stats['unsolved']} not solved yet" if stats["unsolved"] else ""
-        lines.append(f"cases         {state}; {stats['seconds']:.3g} s of solving")
-        shown = [name for name in self.results if self.dataset[name].dtype.kind in "fiu"]
-        lines += [f"  {name}: {_range(self.dataset[name])}" for name in shown[:_SHOWN]]
-        if len(shown) > _SHOWN:
-            lines.append(f"  and {len(shown) - _SHOWN} more: {', '.join(shown[_SHOWN:])}")
+        lines.append(f"solved    {state}; {stats['seconds']:.3g} s of solving")
+        known = [name for name in self.results if self.dataset[name].dtype.kind in "fiu"]
+        first = [name for name in known if name in _FIRST or name.startswith(_REDUCED)]
+        lines += [f"  {name}: {_range(self.dataset[name])}" for name in first]
+        more = [name for name in self.results if name not in first]
+        lines.append(f"  and {', '.join(more)}" if first else f"results   {', '.join(more) or 'none'}")
         return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
 
     def _failed(self) -> Iterator[str]:
@@ -114,6 +115,22 @@ class Sweep(BaseResult, group="sweep"):
             yield f"and {len(by_cause) - _CAUSES} more causes of failures"
 
     __repr__ = first_line
+
+
+def varied(design: Design) -> list[str]:
+    """What a design varies, one line for each input."""
+    lines = []
+    for one in design.inputs:
+        labels = one.labels.ravel()
+        unit = f" {one.unit}" if one.unit else ""
+        count = len(np.unique(labels))
+        span = (
+            f"{labels.min():.6g} to {labels.max():.6g}{unit}, {count} value{'s' * (count > 1)}"
+            if one.is_number
+            else f"{', '.join(map(str, labels[:_LISTED]))}{' …' if labels.size > _LISTED else ''}"
+        )
+        lines.append(f"varied    {one.key}: {span}")
+    return lines
 
 
 def sweep(
@@ -261,5 +278,5 @@ def _range(field: xr.DataArray) -> str:
         return "no numbers"
     unit = str(field.attrs.get("units", "1"))
     low, high = float(known.min()), float(known.max())
-    span = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+    span = f"{low:.4g}" if f"{low:.4g}" == f"{high:.4g}" else f"{low:.4g} to {high:.4g}"
     return span if unit == "1" else f"{span} {unit}"

@@ -1,0 +1,102 @@
+"""`treadload sweep`: a case with some of its inputs varied."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from treadload.cli import shell
+from treadload.cli.progress import counts
+
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="KEY=VALUES",
+        help="A key and its values: friction=0.3:0.9:7, normal_load='20 kN:40 kN:5', thickness='5 cm:20 cm:4:log' or "
+        "pavement.temperature=[5, 15, 35]; with --sample a range, friction=0.3:0.9. Several make every combination.",
+        show_default=False,
+    ),
+]
+Cases = Annotated[
+    Path | None,
+    typer.Option(
+        "--table",
+        help="Cases in a CSV file or an Excel sheet instead: headings are keys, as normal_load [kN].",
+        show_default=False,
+    ),
+]
+Sample = Annotated[
+    str,
+    typer.Option(
+        metavar="METHOD:COUNT",
+        help="Spread so many cases over the ranges of --vary: sobol:256, latin:100 or random:50.",
+        show_default=False,
+    ),
+]
+Seed = Annotated[int, typer.Option(min=0, help="Of the sample; the same gives the same cases.")]
+FieldNames = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--field",
+        metavar="NAME",
+        help="Kept besides the numbers of every case: pressure, slice_along.strain_xx, max(principal_strain_1). May "
+        "be given several times.",
+        show_default=False,
+    ),
+]
+Store = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", help="Folder of the results, *.zarr; a study goes on in it.", show_default=False),
+]
+Jobs = Annotated[int, typer.Option(min=1, help="Processes of this machine.")]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(help="A Dask scheduler instead, tcp://host:8786, or local.", show_default=False),
+]
+
+
+def sweep(
+    case: Annotated[Path, typer.Argument(help="The case, or the design case, a TOML file.")],
+    vary: Vary = None,
+    table: Cases = None,
+    sample: Sample = "",
+    seed: Seed = 0,
+    fields: FieldNames = None,
+    output: Store = None,
+    jobs: Jobs = 1,
+    in_threads: Annotated[bool, typer.Option("--threads", help="Threads in place of processes.")] = False,
+    scheduler: Scheduler = None,
+    changes: shell.Changes = None,
+    dry_run: shell.DryRun = False,
+    quiet: shell.Quiet = False,
+) -> None:
+    """Solve a case for many values of its inputs; goes on where it was interrupted."""
+    from treadload.case.schema import read_case
+    from treadload.errors import InputError
+    from treadload.study.sweeps import from_file, from_texts, plan_sweep, sweep
+
+    question = read_case(case, changes=changes or ())
+    if table is not None and (vary or sample):
+        raise InputError("--table gives all cases; leave out --vary and --sample, or the table")
+    texts = vary or ()
+    design = from_file(question, table) if table else from_texts(question, texts, sample=sample, seed=seed)
+    path = output or case.with_suffix(".zarr")
+    if dry_run:
+        return shell.planned(plan_sweep(question, design, fields or ()), path)
+    with counts(shell.err, quiet=quiet) as tell:
+        study = sweep(
+            question, design, fields=fields or (), store=path, jobs=jobs, in_threads=in_threads, scheduler=scheduler,
+            progress=tell,
+        )  # fmt: skip
+    shell.out.print(study.summary(), markup=False)
+    shell.written([path])
+    _fail_if_none(study)
+
+
+def _fail_if_none(study: Any) -> None:
+    """Exit with 1 where nothing was solved."""
+    if not study.stats["solved"]:
+        raise typer.Exit(shell.FAILED)
