@@ -92,6 +92,8 @@ def read(parts: Parts, asked: Sequence[Asked]) -> tuple[dict[str, Values], dict[
             over = [dim for dim in array.dims if dim in _PLACES]
             array = array.reduce(REDUCTIONS[one.how], over) if over else array
         elif one.part in _OF_THEIR_OWN:
+            # Where a section crosses the wheel differs from case to case; worst_x and worst_y say it.
+            array = array.squeeze([dim for dim in array.dims if array.sizes[dim] == 1], drop=True)
             array = array.rename({dim: f"{one.part}_{dim}" for dim in array.dims})
         for dim in map(str, array.dims):
             if dim in array.coords:

@@ -64,13 +64,15 @@ def cluster(question: Question, tasks: Sequence[Task], scheduler: Any, jobs: int
 @contextlib.contextmanager
 def _quietly() -> Iterator[None]:
     """Dask prints what ends a connection as a traceback; here it is one sentence."""
-    logger = logging.getLogger("distributed")
-    before = logger.level
-    logger.setLevel(logging.CRITICAL + 1)
+    loggers = [logging.getLogger(name) for name in ("distributed", "distributed.client")]
+    before = [one.level for one in loggers]
+    for one in loggers:
+        one.setLevel(logging.CRITICAL + 1)
     try:
         yield
     finally:
-        logger.setLevel(before)
+        for one, level in zip(loggers, before, strict=True):
+            one.setLevel(level)
 
 
 def _done(distributed: Any, futures: list[Any]) -> set[Any]:

@@ -311,7 +311,7 @@ def _labels(values: np.ndarray) -> np.ndarray:
 
 def _short(value: Any) -> str:
     if isinstance(value, Mapping):
-        named = next((value[key] for key in ("name", "structure", "profile", "kind") if key in value), None)
+        named = next((value[key] for key in ("name", "structure", "profile", "law", "kind") if key in value), None)
         if isinstance(named, str):
             return named
     text = "true" if value is True else "false" if value is False else str(value)

@@ -27,6 +27,8 @@ Task = tuple[int, Mapping[str, Any]]
 _DEATHS = 2
 # Neighbours that stay with one worker, which keeps what they share.
 _RUN = 16
+# The first word of a process, which tells one that cannot start from one whose first case kills it.
+_READY = "ready"
 # Each process computes with one thread, or several would fight for the same cores.
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 DIED = (
@@ -74,6 +76,8 @@ def processes(question: Question, tasks: Sequence[Task], jobs: int) -> Iterator[
                 one = busy[pipe]  # type: ignore[index]
                 task, record = one.task, one.take()
                 assert task is not None
+                if record == _READY:
+                    continue
                 if record is None:
                     if not one.has_begun:
                         raise InputError(
@@ -86,7 +90,7 @@ def processes(question: Question, tasks: Sequence[Task], jobs: int) -> Iterator[
                         again.append(task)
                     else:
                         record = Record(task[0], 0.0, failure=DIED)
-                if record is not None:
+                if isinstance(record, Record):
                     yield record
                 one.give(_next(one, crew, runs, again))
     finally:
@@ -140,10 +144,10 @@ class _Process:
             with contextlib.suppress(OSError):
                 self.pipe.send(task)
 
-    def take(self) -> Record | None:
-        """Its record; None if it has died."""
+    def take(self) -> Record | str | None:
+        """Its record, or that it has started; None if it has died."""
         try:
-            record: Record = self.pipe.recv()
+            record: Record | str = self.pipe.recv()
         except (EOFError, OSError):
             self._process.join()
             self.pipe.close()
@@ -164,6 +168,7 @@ def _serve(pipe: Connection, question: Question) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     worker = Worker(question)
     with contextlib.suppress(EOFError, OSError):
+        pipe.send(_READY)
         while True:
             pipe.send(worker.solve(*pipe.recv()))
 

@@ -11,7 +11,6 @@ import contextlib
 import hashlib
 import importlib.util
 import json
-import math
 import os
 import shutil
 import time
@@ -20,16 +19,15 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from treadload._version import __version__
 from treadload.case import Case, LifeCase
 from treadload.case.file import FilePart
-from treadload.errors import InputError, how_to_install, one_line
-from treadload.study.sweeps.asked import attributes
+from treadload.errors import InputError, one_line
+from treadload.study.sweeps.arrays import keep_fields, write_arrays, write_fields, zarr
 from treadload.study.sweeps.design import Design
-from treadload.study.sweeps.gathered import common_axes, coordinates_of, gathered, label_of, place
+from treadload.study.sweeps.gathered import gathered, label_of
 from treadload.study.sweeps.record import Record
 from treadload.study.sweeps.work import Question
 
@@ -37,8 +35,6 @@ SUFFIX = ".zarr"
 _STUDY, _JOURNAL, _FIELDS = "study.json", ".records.jsonl", ".fields"
 # The arrays are brought up to date so often, s, and never for more than this share of the time.
 _OFTEN, _SHARE = 5.0, 0.03
-# Numbers of a chunk of a field.
-_CHUNK = 500_000
 _KINDS: Mapping[str, type[FilePart]] = {kind.__name__: kind for kind in (Case, LifeCase)}
 
 
@@ -55,13 +51,7 @@ class Store:
         """Keep a record. Raises InputError where the disk is full."""
         try:
             if record.fields:
-                folder = self.path / _FIELDS
-                folder.mkdir(exist_ok=True)
-                values: dict[str, Any] = {f"field {name}": array for name, (_, array) in record.fields.items()}
-                axes = {f"axis {dim}": values for dim, values in record.coordinates.items()}
-                dims = json.dumps({name: [dims, np.shape(array)] for name, (dims, array) in record.fields.items()})
-                with (folder / f"{record.number}.npz").open("wb") as stream:
-                    np.savez(stream, dims=np.array(dims), **values, **axes)  # type: ignore[arg-type]
+                keep_fields(record, self.path / _FIELDS)
             self._journal.write(json.dumps(record.to_json(), ensure_ascii=False) + "\n")
             self._journal.flush()
         except OSError as error:
@@ -81,7 +71,7 @@ class Store:
         began = time.monotonic()
         data = self.numbers()
         try:
-            _to_zarr(data, self.path)
+            write_arrays(data, self.path)
         except OSError as error:
             raise self._full(error) from error
         self._written = time.monotonic()
@@ -99,7 +89,7 @@ class Store:
         if not files:
             return
         try:
-            _write_fields(self.path, self.design, files)
+            write_fields(self.path, self.design, files)
             if len(files) == self.design.count:
                 shutil.rmtree(self.path / _FIELDS)
         except OSError as error:
@@ -204,17 +194,6 @@ def about(case: FilePart, design: Design, question: Question | None) -> dict[str
     }
 
 
-def zarr() -> Any:
-    """The library of the store. Raises InputError where it is not installed."""
-    try:
-        import zarr as library
-    except ImportError as error:
-        raise InputError(
-            f"a study on disk needs zarr, which is not installed; {how_to_install('study')}, or leave out the store"
-        ) from error
-    return library
-
-
 def _texts(value: Any) -> Iterator[str]:
     if isinstance(value, str):
         if len(value) < 4096:
@@ -273,7 +252,7 @@ def _write_study(path: Path, case: FilePart, design: Design, question: Question,
     temporary.write_text(json.dumps(told, ensure_ascii=False), encoding="utf-8")
     temporary.replace(path / _STUDY)
     # So that it opens before the first case has ended.
-    _to_zarr(gathered(design, ()).assign_attrs(about(case, design, question)), path)
+    write_arrays(gathered(design, ()).assign_attrs(about(case, design, question)), path)
 
 
 def _study(path: Path) -> dict[str, Any]:
@@ -320,71 +299,3 @@ def _read_journal(path: Path, records: dict[int, Record], design: Design) -> int
     except OSError as error:
         raise InputError(f"cannot read the journal of {path}: {error.strerror or error}") from error
     return good
-
-
-def _to_zarr(data: xr.Dataset, path: Path) -> None:
-    """Write arrays of the same shape in place, and remove those that have become another."""
-    library = zarr()
-    group = library.open_group(path, mode="a", zarr_format=2)
-    # Coordinates alone come with nothing to say, and would take away what is said already.
-    data = data if data.attrs else data.assign_attrs(dict(group.attrs))
-    for name in data.variables:
-        old = group.get(str(name)) if (path / str(name)).exists() else None
-        wanted = np.asarray(data[name].to_numpy())
-        if old is not None and (
-            old.shape != wanted.shape or (old.dtype.kind in "OUT") != (wanted.dtype.kind in "OU")
-        ):
-            shutil.rmtree(path / str(name))
-    encoding = {str(name): {"chunks": data[name].shape or None} for name in data.variables if data[name].ndim}
-    fresh = {name: one for name, one in encoding.items() if not (path / name).exists()}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        data.to_zarr(path, mode="a", zarr_format=2, consolidated=False, encoding=fresh or None)
-        # Then `xarray.open_zarr` opens it at once, and does not stumble over the journal.
-        library.consolidate_metadata(path, zarr_format=2)
-
-
-def _write_fields(path: Path, design: Design, files: Mapping[int, Path]) -> None:
-    group = zarr().open_group(path, mode="a", zarr_format=2)
-    members = [_fields_of(number, file, shapes_only=True) for number, file in files.items()]
-    axes = common_axes(members, "fields")
-    _to_zarr(xr.Dataset(coords=coordinates_of(axes)), path)
-    for name, dims in {name: dims for one in members for name, (dims, _) in one.fields.items()}.items():
-        sizes = tuple(len(axes[dim]) for dim in dims)
-        # As many neighbours along the last dimension of the design as make a chunk of a good size.
-        along = max(1, min(design.shape[-1], _CHUNK // max(1, math.prod(sizes))))
-        label = label_of(name, design)
-        if (path / label).exists():
-            shutil.rmtree(path / label)
-        target = group.create_array(
-            label, shape=(*design.shape, *sizes), chunks=(*([1] * (len(design.shape) - 1)), along, *sizes),
-            dtype="f8", fill_value=np.nan,
-            attributes={"_ARRAY_DIMENSIONS": [*design.dims, *dims], **attributes(name)},
-        )  # fmt: skip
-        blocks: dict[tuple[int, ...], list[int]] = {}
-        for number in files:
-            *outer, last = map(int, np.unravel_index(number, design.shape))
-            blocks.setdefault((*outer, last // along), []).append(number)
-        for (*outer, block), numbers in blocks.items():
-            start = block * along
-            rows = np.full((min(along, design.shape[-1] - start), *sizes), np.nan)
-            for number in numbers:
-                one = _fields_of(number, files[number])
-                row = number % design.shape[-1] - start
-                if name in one.fields:
-                    place(rows[row : row + 1], one.fields[name], one.coordinates, axes)
-            target[(*outer, slice(start, start + len(rows)))] = rows
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        zarr().consolidate_metadata(path, zarr_format=2)
-
-
-def _fields_of(number: int, file: Path, *, shapes_only: bool = False) -> Record:
-    with np.load(file, allow_pickle=False) as held:
-        dims = json.loads(str(held["dims"]))
-        coordinates = {name[5:]: held[name] for name in held.files if name.startswith("axis ")}
-        fields = {
-            name: (tuple(own), np.broadcast_to(np.nan, shape) if shapes_only else held[f"field {name}"])
-            for name, (own, shape) in dims.items()
-        }
-    return Record(number, 0.0, fields=fields, coordinates=coordinates)
