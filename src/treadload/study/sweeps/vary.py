@@ -12,8 +12,9 @@ import numpy as np
 
 from treadload.case.changes import read_value
 from treadload.case.file import FilePart
-from treadload.errors import InputError, how_to_install
+from treadload.errors import InputError
 from treadload.files import EXCEL
+from treadload.results.sheets import first_sheet
 from treadload.study.sweeps.design import Design, bounds_of, listed, product, sampled
 from treadload.tables import read_table
 
@@ -125,22 +126,7 @@ def _text(path: Path) -> tuple[Sequence[Any], Sequence[Sequence[Any]]]:
 
 
 def _sheet(path: Path) -> tuple[Sequence[Any], Sequence[Sequence[Any]]]:
-    try:
-        import openpyxl
-    except ImportError as error:
-        raise InputError(
-            f"cannot read {path}: Excel needs openpyxl, which is not installed; {how_to_install('excel')}, or give a "
-            "CSV file"
-        ) from error
-    try:
-        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-        rows = [list(row) for row in book.worksheets[0].iter_rows(values_only=True)]
-        book.close()
-    except Exception as error:
-        raise InputError(f"cannot read {path} as an Excel workbook: {error}") from error
-    rows = [row for row in rows if any(cell is not None for cell in row)]
-    if not rows:
-        raise InputError(f"{path} holds no cases: its first sheet is empty")
+    rows = first_sheet(path)
     width = max((k + 1 for k, cell in enumerate(rows[0]) if cell is not None), default=0)
     for number, row in enumerate(rows, start=1):
         if any(cell is None for cell in row[:width]) or any(cell is not None for cell in row[width:]):
