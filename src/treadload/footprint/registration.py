@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.signal import correlate
 
 from treadload.footprint.footprint import Footprint, edges_of
 from treadload.grid import Grid
@@ -159,6 +158,9 @@ def _start(
 
     windows: cells about the load and what it presses on them, by angle and pitch: all poses need the same.
     """
+    # scipy.signal brings scipy.stats along, which takes as long to import as all of this package.
+    from scipy.signal import correlate
+
     grid, pressure = print_.grid, print_.pressure
     best, pose = -1.0, np.zeros(3)
     for angle in map(float, _STARTS):

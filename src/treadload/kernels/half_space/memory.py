@@ -18,7 +18,6 @@ import itertools
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.signal import lfilter
 from scipy.special import ive
 
 from treadload.kernels.arrays import Array
@@ -44,6 +43,9 @@ def fading(sample: Sample, behind: int, ahead: int, dx: float, lengths: Sequence
     Exact recursion from the leading end, B(X) = exp(-dx/L) B(X + dx) + ∫₀^dx exp(-s/L)/L A(X + s) ds, with
     the integrals by rules that contain the exponential, good to seven digits of A or more.
     """
+    # scipy.signal brings scipy.stats along, which takes as long to import as all of this package.
+    from scipy.signal import lfilter
+
     # The near cells are treated on their own, wanted or not.
     extra, wanted = max(_NEAR - behind, 0), behind + 1 + ahead
     behind, ahead = behind + extra, max(ahead, _NEAR)

@@ -17,7 +17,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import lfilter
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
@@ -114,6 +113,9 @@ def _fields(cells: Cells, depths: Array, shear: float, poisson: float, x: Array,
 
 def _near(cells: Cells, terms: Sequence[Term], behind: int) -> tuple[Array, Array]:
     """Means of q on the load's cells and some behind it; fⱼ times what each term carries there, (3, ny, terms)."""
+    # scipy.signal brings scipy.stats along, which takes as long to import as all of this package.
+    from scipy.signal import lfilter
+
     load = np.pad(cells.load, ((0, 0), (0, 0), (behind, 0)))
     wake = np.zeros_like(load)
     remains = np.empty((*load.shape[:2], len(terms)))

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.stats import qmc
 
 from treadload.case.file import FilePart
 from treadload.case.keys import find_key, keys_of, value_at, with_values
@@ -183,6 +182,9 @@ def sampled(
         raise InputError(f"a sample is one of {', '.join(METHODS)}, got {method!r}")
     if not 1 <= count <= _MOST:
         raise InputError(f"a sample has 1 to {_MOST} cases, got {count}")
+    # Its import takes as long as that of all the rest.
+    from scipy.stats import qmc
+
     bounds = bounds_of(case, ranges)
     unit = (
         np.random.default_rng(seed).random((count, len(bounds)))
