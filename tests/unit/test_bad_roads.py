@@ -92,12 +92,12 @@ def test_a_loose_course_over_an_incompressible_one_on_rock(top):
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_what_is_no_number_is_never_returned(monkeypatch, value):
-    def broken(loads, road, depths, x, y, **more):
-        stress = np.zeros((6, len(depths), len(y), len(x)))
+    def broken(loads, sites, pairs, x, y, **more):
+        stress = np.zeros((6, len(sites[0].depths), len(y), len(x)))
         strain = stress.copy()
         strain[2, 1] = value
-        return stress, strain, stress[:3], "layered"
+        return [(stress, strain, stress[:3], "layered")]
 
-    monkeypatch.setattr("treadload.response.solve.layered_response", broken)
+    monkeypatch.setattr("treadload.response.several.layered_responses", broken)
     with pytest.raises(tl.ConvergenceError, match=r"strain at 0\.02 m is not a number: .* check their units"):
         solve(depths=[0.0, 0.02])

@@ -35,7 +35,8 @@ def plane(stack, depth):
 
 def solved(loads, stack, depths=DEPTHS, x=X, y=Y):
     nodes = rule(36 / depths.min(), 0.3, 2.0)
-    return synthesise_cells(loads, [plane(stack, z) for z in depths], x, y, nodes, nodes)
+    planes = [plane(stack, z) for z in depths]
+    return synthesise_cells([loads], planes, [(0, k) for k in range(len(planes))], x, y, nodes, nodes)
 
 
 def close(found, exact, tolerance):

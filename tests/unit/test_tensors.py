@@ -31,6 +31,29 @@ def test_incompressible_strain_has_no_trace():
     np.testing.assert_allclose(strain[:3].sum(axis=0), 0, atol=1e-14)
 
 
+@settings(max_examples=200, deadline=None)
+@given(fields, st.sampled_from([1e-300, 1e-9, 1.0, 1e12, 1e200]), st.floats(-1e4, 1e4))
+def test_principal_values_in_closed_form_are_those_of_the_solver(field, factor, pressure):
+    """Also where values are equal, near each other, or small beside a mean."""
+    field = factor * (field + 1e-3 * pressure * np.array([1, 1, 1, 0, 0, 0.0])[:, None])
+    exact = np.linalg.eigvalsh(tensors.matrices(field)).T[::-1]
+    found = tensors.principal_values(field)
+    # Round-off of the largest component, a hundred times it where φ has lost as much before LAPACK takes over.
+    np.testing.assert_allclose(found, exact, rtol=0, atol=5e-14 * np.abs(field).max())
+    assert (np.diff(found, axis=0) <= 1e-13 * np.abs(field).max()).all()
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.floats(0, 1e-2), st.integers(0, 2**32 - 1))
+def test_principal_values_near_each_other(apart, seed):
+    """Two values a known distance apart in any frame: the formula alone would be off by the root of round-off."""
+    turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    for values in ([1.0, 1.0 - apart, -2.0], [2.0, apart - 1.0, -1.0]):
+        full = turn @ np.diag(values) @ turn.T
+        tensor = full[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        np.testing.assert_allclose(tensors.principal_values(tensor[:, None])[:, 0], values, rtol=0, atol=1e-13)
+
+
 @settings(max_examples=100, deadline=None)
 @given(fields)
 def test_principal_values_and_direction(field):

@@ -12,7 +12,7 @@ import xarray as xr
 from treadload.damage.cracks import crack_plane
 from treadload.damage.laws.bond import BondStrength, BondUtilisation, ShearFatigue
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.quantity import Place, Quantity, Reading, check_reading
+from treadload.damage.quantity import STRESS, Place, Quantity, Reading, check_reading, ordered
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
@@ -146,6 +146,13 @@ class Criterion:
         """Side of the cube of road over which it reads a mean near the surface, m; None to read points."""
         return None if self.quantity.bounded else self.length
 
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """Variables of a response that it reads, in `read` and in `crack`."""
+        quantity = self.quantity
+        tension = STRESS if self.place == "top" and quantity.needs_tension else ()
+        return tuple(dict.fromkeys((*quantity.needs, *tension)))
+
     def read(self, data: xr.Dataset) -> Array:
         """What the law reads (y, x) of a response at the criterion's one depth, positive where it does harm."""
         quantity = self.quantity
@@ -155,10 +162,13 @@ class Criterion:
         return values
 
     def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
-        """Angle of the trace and dip (y, x), rad, of the crack across what it reads; NaN for none."""
+        """Angle of the trace and dip (y, x), rad, of the crack across what it reads; NaN for none.
+
+        data: as in `read`, or at one x for each y, whose cracks are (y,).
+        """
         normal = self.quantity.crack(data)
         if normal is None:
-            none = np.full((data.sizes["y"], data.sizes["x"]), np.nan)
+            none = np.full([data.sizes[dim] for dim in ordered(data)], np.nan)
             return none, none
         return crack_plane(normal)
 

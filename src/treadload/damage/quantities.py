@@ -33,6 +33,11 @@ from treadload.units import Strain
 MAZARS_ONSET = 100e-6
 
 
+def _in_the_plane(tensor: tuple[str, ...]) -> tuple[str, ...]:
+    """Names of its horizontal components."""
+    return tensor[0], tensor[1], tensor[3]
+
+
 def _along(angle: Array) -> Array:
     """Horizontal unit vectors (..., 3) at an angle from travel towards the right, rad."""
     return np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
@@ -51,7 +56,6 @@ class Extension(Quantity):
     words = "extension strain"
     shown = "microstrain"
     source = "the paper of this method"
-    needs = STRAIN
     extends = True
     needs_tension = True
 
@@ -63,6 +67,11 @@ class Extension(Quantity):
         """The word of the plane or of space."""
         return "extension_strain" if self.strain == "principal" else "in_plane_extension"
 
+    @property
+    def needs(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The strain, in the plane or in space."""
+        return STRAIN if self.strain == "principal" else _in_the_plane(STRAIN)
+
     def with_strain(self, strain: Reading) -> Self:
         """The extension in space or in the plane."""
         return replace(self, strain=strain)
@@ -70,7 +79,7 @@ class Extension(Quantity):
     def of(self, stress: Array, strain: Array) -> Array:
         """Largest principal strain, in space or in the plane."""
         if self.strain == "principal":
-            return np.asarray(tensors.principal(strain)[0][0])
+            return np.asarray(tensors.principal_values(strain)[0])
         return tensors.in_plane_principal(strain)[0]
 
     def normal(self, stress: Array, strain: Array) -> Array:
@@ -163,7 +172,7 @@ class HorizontalTension(Quantity):
     words = "tensile stress"
     unit, shown = "Pa", "MPa"
     source = "Tamagny at the surface; Roque's input; laws of layers bound by cement"
-    needs = STRESS
+    needs = _in_the_plane(STRESS)
 
     def of(self, stress: Array, strain: Array) -> Array:
         """Largest principal stress of the plane."""
@@ -188,7 +197,7 @@ class MazarsStrain(Quantity):
 
     def of(self, stress: Array, strain: Array) -> Array:
         """√Σ⟨ε⟩²."""
-        return tensors.mazars(tensors.principal(strain)[0])
+        return tensors.mazars(tensors.principal_values(strain))
 
     def normal(self, stress: Array, strain: Array) -> Array:
         """The direction of the largest extension."""

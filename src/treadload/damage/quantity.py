@@ -237,7 +237,7 @@ def in_tension(data: xr.Dataset) -> BoolArray:
         return np.ones([data.sizes[dim] for dim in ordered(data)], dtype=bool)
     stress = np.stack([part(data, name) for name in STRESS])
     limit = _TENSION * np.abs(stress).max(initial=0.0)
-    tensile: BoolArray = np.linalg.eigvalsh(tensors.matrices(stress))[..., -1] > limit
+    tensile: BoolArray = tensors.principal_values(stress)[0] > limit
     return tensile
 
 

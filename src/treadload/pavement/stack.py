@@ -28,9 +28,9 @@ def stack_of(road: Pavement, materials: Sequence[Elastic] | None = None) -> Stac
             )
         springs.append(layer.bond.stiffness)
     return Stack(
-        [material.shear_modulus for material in materials],
-        [material.poisson for material in materials],
-        [math.inf if layer.thickness is None else layer.thickness for layer in layers],
-        springs,
+        tuple(material.shear_modulus for material in materials),
+        tuple(material.poisson for material in materials),
+        tuple(math.inf if layer.thickness is None else layer.thickness for layer in layers),
+        tuple(springs),
         road.rigid_base,
     )

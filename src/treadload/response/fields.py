@@ -17,6 +17,8 @@ from treadload.kernels.layers.depths import on_interface, same_depth
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _DIMS = ("depth", "y", "x")
 
+Fields = dict[str, tuple[tuple[str, ...], Array]]
+
 
 def response_dataset(
     stress: Array,
@@ -46,9 +48,8 @@ def response_dataset(
         displacement = None if displacement is None else displacement[:, :, 0]
     values, direction = tensors.principal(strain)
     in_plane, angle = tensors.in_plane_principal(strain)
-    fields: dict[str, tuple[tuple[str, ...], Array]] = {
-        **{f"stress_{name}": (dims, part) for name, part in zip(COMPONENTS, stress, strict=True)},
-        **{f"strain_{name}": (dims, part) for name, part in zip(COMPONENTS, strain, strict=True)},
+    fields: Fields = {
+        **tensor_fields(stress, strain, dims),
         **{f"principal_strain_{k + 1}": (dims, values[k]) for k in range(3)},
         "principal_direction_1": ((*dims, "component"), direction),
         "in_plane_strain_1": (dims, in_plane),
@@ -67,6 +68,15 @@ def response_dataset(
     if displacement is not None:
         fields |= {f"displacement_{name}": (dims, part) for name, part in zip("xyz", displacement, strict=True)}
     return variables.dataset(fields, coordinates, **attrs)
+
+
+def tensor_fields(stress: Array, strain: Array, dims: tuple[str, ...] = _DIMS) -> Fields:
+    """The components of stress and strain (6, ...) by their names."""
+    return {
+        f"{tensor}_{name}": (dims, part)
+        for tensor, parts in (("stress", stress), ("strain", strain))
+        for name, part in zip(COMPONENTS, parts, strict=True)
+    }
 
 
 def layer_in_words(plane: xr.Dataset) -> str:

@@ -27,12 +27,14 @@ def half_space_response(
     y: Array,
     at: Points | None = None,
     tell: Callable[[str], None] | None = None,
+    *,
+    moves: bool = True,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a half-space under superposed loads.
 
     material: of the half-space. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates.
     at: of the grid of x and y only these points, line by line or summed directly. tell: called with a line of text
-    at every load of several.
+    at every load of several. moves: False leaves the displacement out, NaN.
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
     `kernels.half_space.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where
     x and y lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
@@ -61,7 +63,7 @@ def half_space_response(
         place = load.array, grid.dx, grid.dy, depths, shear, poisson
 
         def fields(x: Array, y: Array, on_grid: _OnGrid = on_grid, place: tuple[Any, ...] = place) -> Array:
-            *parts, method = on_grid(*place, x, y)
+            *parts, method = on_grid(*place, x, y, moves=moves)
             methods.add(method)
             return np.concatenate(parts, axis=1)
 

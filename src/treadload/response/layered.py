@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -35,6 +37,22 @@ _MOST = 6e7
 # The same under discs, where one direction serves.
 _MOST_ALONG = 1e6
 
+# Components of the fields: xx, yy, zz, xy, xz, yz, then u_x, u_y, u_z.
+ALL = tuple(range(9))
+_YZ = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Site:
+    """Where in a road something is asked: an elastic road and its depths, (nz,), m, >= 0."""
+
+    road: Pavement
+    depths: Array
+
+
+Solved = tuple[Array, Array, Array, str]
+"""Stress (6, nz, my, mx) in Pa, strain likewise, displacement (3, nz, my, mx) in m, z down; and the method."""
+
 
 def layered_response(
     loads: Sequence[SurfaceLoad],
@@ -45,47 +63,79 @@ def layered_response(
     *,
     below: bool,
     at: Points | None = None,
-) -> tuple[Array, Array, Array, str]:
-    """Stress, strain and displacement of a layered road under superposed loads.
+) -> Solved:
+    """Stress, strain and displacement of one layered road under superposed loads, see `layered_responses`."""
+    return layered_responses([loads], [Site(road, depths)], [(0, 0)], x, y, below=below, at=at)[0]
 
-    depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates. below: whether a depth on an interface takes
-    the layer below it. at: of the grid of x and y only these points.
-    Returns stress (6, nz, my, mx) in Pa, strain likewise, displacement (3, nz, my, mx) in m, z down; and the
-    method. Near the surface the closed form of a half-space of the top layer carries the steps of the load; what
-    the layers add falls off like exp(-k (2 h - z)). Deeper the waves fall off like exp(-k z) themselves.
+
+def layered_responses(
+    loads: Sequence[Sequence[SurfaceLoad]],
+    sites: Sequence[Site],
+    pairs: Sequence[tuple[int, int]],
+    x: Array,
+    y: Array,
+    *,
+    below: bool,
+    at: Points | None = None,
+    components: Sequence[int] = ALL,
+) -> list[Solved]:
+    """Stress, strain and displacement of layered roads under loads, on the same points.
+
+    loads: each superposed from several. pairs: (n) of a load and a site, by number. x: (mx,), y: (my,), m, any
+    coordinates. below: whether a depth on an interface takes the layer below it. at: of the grid of x and y only
+    these points. components: those needed of xx, yy, zz, xy, xz, yz and u_x, u_y, u_z; the others are NaN, as is
+    strain that follows from them.
+    Near the surface the closed form of a half-space of the top layer carries the steps of the load, once for each
+    load and Poisson's ratio; what the layers add falls off like exp(-k (2 h - z)). Deeper the waves fall off like
+    exp(-k z) themselves.
     Displacement along a net shear force is NaN in the layers above a frictionless interface: nothing holds them.
     Raises InputError where that decay is too slow for the distance of the points.
     """
-    materials = [layer.elastic for layer in road.distinct_layers]
-    stack = stack_of(road)
-    depths = stack.snapped(depths)
-    where = [stack.layer_at(float(z), below) for z in depths]
-    length = max(float(stack.interfaces[-1]) * (max(stack.shear) / min(stack.shear)) ** (1 / 3), float(depths.max()))
-    near = [layer == 0 and z < _SPLIT * stack.interfaces[0] for z, layer in zip(depths, where, strict=True)]
-    layout = _Layout(stack, depths, where, below, near)
-    fields = np.zeros((len(depths), 9, *((len(y), len(x)) if at is None else at.shape)))
-    methods = {"layered"}
-    discs = [load for load in loads if isinstance(load, UniformDisc)]
-    gridded = [load for load in loads if isinstance(load, GridLoad)]
-    if discs:
-        fields += _under_discs(discs, layout, x, y, length, at)
-        methods.add(_add_top(fields, discs, layout, materials[0], x, y, at))
-    if gridded:
-        layout = replace(layout, split=_worth_splitting(gridded, layout, x, y, length, at))
-        fields += _under_cells(gridded, layout, x, y, length, at)
-        methods.add(_add_top(fields, gridded, layout, materials[0], x, y, at))
+    layouts = [_Layout.of(site, below) for site in sites]
+    discs = [[one for one in several if isinstance(one, UniformDisc)] for several in loads]
+    gridded = [[one for one in several if isinstance(one, GridLoad)] for several in loads]
+    shape = (len(y), len(x)) if at is None else at.shape
+    fields = [np.zeros((len(layouts[site].depths), 9, *shape)) for _, site in pairs]
+    methods = [{"layered"} for _ in pairs]
+    top = _Top(x, y, at, components)
+    under_discs = [place for place, (load, _) in enumerate(pairs) if discs[load]]
+    for place in under_discs:
+        load, site = pairs[place]
+        fields[place] += _under_discs(discs[load], layouts[site], x, y, at)
+        methods[place].add(top.add(fields[place], discs[load], layouts[site]))
+    under_cells = [place for place, (load, _) in enumerate(pairs) if gridded[load]]
+    if under_cells:
+        asked = [pairs[place] for place in under_cells]
+        split = [_split(layout, gridded, number, asked, x, y, at) for number, layout in enumerate(layouts)]
+        waves = _under_cells(gridded, split, asked, x, y, at, components)
+        for place, part in zip(under_cells, waves, strict=True):
+            load, site = pairs[place]
+            fields[place][:, components] += part
+            methods[place].add(top.add(fields[place], gridded[load], split[site]))
+    return [
+        _solved(fields[place], layouts[site], loads[load], methods[place], components)
+        for place, (load, site) in enumerate(pairs)
+    ]
+
+
+def _solved(
+    fields: Array, layout: _Layout, loads: Sequence[SurfaceLoad], methods: set[str], components: Sequence[int]
+) -> Solved:
+    """Stress, strain and displacement of one pair from its fields (nz, 9, my, mx)."""
+    stack = layout.stack
+    unasked = [component for component in ALL if component not in components]
+    fields[:, unasked] = np.nan
     stress, displacement = np.moveaxis(fields[:, :6], 1, 0).copy(), np.moveaxis(fields[:, 6:], 1, 0).copy()
-    method = "+".join(sorted(methods - {"none"}, key=lambda name: (name != "layered", name)))
     for component, drifts in enumerate(drifting(stack, loads)):
         if drifts:
             # A sheet that nothing holds: the displacement under a net force has no finite value.
-            displacement[component, [row for row, layer in enumerate(where) if layer <= stack.spring.index(0.0)]] = (
-                np.nan
-            )
+            loose = [row for row, layer in enumerate(layout.where) if layer <= stack.spring.index(0.0)]
+            displacement[component, loose] = np.nan
     strain = np.empty_like(stress)
-    for row, layer in enumerate(where):
-        material = materials[layer]
+    for row, layer in enumerate(layout.where):
+        material = layout.materials[layer]
         strain[:, row] = strain_from_stress(stress[:, row], material.modulus, material.poisson)
+    method = "+".join(sorted(methods - {"none"}, key=lambda name: (name != "layered", name)))
     return stress, strain, displacement, method
 
 
@@ -99,15 +149,33 @@ def drifting(stack: Stack, loads: Sequence[SurfaceLoad]) -> tuple[bool, bool]:
     return bool(abs(net[0]) > _NET * size), bool(abs(net[1]) > _NET * size)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Layout:
     """Depths in a stack: the layer of each, its side of an interface, whether the top's half-space is split off."""
 
+    materials: tuple[Elastic, ...]
     stack: Stack
     depths: Array
     where: list[int]
     below: bool
     split: list[bool]
+
+    @classmethod
+    def of(cls, site: Site, below: bool) -> _Layout:
+        """With the half-space split off wherever that may gain something."""
+        stack = stack_of(site.road)
+        depths = stack.snapped(site.depths)
+        where = [stack.layer_at(float(z), below) for z in depths]
+        near = [layer == 0 and z < _SPLIT * stack.interfaces[0] for z, layer in zip(depths, where, strict=True)]
+        materials = tuple(layer.elastic for layer in site.road.distinct_layers)
+        return cls(materials, stack, depths, where, below, near)
+
+    @property
+    def length(self) -> float:
+        """Characteristic length, m: of the layers, or the deepest point."""
+        shear = self.stack.shear
+        contrast = float(max(shear) / min(shear)) ** (1 / 3)
+        return float(max(self.stack.interfaces[-1] * contrast, self.depths.max()))
 
     @property
     def limit(self) -> Array:
@@ -127,29 +195,75 @@ class _Layout:
         result = transfer(k, self.stack, list(self.depths), [self.below] * len(self.depths))
         rows = self.rows
         if rows:
-            top = Stack([self.stack.shear[0]], [self.stack.poisson[0]], [], [])
+            top = Stack((self.stack.shear[0],), (self.stack.poisson[0],), (), ())
             alone = transfer(k, top, list(self.depths[rows]), [False] * len(rows))
             result.plane[rows] -= alone.plane
             result.transverse[rows] -= alone.transverse
         return result.plane, result.transverse
 
+    def plane(self, row: int) -> ElasticPlane:
+        """One of its depths, with its table if that was made before."""
+        layer = self.where[row]
+        return _plane(self.stack, float(self.depths[row]), layer, self.below, self.split[row])
 
-def _add_top(
-    fields: Array,
-    loads: Sequence[SurfaceLoad],
+
+@lru_cache(maxsize=256)
+def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool) -> ElasticPlane:
+    layout = _Layout((), stack, np.array([depth]), [layer], below, [split])
+
+    def kernels(k: Array) -> tuple[Array, Array]:
+        plane, transverse = layout.kernels(k)
+        return plane[0], transverse[0]
+
+    return ElasticPlane(kernels, stack.shear[layer], stack.poisson[layer], float(layout.limit[0]))
+
+
+@dataclass(frozen=True, eq=False)
+class _Top:
+    """The half-space of the top layer on some points, for each load, Poisson's ratio and depths only once.
+
+    known: its fields (nz, 9, my, mx), with displacement times the shear modulus, and the method that gave them.
+    """
+
+    x: Array
+    y: Array
+    at: Points | None
+    components: Sequence[int]
+    known: dict[Any, tuple[Array, str]] = field(default_factory=dict)
+
+    def add(self, fields: Array, loads: Sequence[SurfaceLoad], layout: _Layout) -> str:
+        """Add it to fields (nz, 9, my, mx) where it was split off; the method."""
+        if not layout.rows:
+            return "none"
+        material, depths = layout.materials[0], layout.depths[layout.rows]
+        key = (id(loads), material.poisson, *depths)
+        if key not in self.known:
+            unit = Elastic(2 * (1 + material.poisson), material.poisson)
+            moves = max(self.components) > _YZ
+            stress, _, displacement, method = half_space_response(
+                loads, unit, depths, self.x, self.y, self.at, moves=moves
+            )
+            self.known[key] = np.moveaxis(np.concatenate([stress, displacement]), 1, 0), method
+        top, method = self.known[key]
+        fields[layout.rows, :6] += top[:, :6]
+        fields[layout.rows, 6:] += top[:, 6:] / material.shear_modulus
+        return method
+
+
+def _split(
     layout: _Layout,
-    material: Elastic,
+    loads: Sequence[Sequence[GridLoad]],
+    number: int,
+    pairs: Sequence[tuple[int, int]],
     x: Array,
     y: Array,
     at: Points | None,
-) -> str:
-    """Add the top layer's half-space where it was split off; the method that gave it."""
-    if not layout.rows:
-        return "none"
-    stress, _, displacement, method = half_space_response(loads, material, layout.depths[layout.rows], x, y, at)
-    fields[layout.rows, :6] += np.moveaxis(stress, 1, 0)
-    fields[layout.rows, 6:] += np.moveaxis(displacement, 1, 0)
-    return method
+) -> _Layout:
+    """The layout with the half-space split off where that is cheaper under the first of its loads."""
+    own = [load for load, site in pairs if site == number and loads[load]]
+    if not own:
+        return layout
+    return replace(layout, split=_worth_splitting(loads[own[0]], layout, x, y, layout.length, at))
 
 
 def _worth_splitting(
@@ -189,9 +303,7 @@ def _rules(
     return rule(limit, reach_x, longest), rule(limit, reach_y, longest)
 
 
-def _under_discs(
-    discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Array, length: float, at: Points | None
-) -> Array:
+def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Array, at: Points | None) -> Array:
     """Fields (nz, 9, my, mx) of discs by Hankel's integrals."""
     widest = max(max(np.abs(x - disc.x).max(), np.abs(y - disc.y).max()) + disc.radius for disc in discs)
     if layout.limit.max() * widest > _MOST_ALONG:
@@ -203,36 +315,48 @@ def _under_discs(
         layout.limit,
         _FALL / float(layout.limit.max()),
     )
-    return synthesise_discs([Disc(one.radius, one.pressure, one.x, one.y) for one in discs], planes, x, y, length, at)
+    places = [Disc(one.radius, one.pressure, one.x, one.y) for one in discs]
+    return synthesise_discs(places, planes, x, y, layout.length, at)
 
 
 def _under_cells(
-    loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float, at: Points | None
-) -> Array:
-    """Fields (nz, 9, my, mx) of gridded loads by wavenumbers in both directions."""
-    along, across = _rules(loads, float(layout.limit.max()), x, y, length)
+    loads: Sequence[Sequence[GridLoad]],
+    layouts: Sequence[_Layout],
+    pairs: Sequence[tuple[int, int]],
+    x: Array,
+    y: Array,
+    at: Points | None,
+    components: Sequence[int],
+) -> list[Array]:
+    """Fields (nz, components, my, mx) of pairs of a gridded load and a layout, by wavenumbers in both directions."""
+    used = [layouts[site] for site in sorted({site for _, site in pairs})]
+    every = [one for number in sorted({load for load, _ in pairs}) for one in loads[number]]
+    steepest = max(used, key=lambda layout: float(layout.limit.max()))
+    along, across = _rules(every, float(steepest.limit.max()), x, y, max(layout.length for layout in used))
     if len(along[0]) * len(across[0]) > _MOST:
-        reach = max(_reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y))
-        raise InputError(_too_many(layout, reach, f"{len(along[0])} x {len(across[0])}", _MOST))
-    cells = [
+        reach = max(_reach([load.extent_x for load in every], x), _reach([load.extent_y for load in every], y))
+        raise InputError(_too_many(steepest, reach, f"{len(along[0])} x {len(across[0])}", _MOST))
+    planes: list[ElasticPlane] = []
+    tasks: list[tuple[int, int]] = []
+    for load, site in pairs:
+        for row in range(len(layouts[site].depths)):
+            plane = layouts[site].plane(row)
+            if plane not in planes:
+                planes.append(plane)
+            tasks.append((load, planes.index(plane)))
+    fields = synthesise_cells(
+        [_cells(several) for several in loads], planes, tasks, x, y, along, across, at, components
+    )
+    ends = np.cumsum([len(layouts[site].depths) for _, site in pairs])[:-1]
+    return np.split(fields, ends)
+
+
+def _cells(loads: Sequence[GridLoad]) -> list[Cells]:
+    return [
         Cells(one.array, grid.dx, grid.dy, grid.x0, grid.y0, 2 if one.interpolation == "bilinear" else 1)
         for one in loads
         for grid in [one.grid]
     ]
-    planes = [_plane(layout, row) for row in range(len(layout.depths))]
-    return synthesise_cells(cells, planes, x, y, along, across, at)
-
-
-def _plane(layout: _Layout, row: int) -> ElasticPlane:
-    one = slice(row, row + 1)
-    alone = replace(layout, depths=layout.depths[one], where=layout.where[one], split=layout.split[one])
-
-    def kernels(k: Array) -> tuple[Array, Array]:
-        plane, transverse = alone.kernels(k)
-        return plane[0], transverse[0]
-
-    layer = layout.where[row]
-    return ElasticPlane(kernels, layout.stack.shear[layer], layout.stack.poisson[layer], float(layout.limit[row]))
 
 
 def _too_many(layout: _Layout, reach: float, needed: str, most: float) -> str:

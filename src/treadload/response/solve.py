@@ -11,18 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from treadload import variables
-from treadload.errors import ConvergenceError, InputError
+from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.layers.depths import snapped
 from treadload.pavement import Pavement
 from treadload.response.doubts import overlapping, question_doubts, road_doubts
 from treadload.response.fields import response_dataset
-from treadload.response.half_space import half_space_response
-from treadload.response.layered import layered_response
-from treadload.response.loads import GridLoad, Load, SurfaceLoad, UniformRectangle, gather
-from treadload.response.material import Windows, check_length, spread_over, windows
-from treadload.response.moving import MovingFields, at_speed, moving_response
+from treadload.response.loads import GridLoad, Load, UniformRectangle, gather
+from treadload.response.material import check_length
+from treadload.response.moving import at_speed
+from treadload.response.several import Question, answers
 from treadload.response.solution import Response
 from treadload.response.superposition import common_grid, merged
 
@@ -100,23 +99,12 @@ def solve_response(
         raise InputError("the response is computed on a grid or at points: give x and y or points, not both")
 
     cells = merged([load.cell if isinstance(load, UniformRectangle) else load for load in superposed])
-    asked, road = road, at_speed(road, speed)
-
-    def solve(loads: Sequence[SurfaceLoad], depths: Array) -> MovingFields:
-        limits = road.bond_limits
-        return _mean(
-            [
-                _solve(loads, one, speed, depths, at_x, at_y, below=side == "below", at=at, tell=progress)
-                for one in limits
-            ]
-        )
-
-    if mean_over is None:
-        solved, read = solve(cells, at_depths), None
-    else:
+    if mean_over is not None:
         check_length(mean_over)
-        read = windows(at_depths, mean_over, road.interfaces, layers)
-        solved = _over_windows(solve, cells, at_depths, mean_over, read)
+    asked, road = road, at_speed(road, speed)
+    question = Question(cells, road, at_depths)
+    (answer,) = answers([question], at_x, at_y, side=side, speed=speed, mean_over=mean_over, at=at, tell=progress)
+    solved, read = answer.fields, answer.read
     stress, strain, displacement = solved.stress, solved.strain, solved.displacement
     dataset = response_dataset(
         stress,
@@ -150,75 +138,6 @@ def solve_response(
             "their horizontal displacement has no finite value and is NaN; stress and strain hold",
         )
     return Response(dataset, stats, warnings, superposed, asked, speed, side)
-
-
-def _over_windows(
-    solve: Callable[[Sequence[SurfaceLoad], Array], MovingFields],
-    loads: Sequence[SurfaceLoad],
-    depths: Array,
-    length: float,
-    read: Windows,
-) -> MovingFields:
-    """Means over windows of depth under loads spread over as much, and the points themselves where those are read."""
-    parts: list[tuple[MovingFields, Array]] = []
-    if len(read.nodes):
-        parts.append((solve(merged([spread_over(load, length) for load in loads]), read.nodes), read.mean))
-    if read.local.any():
-        parts.append((solve(loads, depths[read.local]), np.eye(len(depths))[:, read.local]))
-    stress, strain, displacement = (
-        sum(np.einsum("zn,cnyx->czyx", weights, getattr(one, name)) for one, weights in parts)
-        for name in ("stress", "strain", "displacement")
-    )
-    solved = [part for part, _ in parts]
-    methods = " and ".join(dict.fromkeys(one.method for one in solved))
-    warnings = tuple(dict.fromkeys(text for one in solved for text in one.warnings))
-    return MovingFields(stress, strain, displacement, np.zeros((len(depths), 0)), methods, warnings)
-
-
-def _solve(
-    loads: Sequence[SurfaceLoad],
-    road: Pavement,
-    speed: float | None,
-    depths: Array,
-    x: Array,
-    y: Array,
-    *,
-    below: bool,
-    at: Points | None,
-    tell: Callable[[str], None] | None,
-) -> MovingFields:
-    if road.is_viscoelastic:
-        assert speed is not None
-        fields = moving_response(loads, road, speed, depths, x, y, below=below, at=at)
-    else:
-        solved = (
-            half_space_response(loads, road.surface_material, depths, x, y, at, tell)
-            if road.is_homogeneous
-            else layered_response(loads, road, depths, x, y, below=below, at=at)
-        )
-        fields = MovingFields(*solved[:3], np.zeros((len(depths), len(y))), solved[3])
-    for part in (fields.stress, fields.strain):
-        wrong = ~np.isfinite(part).all(axis=(0, *range(2, part.ndim)))
-        if wrong.any():
-            raise ConvergenceError(
-                f"stress or strain at {depths[wrong][0]:g} m is not a number: loads, moduli and thicknesses lie too "
-                "far apart for double precision; check their units"
-            )
-    return fields
-
-
-def _mean(solved: Sequence[MovingFields]) -> MovingFields:
-    """Mean of the fields; one alone is not copied."""
-    if len(solved) == 1:
-        return solved[0]
-    return MovingFields(
-        np.mean([one.stress for one in solved], axis=0),
-        np.mean([one.strain for one in solved], axis=0),
-        np.mean([one.displacement for one in solved], axis=0),
-        np.mean([one.energy for one in solved], axis=0),
-        " and ".join(dict.fromkeys(one.method for one in solved)),
-        tuple(dict.fromkeys(text for one in solved for text in one.warnings)),
-    )
 
 
 def _in_words(road: Pavement) -> str:

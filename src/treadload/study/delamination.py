@@ -24,8 +24,8 @@ from treadload.errors import InputError
 from treadload.pavement import BONDED, FRICTIONLESS, BondLaw, Pavement
 from treadload.response import solve_response
 from treadload.response.loads import Load
+from treadload.study.contacts import Progress
 from treadload.study.life import solve_life
-from treadload.study.passages import Progress
 from treadload.tire import Tire
 
 BEFORE, AFTER, PARTING = "bonded", "parted", "bonded, then parted"

@@ -13,9 +13,10 @@ from treadload.damage.criterion import Criterion
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Climate, Traffic
 from treadload.pavement import Pavement, lift_below
+from treadload.study.contacts import Contacts, Progress
 from treadload.study.doubts import traffic_doubts
 from treadload.study.groups import group_factors, in_words
-from treadload.study.passages import Progress, solve_passages
+from treadload.study.passages import solve_passages
 from treadload.tire import Tire
 
 
@@ -30,6 +31,7 @@ def solve_life(
     tolerance: float = 5e-3,
     workers: int | None = None,
     progress: Progress | None = None,
+    contacts: Contacts | None = None,
 ) -> Life:
     """How many years a road lasts, by every criterion.
 
@@ -42,7 +44,7 @@ def solve_life(
     start = time.perf_counter()
     passages = solve_passages(
         tire, road, traffic, climate, criteria,
-        spacing=spacing, tolerance=tolerance, workers=workers, progress=progress,
+        spacing=spacing, tolerance=tolerance, workers=workers, progress=progress, contacts=contacts,
     )  # fmt: skip
     life = miner(
         passages.readings,

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from scipy.interpolate import Akima1DInterpolator, CubicSpline
 
-from treadload.damage.criterion import Side
+from treadload.damage.criterion import Criterion, Side
 from treadload.kernels.arrays import Array
 from treadload.response import solve_response
+from treadload.response.several import Question, tensors_of_many
+from treadload.study.contacts import Counter
 from treadload.study.seasons import Warm
 from treadload.study.wheels import MARGIN, Wheels
 
@@ -18,35 +24,131 @@ _BESIDE = 0.06
 # Below this depth, m, points a sixth of the depth apart, at most the last, m, follow the field: 1 % of the shear
 # at 60 mm.
 _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
+# Points of all fields that are solved together: some 200 MB with what is made of them.
+_TOGETHER = 400_000
+
+
+@dataclass(frozen=True, eq=False)
+class Passing:
+    """A class that rolls over a road in a season, read at y, m, evenly spaced; turns: peaks and valleys to keep."""
+
+    wheels: Wheels
+    warm: Warm
+    y: Array
+    turns: int
+
+    def depth(self, number: int) -> float:
+        """At which one of its criteria reads, m."""
+        return self.warm.criteria[number].depth(self.warm.road)
+
+    @property
+    def speed(self) -> float | None:
+        """At which the wheels roll, m/s, where the road minds."""
+        return self.wheels.speed if self.warm.road.is_viscoelastic else None
+
+
+def solve_passings(tasks: Sequence[Passing], pool: Executor, count: Counter) -> list[Array]:
+    """Peaks, valleys and cracks, see `passage`, for each task, those that share much together."""
+    solved: dict[int, Array] = {}
+
+    def solve(members: list[int]) -> None:
+        for number, one in zip(members, passages([tasks[k] for k in members]), strict=True):
+            solved[number] = count.after(one, "response")
+
+    list(pool.map(solve, batches(tasks)))
+    return [solved[number] for number in range(len(tasks))]
+
+
+def batches(tasks: Sequence[Passing]) -> list[list[int]]:
+    """Tasks by number that are worth solving together: their wheels stand on the same cells, at the same speed.
+
+    Those of one road follow each other, and so many go together that their fields stay small.
+    """
+    alike: dict[Any, list[int]] = {}
+    for number, task in enumerate(tasks):
+        grids = tuple(load.grid for load in task.wheels.loads)
+        alike.setdefault((grids, task.speed, float(task.y[0]), len(task.y)), []).append(number)
+    parts: list[list[int]] = []
+    for members in alike.values():
+        first = tasks[members[0]]
+        strides = {_Plane.of(first, k).stride for k in range(len(first.warm.criteria))}
+        points = max(len(_along(first.wheels, one)) * len(_rows(first.wheels, first.y, one)) for one in strides)
+        roads = [id(tasks[number].warm.road) for number in members]
+        members.sort(key=lambda number: roads.index(id(tasks[number].warm.road)))
+        size = max(1, _TOGETHER // points)
+        parts += [members[start : start + size] for start in range(0, len(members), size)]
+    return parts
 
 
 def passage(wheels: Wheels, warm: Warm, y: Array, turns: int) -> Array:
     """(criterion, turns + 2, y): peaks and valleys, see `Passages`, then the angle and the dip of the crack."""
-    readings = np.empty((len(warm.criteria), turns + 2, len(y)))
-    depths = [criterion.depth(warm.road) for criterion in warm.criteria]
-    groups: dict[tuple[int, Side, float | None], list[int]] = {}
-    for k, (depth, criterion) in enumerate(zip(depths, warm.criteria, strict=True)):
-        stride = _stride(depth, wheels.cell)
-        side = criterion.side if depth > 0 else "above"
+    return passages([Passing(wheels, warm, y, turns)])[0]
+
+
+def passages(tasks: Sequence[Passing]) -> list[Array]:
+    """As `passage`, for each of some tasks that stand on the same cells at the same speed, see `batches`."""
+    y, wheels = tasks[0].y, tasks[0].wheels
+    results: list[Array] = [np.empty((len(task.warm.criteria), task.turns + 2, len(y))) for task in tasks]
+    planes: dict[_Plane, dict[int, list[int]]] = {}
+    for number, task in enumerate(tasks):
+        for k in range(len(task.warm.criteria)):
+            planes.setdefault(_Plane.of(task, k), {}).setdefault(number, []).append(k)
+    for plane, members in planes.items():
+        x, rows = _along(wheels, plane.stride), _rows(wheels, y, plane.stride)
+        solved = _solved([(tasks[number], own) for number, own in members.items()], plane, x, y[rows])
+        for (number, own), data in zip(members.items(), solved, strict=True):
+            for k in own:
+                at = data.sel(depth=tasks[number].depth(k))
+                _read(results[number][k], tasks[number].warm.criteria[k], at, tasks[number], plane, rows)
+    return results
+
+
+@dataclass(frozen=True)
+class _Plane:
+    """What is read together.
+
+    stride: cells from one point to the next, 0 near the surface. side: of interfaces. mean_over: m, None for points.
+    """
+
+    stride: int
+    side: Side
+    mean_over: float | None
+
+    @classmethod
+    def of(cls, task: Passing, number: int) -> _Plane:
+        """Where one of the criteria of a task reads."""
+        depth, criterion = task.depth(number), task.warm.criteria[number]
+        stride = _stride(depth, task.wheels.cell)
         # Deep down points and means are alike.
-        groups.setdefault((stride, side, None if stride else criterion.mean_over), []).append(k)
-    speed = wheels.speed if warm.road.is_viscoelastic else None
-    for (stride, side, mean_over), members in groups.items():
-        at = sorted({depths[k] for k in members})
-        x, rows = _along(wheels, stride), _rows(wheels, y, stride)
-        data = solve_response(
-            wheels.loads, warm.road, depths=at, x=x, y=y[rows], speed=speed, side=side, mean_over=mean_over
-        ).dataset
-        nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
-        for k in members:
-            plane = data.isel(depth=at.index(depths[k]))
-            read = warm.criteria[k].read(plane)
-            peaks = _turns(x, read, wheels.x.mean(axis=1), turns, smooth=stride > 0 or mean_over is not None)
-            readings[k, :turns] = np.maximum(_between(y[rows], peaks, smooth=stride > 0)(y), 0.0)
-            instant = read.argmax(axis=1)[:, None]
-            for part, field in enumerate(warm.criteria[k].crack(plane)):
-                readings[k, turns + part] = np.take_along_axis(field, instant, axis=1)[nearest, 0]
-    return readings
+        return cls(stride, criterion.side if depth > 0 else "above", None if stride else criterion.mean_over)
+
+
+def _solved(asked: Sequence[tuple[Passing, list[int]]], plane: _Plane, x: Array, y: Array) -> list[xr.Dataset]:
+    """What criteria, by number, read over (depth, y, x), for each task."""
+    needs = {name for task, own in asked for k in own for name in task.warm.criteria[k].needs}
+    at: dict[str, Any] = {"speed": asked[0][0].speed, "side": plane.side, "mean_over": plane.mean_over}
+    depths = [np.array(sorted({task.depth(k) for k in own})) for task, own in asked]
+    places = [(task.wheels, task.warm.road, own) for (task, _), own in zip(asked, depths, strict=True)]
+    found = tensors_of_many(
+        [Question(wheels.joined, road, own) for wheels, road, own in places], x, y, needs=needs, **at
+    )
+    if found is not None:
+        return found
+    return [solve_response(wheels.loads, road, depths=own, x=x, y=y, **at).dataset for wheels, road, own in places]
+
+
+def _read(result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, plane: _Plane, rows: Any) -> None:
+    """Into (turns + 2, y) what a criterion reads of a plane (y[rows], x)."""
+    y, turns = task.y, task.turns
+    smooth = plane.stride > 0
+    read = criterion.read(data)
+    centres = task.wheels.x.mean(axis=1)
+    peaks = _turns(data["x"].to_numpy(), read, centres, turns, smooth=smooth or plane.mean_over is not None)
+    result[:turns] = np.maximum(_between(y[rows], peaks, smooth=smooth)(y), 0.0)
+    worst = data.isel(x=xr.DataArray(read.argmax(axis=1), dims="y"))
+    nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
+    for part, field in enumerate(criterion.crack(worst)):
+        result[turns + part] = field[nearest]
 
 
 def _stride(depth: float, cell: float) -> int:

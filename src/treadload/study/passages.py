@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, TypeVar
 
 import numpy as np
 import xarray as xr
 
-from treadload.contact import Contact
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criterion import Criterion
 from treadload.damage.traffic import Climate, Traffic
@@ -21,14 +18,11 @@ from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response.doubts import overlapping, road_doubts
 from treadload.study.climate import nodes, over_the_climate, warmth_of
-from treadload.study.passage import passage
+from treadload.study.contacts import Contacts, Counter, Progress
+from treadload.study.passage import Passing, solve_passings
 from treadload.study.seasons import Warm, layer_temperatures, warmed
-from treadload.study.wheels import Wheels, across, check_speed, contact_in_state, states_of, wheels_of
+from treadload.study.wheels import Wheels, across, check_speed, states_of, wheels_of
 from treadload.tire import Tire
-
-Solved = TypeVar("Solved")
-Progress = Callable[[int, int, str], None]
-"""Called with (done, of how many, what) after each solve of a contact or a response."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +66,7 @@ def solve_passages(
     tolerance: float = 5e-3,
     workers: int | None = None,
     progress: Progress | None = None,
+    contacts: Contacts | None = None,
 ) -> Passages:
     """What the laws read as every class of axle passes over the road in every season.
 
@@ -81,7 +76,8 @@ def solve_passages(
     on temperature.
     spacing: cells of the contact, m; wheels are moved by half a cell at most, so that all share one lattice.
     tolerance: of readings interpolated over the climate, relative; 0 solves every season. workers: threads; all
-    cores if left out. progress: called after every solve.
+    cores if left out. progress: called after every solve. contacts: known already, on cells of this
+    spacing; those solved join them.
     One contact is solved for each load, pressure and maneuver: the road's moduli do not matter to it. With many
     seasons of one temperature each, the heaviest class is solved in all of them, and the others only in those
     from which splines give the heaviest class within the tolerance.
@@ -98,24 +94,20 @@ def solve_passages(
     for row in classes:
         check_speed(row, warm[0].road)
     distinct = [one for k, one in enumerate(warm) if one not in warm[:k]]
-    states = list(dict.fromkeys(one for row in classes for one in states_of(row, tire)))
-    count = Counter(len(states) + len(classes) * len(distinct), progress)
+    states = [one for row in classes for one in states_of(row, tire)]
+    contacts = contacts or Contacts(tire, spacing)
+    touched = len(contacts.missing(states))
+    count = Counter(touched + len(classes) * len(distinct), progress)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-
-        def touch(one: tuple[Any, ...]) -> Contact:
-            return count.after(contact_in_state(tire, warm[0].road, one, spacing), "contact")
-
-        by_state = dict(zip(states, pool.map(touch, states), strict=True))
-        contacts = [[by_state[one] for one in states_of(row, tire)] for row in classes]
-        y = across([one[0] for one in contacts], classes)
-        wheels = [wheels_of(own, row, y) for own, row in zip(contacts, classes, strict=True)]
+        contacts.solve(states, warm[0].road, pool, count)
+        by_class = [[contacts.known[one] for one in states_of(row, tire)] for row in classes]
+        y = across([one[0] for one in by_class], classes)
+        wheels = [wheels_of(own, row, y) for own, row in zip(by_class, classes, strict=True)]
         turns = 2 * max(len(one.x) for one in wheels) - 1
 
-        def solve(pair: tuple[int, Warm]) -> Array:
-            return count.after(passage(wheels[pair[0]], pair[1], y, turns), "response")
-
         def solve_all(rows: Sequence[int], which: Sequence[Warm]) -> Array:
-            solved = np.array(list(pool.map(solve, [(row, one) for row in rows for one in which])))
+            tasks = [Passing(wheels[row], one, y, turns) for row in rows for one in which]
+            solved = np.array(solve_passings(tasks, pool, count))
             return solved.reshape(len(rows), len(which), *solved.shape[1:])
 
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
@@ -123,7 +115,7 @@ def solve_passages(
         pilot = solve_all([heaviest], distinct)[0]
         warmth = warmth_of(seasons, [one.road for one in distinct])
         kept, error = nodes(warmth, pilot[:, :, :turns], tolerance)
-        count.total = len(states) + len(distinct) + len(others) * len(kept)
+        count.total = touched + len(distinct) + len(others) * len(kept)
         values = np.empty((len(classes), *pilot.shape))
         values[heaviest] = pilot
         if others:
@@ -147,24 +139,10 @@ def solve_passages(
         everything[:, :, :, turns],
         everything[:, :, :, turns + 1],
         layer_temperatures(road, criteria, seasons),
-        len(states),
-        count.total - len(states),
+        touched,
+        count.total - touched,
         error,
         max(one.moved for one in wheels),
         tuple(wheels),
         tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads)) + road_doubts(warm[0].road),
     )
-
-
-class Counter:
-    """How many solves of a total are done; threads may count at once."""
-
-    def __init__(self, total: int, progress: Progress | None) -> None:
-        self.total = total
-        self._done = itertools.count(1)
-        self._tell = progress or (lambda done, total, what: None)
-
-    def after(self, result: Solved, what: str) -> Solved:
-        """The result of one solve, counted."""
-        self._tell(next(self._done), self.total, what)
-        return result

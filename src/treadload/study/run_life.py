@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -14,8 +15,8 @@ from treadload.damage.miner import Life
 from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.results import Study, to_tree
+from treadload.study.contacts import Contacts, Progress
 from treadload.study.life import solve_life
-from treadload.study.passages import Progress
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 
 
@@ -59,22 +60,17 @@ def run_life(
     sensitivity: False to leave them out. workers: threads; all cores if left out. progress: called after every solve.
     Raises the errors of reading, contact and response.
     """
-    tire, road = case.build_tire(), case.build_road()
+    tire, road, spacing = case.build_tire(), case.build_road(), case.spacing
+    contacts = Contacts(tire, spacing)
+    shared: dict[str, Any] = {"spacing": spacing, "workers": workers, "progress": progress, "contacts": contacts}
     life = solve_life(
         tire,
         road,
         case.build_traffic(),
         case.build_climate(),
         case.build_criteria(),
-        spacing=case.spacing,
         tolerance=case.tolerance,
-        workers=workers,
-        progress=progress,
+        **shared,
     )
     asked = sensitivity and np.isfinite(life.years(life.governing))
-    more = (
-        life_sensitivity(tire, road, life, spacing=case.spacing, workers=workers, progress=progress)
-        if asked
-        else None
-    )
-    return LifeResult(case, road, life, more)
+    return LifeResult(case, road, life, life_sensitivity(tire, road, life, **shared) if asked else None)

@@ -24,10 +24,10 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Mix
 from treadload.pavement import Pavement
-from treadload.study.passage import passage
-from treadload.study.passages import Counter, Progress
+from treadload.study.contacts import Contacts, Counter, Progress
+from treadload.study.passage import Passing, solve_passings
 from treadload.study.seasons import layer_temperatures, warmed
-from treadload.study.wheels import across, contact_in_state, states_of, wheels_of
+from treadload.study.wheels import Wheels, across, states_of, wheels_of
 from treadload.tire import Tire
 
 TEMPERATURE = "temperature (per °C)"
@@ -84,12 +84,13 @@ def life_sensitivity(
     spacing: float = DEFAULT_SPACING,
     workers: int | None = None,
     progress: Progress | None = None,
+    contacts: Contacts | None = None,
 ) -> Sensitivity:
     """Elasticities of a life: d ln(life) / d ln(input) of its governing criterion, by central differences of ±5 %.
 
     tire, road: those of the life; materials may depend on temperature. coverage: share of the governing damage, in
     (0, 1]; the classes and seasons that do most, up to this share, are solved again with each input changed, the
-    rest is taken to change as they do. spacing, workers, progress: as in `solve_passages`.
+    rest is taken to change as they do. spacing, workers, progress, contacts: as in `solve_passages`.
     Inputs: wheel load, inflation pressure and friction of all classes; thickness and modulus of every layer, the
     numbers of its law unchanged; temperature by ±1 °C; passes, wander, and the strain or stress that the law
     allows, which need no solve. Raises InputError for a life that never ends, and ConvergenceError of a contact.
@@ -117,7 +118,7 @@ def life_sensitivity(
             skipped.append(f"{name}: {error}")
             continue
         asked += both
-    solver = _Solver(tire, criterion, pairs, spacing, progress)
+    solver = _Solver(criterion, pairs, contacts or Contacts(tire, spacing), progress)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
         damage = solver.damages([question for _, _, question in asked], pool)
     for (name, _, _), less, more in zip(asked[::2], damage[::2], damage[1::2], strict=True):
@@ -129,10 +130,10 @@ def life_sensitivity(
         {"input": order},
         criterion=criterion.name,
         coverage=covered,
-        contacts=solver.contacts,
+        contacts=solver.solved,
         responses=solver.responses,
     )
-    return Sensitivity(dataset, criterion.name, covered, solver.contacts, solver.responses, tuple(skipped))
+    return Sensitivity(dataset, criterion.name, covered, solver.solved, solver.responses, tuple(skipped))
 
 
 def _most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
@@ -267,58 +268,55 @@ def _warm(road: Pavement, climate: Climate, criterion: Criterion, pairs: Sequenc
 
 
 class _Solver:
-    """Damage of the pairs under changed questions, with contacts shared between them."""
+    """Damage of the pairs under changed questions, with contacts and roads shared between them.
+
+    solved, responses: how many contacts and responses it took.
+    """
 
     def __init__(
-        self,
-        tire: Tire,
-        criterion: Criterion,
-        pairs: list[tuple[int, int]],
-        spacing: float,
-        progress: Progress | None,
+        self, criterion: Criterion, pairs: list[tuple[int, int]], contacts: Contacts, progress: Progress | None
     ) -> None:
-        self.tire, self.criterion, self.pairs, self.spacing = tire, criterion, pairs, spacing
+        self.tire, self.criterion, self.pairs, self.contacts = contacts.tire, criterion, pairs, contacts
         self.progress = progress
-        self.contacts = self.responses = 0
+        self.solved = self.responses = 0
 
     def damages(self, questions: Sequence[Question], pool: ThreadPoolExecutor) -> list[float]:
         """The largest damage of a year across the wheel path in each question."""
         rows = list(dict.fromkeys(row for row, _ in self.pairs))
-        states = list(
-            dict.fromkeys(
-                one
-                for _, traffic, _ in questions
-                for row in rows
-                for one in states_of(traffic.classes[row], self.tire)
-            )
-        )
-        self.contacts, self.responses = len(states), len(questions) * len(self.pairs)
-        count = Counter(self.contacts + self.responses, self.progress)
+        classes = [[traffic.classes[row] for row in rows] for _, traffic, _ in questions]
+        states = [one for several in classes for row in several for one in states_of(row, self.tire)]
+        missing = len(self.contacts.missing(states))
+        self.solved, self.responses = missing, len(questions) * len(self.pairs)
+        count = Counter(missing + self.responses, self.progress)
         road, _, climate = questions[0]
-        warm = next(iter(_warm(road, climate, self.criterion, self.pairs).values()))
-        solved = pool.map(
-            lambda one: count.after(contact_in_state(self.tire, warm.road, one, self.spacing), "contact"), states
-        )
-        contacts = dict(zip(states, solved, strict=True))
-        tasks, places = [], []
-        for road, traffic, climate in questions:
+        first = warmed(road, (self.criterion,), climate.seasons[self.pairs[0][1]])
+        self.contacts.solve(states, first.road, pool, count)
+        known = self.contacts.known
+        stand: dict[Any, Wheels] = {}
+        tasks = []
+        for (road, _, climate), several in zip(questions, classes, strict=True):
             warm_roads = _warm(road, climate, self.criterion, self.pairs)
-            classes = [traffic.classes[row] for row in rows]
-            by_class = [[contacts[one] for one in states_of(row, self.tire)] for row in classes]
-            y = across([own[0] for own in by_class], classes)
-            wheels = {row: wheels_of(c, one, y) for row, c, one in zip(rows, by_class, classes, strict=True)}
+            by_class = [[known[one] for one in states_of(row, self.tire)] for row in several]
+            y = across([own[0] for own in by_class], several)
+            wheels = {}
+            for row, own, one in zip(rows, by_class, several, strict=True):
+                key = (row, *map(id, own), float(y[0]))
+                if key not in stand:
+                    stand[key] = wheels_of(own, one, y)
+                wheels[row] = stand[key]
             turns = 2 * max(len(one.x) for one in wheels.values()) - 1
-            places.append((y, turns))
-            tasks += [(wheels[row], warm_roads[season], y, turns) for row, season in self.pairs]
-        read = pool.map(lambda task: count.after(passage(*task), "response"), tasks)
-        result = []
-        for (road, traffic, climate), (y, turns) in zip(questions, places, strict=True):
-            values = np.zeros((1, len(traffic.classes), len(climate.seasons), turns, len(y)))
-            for row, season in self.pairs:
-                values[0, row, season] = next(read)[0, :turns]
-            warmth = layer_temperatures(road, (self.criterion,), climate.seasons)[0]
-            laws = [self.criterion.law_at(float(t)) for t in warmth]
-            damage = damage_of(values, [laws], traffic, climate)
-            spread = wander_of(laws[0], traffic).spread(damage, float(y[1] - y[0]))
-            result.append(float(spread.sum(axis=(0, 1, 2)).max()))
-        return result
+            tasks += [Passing(wheels[row], warm_roads[season], y, turns) for row, season in self.pairs]
+        read = iter(zip(tasks, solve_passings(tasks, pool, count), strict=True))
+        return [self._damage(question, [next(read) for _ in self.pairs]) for question in questions]
+
+    def _damage(self, question: Question, solved: Sequence[tuple[Passing, Array]]) -> float:
+        road, traffic, climate = question
+        task = solved[0][0]
+        values = np.zeros((1, len(traffic.classes), len(climate.seasons), task.turns, len(task.y)))
+        for (row, season), (_, found) in zip(self.pairs, solved, strict=True):
+            values[0, row, season] = found[0, : task.turns]
+        warmth = layer_temperatures(road, (self.criterion,), climate.seasons)[0]
+        laws = [self.criterion.law_at(float(t)) for t in warmth]
+        damage = damage_of(values, [laws], traffic, climate)
+        spread = wander_of(laws[0], traffic).spread(damage, float(task.y[1] - task.y[0]))
+        return float(spread.sum(axis=(0, 1, 2)).max())

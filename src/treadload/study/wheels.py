@@ -5,16 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from treadload.contact import Contact, solve_contact
+from treadload.contact import Contact, Maneuver, solve_contact
 from treadload.damage.traffic import AxleClass
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad
+from treadload.response.loads import SurfaceLoad
+from treadload.response.superposition import merged
 from treadload.tire import Tire
 
 # Points beyond the outer edges of the wheels, m: strain there is a few per cent of the largest.
@@ -38,6 +41,11 @@ class Wheels:
     name: str
     moved: float
 
+    @cached_property
+    def joined(self) -> list[SurfaceLoad]:
+        """The same loads, fewer where they stand close together."""
+        return merged(self.loads)
+
     @property
     def cell(self) -> float:
         """Size of the cells across travel, m."""
@@ -50,12 +58,28 @@ def check_speed(row: AxleClass, road: Pavement) -> None:
         raise InputError(f"the road is viscoelastic: give the class {row.name!r} a speed in m/s")
 
 
-def state(row: AxleClass) -> tuple[Any, ...]:
+class State(NamedTuple):
     """What the contact of a class depends on, besides the tire and the road."""
-    return row.wheel_load, row.inflation_pressure, row.maneuver, row.friction, row.speed, row.tire
+
+    wheel_load: float
+    inflation_pressure: float
+    maneuver: Maneuver
+    friction: Any
+    speed: float | None
+    tire: Tire | None
+
+    @property
+    def numbers(self) -> tuple[float, float]:
+        """Load and pressure."""
+        return self.wheel_load, self.inflation_pressure
 
 
-def states_of(row: AxleClass, tire: Tire) -> tuple[tuple[Any, ...], ...]:
+def state(row: AxleClass) -> State:
+    """The state of a class."""
+    return State(row.wheel_load, row.inflation_pressure, row.maneuver, row.friction, row.speed, row.tire)
+
+
+def states_of(row: AxleClass, tire: Tire) -> tuple[State, ...]:
     """The state of a class; and, where wheels are mirrored and their tread is not its own mirror image, that whose
     mirror image is theirs: with side force and spin reversed.
     """
@@ -65,11 +89,13 @@ def states_of(row: AxleClass, tire: Tire) -> tuple[tuple[Any, ...], ...]:
     return state(row), state(replace(row, maneuver=maneuver))
 
 
-def contact_in_state(tire: Tire, road: Pavement, one: tuple[Any, ...], spacing: float) -> Contact:
-    """The contact in a state, see `state`."""
-    load, pressure, maneuver, friction, speed, own = one
-    inflated = replace(own or tire, inflation_pressure=pressure)
-    return solve_contact(inflated, road, maneuver.rolling(load, friction, speed=speed), spacing=spacing)
+def contact_in_state(
+    tire: Tire, road: Pavement, one: State, spacing: float, *, start: Contact | None = None
+) -> Contact:
+    """The contact in a state. start: one near it."""
+    inflated = replace(one.tire or tire, inflation_pressure=one.inflation_pressure)
+    rolling = one.maneuver.rolling(one.wheel_load, one.friction, speed=one.speed)
+    return solve_contact(inflated, road, rolling, spacing=spacing, start=start)
 
 
 def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:

@@ -44,16 +44,18 @@ def bilinear_on_grid(
     x: Array,
     y: Array,
     method: Method = "auto",
+    *,
+    moves: bool = True,
 ) -> tuple[Array, Array, str]:
     """Stress and displacement on the grid of any coordinates x and y.
 
     load: (3, ny, nx), Pa, values at the centres of the cells. dx, dy: cell, m. depths: (nz,), m, >= 0.
     shear: shear modulus, Pa. poisson: Poisson's ratio. x: (mx,), y: (my,): coordinates relative to the centre of
-    the first cell, m, in any order.
+    the first cell, m, in any order. moves: False leaves the displacement out, zero.
     Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and the methods, see
     `kernels.gridding.gridded.on_grid`.
     """
-    source = Source(load, dx, dy, hat_kernels(dx, dy, poisson), 9, half=1.0)
+    source = Source(load, dx, dy, hat_kernels(dx, dy, poisson, moves=moves), 9, half=1.0)
     both, used = on_grid(source, depths, x, y, method)
     return both[:, :6], both[:, 6:] / shear, used
 
@@ -74,8 +76,11 @@ def bilinear_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -
     return spectrum
 
 
-def hat_kernels(dx: float, dy: float, nu: float) -> Kernels:
-    """Fields of one node's hat, times the shear modulus for displacement, see `kernels.gridding.lattice.Kernels`."""
+def hat_kernels(dx: float, dy: float, nu: float, *, moves: bool = True) -> Kernels:
+    """Fields of one node's hat, times the shear modulus for displacement, see `kernels.gridding.lattice.Kernels`.
+
+    moves: False leaves the displacement out.
+    """
 
     def kernels(first_x: Array, first_y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
         m, n = shape
@@ -90,14 +95,14 @@ def hat_kernels(dx: float, dy: float, nu: float) -> Kernels:
         node_x, node_y = places(1, 2)
         node_x = node_x[..., columns.start : columns.stop + 2]
         node_y = node_y[:, rows.start : rows.stop + 2]
-        close = fields(at_nodes(node_x, node_y, z, dx, dy), nu)
+        close = fields(at_nodes(node_x, node_y, z, dx, dy), nu, moves=moves)
         if near.all():
             for values, uses in close:
                 yield _differences(values, 2) / (dx * dy), uses
             return
         average = _window_average()
         corner_x, corner_y = places(_SIDE + 0.5, 2 * _SIDE + 1)
-        far = fields(at_corners(corner_x, corner_y, z, dx, dy), nu)
+        far = fields(at_corners(corner_x, corner_y, z, dx, dy), nu, moves=moves)
         inside = near[:, rows, :, columns]
         for values, uses in far:
             if np.ndim(values):

@@ -221,9 +221,10 @@ def at_nodes(x: Array, y: Array, z: float, dx: float, dy: float) -> _Nodes:
     )
 
 
-def fields(f: _Corners | _Nodes, nu: float) -> Iterator[Corner]:
+def fields(f: _Corners | _Nodes, nu: float, *, moves: bool = True) -> Iterator[Corner]:
     """Stress, numbers 0 to 5, and displacement times the shear modulus, 6 to 8, from the functions.
 
+    moves: False leaves the displacement out.
     Yields each with the (load, component) pairs that use it; a plain zero for what vanishes at the surface. Stress
     there is without the part of a uniform load itself, see `_Corners`.
     """
@@ -247,6 +248,8 @@ def fields(f: _Corners | _Nodes, nu: float) -> Iterator[Corner]:
     yield unit * (2 * nu * log_x - across_x), ((_QY, _XX),)
     yield unit * (log_x - across_x), ((_QX, _XY),)
     yield unit * (log_y - across_y), ((_QY, _XY),)
+    if not moves:
+        return
 
     half, x_log_y, y_log_x, tilt_x, tilt_y = 0.5 * unit, f.x_log_y, f.y_log_x, f.tilt_x, f.tilt_y
     z_log_y, z_log_x, z_turn = f.z * log_y, f.z * log_x, f.z * turn

@@ -38,17 +38,20 @@ def fields_on_grid(
     x: Array,
     y: Array,
     method: Method = "auto",
+    *,
+    moves: bool = True,
 ) -> tuple[Array, Array, str]:
     """Stress and displacement on the grid of any coordinates x and y, by the cheapest method.
 
     load: (3, ny, nx), Pa. dx, dy: cell, m. depths: (nz,), m, >= 0. shear: shear modulus, Pa. poisson: Poisson's
-    ratio. x: (mx,), y: (my,): coordinates relative to the centre of the first cell, m, in any order.
+    ratio. x: (mx,), y: (my,): coordinates relative to the centre of the first cell, m, in any order. moves: False
+    leaves the displacement out, zero.
     Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and the methods, see
     `kernels.gridding.gridded.on_grid`.
     """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
-        return fields(at_corners(x, y, z, dx, dy), poisson)
+        return fields(at_corners(x, y, z, dx, dy), poisson, moves=moves)
 
     both, used = on_grid(Source(load, dx, dy, of_corners(corners, dx, dy), 9), depths, x, y, method)
     _add_standing_load(both, load, dx, dy, depths, poisson, x, y)

@@ -6,8 +6,9 @@ and y reads
     u_x = A q_x - ∂x φ,   u_y = A q_y - ∂y φ,   φ = C δ + D p,   u_z = E δ + F p,
 
 where A to F are functions of |k|; the forces f_x, f_y, f_z follow with five functions of their own. Each is even
-in kx and in ky, so that sines and cosines do not mix: one quadrant serves, in real numbers, and derivatives are
-taken by the matrices that lead back to x and y. Strain is the gradient of u, stress follows from strain and f_z.
+in kx and in ky, so that sines and cosines do not mix: one quadrant serves, in real numbers. Strain is the gradient
+of u, stress follows from strain and f_z. The functions of |k| are the road's, the transforms the load's: many roads
+under many loads are their products.
 
 No lattice of wavenumbers: Gauss panels that shrink towards kx = 0 and ky = 0 see no periodic image.
 """
@@ -15,8 +16,8 @@ No lattice of wavenumbers: Gauss panels that shrink towards kx = 0 and ky = 0 se
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -35,7 +36,13 @@ _RATIO, _SOME = 3.0, 10
 # Most radians that half a panel turns, and the points that each takes besides.
 _PHASE, _MORE = 24.0, 0.6
 # Wavenumbers of a block: keeps a block's fields, some 30 numbers for each, near the cache.
-_BLOCK = 100_000
+_BLOCK = 30_000
+# Functions of |k| are tabulated from a power of ten below the smallest that is asked for, so that tables serve again.
+_DECADE = math.log(10)
+
+# What is summed up in wavenumbers, and what of it each component takes: xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
+_EXX, _EYY, _GXY, _FX, _FY, _FZ, _UX, _UY, _UZ = range(9)
+_FROM = ({_EXX, _EYY, _FZ}, {_EXX, _EYY, _FZ}, {_FZ}, {_GXY}, {_FX}, {_FY}, {_UX}, {_UY}, {_UZ})
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,18 +60,38 @@ class Cells:
     order: int = 1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ElasticPlane:
-    """One depth to synthesise.
+    """One depth of one road to synthesise.
 
     kernels: k (n,) → (4, 2, n) and (2, n), as one depth of `kernels.layers.layered.Transfer`. shear, poisson: of the
     material there, Pa and 1. limit: largest wavenumber that matters at this depth, 1/m.
+    What it makes of wavenumbers is tabulated once, however many loads stand on it.
     """
 
     kernels: Callable[[Array], tuple[Array, Array]]
     shear: float
     poisson: float
     limit: float
+    _tables: dict[int, Callable[[Array], Array]] = field(default_factory=dict, repr=False)
+
+    def radial(self, kx: Array, ky: Array, smallest: float) -> Array:
+        """A, C, D, E, F of the displacement, then of the force, (10, nky, nkx). smallest: of all k asked for, 1/m."""
+        decade = math.floor(math.log(smallest) / _DECADE)
+        if decade not in self._tables:
+            self._tables[decade] = tabulated(self._functions, math.exp(_DECADE * decade), 1.5 * self.limit)
+        return np.ascontiguousarray(np.moveaxis(self._tables[decade](np.hypot(kx, ky[:, None])), -1, 0))
+
+    def _functions(self, k: Array) -> Array:
+        """As functions of k (n,) → (10, n)."""
+        kernel, turned = self.kernels(k)
+
+        def five(rows: Array, transverse: Array) -> list[Array]:
+            ahead, down = rows
+            return [transverse, (ahead[0] - transverse) / k**2, ahead[1] / k, down[0] / k, down[1]]
+
+        moved, pushed = np.stack(five(kernel[:2], turned[0])) / k, np.stack(five(kernel[2:], turned[1]))
+        return np.concatenate([moved, pushed])
 
 
 def rule(limit: float, reach: float, length: float) -> tuple[Array, Array]:
@@ -94,66 +121,99 @@ def _gauss(count: int) -> tuple[Array, Array]:
 
 
 def synthesise_cells(
-    loads: Sequence[Cells],
+    loads: Sequence[Sequence[Cells]],
     planes: Sequence[ElasticPlane],
+    pairs: Sequence[tuple[int, int]],
     x: Array,
     y: Array,
     along: tuple[Array, Array],
     across: tuple[Array, Array],
     at: Points | None = None,
+    components: Sequence[int] = range(9),
 ) -> Array:
     """Stress and displacement of elastic layers under gridded loads.
 
-    loads: that add up. planes: (nz) depths. x: (mx,), y: (my,), m, any coordinates. along, across: nodes and
-    weights in kx and in ky, see `rule`. at: of the grid of x and y only these points.
-    Returns (nz, 9, my, mx): xx, yy, zz, xy, xz, yz in Pa, tension positive, then u_x, u_y, u_z in m, z down. Works
-    in blocks of kx; the cost is that of the wavenumbers, whatever the number of cells times points.
+    loads: each a sum of cells. planes: depths, of one road or of many. pairs: (n) of a load and a plane, by number.
+    x: (mx,), y: (my,), m, any coordinates. along, across: nodes and weights in kx and in ky, see `rule`. at: of the
+    grid of x and y only these points. components: those to compute of xx, yy, zz, xy, xz, yz in Pa, tension positive,
+    and u_x, u_y, u_z in m, z down.
+    Returns (n, len(components), my, mx). Every load is transformed once, every plane gives its functions of |k| once,
+    and a pair is their product. Works in blocks of kx; the cost is that of the wavenumbers, whatever the number of
+    cells times points.
     """
     (kx_all, wx_all), (ky_all, wy_all) = along, across
-    sheared = any(cells.load[1:].any() for cells in loads)
+    sources = sorted(set().union(*(_FROM[component] for component in components)))
     smallest = math.hypot(kx_all[0], ky_all[0])
-    tables = [tabulated(_radial(plane), smallest, 1.5 * plane.limit) for plane in planes]
     rows = [int(np.searchsorted(ky_all, plane.limit, side="right")) for plane in planes]
-    backs = [_back(ky_all[:n], wy_all[:n] / math.pi**2, y).transpose(0, 3, 1, 2) for n in rows]
-    sums = np.zeros((len(planes), 9, *((len(y), len(x)) if at is None else at.shape)))
-    spectra = [_towards(ky_all[: max(rows)], cells.dy, cells.y0, cells.load.shape[1], cells.order) for cells in loads]
+    ky_all, wy_all = ky_all[: max(rows)], wy_all[: max(rows)]
+    back = _back(ky_all, wy_all / math.pi**2, y)
+    transforms = [_Transform.of(one, ky_all) for one in loads]
+    sums = np.zeros((len(pairs), len(sources), *((len(y), len(x)) if at is None else at.shape)))
     step = max(1, _BLOCK // max(rows))
     for start in range(0, len(kx_all), step):
         kx, wx = kx_all[start : start + step], wx_all[start : start + step]
         if all(kx[0] > plane.limit for plane in planes):
             break
-        load = np.zeros((3, 2, 2, max(rows), len(kx)))
-        for cells, narrow in zip(loads, spectra, strict=True):
-            wide = _towards(kx, cells.dx, cells.x0, cells.load.shape[2], cells.order)
-            for turned, by_x in zip(load.swapaxes(0, 1), np.split(wide, 2, axis=1), strict=True):
-                turned += (narrow.T @ (cells.load @ by_x)).reshape(turned.shape)
-        part = _divergence(load[1], load[2], kx, ky_all[: max(rows)]) if sheared else None
+        spectra = [one.at(kx, ky_all) for one in transforms]
         out = _back(kx, wx, x)
-        for total, plane, table, n, back in zip(sums, planes, tables, rows, backs, strict=True):
-            columns = int(np.searchsorted(kx, plane.limit, side="right"))
-            if not columns:
+        for number, (plane, n) in enumerate(zip(planes, rows, strict=True)):
+            served = [(place, load) for place, (load, own) in enumerate(pairs) if own == number]
+            count = int(np.searchsorted(kx, plane.limit, side="right"))
+            if not count or not served:
                 continue
-            k = np.hypot(kx[None, :columns], ky_all[:n, None])
-            radial = np.ascontiguousarray(np.moveaxis(table(k), -1, 0))
-            waves = _waves(load[..., :n, :columns], None if part is None else part[..., :n, :columns], radial)
-            _add(total, waves, back.reshape(3, len(y), -1), out[:, :, :columns].reshape(3, -1, len(x)), at)
-    return np.stack([_fields(total, plane) for total, plane in zip(sums, planes, strict=True)])
+            radial = plane.radial(kx[:count], ky_all[:n], smallest)
+            for place, load in served:
+                waves = _waves(spectra[load][..., :n, :count], radial, kx[:count], ky_all[:n, None], sources)
+                _add(sums[place], waves, back[:, :n], out[:, :count], at)
+    places = dict(zip(sources, range(len(sources)), strict=True))
+    solved = zip(sums, (planes[own] for _, own in pairs), strict=True)
+    return np.stack([_components(total, places, plane, components) for total, plane in solved])
 
 
-def _radial(plane: ElasticPlane) -> Callable[[Array], Array]:
-    """A, C, D, E, F of the displacement, then of the force, as a function of k (n,) → (10, n)."""
+@dataclass(frozen=True, eq=False)
+class _Transform:
+    """A load that goes into wavenumbers: cells of one load in several places along x, (place,), go together."""
 
-    def values(k: Array) -> Array:
-        kernel, turned = plane.kernels(k)
+    parts: list[tuple[Cells, list[float], Array]]
 
-        def five(rows: Array, transverse: Array) -> list[Array]:
-            ahead, down = rows
-            return [transverse, (ahead[0] - transverse) / k**2, ahead[1] / k, down[0] / k, down[1]]
+    @classmethod
+    def of(cls, loads: Sequence[Cells], ky: Array) -> _Transform:
+        """With the way into ky, (ny, 2 nky), of each."""
+        together: list[tuple[Cells, list[float]]] = []
+        for cells in loads:
+            alike = next((places for one, places in together if _moved_along(one, cells)), None)
+            if alike is None:
+                together.append((cells, [cells.x0]))
+            else:
+                alike.append(cells.x0)
+        return cls(
+            [(one, places, _towards(ky, one.dy, one.y0, one.load.shape[1], one.order)) for one, places in together]
+        )
 
-        moved, pushed = np.stack(five(kernel[:2], turned[0])) / k, np.stack(five(kernel[2:], turned[1]))
-        return np.concatenate([moved, pushed])
+    def at(self, kx: Array, ky: Array) -> Array:
+        """Cosine and sine parts along x and along y, (3 or 6, 2, 2, nky, nkx).
 
-    return values
+        Of the pressure, its shears q_x and q_y, ∂x q_x, ∂y q_y and ∂x q_y + ∂y q_x; without shear of the pressure.
+        """
+        sheared = any(cells.load[1:].any() for cells, _, _ in self.parts)
+        spectrum = np.zeros((6 if sheared else 1, 2, 2, len(ky), len(kx)))
+        direct = spectrum[: 3 if sheared else 1]
+        for cells, places, narrow in self.parts:
+            count = cells.load.shape[2]
+            wide = sum(_towards(kx, cells.dx, place, count, cells.order) for place in places)
+            for turned, by_x in zip(direct.swapaxes(0, 1), np.split(wide, 2, axis=1), strict=True):
+                turned += (narrow.T @ (cells.load[: len(direct)] @ by_x)).reshape(turned.shape)
+        if sheared:
+            _slope_x(spectrum[1], kx, spectrum[3])
+            _slope_y(spectrum[2], ky[:, None], spectrum[4])
+            spectrum[5] = _slope_x(spectrum[2], kx) + _slope_y(spectrum[1], ky[:, None])
+        return spectrum
+
+
+def _moved_along(one: Cells, other: Cells) -> bool:
+    """Whether cells are the same load moved along x."""
+    same = (one.dx, one.dy, one.y0, one.order) == (other.dx, other.dy, other.y0, other.order)
+    return same and (one.load is other.load or np.array_equal(one.load, other.load))
 
 
 def _towards(k: Array, width: float, first: float, count: int, order: int) -> Array:
@@ -166,65 +226,93 @@ def _towards(k: Array, width: float, first: float, count: int, order: int) -> Ar
 
 
 def _back(k: Array, weights: Array, x: Array) -> Array:
-    """Matrices (3, 2, nk, mx) from cosine and sine parts to the value at x and its two derivatives."""
+    """Matrices (2, nk, mx) from cosine and sine parts to the value at x."""
     turn = np.outer(k, x)
-    weights, k = weights[:, None], k[:, None]
-    cosine, sine = np.cos(turn) * weights, np.sin(turn) * weights
-    return np.array([[cosine, sine], [-k * sine, k * cosine], [-k * k * cosine, -k * k * sine]])
+    return np.stack([np.cos(turn), np.sin(turn)]) * weights[:, None]
 
 
-def _divergence(along: Array, across: Array, kx: Array, ky: Array) -> Array:
-    """∂x q_x + ∂y q_y in cosine and sine parts along x and y, (2, 2, nky, nkx), from those of q_x and q_y."""
-    result = np.stack([kx * along[1], -kx * along[0]])
-    result[:, 0] += ky[:, None] * across[:, 1]
-    result[:, 1] -= ky[:, None] * across[:, 0]
-    return result
+def _slope_x(waves: Array, kx: Array, out: Array | None = None) -> Array:
+    """∂/∂x of cosine and sine parts along x and y (2, 2, nky, nkx)."""
+    out = np.empty_like(waves) if out is None else out
+    np.multiply(waves[1], kx, out=out[0])
+    np.multiply(waves[0], -kx, out=out[1])
+    return out
 
 
-def _waves(load: Array, divergence: Array | None, radial: Array) -> Array:
-    """φ and ψ, under shear A q_x and A q_y, then u_z, f_z, then the force's own A q_x, A q_y.
+def _slope_y(waves: Array, ky: Array, out: Array | None = None) -> Array:
+    """∂/∂y likewise. ky: (nky, 1)."""
+    out = np.empty_like(waves) if out is None else out
+    np.multiply(waves[:, 1], ky, out=out[:, 0])
+    np.multiply(waves[:, 0], -ky, out=out[:, 1])
+    return out
 
-    Returns (4 or 8, 2, 2 nky, nkx): cosine and sine parts along x, then along y.
+
+def _waves(spectrum: Array, radial: Array, kx: Array, ky: Array, sources: Sequence[int]) -> Array:
+    """Fields in wavenumbers, (2, n, 2, nky, nkx): cosine and sine parts along x, the sources, the parts along y.
+
+    spectrum: of the load, see `_Transform.at`. radial: see `ElasticPlane.radial`. ky: (nky, 1).
     """
-    pressure, shear_x, shear_y = load
-    _, _, rows, count = pressure.shape
-    waves = np.empty((4 if divergence is None else 8, 2, 2, rows, count))
-    by_pressure = (2, 7, 4, 9)
-    if divergence is None:
-        np.multiply(pressure, radial[by_pressure, None, None], out=waves)
-    else:
-        for at, kernel, other in zip((0, 1, 4, 5), by_pressure, (1, 6, 3, 8), strict=True):
-            np.multiply(pressure, radial[kernel], out=waves[at])
-            waves[at] += divergence * radial[other]
-        for at, kernel, shear in ((2, 0, shear_x), (3, 0, shear_y), (6, 5, shear_x), (7, 5, shear_y)):
-            np.multiply(shear, radial[kernel], out=waves[at])
-    return waves.reshape(len(waves), 2, 2 * rows, count)
+    pressure = spectrum[0]
+    divergence = spectrum[3] + spectrum[4] if len(spectrum) > 1 else None
+
+    def joined(by_pressure: int, by_divergence: int) -> Array:
+        value: Array = pressure * radial[by_pressure]
+        if divergence is not None:
+            value += divergence * radial[by_divergence]
+        return value
+
+    def turned(potential: Array, by: int, shear: int) -> Array:
+        """What shear does alone less the slope of a potential, in place of the slope."""
+        np.negative(potential, out=potential)
+        if divergence is not None:
+            potential += spectrum[shear] * radial[by]
+        return potential
+
+    waves = np.empty((2, len(sources), 2, *radial.shape[1:]))
+    phi = joined(2, 1) if {_EXX, _EYY, _GXY, _UX, _UY} & set(sources) else pressure
+    psi = joined(7, 6) if {_FX, _FY} & set(sources) else pressure
+    make = {
+        _EXX: lambda: turned(phi * -(kx * kx), 0, 3),
+        _EYY: lambda: turned(phi * -(ky * ky), 0, 4),
+        _GXY: lambda: turned(_slope_x(_slope_y(phi, ky), 2 * kx), 0, 5),
+        _FX: lambda: turned(_slope_x(psi, kx), 5, 1),
+        _FY: lambda: turned(_slope_y(psi, ky), 5, 2),
+        _FZ: lambda: joined(9, 8),
+        _UX: lambda: turned(_slope_x(phi, kx), 0, 1),
+        _UY: lambda: turned(_slope_y(phi, ky), 0, 2),
+        _UZ: lambda: joined(4, 3),
+    }
+    for place, source in enumerate(sources):
+        waves[:, place] = make[source]()
+    return waves
 
 
 def _add(total: Array, waves: Array, back: Array, out: Array, at: Points | None) -> None:
-    """Add a block to u_x, u_y, u_z, e_xx, e_yy, 2 e_xy, f_x, f_y, f_z (9, my, mx)."""
-    sheared = len(waves) == 8
+    """Add a block to the sources (n, my, mx). back: (2, nky, my); out: (2, nkx, mx)."""
+    _, count, _, rows, columns = waves.shape
+    lines = back.reshape(2 * rows, -1).T @ waves.reshape(2, count, 2 * rows, columns)
     product = np.matmul if at is None else at.product
-
-    def lines(derivative: int, count: int) -> list[Array]:
-        """The first waves and their derivative on lines of y, (my, 2 nkx) each."""
-        return [np.hstack(list(parts)) for parts in back[derivative] @ waves[:count]]
-
-    value, slope, (bend,) = lines(0, len(waves)), lines(1, 4 if sheared else 2), lines(2, 1)
-    settle, force = value[-4:-2] if sheared else value[-2:]
-    at_value = {1: -slope[0], 2: settle, 4: -bend, 7: -slope[1], 8: force}
-    at_slope = {0: -value[0], 5: -2 * slope[0], 6: -value[1]}
-    if sheared:
-        at_value |= {0: value[2], 1: value[3] - slope[0], 4: slope[3] - bend, 5: slope[2]}
-        at_value |= {6: value[6], 7: value[7] - slope[1]}
-        at_slope |= {3: value[2], 5: value[3] - 2 * slope[0]}
-    for terms, matrix in ((at_value, out[0]), (at_slope, out[1]), ({3: -value[0]}, out[2])):
-        total[list(terms)] += product(np.stack(list(terms.values())), matrix)
+    for part, matrix in zip(lines, out, strict=True):
+        total += product(part, matrix)
 
 
-def _fields(total: Array, plane: ElasticPlane) -> Array:
+def _components(total: Array, place: Mapping[int, int], plane: ElasticPlane, components: Sequence[int]) -> Array:
+    """Stress and displacement (n, my, mx) from what was summed up. place: of each source in the sum."""
     nu, double = plane.poisson, 2 * plane.shear
-    u_x, u_y, u_z, e_xx, e_yy, g_xy, f_x, f_y, f_z = total
-    s_xx = (double * (e_xx + nu * e_yy) - nu * f_z) / (1 - nu)
-    s_yy = (double * (e_yy + nu * e_xx) - nu * f_z) / (1 - nu)
-    return np.stack([s_xx, s_yy, -f_z, 0.5 * double * g_xy, -f_x, -f_y, u_x, u_y, u_z])
+
+    def normal(own: int, other: int) -> Array:
+        stress: Array = double * (total[place[own]] + nu * total[place[other]]) - nu * total[place[_FZ]]
+        return stress / (1 - nu)
+
+    make = (
+        lambda: normal(_EXX, _EYY),
+        lambda: normal(_EYY, _EXX),
+        lambda: -total[place[_FZ]],
+        lambda: 0.5 * double * total[place[_GXY]],
+        lambda: -total[place[_FX]],
+        lambda: -total[place[_FY]],
+        lambda: total[place[_UX]],
+        lambda: total[place[_UY]],
+        lambda: total[place[_UZ]],
+    )
+    return np.stack([make[component]() for component in components])

@@ -1,0 +1,215 @@
+"""Responses of many roads to many loads on the same points: what they share is computed once.
+
+Half-bonded interfaces are the mean of two roads here, and means over a cube of road those of depths under loads
+spread over as much.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.errors import ConvergenceError
+from treadload.kernels.arrays import Array
+from treadload.kernels.gridding.points import Points
+from treadload.pavement import Pavement
+from treadload.response.fields import COMPONENTS, tensor_fields
+from treadload.response.half_space import half_space_response
+from treadload.response.layered import ALL, Site, layered_responses
+from treadload.response.loads import SurfaceLoad
+from treadload.response.material import Windows, spread_over, windows
+from treadload.response.moving import MovingFields, at_speed, moving_response
+from treadload.response.superposition import merged
+
+Side = Literal["above", "below"]
+Loads = Sequence[SurfaceLoad]
+
+_STRESS_OF = {"xx": (0, 1, 2), "yy": (0, 1, 2), "zz": (0, 1, 2), "xy": (3,), "xz": (4,), "yz": (5,)}
+_ALONE = {f"stress_{name}": (k,) for k, name in enumerate(COMPONENTS)}
+_PARTS = _ALONE | {f"strain_{name}": _STRESS_OF[name] for name in COMPONENTS}
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """Loads, whose responses add up, on a road, as it is at the speed, at depths (nz,), m, >= 0."""
+
+    loads: Loads
+    road: Pavement
+    depths: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """The fields of a question; over which parts of the road they are means, None for points."""
+
+    fields: MovingFields
+    read: Windows | None
+
+
+def tensors_of_many(
+    questions: Sequence[Question],
+    x: Array,
+    y: Array,
+    *,
+    needs: Iterable[str],
+    speed: float | None = None,
+    side: Side = "above",
+    mean_over: float | None = None,
+) -> list[xr.Dataset] | None:
+    """Those components of stress and strain that are needed, (depth, y, x), for each question; see `solve_response`.
+
+    needs: names of variables. None where one of them is no component of stress or strain.
+    """
+    wanted = set(needs)
+    if not wanted <= set(_PARTS):
+        return None
+    components = sorted({part for name in wanted for part in _PARTS[name]})
+    solved = answers(questions, x, y, side=side, speed=speed, mean_over=mean_over, components=components)
+    tensors = [tensor_fields(one.fields.stress, one.fields.strain) for one in solved]
+    return [
+        variables.dataset(
+            {name: field for name, field in fields.items() if name in wanted},
+            {"depth": question.depths, "y": y, "x": x},
+        )
+        for question, fields in zip(questions, tensors, strict=True)
+    ]
+
+
+def answers(
+    questions: Sequence[Question],
+    x: Array,
+    y: Array,
+    *,
+    side: Side,
+    speed: float | None,
+    mean_over: float | None,
+    at: Points | None = None,
+    components: Sequence[int] = ALL,
+    tell: Callable[[str], None] | None = None,
+) -> list[Answer]:
+    """Stress, strain and displacement for each question; arguments as in `solve_response` and `layered_responses`."""
+    asked = [Question(one.loads, at_speed(one.road, speed), one.depths) for one in questions]
+
+    def solve(several: Sequence[Question]) -> list[MovingFields]:
+        limits = [one.road.bond_limits for one in several]
+        single = [
+            Question(one.loads, road, one.depths)
+            for one, roads in zip(several, limits, strict=True)
+            for road in roads
+        ]
+        solved = iter(_solve(single, speed, x, y, below=side == "below", at=at, components=components, tell=tell))
+        return [_mean([next(solved) for _ in roads]) for roads in limits]
+
+    if mean_over is None:
+        return [Answer(fields, None) for fields in solve(asked)]
+    return _over_windows(solve, asked, mean_over, side)
+
+
+def _over_windows(
+    solve: Callable[[Sequence[Question]], list[MovingFields]], asked: Sequence[Question], length: float, side: Side
+) -> list[Answer]:
+    """Means over windows of depth under loads spread over as much, and the points themselves where those are read."""
+    spread: dict[int, Loads] = {}
+    parts: list[tuple[Question, Array]] = []
+    reads, counts = [], []
+    for one in asked:
+        read = windows(
+            one.depths, length, one.road.interfaces, [one.road.layer_at(float(z), side) for z in one.depths]
+        )
+        reads.append(read)
+        before = len(parts)
+        if len(read.nodes):
+            if id(one.loads) not in spread:
+                spread[id(one.loads)] = merged([spread_over(load, length) for load in one.loads])
+            parts.append((Question(spread[id(one.loads)], one.road, read.nodes), read.mean))
+        if read.local.any():
+            every = np.eye(len(one.depths))
+            parts.append((Question(one.loads, one.road, one.depths[read.local]), every[:, read.local]))
+        counts.append(len(parts) - before)
+    solved = iter(zip(solve([question for question, _ in parts]), (weights for _, weights in parts), strict=True))
+    return [
+        Answer(_weighted([next(solved) for _ in range(count)], len(one.depths)), read)
+        for one, read, count in zip(asked, reads, counts, strict=True)
+    ]
+
+
+def _weighted(parts: Sequence[tuple[MovingFields, Array]], count: int) -> MovingFields:
+    """The sum of fields at depths with weights (nz, n) of each."""
+    stress, strain, displacement = (
+        sum(np.einsum("zn,cnyx->czyx", weights, getattr(one, name)) for one, weights in parts)
+        for name in ("stress", "strain", "displacement")
+    )
+    solved = [part for part, _ in parts]
+    methods = " and ".join(dict.fromkeys(one.method for one in solved))
+    warnings = tuple(dict.fromkeys(text for one in solved for text in one.warnings))
+    return MovingFields(stress, strain, displacement, np.zeros((count, 0)), methods, warnings)
+
+
+def _solve(
+    questions: Sequence[Question],
+    speed: float | None,
+    x: Array,
+    y: Array,
+    *,
+    below: bool,
+    at: Points | None,
+    components: Sequence[int],
+    tell: Callable[[str], None] | None,
+) -> list[MovingFields]:
+    """Fields for each question, of a road with no half-bonded interface."""
+    fields: dict[int, MovingFields] = {}
+    layered: list[int] = []
+    for number, one in enumerate(questions):
+        still = np.zeros((len(one.depths), len(y)))
+        if one.road.is_viscoelastic:
+            assert speed is not None
+            fields[number] = moving_response(one.loads, one.road, speed, one.depths, x, y, below=below, at=at)
+        elif one.road.is_homogeneous:
+            alone = half_space_response(one.loads, one.road.surface_material, one.depths, x, y, at, tell)
+            fields[number] = MovingFields(*alone[:3], still, alone[3])
+        else:
+            layered.append(number)
+    if layered:
+        several = list({id(questions[k].loads): questions[k].loads for k in layered}.values())
+        place = {id(loads): number for number, loads in enumerate(several)}
+        pairs = [(place[id(questions[k].loads)], number) for number, k in enumerate(layered)]
+        sites = [Site(questions[k].road, questions[k].depths) for k in layered]
+        found = layered_responses(several, sites, pairs, x, y, below=below, at=at, components=components)
+        for k, (stress, strain, displacement, method) in zip(layered, found, strict=True):
+            still = np.zeros((len(questions[k].depths), len(y)))
+            fields[k] = MovingFields(stress, strain, displacement, still, method)
+    for number, one in enumerate(questions):
+        _check(fields[number], one.depths, [part for part in components if part < 6])
+    return [fields[number] for number in range(len(questions))]
+
+
+def _check(fields: MovingFields, depths: Array, stresses: Sequence[int]) -> None:
+    """Raise ConvergenceError where a stress that was asked for, or a strain that follows from it, is not a number."""
+    normal = {0, 1, 2} <= set(stresses)
+    strains = [part for part in stresses if part > 2 or normal]
+    for part in (fields.stress[list(stresses)], fields.strain[strains]):
+        wrong = ~np.isfinite(part).all(axis=(0, *range(2, part.ndim)))
+        if wrong.any():
+            raise ConvergenceError(
+                f"stress or strain at {depths[wrong][0]:g} m is not a number: loads, moduli and thicknesses lie too "
+                "far apart for double precision; check their units"
+            )
+
+
+def _mean(solved: Sequence[MovingFields]) -> MovingFields:
+    """Mean of the fields; one alone is not copied."""
+    if len(solved) == 1:
+        return solved[0]
+    return MovingFields(
+        np.mean([one.stress for one in solved], axis=0),
+        np.mean([one.strain for one in solved], axis=0),
+        np.mean([one.displacement for one in solved], axis=0),
+        np.mean([one.energy for one in solved], axis=0),
+        " and ".join(dict.fromkeys(one.method for one in solved)),
+        tuple(dict.fromkeys(text for one in solved for text in one.warnings)),
+    )

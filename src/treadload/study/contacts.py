@@ -1,0 +1,70 @@
+"""Contacts of a traffic: each state solved once, and near ones from each other."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from treadload.contact import Contact
+from treadload.pavement import Pavement
+from treadload.study.wheels import State, contact_in_state
+from treadload.tire import Tire
+
+Solved = TypeVar("Solved")
+Progress = Callable[[int, int, str], None]
+"""Called with (done, of how many, what) after each solve of a contact or a response."""
+
+
+class Counter:
+    """How many solves of a total are done; threads may count at once."""
+
+    def __init__(self, total: int, progress: Progress | None) -> None:
+        self.total = total
+        self._done = itertools.count(1)
+        self._tell = progress or (lambda done, total, what: None)
+
+    def after(self, result: Solved, what: str) -> Solved:
+        """The result of one solve, counted."""
+        self._tell(next(self._done), self.total, what)
+        return result
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """Contacts of a tire with a road, on cells of a spacing, m; those solved are known."""
+
+    tire: Tire
+    spacing: float
+    known: dict[State, Contact] = field(default_factory=dict)
+
+    def missing(self, states: Sequence[State]) -> list[State]:
+        """Those of some states that are not known yet, each once."""
+        return [one for one in dict.fromkeys(states) if one not in self.known]
+
+    def solve(self, states: Sequence[State], road: Pavement, pool: Executor, count: Counter) -> None:
+        """Make the missing ones known, each from the nearest one known before in the same maneuver.
+
+        road: in any season, its moduli do not matter. Which one is the nearest does not depend on the order in which
+        threads come to their end.
+        """
+        starts = [(one, self._near(one)) for one in self.missing(states)]
+
+        def touch(pair: tuple[State, Contact | None]) -> Contact:
+            solved = contact_in_state(self.tire, road, pair[0], self.spacing, start=pair[1])
+            return count.after(solved, "contact")
+
+        self.known.update(zip((one for one, _ in starts), pool.map(touch, starts), strict=True))
+
+    def _near(self, state: State) -> Contact | None:
+        """The contact known whose load, pressure and friction are nearest, relatively; None without one."""
+        alike = [one for one in self.known if one.maneuver == state.maneuver and one.tire == state.tire]
+
+        def apart(other: State) -> float:
+            pairs = zip(state.numbers, other.numbers, strict=True)
+            return sum(abs(math.log(own / another)) for own, another in pairs)
+
+        return self.known[min(alike, key=apart)] if alike else None

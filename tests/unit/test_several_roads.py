@@ -1,0 +1,183 @@
+"""Many loads on many roads at once: every pair is what it is alone, and what is shared is computed once."""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from treadload.damage import AxleClass, Criterion, FatigueLine, FrenchSubgrade
+from treadload.damage.quantity import STRAIN, STRESS
+from treadload.grid import Grid
+from treadload.materials import Elastic, Prony
+from treadload.pavement import HALF_BONDED, Layer, Pavement
+from treadload.response import GridLoad, UniformDisc, several, solve_response
+from treadload.response import layered as layered_module
+from treadload.response.several import Question, tensors_of_many
+from treadload.study.contacts import Contacts, Counter
+from treadload.study.passage import Passing, batches, passage, passages
+from treadload.study.seasons import Warm
+from treadload.study.wheels import Wheels, state
+from treadload.tire import Tire, TreadProfile
+
+X, Y = np.linspace(-0.1, 0.13, 5), np.linspace(-0.09, 0.08, 3)
+RANDOM = np.random.default_rng(5)
+GRID = Grid(6, 5, 0.02, 0.018, -0.05, -0.036)
+
+
+def load(grid=GRID, shear=1.0):
+    pressure, along, across = RANDOM.uniform(0, 1e6, (3, *grid.shape))
+    return GridLoad(grid, pressure, shear * along, shear * across)
+
+
+def road(modulus=5e9, thickness=0.08, poisson=0.35, bond=None):
+    more = {} if bond is None else {"bond": bond}
+    return Pavement(
+        [
+            Layer(Elastic(modulus, poisson), thickness, "top", **more),
+            Layer(Elastic(8e8, 0.4), 0.2, "base"),
+            Layer(Elastic(1e8, 0.45), None, "soil"),
+        ]
+    )
+
+
+LOADS = ([load()], [load(shear=0.0), load().moved(0.4, 0.02), UniformDisc(0.1, 7e5, 0.02)])
+ROADS = (
+    road(9e9),
+    road(thickness=0.1, poisson=0.25),
+    road(bond=HALF_BONDED),
+    Pavement.half_space(Elastic(5e9, 0.35)),
+)
+
+
+@pytest.mark.parametrize(("side", "mean_over"), [("above", None), ("below", 0.01)])
+def test_every_pair_is_what_it_is_alone(side, mean_over):
+    questions = [
+        Question(loads, one, np.array([0.003, float(one.interfaces[0]) if len(one.interfaces) else 0.1]))
+        for one in ROADS
+        for loads in LOADS
+    ]
+    asked = {"side": side, "mean_over": mean_over}
+    found = tensors_of_many(questions, X, Y, needs=(*STRESS, *STRAIN), **asked)
+    assert len(found) == len(questions)
+    for question, one in zip(questions, found, strict=True):
+        alone = solve_response(question.loads, question.road, depths=question.depths, x=X, y=Y, **asked).dataset
+        for name in (*STRESS, *STRAIN):
+            size = max(float(np.abs(alone[part]).max()) for part in alone if str(part).startswith(name[:6]))
+            # One rule of wavenumbers serves all roads: its error, 1e-11 of stress, differs from that of each alone.
+            np.testing.assert_allclose(one[name], alone[name], rtol=0, atol=1e-9 * size, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    "needs", [("strain_zz",), ("strain_xx", "strain_yy", "strain_xy"), ("stress_xz", "stress_yz"), STRESS]
+)
+def test_only_the_components_asked_for_are_given_and_are_the_same(needs):
+    questions = [Question(LOADS[1], one, np.array([0.0, 0.08])) for one in ROADS[:2]]
+    whole = tensors_of_many(questions, X, Y, needs=(*STRESS, *STRAIN))
+    for one, all_of_it in zip(tensors_of_many(questions, X, Y, needs=needs), whole, strict=True):
+        assert set(one.data_vars) == set(needs)
+        for name in needs:
+            # Sums in another order.
+            size = float(np.abs(all_of_it[name]).max())
+            np.testing.assert_allclose(one[name], all_of_it[name], rtol=0, atol=1e-12 * size)
+
+
+def test_other_variables_are_left_to_the_whole_response():
+    question = [Question(LOADS[0], ROADS[0], np.array([0.05]))]
+    assert tensors_of_many(question, X, Y, needs=("strain_xx", "principal_strain_1")) is None
+
+
+def test_what_pairs_share_is_computed_once(monkeypatch):
+    """The half-space for each load and Poisson's ratio, the layers' functions for each road and depth."""
+    calls = {"half": 0, "transfer": 0}
+    half, transfer = layered_module.half_space_response, layered_module.transfer
+
+    def counted(name, function):
+        def count(*given, **more):
+            calls[name] += 1
+            return function(*given, **more)
+
+        return count
+
+    monkeypatch.setattr(layered_module, "half_space_response", counted("half", half))
+    monkeypatch.setattr(layered_module, "transfer", counted("transfer", transfer))
+    layered_module._plane.cache_clear()
+    roads, wheels = [road(modulus) for modulus in (2e9, 3e9, 4e9)], (LOADS[0], [load()])
+    questions = [Question(loads, one, np.array([0.0])) for one in roads for loads in wheels]
+    tensors_of_many(questions, X, Y, needs=STRESS)
+    # Of a road: its layers and its half-space.
+    assert calls == {"half": 2, "transfer": 2 * len(roads)}
+    tensors_of_many(questions, X, Y, needs=STRESS)
+    assert calls["transfer"] == 2 * len(roads)
+
+
+def test_the_rest_of_a_road_that_is_no_number_is_refused(monkeypatch):
+    monkeypatch.setattr(several, "layered_responses", lambda *given, **more: [(np.full((6, 1, 3, 5), np.nan),) * 4])
+    with pytest.raises(several.ConvergenceError, match="is not a number"):
+        tensors_of_many([Question(LOADS[0], ROADS[0], np.array([0.05]))], X, Y, needs=("strain_zz",))
+
+
+CELLS = Grid(5, 5, 0.02, 0.02, -0.04, -0.04)
+ACROSS = 0.02 * np.arange(-10, 11)
+CRITERIA = (
+    Criterion("top", FatigueLine(90e-6, -0.2), 0, "top", "principal"),
+    Criterion("base", FatigueLine(90e-6, -0.2), 1),
+    Criterion("soil", FrenchSubgrade(), -1, "top"),
+)
+
+
+def wheels(places=((0.0, 0.0),), cells=CELLS):
+    one = load(cells)
+    loads = tuple(one.moved(x, y) for x, y in places)
+    x = np.array([cells.x + at for at in sorted({x for x, _ in places})])
+    return Wheels(loads, x, None, "one", 0.0)
+
+
+@pytest.fixture(scope="module")
+def tasks():
+    warm = [Warm(road(modulus), CRITERIA) for modulus in (3e9, 6e9)]
+    rolling = [wheels(), wheels(), wheels(((0.0, 0.0), (0.6, 0.0)))]
+    return [Passing(one, season, ACROSS, 3) for one in rolling for season in warm]
+
+
+def test_passages_together_are_those_alone(tasks):
+    for members in batches(tasks):
+        together = passages([tasks[number] for number in members])
+        for number, found in zip(members, together, strict=True):
+            task = tasks[number]
+            alone = passage(task.wheels, task.warm, task.y, task.turns)
+            size = np.abs(alone[:, :3]).max(axis=(1, 2), keepdims=True)
+            np.testing.assert_allclose(found[:, :3] / size, alone[:, :3] / size, rtol=0, atol=1e-9)
+            # A trace at the angle π/2 is the one at -π/2.
+            np.testing.assert_allclose(np.sin(found[:, 3:] - alone[:, 3:]), 0 * found[:, 3:], atol=1e-6)
+
+
+def test_what_stands_on_the_same_cells_goes_together_road_by_road(tasks, monkeypatch):
+    assert batches(tasks) == [[0, 2, 1, 3], [4, 5]]
+    # However much is asked, fields stay small.
+    monkeypatch.setattr("treadload.study.passage._TOGETHER", 1)
+    assert batches(tasks) == [[0], [2], [1], [3], [4], [5]]
+    slow = Passing(wheels(), Warm(Pavement([Layer(Prony(9e9, [(0.3, 0.05)], 0.35))]), CRITERIA[:1]), ACROSS, 3)
+    assert batches([tasks[0], slow]) == [[0], [1]]
+
+
+def test_near_contacts_start_from_each_other_and_come_to_the_same():
+    tire = Tire.from_profile(TreadProfile(0.538, 1.678, 0.2, 0.0088), inflation_pressure=820e3)
+    row = AxleClass("one", 1.0, 20e3, 820e3)
+    light, heavy = state(row), state(AxleClass("one", 1.0, 21e3, 820e3))
+    said = []
+    asked = {"road": Pavement.half_space(Elastic(5e9, 0.35))}
+    with ThreadPoolExecutor(1) as pool:
+        shared, cold = Contacts(tire, 20e-3), Contacts(tire, 20e-3)
+        count = Counter(2, lambda *words: said.append(words))
+        shared.solve([light, light], **asked, pool=pool, count=count)
+        assert shared.missing([light, heavy, heavy]) == [heavy]
+        shared.solve([light, heavy], **asked, pool=pool, count=count)
+        cold.solve([heavy], **asked, pool=pool, count=Counter(1, None))
+    assert said == [(1, 2, "contact"), (2, 2, "contact")]
+    warm, alone = shared.known[heavy].dataset["pressure"], cold.known[heavy].dataset["pressure"]
+    assert shared.known[heavy].stats["normal_iterations"] <= cold.known[heavy].stats["normal_iterations"]
+    # Both hold the contact conditions within 1e-6 of the approach.
+    warm = warm.sel(x=alone["x"], y=alone["y"], method="nearest", tolerance=1e-6)
+    np.testing.assert_allclose(warm, alone, rtol=0, atol=1e-4 * float(alone.max()))
+    assert math.isclose(float(shared.known[heavy].dataset["normal_load"]), 21e3, rel_tol=1e-9)
