@@ -15,7 +15,7 @@ from treadload.kernels.gridding.gridded import grid_cost
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.layers.hankel import AxialPlanes, Disc, synthesise_discs
 from treadload.kernels.layers.layered import Stack, transfer
-from treadload.kernels.layers.synthesis import Cells, ElasticPlane, rule, synthesise_cells
+from treadload.kernels.layers.synthesis import FULL, Accuracy, Cells, ElasticPlane, rule, synthesise_cells
 from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
@@ -23,9 +23,6 @@ from treadload.pavement.stack import stack_of
 from treadload.response.half_space import half_space_response
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
-# Waves are cut where they have fallen to e^-33; with powers of k h before them 1e-10 of the strain is left,
-# counted in soft soil below a stiff layer. At e^-27 it is 3e-7, at e^-36 4e-12, measured.
-_FALL = 33.0
 # Nearer to the first interface than this part of its depth the split gains nothing and costs the closed form.
 _SPLIT = 0.9
 # A wavenumber costs so many pairs of a point and a corner in the closed form, measured.
@@ -40,6 +37,26 @@ _MOST_ALONG = 1e6
 # Components of the fields: xx, yy, zz, xy, xz, yz, then u_x, u_y, u_z.
 ALL = tuple(range(9))
 _YZ = 5
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """What is asked of fields, and where.
+
+    x: (mx,), y: (my,), m, any coordinates. at: of the grid of x and y only these points. components: those needed of
+    xx, yy, zz, xy, xz, yz and u_x, u_y, u_z. accuracy: of the waves.
+    """
+
+    x: Array
+    y: Array
+    at: Points | None = None
+    components: Sequence[int] = ALL
+    accuracy: Accuracy = FULL
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Of a field."""
+        return (len(self.y), len(self.x)) if self.at is None else self.at.shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,55 +82,49 @@ def layered_response(
     at: Points | None = None,
 ) -> Solved:
     """Stress, strain and displacement of one layered road under superposed loads, see `layered_responses`."""
-    return layered_responses([loads], [Site(road, depths)], [(0, 0)], x, y, below=below, at=at)[0]
+    return layered_responses([loads], [Site(road, depths)], [(0, 0)], View(x, y, at), below=below)[0]
 
 
 def layered_responses(
     loads: Sequence[Sequence[SurfaceLoad]],
     sites: Sequence[Site],
     pairs: Sequence[tuple[int, int]],
-    x: Array,
-    y: Array,
+    view: View,
     *,
     below: bool,
-    at: Points | None = None,
-    components: Sequence[int] = ALL,
 ) -> list[Solved]:
     """Stress, strain and displacement of layered roads under loads, on the same points.
 
-    loads: each superposed from several. pairs: (n) of a load and a site, by number. x: (mx,), y: (my,), m, any
-    coordinates. below: whether a depth on an interface takes the layer below it. at: of the grid of x and y only
-    these points. components: those needed of xx, yy, zz, xy, xz, yz and u_x, u_y, u_z; the others are NaN, as is
-    strain that follows from them.
+    loads: each superposed from several. pairs: (n) of a load and a site, by number. view: components that it does not
+    ask for are NaN, as is strain that follows from them. below: whether a depth on an interface takes the layer below
+    it.
     Near the surface the closed form of a half-space of the top layer carries the steps of the load, once for each
     load and Poisson's ratio; what the layers add falls off like exp(-k (2 h - z)). Deeper the waves fall off like
     exp(-k z) themselves.
     Displacement along a net shear force is NaN in the layers above a frictionless interface: nothing holds them.
     Raises InputError where that decay is too slow for the distance of the points.
     """
-    layouts = [_Layout.of(site, below) for site in sites]
+    layouts = [_Layout.of(site, below, view.accuracy.fall) for site in sites]
     discs = [[one for one in several if isinstance(one, UniformDisc)] for several in loads]
     gridded = [[one for one in several if isinstance(one, GridLoad)] for several in loads]
-    shape = (len(y), len(x)) if at is None else at.shape
-    fields = [np.zeros((len(layouts[site].depths), 9, *shape)) for _, site in pairs]
+    fields = [np.zeros((len(layouts[site].depths), 9, *view.shape)) for _, site in pairs]
     methods = [{"layered"} for _ in pairs]
-    top = _Top(x, y, at, components)
-    under_discs = [place for place, (load, _) in enumerate(pairs) if discs[load]]
-    for place in under_discs:
-        load, site = pairs[place]
-        fields[place] += _under_discs(discs[load], layouts[site], x, y, at)
-        methods[place].add(top.add(fields[place], discs[load], layouts[site]))
+    top = _Top(view)
+    for place, (load, site) in enumerate(pairs):
+        if discs[load]:
+            fields[place] += _under_discs(discs[load], layouts[site], view)
+            methods[place].add(top.add(fields[place], discs[load], layouts[site]))
     under_cells = [place for place, (load, _) in enumerate(pairs) if gridded[load]]
     if under_cells:
         asked = [pairs[place] for place in under_cells]
-        split = [_split(layout, gridded, number, asked, x, y, at) for number, layout in enumerate(layouts)]
-        waves = _under_cells(gridded, split, asked, x, y, at, components)
+        split = [_split(layout, gridded, number, asked, view) for number, layout in enumerate(layouts)]
+        waves = _under_cells(gridded, split, asked, view)
         for place, part in zip(under_cells, waves, strict=True):
             load, site = pairs[place]
-            fields[place][:, components] += part
+            fields[place][:, view.components] += part
             methods[place].add(top.add(fields[place], gridded[load], split[site]))
     return [
-        _solved(fields[place], layouts[site], loads[load], methods[place], components)
+        _solved(fields[place], layouts[site], loads[load], methods[place], view.components)
         for place, (load, site) in enumerate(pairs)
     ]
 
@@ -151,7 +162,10 @@ def drifting(stack: Stack, loads: Sequence[SurfaceLoad]) -> tuple[bool, bool]:
 
 @dataclass(frozen=True, eq=False)
 class _Layout:
-    """Depths in a stack: the layer of each, its side of an interface, whether the top's half-space is split off."""
+    """Depths in a stack: the layer of each, its side of an interface, whether the top's half-space is split off.
+
+    fall: waves are cut where they have fallen to e^-fall.
+    """
 
     materials: tuple[Elastic, ...]
     stack: Stack
@@ -159,16 +173,17 @@ class _Layout:
     where: list[int]
     below: bool
     split: list[bool]
+    fall: float
 
     @classmethod
-    def of(cls, site: Site, below: bool) -> _Layout:
+    def of(cls, site: Site, below: bool, fall: float) -> _Layout:
         """With the half-space split off wherever that may gain something."""
         stack = stack_of(site.road)
         depths = stack.snapped(site.depths)
         where = [stack.layer_at(float(z), below) for z in depths]
         near = [layer == 0 and z < _SPLIT * stack.interfaces[0] for z, layer in zip(depths, where, strict=True)]
         materials = tuple(layer.elastic for layer in site.road.distinct_layers)
-        return cls(materials, stack, depths, where, below, near)
+        return cls(materials, stack, depths, where, below, near, fall)
 
     @property
     def length(self) -> float:
@@ -182,7 +197,7 @@ class _Layout:
         """Largest wavenumber that matters at each depth, 1/m."""
         top = float(self.stack.interfaces[0])
         return np.array(
-            [_FALL / (2 * top - z if near else z) for z, near in zip(self.depths, self.split, strict=True)]
+            [self.fall / (2 * top - z if near else z) for z, near in zip(self.depths, self.split, strict=True)]
         )
 
     @property
@@ -204,12 +219,12 @@ class _Layout:
     def plane(self, row: int) -> ElasticPlane:
         """One of its depths, with its table if that was made before."""
         layer = self.where[row]
-        return _plane(self.stack, float(self.depths[row]), layer, self.below, self.split[row])
+        return _plane(self.stack, float(self.depths[row]), layer, self.below, self.split[row], self.fall)
 
 
 @lru_cache(maxsize=256)
-def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool) -> ElasticPlane:
-    layout = _Layout((), stack, np.array([depth]), [layer], below, [split])
+def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool, fall: float) -> ElasticPlane:
+    layout = _Layout((), stack, np.array([depth]), [layer], below, [split], fall)
 
     def kernels(k: Array) -> tuple[Array, Array]:
         plane, transverse = layout.kernels(k)
@@ -220,15 +235,12 @@ def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool) -> 
 
 @dataclass(frozen=True, eq=False)
 class _Top:
-    """The half-space of the top layer on some points, for each load, Poisson's ratio and depths only once.
+    """The half-space of the top layer in a view, for each load, Poisson's ratio and depths only once.
 
     known: its fields (nz, 9, my, mx), with displacement times the shear modulus, and the method that gave them.
     """
 
-    x: Array
-    y: Array
-    at: Points | None
-    components: Sequence[int]
+    view: View
     known: dict[Any, tuple[Array, str]] = field(default_factory=dict)
 
     def add(self, fields: Array, loads: Sequence[SurfaceLoad], layout: _Layout) -> str:
@@ -238,10 +250,9 @@ class _Top:
         material, depths = layout.materials[0], layout.depths[layout.rows]
         key = (id(loads), material.poisson, *depths)
         if key not in self.known:
-            unit = Elastic(2 * (1 + material.poisson), material.poisson)
-            moves = max(self.components) > _YZ
+            unit, view = Elastic(2 * (1 + material.poisson), material.poisson), self.view
             stress, _, displacement, method = half_space_response(
-                loads, unit, depths, self.x, self.y, self.at, moves=moves
+                loads, unit, depths, view.x, view.y, view.at, moves=max(view.components) > _YZ
             )
             self.known[key] = np.moveaxis(np.concatenate([stress, displacement]), 1, 0), method
         top, method = self.known[key]
@@ -255,20 +266,14 @@ def _split(
     loads: Sequence[Sequence[GridLoad]],
     number: int,
     pairs: Sequence[tuple[int, int]],
-    x: Array,
-    y: Array,
-    at: Points | None,
+    view: View,
 ) -> _Layout:
     """The layout with the half-space split off where that is cheaper under the first of its loads."""
-    own = [load for load, site in pairs if site == number and loads[load]]
-    if not own:
-        return layout
-    return replace(layout, split=_worth_splitting(loads[own[0]], layout, x, y, layout.length, at))
+    own = [load for load, site in pairs if site == number]
+    return replace(layout, split=_worth_splitting(loads[own[0]], layout, view)) if own else layout
 
 
-def _worth_splitting(
-    loads: Sequence[GridLoad], layout: _Layout, x: Array, y: Array, length: float, at: Points | None
-) -> list[bool]:
+def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, view: View) -> list[bool]:
     """Where the half-space is split off: not at depths where the waves alone cost less than its closed form."""
 
     def cost(x: Array, y: Array) -> Array:
@@ -282,30 +287,33 @@ def _worth_splitting(
         )
         return costs
 
-    closed = cost(x, y) if at is None else at.total(cost, x, y)
+    closed = cost(view.x, view.y) if view.at is None else view.at.total(cost, view.x, view.y)
 
     def worth(row: int) -> bool:
         z = float(layout.depths[row])
         if not layout.split[row] or z == 0:
             return layout.split[row]
-        along, across = _rules(loads, _FALL / z, x, y, length)
+        along, across = _rules(loads, layout.fall / z, view, layout.length)
         return bool(closed[row] < _WAVE_COST * len(along[0]) * len(across[0]))
 
     return [worth(row) for row in range(len(layout.depths))]
 
 
 def _rules(
-    loads: Sequence[GridLoad], limit: float, x: Array, y: Array, length: float
+    loads: Sequence[GridLoad], limit: float, view: View, length: float
 ) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
     """Nodes and weights in kx and ky up to a limit."""
-    reach_x, reach_y = _reach([load.extent_x for load in loads], x), _reach([load.extent_y for load in loads], y)
+    reach_x, reach_y = (
+        _reach([load.extent_x for load in loads], view.x),
+        _reach([load.extent_y for load in loads], view.y),
+    )
     longest = max(length, reach_x, reach_y)
-    return rule(limit, reach_x, longest), rule(limit, reach_y, longest)
+    return rule(limit, reach_x, longest, view.accuracy), rule(limit, reach_y, longest, view.accuracy)
 
 
-def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Array, at: Points | None) -> Array:
+def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, view: View) -> Array:
     """Fields (nz, 9, my, mx) of discs by Hankel's integrals."""
-    widest = max(max(np.abs(x - disc.x).max(), np.abs(y - disc.y).max()) + disc.radius for disc in discs)
+    widest = max(max(np.abs(view.x - disc.x).max(), np.abs(view.y - disc.y).max()) + disc.radius for disc in discs)
     if layout.limit.max() * widest > _MOST_ALONG:
         raise InputError(_too_many(layout, float(widest), f"{layout.limit.max() * widest:.2g}", _MOST_ALONG))
     planes = AxialPlanes(
@@ -313,28 +321,24 @@ def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, x: Array, y: Arr
         np.array([layout.stack.shear[layer] for layer in layout.where]),
         np.array([layout.stack.poisson[layer] for layer in layout.where]),
         layout.limit,
-        _FALL / float(layout.limit.max()),
+        layout.fall / float(layout.limit.max()),
     )
     places = [Disc(one.radius, one.pressure, one.x, one.y) for one in discs]
-    return synthesise_discs(places, planes, x, y, layout.length, at)
+    return synthesise_discs(places, planes, view.x, view.y, layout.length, view.at)
 
 
 def _under_cells(
-    loads: Sequence[Sequence[GridLoad]],
-    layouts: Sequence[_Layout],
-    pairs: Sequence[tuple[int, int]],
-    x: Array,
-    y: Array,
-    at: Points | None,
-    components: Sequence[int],
+    loads: Sequence[Sequence[GridLoad]], layouts: Sequence[_Layout], pairs: Sequence[tuple[int, int]], view: View
 ) -> list[Array]:
     """Fields (nz, components, my, mx) of pairs of a gridded load and a layout, by wavenumbers in both directions."""
     used = [layouts[site] for site in sorted({site for _, site in pairs})]
     every = [one for number in sorted({load for load, _ in pairs}) for one in loads[number]]
     steepest = max(used, key=lambda layout: float(layout.limit.max()))
-    along, across = _rules(every, float(steepest.limit.max()), x, y, max(layout.length for layout in used))
+    along, across = _rules(every, float(steepest.limit.max()), view, max(layout.length for layout in used))
     if len(along[0]) * len(across[0]) > _MOST:
-        reach = max(_reach([load.extent_x for load in every], x), _reach([load.extent_y for load in every], y))
+        reach = max(
+            _reach([load.extent_x for load in every], view.x), _reach([load.extent_y for load in every], view.y)
+        )
         raise InputError(_too_many(steepest, reach, f"{len(along[0])} x {len(across[0])}", _MOST))
     planes: list[ElasticPlane] = []
     tasks: list[tuple[int, int]] = []
@@ -344,9 +348,8 @@ def _under_cells(
             if plane not in planes:
                 planes.append(plane)
             tasks.append((load, planes.index(plane)))
-    fields = synthesise_cells(
-        [_cells(several) for several in loads], planes, tasks, x, y, along, across, at, components
-    )
+    cells = [_cells(several) for several in loads]
+    fields = synthesise_cells(cells, planes, tasks, view.x, view.y, along, across, view.at, view.components)
     ends = np.cumsum([len(layouts[site].depths) for _, site in pairs])[:-1]
     return np.split(fields, ends)
 

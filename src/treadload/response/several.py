@@ -16,11 +16,11 @@ import xarray as xr
 from treadload import variables
 from treadload.errors import ConvergenceError
 from treadload.kernels.arrays import Array
-from treadload.kernels.gridding.points import Points
+from treadload.kernels.layers.synthesis import READING
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS, tensor_fields
 from treadload.response.half_space import half_space_response
-from treadload.response.layered import ALL, Site, layered_responses
+from treadload.response.layered import Site, View, layered_responses
 from treadload.response.loads import SurfaceLoad
 from treadload.response.material import Windows, spread_over, windows
 from treadload.response.moving import MovingFields, at_speed, moving_response
@@ -63,13 +63,15 @@ def tensors_of_many(
 ) -> list[xr.Dataset] | None:
     """Those components of stress and strain that are needed, (depth, y, x), for each question; see `solve_response`.
 
-    needs: names of variables. None where one of them is no component of stress or strain.
+    Waves are taken as finely as readings need, `READING`. needs: names of variables. None where one of them is no
+    component of stress or strain.
     """
     wanted = set(needs)
     if not wanted <= set(_PARTS):
         return None
     components = sorted({part for name in wanted for part in _PARTS[name]})
-    solved = answers(questions, x, y, side=side, speed=speed, mean_over=mean_over, components=components)
+    view = View(x, y, components=components, accuracy=READING)
+    solved = answers(questions, view, side=side, speed=speed, mean_over=mean_over)
     tensors = [tensor_fields(one.fields.stress, one.fields.strain) for one in solved]
     return [
         variables.dataset(
@@ -82,17 +84,14 @@ def tensors_of_many(
 
 def answers(
     questions: Sequence[Question],
-    x: Array,
-    y: Array,
+    view: View,
     *,
     side: Side,
     speed: float | None,
     mean_over: float | None,
-    at: Points | None = None,
-    components: Sequence[int] = ALL,
     tell: Callable[[str], None] | None = None,
 ) -> list[Answer]:
-    """Stress, strain and displacement for each question; arguments as in `solve_response` and `layered_responses`."""
+    """Stress, strain and displacement for each question in a view; arguments as in `solve_response`."""
     asked = [Question(one.loads, at_speed(one.road, speed), one.depths) for one in questions]
 
     def solve(several: Sequence[Question]) -> list[MovingFields]:
@@ -102,7 +101,7 @@ def answers(
             for one, roads in zip(several, limits, strict=True)
             for road in roads
         ]
-        solved = iter(_solve(single, speed, x, y, below=side == "below", at=at, components=components, tell=tell))
+        solved = iter(_solve(single, speed, view, below=side == "below", tell=tell))
         return [_mean([next(solved) for _ in roads]) for roads in limits]
 
     if mean_over is None:
@@ -153,15 +152,13 @@ def _weighted(parts: Sequence[tuple[MovingFields, Array]], count: int) -> Moving
 def _solve(
     questions: Sequence[Question],
     speed: float | None,
-    x: Array,
-    y: Array,
+    view: View,
     *,
     below: bool,
-    at: Points | None,
-    components: Sequence[int],
     tell: Callable[[str], None] | None,
 ) -> list[MovingFields]:
     """Fields for each question, of a road with no half-bonded interface."""
+    x, y, at = view.x, view.y, view.at
     fields: dict[int, MovingFields] = {}
     layered: list[int] = []
     for number, one in enumerate(questions):
@@ -179,12 +176,12 @@ def _solve(
         place = {id(loads): number for number, loads in enumerate(several)}
         pairs = [(place[id(questions[k].loads)], number) for number, k in enumerate(layered)]
         sites = [Site(questions[k].road, questions[k].depths) for k in layered]
-        found = layered_responses(several, sites, pairs, x, y, below=below, at=at, components=components)
+        found = layered_responses(several, sites, pairs, view, below=below)
         for k, (stress, strain, displacement, method) in zip(layered, found, strict=True):
             still = np.zeros((len(questions[k].depths), len(y)))
             fields[k] = MovingFields(stress, strain, displacement, still, method)
     for number, one in enumerate(questions):
-        _check(fields[number], one.depths, [part for part in components if part < 6])
+        _check(fields[number], one.depths, [part for part in view.components if part < 6])
     return [fields[number] for number in range(len(questions))]
 
 

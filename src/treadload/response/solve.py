@@ -18,6 +18,7 @@ from treadload.kernels.layers.depths import snapped
 from treadload.pavement import Pavement
 from treadload.response.doubts import overlapping, question_doubts, road_doubts
 from treadload.response.fields import response_dataset
+from treadload.response.layered import View
 from treadload.response.loads import GridLoad, Load, UniformRectangle, gather
 from treadload.response.material import check_length
 from treadload.response.moving import at_speed
@@ -103,7 +104,8 @@ def solve_response(
         check_length(mean_over)
     asked, road = road, at_speed(road, speed)
     question = Question(cells, road, at_depths)
-    (answer,) = answers([question], at_x, at_y, side=side, speed=speed, mean_over=mean_over, at=at, tell=progress)
+    view = View(at_x, at_y, at)
+    (answer,) = answers([question], view, side=side, speed=speed, mean_over=mean_over, tell=progress)
     solved, read = answer.fields, answer.read
     stress, strain, displacement = solved.stress, solved.strain, solved.displacement
     dataset = response_dataset(

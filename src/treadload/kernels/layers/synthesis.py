@@ -24,15 +24,12 @@ import numpy as np
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
-from treadload.kernels.layers.wavenumbers import gauss, tabulated
+from treadload.kernels.layers.wavenumbers import Table, gauss, tabulated
 
-# Errors by a field's largest value, measured: 1e-11 of stress and strain, 1e-9 of displacement.
-# Panels start at this over the length of the problem.
-_SMALLEST = 1e-7
-# Up to this over that length a panel ends at so many times its beginning and has so many points.
-_CALM, _STRIDE, _FEW = 0.02, 5.0, 8
+# Up to this over the length of the problem panels end at so many times their beginning.
+_CALM, _STRIDE = 0.02, 5.0
 # The same among the layers' own lengths: their poles lie off the axis by half their distance from zero.
-_RATIO, _SOME = 3.0, 10
+_RATIO = 3.0
 # Most radians that half a panel turns, and the points that each takes besides.
 _PHASE, _MORE = 24.0, 0.6
 # Wavenumbers of a block: keeps a block's fields, some 30 numbers for each, near the cache.
@@ -43,6 +40,32 @@ _DECADE = math.log(10)
 # What is summed up in wavenumbers, and what of it each component takes: xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
 _EXX, _EYY, _GXY, _FX, _FY, _FZ, _UX, _UY, _UZ = range(9)
 _FROM = ({_EXX, _EYY, _FZ}, {_EXX, _EYY, _FZ}, {_FZ}, {_GXY}, {_FX}, {_FY}, {_UX}, {_UY}, {_UZ})
+# Functions of |k| that each source takes: under pressure, and those that shear adds.
+_PRESSED = ((2,), (2,), (2,), (7,), (7,), (9,), (2,), (2,), (4,))
+_SHEARED = ((0, 1), (0, 1), (0, 1), (5, 6), (5, 6), (8,), (0, 1), (0, 1), (3,))
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """How finely waves are taken.
+
+    fall: they are cut where they have fallen to e^-fall. smallest: panels of wavenumbers start at this over the
+    length of the problem. few, some: points of a panel below all lengths, and among those of the layers.
+    """
+
+    fall: float
+    smallest: float
+    few: int
+    some: int
+
+
+# Errors by a field's largest value, measured: 1e-11 of stress and strain, 1e-9 of displacement, which goes as 1/k.
+# Cut at e^-33, with powers of k h before, waves leave 1e-10 of the strain, counted in soft soil below a stiff layer;
+# at e^-27 3e-7, at e^-36 4e-12.
+FULL = Accuracy(33.0, 1e-7, 8, 10)
+# 1e-7 of stress and strain alone, see `tests/unit/test_synthesis.py`: for what is read in five digits, a third of the
+# cost.
+READING = Accuracy(28.0, 1e-4, 5, 7)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,14 +96,18 @@ class ElasticPlane:
     shear: float
     poisson: float
     limit: float
-    _tables: dict[int, Callable[[Array], Array]] = field(default_factory=dict, repr=False)
+    _tables: dict[int, Table] = field(default_factory=dict, repr=False)
 
-    def radial(self, kx: Array, ky: Array, smallest: float) -> Array:
-        """A, C, D, E, F of the displacement, then of the force, (10, nky, nkx). smallest: of all k asked for, 1/m."""
+    def radial(self, kx: Array, ky: Array, functions: Sequence[int], smallest: float) -> dict[int, Array]:
+        """Functions of the displacement, A, C, D, E, F, 0 to 4, and of the force, 5 to 9, (nky, nkx) each.
+
+        functions: those to give. smallest: of all k that will be asked for, 1/m.
+        """
         decade = math.floor(math.log(smallest) / _DECADE)
         if decade not in self._tables:
             self._tables[decade] = tabulated(self._functions, math.exp(_DECADE * decade), 1.5 * self.limit)
-        return np.ascontiguousarray(np.moveaxis(self._tables[decade](np.hypot(kx, ky[:, None])), -1, 0))
+        values = np.moveaxis(self._tables[decade](np.hypot(kx, ky[:, None]), functions), -1, 0)
+        return dict(zip(functions, np.ascontiguousarray(values), strict=True))
 
     def _functions(self, k: Array) -> Array:
         """As functions of k (n,) → (10, n)."""
@@ -94,7 +121,7 @@ class ElasticPlane:
         return np.concatenate([moved, pushed])
 
 
-def rule(limit: float, reach: float, length: float) -> tuple[Array, Array]:
+def rule(limit: float, reach: float, length: float, accuracy: Accuracy = FULL) -> tuple[Array, Array]:
     """Nodes (n,), rising, and weights, 1/m, on (0, limit) for a transform.
 
     limit: largest wavenumber, 1/m. reach: largest distance between a loaded and an output point along this axis,
@@ -104,9 +131,9 @@ def rule(limit: float, reach: float, length: float) -> tuple[Array, Array]:
     low, nodes, weights = 0.0, [], []
     while low < limit:
         calm = low * length < _CALM
-        high = _SMALLEST / length if low == 0 else (_STRIDE if calm else _RATIO) * low
+        high = accuracy.smallest / length if low == 0 else (_STRIDE if calm else _RATIO) * low
         high = min(limit, high, low + widest)
-        count = (_FEW if calm else _SOME) + math.ceil(0.5 * (high - low) * reach * _MORE)
+        count = (accuracy.few if calm else accuracy.some) + math.ceil(0.5 * (high - low) * reach * _MORE)
         points, share = _gauss(count)
         nodes.append(0.5 * (high - low) * points + 0.5 * (high + low))
         weights.append(0.5 * (high - low) * share)
@@ -143,6 +170,9 @@ def synthesise_cells(
     """
     (kx_all, wx_all), (ky_all, wy_all) = along, across
     sources = sorted(set().union(*(_FROM[component] for component in components)))
+    sheared = any(cells.load[1:].any() for one in loads for cells in one)
+    uses = [_PRESSED, _SHEARED] if sheared else [_PRESSED]
+    functions = sorted({one for use in uses for source in sources for one in use[source]})
     smallest = math.hypot(kx_all[0], ky_all[0])
     rows = [int(np.searchsorted(ky_all, plane.limit, side="right")) for plane in planes]
     ky_all, wy_all = ky_all[: max(rows)], wy_all[: max(rows)]
@@ -161,7 +191,7 @@ def synthesise_cells(
             count = int(np.searchsorted(kx, plane.limit, side="right"))
             if not count or not served:
                 continue
-            radial = plane.radial(kx[:count], ky_all[:n], smallest)
+            radial = plane.radial(kx[:count], ky_all[:n], functions, smallest)
             for place, load in served:
                 waves = _waves(spectra[load][..., :n, :count], radial, kx[:count], ky_all[:n, None], sources)
                 _add(sums[place], waves, back[:, :n], out[:, :count], at)
@@ -247,7 +277,7 @@ def _slope_y(waves: Array, ky: Array, out: Array | None = None) -> Array:
     return out
 
 
-def _waves(spectrum: Array, radial: Array, kx: Array, ky: Array, sources: Sequence[int]) -> Array:
+def _waves(spectrum: Array, radial: Mapping[int, Array], kx: Array, ky: Array, sources: Sequence[int]) -> Array:
     """Fields in wavenumbers, (2, n, 2, nky, nkx): cosine and sine parts along x, the sources, the parts along y.
 
     spectrum: of the load, see `_Transform.at`. radial: see `ElasticPlane.radial`. ky: (nky, 1).
@@ -268,7 +298,7 @@ def _waves(spectrum: Array, radial: Array, kx: Array, ky: Array, sources: Sequen
             potential += spectrum[shear] * radial[by]
         return potential
 
-    waves = np.empty((2, len(sources), 2, *radial.shape[1:]))
+    waves = np.empty((2, len(sources), *pressure.shape[1:]))
     phi = joined(2, 1) if {_EXX, _EYY, _GXY, _UX, _UY} & set(sources) else pressure
     psi = joined(7, 6) if {_FX, _FY} & set(sources) else pressure
     make = {

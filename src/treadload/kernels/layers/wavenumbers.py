@@ -9,7 +9,7 @@ serves ky and -ky, told apart as even and odd parts.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 
 import numpy as np
@@ -103,10 +103,14 @@ def disc_spectrum(radius: float, pressure: float, x: float, y: float) -> Spectru
     return spectrum
 
 
-def tabulated(values: Callable[[Array], Array], smallest: float, largest: float) -> Callable[[Array], Array]:
+Table = Callable[[Array, Sequence[int]], Array]
+"""(k (...), numbers of functions (m,)) → (..., m)."""
+
+
+def tabulated(values: Callable[[Array], Array], smallest: float, largest: float) -> Table:
     """Functions of k that are smooth in ln k, as piecewise polynomials.
 
-    values: wavenumbers (n,) → (m, n). smallest, largest: range, 1/m. Returns wavenumbers (...) → (..., m).
+    values: wavenumbers (n,) → (all functions, n). smallest, largest: range, 1/m.
     """
     start, stop = math.log(smallest) - 1e-6, math.log(largest) + 1e-6
     panels = max(1, math.ceil((stop - start) / _STEP))
@@ -118,10 +122,9 @@ def tabulated(values: Callable[[Array], Array], smallest: float, largest: float)
     samples = samples.reshape(len(samples), panels, count).transpose(2, 1, 0)
     powers = np.linalg.inv(np.vander(chebyshev, count))
     coefficients = np.tensordot(powers, samples, axes=1) / (width ** np.arange(count)[::-1])[:, None, None]
-    table = PPoly(coefficients, edges)
 
-    def at(k: Array) -> Array:
-        result: Array = table(np.log(k))
+    def at(k: Array, functions: Sequence[int]) -> Array:
+        result: Array = PPoly(coefficients[..., list(functions)], edges)(np.log(k))
         return result
 
     return at
