@@ -92,11 +92,11 @@ def test_a_loose_course_over_an_incompressible_one_on_rock(top):
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_what_is_no_number_is_never_returned(monkeypatch, value):
-    def broken(loads, sites, pairs, x, y, **more):
-        stress = np.zeros((6, len(sites[0].depths), len(y), len(x)))
+    def broken(loads, sites, pairs, view, **more):
+        stress = np.zeros((6, len(sites[0].depths), *view.shape))
         strain = stress.copy()
         strain[2, 1] = value
-        return [(stress, strain, stress[:3], "layered")]
+        yield stress, strain, stress[:3], "layered"
 
     monkeypatch.setattr("treadload.response.several.layered_responses", broken)
     with pytest.raises(tl.ConvergenceError, match=r"strain at 0\.02 m is not a number: .* check their units"):

@@ -5,6 +5,8 @@ A tensor field is an array (6, ...) of the components xx, yy, zz, xy, xz, yz; sh
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from treadload.kernels.arrays import Array
@@ -43,9 +45,10 @@ def principal_values(tensor: Array) -> Array:
     left: those points go to LAPACK's symmetric solver. Errors are round-off of the largest value either way.
     Source: Smith (1961), Commun. ACM 4, 168.
     """
-    unit = float(np.abs(tensor).max(initial=0.0))
-    # Squares neither overflow nor vanish.
-    tensor = tensor / unit if 0 < unit < np.inf else tensor
+    largest = float(np.abs(tensor).max(initial=0.0))
+    # Squares neither overflow nor vanish; by a power of two no digit changes.
+    unit = math.ldexp(0.5, math.frexp(largest)[1]) if 0 < largest < math.inf else 1.0
+    tensor = tensor / unit
     middle = mean(tensor)
     xx, yy, zz = tensor[:3] - middle
     xy, xz, yz = tensor[3:]
@@ -60,7 +63,7 @@ def principal_values(tensor: Array) -> Array:
     close = ~(np.abs(half) < _APART)
     if close.any():
         values[:, close] = np.linalg.eigvalsh(matrices(tensor[:, close])).T[::-1]
-    return values * unit if 0 < unit < np.inf else values
+    return values * unit
 
 
 def principal(tensor: Array) -> tuple[Array, Array]:

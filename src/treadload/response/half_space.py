@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Literal
 
 import numpy as np
 
@@ -16,7 +16,8 @@ from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.response.loads import SurfaceLoad, UniformDisc
 
-_OnGrid = Callable[..., tuple[Array, Array, str]]
+# Distances that differ by less than this part of a cell are the same.
+_SAME = 1e-7
 
 
 def half_space_response(
@@ -27,14 +28,12 @@ def half_space_response(
     y: Array,
     at: Points | None = None,
     tell: Callable[[str], None] | None = None,
-    *,
-    moves: bool = True,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a half-space under superposed loads.
 
     material: of the half-space. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates.
     at: of the grid of x and y only these points, line by line or summed directly. tell: called with a line of text
-    at every load of several. moves: False leaves the displacement out, NaN.
+    at every load of several.
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
     `kernels.half_space.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where
     x and y lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
@@ -42,34 +41,124 @@ def half_space_response(
     Exact for loads uniform on each cell or bilinear between cells; near the surface the first leaves an error
     O(dx), see the kernels.
     """
+    ((fields, method),) = half_space_fields([loads], material.poisson, depths, x, y, at, tell)
+    stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0) / material.shear_modulus
+    return stress, strain_from_stress(stress, material.modulus, material.poisson), displacement, method
+
+
+def half_space_fields(
+    loads: Sequence[Sequence[SurfaceLoad]],
+    poisson: float,
+    depths: Array,
+    x: Array,
+    y: Array,
+    at: Points | None = None,
+    tell: Callable[[str], None] | None = None,
+    *,
+    moves: bool = True,
+) -> list[tuple[Array, str]]:
+    """Stress and displacement times the shear modulus, (nz, 9, my, mx), and the method, for each of some loads.
+
+    loads: each superposed from several. The others as in `half_space_response`; moves: False leaves the displacement
+    out, zero. What cells do to each other is computed once for all loads that stand on the same cells, and once for
+    wheels behind each other that press alike.
+    """
     shape = (len(y), len(x)) if at is None else at.shape
-    stress, displacement = np.zeros((6, len(depths), *shape)), np.zeros((3, len(depths), *shape))
+    results = [np.zeros((len(depths), 9, *shape)) for _ in loads]
+    methods: list[set[str]] = [set() for _ in loads]
+    many = [load for several in loads for load in several]
+    number = 0
+
+    def said(count: int) -> None:
+        nonlocal number
+        for _ in range(count):
+            number += 1
+            if tell is not None and len(many) > 1:
+                tell(f"stress and strain under load {number} of {len(many)}")
+
+    for several, result, used in zip(loads, results, methods, strict=True):
+        for load in several:
+            if isinstance(load, UniformDisc):
+                said(1)
+                _add_disc(result, load, poisson, depths, x, y, at)
+                used.add("disc")
+    for (print_, places), members in _prints(loads).items():
+        said(len(places) * len(members))
+        array = np.stack([member for _, member in members], axis=1)
+        fields, method = _under_print(print_, places, array, poisson, depths, x, y, at, moves=moves)
+        for column, (owner, _) in enumerate(members):
+            results[owner] += fields[:, :, column]
+            methods[owner].add(method)
+    return [
+        (result, "+".join(sorted(used - {"none"})) or "none") for result, used in zip(results, methods, strict=True)
+    ]
+
+
+_Print = tuple[int, int, float, float, float, Literal["constant", "bilinear"]]
+"""Cells that a load stands on: nx, ny, dx, dy, y0 and how it varies between them."""
+
+
+def _prints(
+    loads: Sequence[Sequence[SurfaceLoad]],
+) -> dict[tuple[_Print, tuple[float, ...]], list[tuple[int, Array]]]:
+    """Numbers of loads and arrays (3, ny, nx) by the cells that they stand on and by places, x of the first cells."""
+    found: dict[tuple[_Print, tuple[float, ...]], list[tuple[int, Array]]] = {}
+    for number, several in enumerate(loads):
+        alike: list[tuple[_Print, Array, list[float]]] = []
+        for load in several:
+            if isinstance(load, UniformDisc):
+                continue
+            grid, array = load.grid, load.array
+            own: _Print = (grid.nx, grid.ny, grid.dx, grid.dy, grid.y0, load.interpolation)
+            places = next((at for one, other, at in alike if one == own and np.array_equal(other, array)), None)
+            if places is None:
+                alike.append((own, array, [grid.x0]))
+            else:
+                places.append(grid.x0)
+        for own, array, places in alike:
+            found.setdefault((own, tuple(places)), []).append((number, array))
+    return found
+
+
+def _under_print(
+    cells: _Print,
+    places: tuple[float, ...],
+    array: Array,
+    poisson: float,
+    depths: Array,
+    x: Array,
+    y: Array,
+    at: Points | None,
+    *,
+    moves: bool,
+) -> tuple[Array, str]:
+    """Fields (nz, 9, n, my, mx) of arrays (3, n, ny, nx) on the same cells, summed over the places of these."""
+    _, _, dx, dy, y0, interpolation = cells
+    on_grid = bilinear_on_grid if interpolation == "bilinear" else fields_on_grid
     methods: set[str] = set()
-    shear, poisson = material.shear_modulus, material.poisson
-    for number, load in enumerate(loads, start=1):
-        if tell is not None and len(loads) > 1:
-            tell(f"stress and strain under load {number} of {len(loads)}")
-        if isinstance(load, UniformDisc):
-            lines = np.meshgrid(x, y) if at is None else (x[None, at.columns], y[None, at.rows])
-            across_x, across_y = lines[0] - load.x, lines[1] - load.y
-            for row, depth in enumerate(depths):
-                unit = disc_fields(load.radius, across_x, across_y, float(depth), shear, poisson)
-                stress[:, row] += load.pressure * unit[0]
-                displacement[:, row] += load.pressure * unit[1]
-            methods.add("disc")
-            continue
-        grid = load.grid
-        on_grid = bilinear_on_grid if load.interpolation == "bilinear" else fields_on_grid
-        place = load.array, grid.dx, grid.dy, depths, shear, poisson
 
-        def fields(x: Array, y: Array, on_grid: _OnGrid = on_grid, place: tuple[Any, ...] = place) -> Array:
-            *parts, method = on_grid(*place, x, y, moves=moves)
-            methods.add(method)
-            return np.concatenate(parts, axis=1)
+    def fields(x: Array, y: Array) -> Array:
+        apart = (x - np.array(places)[:, None]).ravel()
+        _, first, back = np.unique(np.round(apart / (_SAME * dx)), return_index=True, return_inverse=True)
+        stress, displacement, method = on_grid(array, dx, dy, depths, 1.0, poisson, apart[first], y - y0, moves=moves)
+        methods.add(method)
+        both = np.concatenate([stress, displacement], axis=1)
+        turns = back.reshape(len(places), -1)
+        total: Array = both[..., turns[0]]
+        for own in turns[1:]:
+            total += both[..., own]
+        return total
 
-        at_x, at_y = x - grid.x0, y - grid.y0
-        both = np.moveaxis(fields(at_x, at_y) if at is None else at.gathered(fields, at_x, at_y), 1, 0)
-        stress += both[:6]
-        displacement += both[6:]
-    used = "+".join(sorted(methods - {"none"})) or "none"
-    return stress, strain_from_stress(stress, material.modulus, poisson), displacement, used
+    solved = fields(x, y) if at is None else at.gathered(fields, x, y)
+    return solved, "+".join(sorted(methods - {"none"})) or "none"
+
+
+def _add_disc(
+    result: Array, disc: UniformDisc, poisson: float, depths: Array, x: Array, y: Array, at: Points | None
+) -> None:
+    lines = np.meshgrid(x, y) if at is None else (x[None, at.columns], y[None, at.rows])
+    across_x, across_y = lines[0] - disc.x, lines[1] - disc.y
+    for row, depth in enumerate(depths):
+        stress, displacement = disc_fields(disc.radius, across_x, across_y, float(depth), 1.0, poisson)
+        result[row, :6] += disc.pressure * stress
+        result[row, 6:] += disc.pressure * displacement

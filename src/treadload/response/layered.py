@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from treadload.kernels.tensors import strain_from_stress
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.pavement.stack import stack_of
-from treadload.response.half_space import half_space_response
+from treadload.response.half_space import half_space_fields
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
 # Nearer to the first interface than this part of its depth the split gains nothing and costs the closed form.
@@ -82,7 +81,7 @@ def layered_response(
     at: Points | None = None,
 ) -> Solved:
     """Stress, strain and displacement of one layered road under superposed loads, see `layered_responses`."""
-    return layered_responses([loads], [Site(road, depths)], [(0, 0)], View(x, y, at), below=below)[0]
+    return next(layered_responses([loads], [Site(road, depths)], [(0, 0)], View(x, y, at), below=below))
 
 
 def layered_responses(
@@ -92,8 +91,8 @@ def layered_responses(
     view: View,
     *,
     below: bool,
-) -> list[Solved]:
-    """Stress, strain and displacement of layered roads under loads, on the same points.
+) -> Iterator[Solved]:
+    """Stress, strain and displacement of layered roads under loads, on the same points, one pair after the other.
 
     loads: each superposed from several. pairs: (n) of a load and a site, by number. view: components that it does not
     ask for are NaN, as is strain that follows from them. below: whether a depth on an interface takes the layer below
@@ -107,26 +106,21 @@ def layered_responses(
     layouts = [_Layout.of(site, below, view.accuracy.fall) for site in sites]
     discs = [[one for one in several if isinstance(one, UniformDisc)] for several in loads]
     gridded = [[one for one in several if isinstance(one, GridLoad)] for several in loads]
-    fields = [np.zeros((len(layouts[site].depths), 9, *view.shape)) for _, site in pairs]
-    methods = [{"layered"} for _ in pairs]
-    top = _Top(view)
-    for place, (load, site) in enumerate(pairs):
+    under_cells = [pair for pair in pairs if gridded[pair[0]]]
+    split = [_split(layout, gridded, number, under_cells, view) for number, layout in enumerate(layouts)]
+    waves = iter(_under_cells(gridded, split, under_cells, view) if under_cells else [])
+    tops = _Top(discs, view), _Top(gridded, view)
+    # One after the other: what is made of the waves is larger than they are.
+    for load, site in pairs:
+        fields = np.zeros((len(layouts[site].depths), 9, *view.shape))
+        methods = {"layered"}
         if discs[load]:
-            fields[place] += _under_discs(discs[load], layouts[site], view)
-            methods[place].add(top.add(fields[place], discs[load], layouts[site]))
-    under_cells = [place for place, (load, _) in enumerate(pairs) if gridded[load]]
-    if under_cells:
-        asked = [pairs[place] for place in under_cells]
-        split = [_split(layout, gridded, number, asked, view) for number, layout in enumerate(layouts)]
-        waves = _under_cells(gridded, split, asked, view)
-        for place, part in zip(under_cells, waves, strict=True):
-            load, site = pairs[place]
-            fields[place][:, view.components] += part
-            methods[place].add(top.add(fields[place], gridded[load], split[site]))
-    return [
-        _solved(fields[place], layouts[site], loads[load], methods[place], view.components)
-        for place, (load, site) in enumerate(pairs)
-    ]
+            fields += _under_discs(discs[load], layouts[site], view)
+            methods.add(tops[0].add(fields, load, layouts[site]))
+        if gridded[load]:
+            fields[:, view.components] += next(waves)
+            methods.add(tops[1].add(fields, load, split[site]))
+        yield _solved(fields, layouts[site], loads[load], methods, view.components)
 
 
 def _solved(
@@ -136,7 +130,7 @@ def _solved(
     stack = layout.stack
     unasked = [component for component in ALL if component not in components]
     fields[:, unasked] = np.nan
-    stress, displacement = np.moveaxis(fields[:, :6], 1, 0).copy(), np.moveaxis(fields[:, 6:], 1, 0).copy()
+    stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0)
     for component, drifts in enumerate(drifting(stack, loads)):
         if drifts:
             # A sheet that nothing holds: the displacement under a net force has no finite value.
@@ -235,27 +229,28 @@ def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool, fal
 
 @dataclass(frozen=True, eq=False)
 class _Top:
-    """The half-space of the top layer in a view, for each load, Poisson's ratio and depths only once.
+    """The half-space of the top layer in a view, under loads that are seen together.
 
-    known: its fields (nz, 9, my, mx), with displacement times the shear modulus, and the method that gave them.
+    known: its fields (nz, 9, my, mx) under each of the loads, with displacement times the shear modulus, and the
+    method that gave them; by Poisson's ratio and depths, all that they depend on.
     """
 
+    loads: Sequence[Sequence[SurfaceLoad]]
     view: View
-    known: dict[Any, tuple[Array, str]] = field(default_factory=dict)
+    known: dict[tuple[float, ...], list[tuple[Array, str]]] = field(default_factory=dict)
 
-    def add(self, fields: Array, loads: Sequence[SurfaceLoad], layout: _Layout) -> str:
-        """Add it to fields (nz, 9, my, mx) where it was split off; the method."""
+    def add(self, fields: Array, load: int, layout: _Layout) -> str:
+        """Add that of a load to fields (nz, 9, my, mx) where it was split off; the method."""
         if not layout.rows:
             return "none"
-        material, depths = layout.materials[0], layout.depths[layout.rows]
-        key = (id(loads), material.poisson, *depths)
+        material, depths, view = layout.materials[0], layout.depths[layout.rows], self.view
+        key = (material.poisson, *depths)
         if key not in self.known:
-            unit, view = Elastic(2 * (1 + material.poisson), material.poisson), self.view
-            stress, _, displacement, method = half_space_response(
-                loads, unit, depths, view.x, view.y, view.at, moves=max(view.components) > _YZ
+            moves = max(view.components) > _YZ
+            self.known[key] = half_space_fields(
+                self.loads, material.poisson, depths, view.x, view.y, view.at, moves=moves
             )
-            self.known[key] = np.moveaxis(np.concatenate([stress, displacement]), 1, 0), method
-        top, method = self.known[key]
+        top, method = self.known[key][load]
         fields[layout.rows, :6] += top[:, :6]
         fields[layout.rows, 6:] += top[:, 6:] / material.shear_modulus
         return method

@@ -6,7 +6,7 @@ spread over as much.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -94,15 +94,15 @@ def answers(
     """Stress, strain and displacement for each question in a view; arguments as in `solve_response`."""
     asked = [Question(one.loads, at_speed(one.road, speed), one.depths) for one in questions]
 
-    def solve(several: Sequence[Question]) -> list[MovingFields]:
+    def solve(several: Sequence[Question]) -> Iterator[MovingFields]:
         limits = [one.road.bond_limits for one in several]
         single = [
             Question(one.loads, road, one.depths)
             for one, roads in zip(several, limits, strict=True)
             for road in roads
         ]
-        solved = iter(_solve(single, speed, view, below=side == "below", tell=tell))
-        return [_mean([next(solved) for _ in roads]) for roads in limits]
+        solved = _solve(single, speed, view, below=side == "below", tell=tell)
+        return (_mean([next(solved) for _ in roads]) for roads in limits)
 
     if mean_over is None:
         return [Answer(fields, None) for fields in solve(asked)]
@@ -110,7 +110,10 @@ def answers(
 
 
 def _over_windows(
-    solve: Callable[[Sequence[Question]], list[MovingFields]], asked: Sequence[Question], length: float, side: Side
+    solve: Callable[[Sequence[Question]], Iterator[MovingFields]],
+    asked: Sequence[Question],
+    length: float,
+    side: Side,
 ) -> list[Answer]:
     """Means over windows of depth under loads spread over as much, and the points themselves where those are read."""
     spread: dict[int, Loads] = {}
@@ -130,7 +133,7 @@ def _over_windows(
             every = np.eye(len(one.depths))
             parts.append((Question(one.loads, one.road, one.depths[read.local]), every[:, read.local]))
         counts.append(len(parts) - before)
-    solved = iter(zip(solve([question for question, _ in parts]), (weights for _, weights in parts), strict=True))
+    solved = zip(solve([question for question, _ in parts]), (weights for _, weights in parts), strict=True)
     return [
         Answer(_weighted([next(solved) for _ in range(count)], len(one.depths)), read)
         for one, read, count in zip(asked, reads, counts, strict=True)
@@ -156,33 +159,28 @@ def _solve(
     *,
     below: bool,
     tell: Callable[[str], None] | None,
-) -> list[MovingFields]:
-    """Fields for each question, of a road with no half-bonded interface."""
+) -> Iterator[MovingFields]:
+    """Fields for one question after the other, of roads with no half-bonded interface."""
     x, y, at = view.x, view.y, view.at
-    fields: dict[int, MovingFields] = {}
-    layered: list[int] = []
-    for number, one in enumerate(questions):
-        still = np.zeros((len(one.depths), len(y)))
+    layered = [one for one in questions if not (one.road.is_viscoelastic or one.road.is_homogeneous)]
+    several = list({id(one.loads): one.loads for one in layered}.values())
+    place = {id(loads): number for number, loads in enumerate(several)}
+    pairs = [(place[id(one.loads)], number) for number, one in enumerate(layered)]
+    sites = [Site(one.road, one.depths) for one in layered]
+    found = layered_responses(several, sites, pairs, view, below=below)
+    for one in questions:
         if one.road.is_viscoelastic:
             assert speed is not None
-            fields[number] = moving_response(one.loads, one.road, speed, one.depths, x, y, below=below, at=at)
-        elif one.road.is_homogeneous:
-            alone = half_space_response(one.loads, one.road.surface_material, one.depths, x, y, at, tell)
-            fields[number] = MovingFields(*alone[:3], still, alone[3])
+            fields = moving_response(one.loads, one.road, speed, one.depths, x, y, below=below, at=at)
         else:
-            layered.append(number)
-    if layered:
-        several = list({id(questions[k].loads): questions[k].loads for k in layered}.values())
-        place = {id(loads): number for number, loads in enumerate(several)}
-        pairs = [(place[id(questions[k].loads)], number) for number, k in enumerate(layered)]
-        sites = [Site(questions[k].road, questions[k].depths) for k in layered]
-        found = layered_responses(several, sites, pairs, view, below=below)
-        for k, (stress, strain, displacement, method) in zip(layered, found, strict=True):
-            still = np.zeros((len(questions[k].depths), len(y)))
-            fields[k] = MovingFields(stress, strain, displacement, still, method)
-    for number, one in enumerate(questions):
-        _check(fields[number], one.depths, [part for part in view.components if part < 6])
-    return [fields[number] for number in range(len(questions))]
+            solved = (
+                half_space_response(one.loads, one.road.surface_material, one.depths, x, y, at, tell)
+                if one.road.is_homogeneous
+                else next(found)
+            )
+            fields = MovingFields(*solved[:3], np.zeros((len(one.depths), len(y))), solved[3])
+        _check(fields, one.depths, [part for part in view.components if part < 6])
+        yield fields
 
 
 def _check(fields: MovingFields, depths: Array, stresses: Sequence[int]) -> None:

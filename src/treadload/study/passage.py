@@ -25,7 +25,7 @@ _BESIDE = 0.06
 # at 60 mm.
 _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
 # Points of all fields that are solved together: some 200 MB with what is made of them.
-_TOGETHER = 400_000
+_TOGETHER = 900_000
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -24,9 +26,9 @@ def on_grid(source: Source, depths: Array, x: Array, y: Array, method: Method = 
     depths: (nz,), m. x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order. method: "fft"
     on the lattices that the coordinates form, "precorrected" by interpolation, see `kernels.gridding.precorrected`,
     "direct" by summing over cells, or "auto", the cheapest at each depth.
-    Returns (nz, components, my, mx) and the methods used, "none" without load.
+    Returns (nz, components, …, my, mx) and the methods used, "none" without load; … as of the loads, see `Source`.
     """
-    fields = np.zeros((len(depths), source.components, len(y), len(x)))
+    fields = np.zeros((len(depths), source.components, *source.load.shape[1:-2], len(y), len(x)))
     part = loaded(source, x, y)
     if part is None:
         return fields, "none"
@@ -34,10 +36,13 @@ def on_grid(source: Source, depths: Array, x: Array, y: Array, method: Method = 
     for way in set(ways):
         rows = [row for row, one in enumerate(ways) if one == way]
         name, nodes = way
-        if name == "precorrected":
-            fields[rows] = interpolated(part[0], depths[rows], *part[1:], nodes)
-        else:
-            fields[rows] = (by_lattices if name == "fft" else summed)(part[0], depths[rows], *part[1:])
+        if name == "fft":
+            fields[rows] = by_lattices(part[0], depths[rows], *part[1:])
+            continue
+        for one in np.ndindex(source.load.shape[1:-2]):
+            load = replace(part[0], load=part[0].load[:, *one])
+            alone = summed if name == "direct" else partial(interpolated, nodes=nodes)
+            fields[(rows, slice(None), *one)] = alone(load, depths[rows], *part[1:])
     return fields, "+".join(sorted({name for name, _ in ways}))
 
 
@@ -54,18 +59,19 @@ def grid_cost(load: Array, dx: float, dy: float, depths: Array, x: Array, y: Arr
 
 def _cheapest(source: Source, x: Array, y: Array, depth: float, method: Method) -> _Way:
     """Cost, way, and nodes in the shorter side of a cell to interpolate from."""
-    _, ny, nx = source.load.shape
+    ny, nx = source.load.shape[-2:]
     sides = ((nx, x, source.dx), (ny, y, source.dy))
-    padded = math.prod(sum(cells + count for _, count, _, _ in as_lattices(at, size)) for cells, at, size in sides)
+    lattices = [(cells, as_lattices(at, size, cells)) for cells, at, size in sides]
+    padded = math.prod(sum(cells + count for _, count, _, _ in several) for cells, several in lattices)
     ways: list[_Way] = [
         (_LATTICE_COST * padded, "fft", 0),
         (len(x) * len(y) * (nx + 1.0) * (ny + 1.0), "direct", 0),
     ]
     for nodes in range(1, FINEST + 1):
-        lattices = math.prod(
+        padded = math.prod(
             count * (cells + np.ptp(at) / size + 1) + STENCIL
             for count, (cells, at, size) in zip(nodes_of(source, nodes), sides, strict=True)
         )
         near = math.prod(2.0 * (cells + 1) for cells in window(source, depth, nodes))
-        ways.append((_LATTICE_COST * lattices + _NEAR_COST * len(x) * len(y) * near, "precorrected", nodes))
+        ways.append((_LATTICE_COST * padded + _NEAR_COST * len(x) * len(y) * near, "precorrected", nodes))
     return min(way for way in ways if method in ("auto", way[1]))

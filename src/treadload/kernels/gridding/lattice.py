@@ -39,10 +39,10 @@ Offsets from its centre, m: x[a], x[a] + dx, … n of them, and y[b], y[b] + dy,
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A gridded load and the field of its cells.
+    """A gridded load, or several on the same cells, and the field of its cells.
 
-    load: (3, ny, nx), Pa. dx, dy: cell, m. kernels: see `Kernels`. components: of the field. half: of the width of
-    the load of one cell, in cells.
+    load: (3, ny, nx) or (3, n, ny, nx), Pa; fields then are (nz, components, n, my, mx). dx, dy: cell, m. kernels:
+    see `Kernels`. components: of the field. half: of the width of the load of one cell, in cells.
     """
 
     load: Array
@@ -74,23 +74,25 @@ def of_corners(corners: Corners, dx: float, dy: float) -> Kernels:
 def loaded(source: Source, x: Array, y: Array) -> tuple[Source, Array, Array] | None:
     """The source without unloaded margins, and the coordinates from its first cell; None without load."""
     load = source.load
-    rows, columns = np.flatnonzero(load.any(axis=(0, 2))), np.flatnonzero(load.any(axis=(0, 1)))
+    flat = load.reshape(-1, *load.shape[-2:])
+    rows, columns = np.flatnonzero(flat.any(axis=(0, 2))), np.flatnonzero(flat.any(axis=(0, 1)))
     if not len(rows):
         return None
     # Unloaded rows and columns around the footprint do nothing but cost.
-    part = load[:, rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    part = load[..., rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
     return replace(source, load=part), x - source.dx * columns[0], y - source.dy * rows[0]
 
 
 def by_lattices(source: Source, depths: Array, x: Array, y: Array) -> Array:
-    """Fields (nz, components, my, mx) on a grid by a convolution for each lattice that its coordinates form.
+    """Fields (nz, components, …, my, mx) on a grid by a convolution for each lattice that its coordinates form.
 
     depths: (nz,), m. x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order.
     """
-    fields = np.zeros((len(depths), source.components, len(y), len(x)))
-    for y0, count_y, at_y, from_y in as_lattices(y, source.dy):
-        for x0, count_x, at_x, from_x in as_lattices(x, source.dx):
-            fields[:, :, at_y[:, None], at_x] = on_lattice(
+    ny, nx = source.load.shape[-2:]
+    fields = np.zeros((len(depths), source.components, *source.load.shape[1:-2], len(y), len(x)))
+    for y0, count_y, at_y, from_y in as_lattices(y, source.dy, ny):
+        for x0, count_x, at_x, from_x in as_lattices(x, source.dx, nx):
+            fields[..., at_y[:, None], at_x] = on_lattice(
                 source, depths, (count_y, count_x), x0, y0, (from_y, from_x)
             )
     return fields
@@ -107,10 +109,10 @@ def on_lattice(
     """Fields on points spaced like the cells, by zero-padded FFT convolution.
 
     shape: (my, mx) of the lattice. x0, y0: its first point minus the centre of the first cell, m.
-    wanted: its rows and columns to return; all. Returns (nz, components, rows, columns).
+    wanted: its rows and columns to return; all. Returns (nz, components, …, rows, columns).
     """
     load, dx, dy = source.load, source.dx, source.dy
-    _, ny, nx = load.shape
+    ny, nx = load.shape[-2:]
     my, mx = shape
     high, wide = ny + my - 1, nx + mx - 1
     padded = int(fft.next_fast_len(high)), int(fft.next_fast_len(wide, real=True))
@@ -118,7 +120,7 @@ def on_lattice(
     first_x, first_y = np.array([x0 - dx * (nx - 1)]), np.array([y0 - dy * (ny - 1)])
     # The offsets start at the most negative one; what wraps around lies in the rows and columns before.
     rows, columns = np.arange(ny - 1, high)[wanted[0]], np.arange(nx - 1, wide)[wanted[1]]
-    fields = np.zeros((len(depths), source.components, len(rows), len(columns)))
+    fields = np.zeros((len(depths), source.components, *load.shape[1:-2], len(rows), len(columns)))
     for field, depth in zip(fields, depths, strict=True):
         spectra: dict[int, ComplexArray] = {}
         for values, uses in source.kernels(first_x, first_y, (high, wide), float(depth)):
@@ -133,13 +135,13 @@ def on_lattice(
                 else:
                     spectra[component] = product
         for component, spectrum in spectra.items():
-            part = fft.ifft(spectrum, axis=0, overwrite_x=True)[rows]
-            field[component] = fft.irfft(part, n=padded[1], axis=1)[:, columns]
+            part = fft.ifft(spectrum, axis=-2, overwrite_x=True)[..., rows, :]
+            field[component] = fft.irfft(part, n=padded[1], axis=-1)[..., columns]
     return fields
 
 
 def summed(source: Source, depths: Array, x: Array, y: Array) -> Array:
-    """Fields by summing over the cells, arguments as in `by_lattices`; in blocks, to bound memory."""
+    """Fields of one load by summing over the cells, arguments as in `by_lattices`; in blocks, to bound memory."""
     dx, dy = source.dx, source.dy
     _, ny, nx = source.load.shape
     # Offsets rise while cells fall.
@@ -164,15 +166,22 @@ def blocks(rows: int, columns: int, each: int) -> Iterator[tuple[slice, slice]]:
             yield slice(row, row + high), slice(column, column + wide)
 
 
-def as_lattices(x: Array, dx: float) -> list[tuple[float, int, Indices, Indices]]:
-    """Coordinates as lattices of spacing dx: first point, number of points, indices into x and into the lattice."""
-    cells = x / dx
-    whole = np.floor(cells + _SAME_PLACE)
-    place = cells - whole
+def as_lattices(x: Array, dx: float, cells: int) -> list[tuple[float, int, Indices, Indices]]:
+    """Coordinates as lattices of spacing dx: first point, number of points, indices into x and into the lattice.
+
+    cells: of the load, along x. Points further apart go onto lattices of their own, which then cost less.
+    """
+    at = x / dx
+    whole = np.floor(at + _SAME_PLACE)
+    place = at - whole
     order = np.argsort(place, kind="stable")
     cuts = np.nonzero(np.diff(place[order]) > _SAME_PLACE)[0] + 1
+    runs: list[Indices] = []
+    for alike in np.split(order, cuts):
+        rising = alike[np.argsort(whole[alike], kind="stable")]
+        runs += np.split(rising, np.nonzero(np.diff(whole[rising]) > cells + 1)[0] + 1)
     lattices: list[tuple[float, int, Indices, Indices]] = []
-    for members in np.split(order, cuts):
+    for members in runs:
         first, last = whole[members].min(), whole[members].max()
         start = dx * (first + place[members].mean())
         lattices.append((float(start), int(last - first) + 1, members, (whole[members] - first).astype(int)))

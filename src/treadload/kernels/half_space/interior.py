@@ -43,10 +43,10 @@ def fields_on_grid(
 ) -> tuple[Array, Array, str]:
     """Stress and displacement on the grid of any coordinates x and y, by the cheapest method.
 
-    load: (3, ny, nx), Pa. dx, dy: cell, m. depths: (nz,), m, >= 0. shear: shear modulus, Pa. poisson: Poisson's
-    ratio. x: (mx,), y: (my,): coordinates relative to the centre of the first cell, m, in any order. moves: False
-    leaves the displacement out, zero.
-    Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and the methods, see
+    load: (3, ny, nx), Pa, or (3, n, ny, nx), several on the same cells. dx, dy: cell, m. depths: (nz,), m, >= 0.
+    shear: shear modulus, Pa. poisson: Poisson's ratio. x: (mx,), y: (my,): coordinates relative to the centre of the
+    first cell, m, in any order. moves: False leaves the displacement out, zero.
+    Returns stress (nz, 6, …, my, mx), Pa, displacement (nz, 3, …, my, mx), m, and the methods, see
     `kernels.gridding.gridded.on_grid`.
     """
 
@@ -65,7 +65,7 @@ def _add_standing_load(
     rows = np.flatnonzero(is_surface(depths, dx, dy))
     if not rows.size:
         return
-    _, ny, nx = load.shape
+    ny, nx = load.shape[-2:]
     share_x, share_y = _share(x[:, None] - dx * np.arange(nx), dx), _share(y[:, None] - dy * np.arange(ny), dy)
     local = share_y @ load @ share_x.T
     for row in rows:
