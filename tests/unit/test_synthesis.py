@@ -119,11 +119,11 @@ def test_panels_of_a_rule_converge():
 def test_readings_keep_seven_digits_of_stress(stack):
     """Soft soil below a stiff layer as well, and points far from the load along one axis."""
     exact = solved([cells()], stack)
-    # e^-28 with powers of k h before it, and panels of seven points: 1e-7 of the largest stress at a depth.
+    # e^-28 with powers of k h before it, and panels of six points: 1e-7 of the largest stress at a depth.
     for row, error in enumerate(np.abs(solved([cells()], stack, accuracy=READING) - exact)[:, :6]):
         assert error.max() <= 1e-7 * np.abs(exact[row, :6]).max()
 
 
 def test_readings_cost_a_third():
     fine, few = (len(rule(one.fall / 0.2, 0.8, 2.0, one)[0]) for one in (FULL, READING))
-    assert few**2 < 0.4 * fine**2
+    assert few**2 < 0.3 * fine**2

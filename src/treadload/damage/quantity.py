@@ -219,12 +219,14 @@ QUANTITIES.makes(Quantity)
 
 def ordered(data: xr.Dataset) -> list[str]:
     """Dimensions of the road that a dataset has, in the order in which quantities come."""
-    return [dim for dim in _DIMS if dim in data.dims]
+    sizes = data.sizes
+    return [dim for dim in _DIMS if dim in sizes]
 
 
 def part(data: xr.Dataset, name: str) -> Array:
     """A variable over (depth, y, x), or those of them that the dataset has."""
-    values: Array = data[name].transpose(*ordered(data), ...).to_numpy()
+    # Not the array with its coordinates, which cost more than small fields.
+    values: Array = data.variables[name].transpose(*ordered(data), ...).to_numpy()
     return values
 
 

@@ -72,11 +72,16 @@ def tensors_of_many(
     components = sorted({part for name in wanted for part in _PARTS[name]})
     view = View(x, y, components=components, accuracy=READING)
     solved = answers(questions, view, side=side, speed=speed, mean_over=mean_over)
+    # Coordinates are made once: many small fields cost less than they.
+    places = {
+        depths: variables.dataset({}, {"depth": list(depths), "y": y, "x": x}).coords
+        for depths in {tuple(one.depths.tolist()) for one in questions}
+    }
     tensors = [tensor_fields(one.fields.stress, one.fields.strain) for one in solved]
     return [
-        variables.dataset(
-            {name: field for name, field in fields.items() if name in wanted},
-            {"depth": question.depths, "y": y, "x": x},
+        xr.Dataset(
+            {name: (*field, variables.attributes(name)) for name, field in fields.items() if name in wanted},
+            places[tuple(question.depths.tolist())],
         )
         for question, fields in zip(questions, tensors, strict=True)
     ]

@@ -63,9 +63,9 @@ class Accuracy:
 # Cut at e^-33, with powers of k h before, waves leave 1e-10 of the strain, counted in soft soil below a stiff layer;
 # at e^-27 3e-7, at e^-36 4e-12.
 FULL = Accuracy(33.0, 1e-7, 8, 10)
-# 1e-7 of stress and strain alone, see `tests/unit/test_synthesis.py`: for what is read in five digits, a third of the
-# cost.
-READING = Accuracy(28.0, 1e-4, 5, 7)
+# 1e-7 of stress and strain alone, see `tests/unit/test_synthesis.py`: for what is read in five digits, a third of
+# the cost.
+READING = Accuracy(28.0, 1e-4, 4, 6)
 
 
 @dataclass(frozen=True, eq=False)
