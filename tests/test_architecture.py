@@ -62,6 +62,10 @@ LAZY = "_public.py"
 ONLY_IN = {
     "matplotlib": ("plots", "reporting"),
     "dask": ("study",),
+    "distributed": ("study",),
+    "zarr": ("study",),
+    "SALib": ("study",),
+    "pyarrow": ("results",),
     "trimesh": ("tire",),
     "embreex": ("tire",),
     "pint": ("units",),
