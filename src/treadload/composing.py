@@ -8,7 +8,7 @@ results; whoever defines a class of results has it written, read back and report
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
@@ -44,6 +44,8 @@ class Holds:
     entries have names, the coordinate has the same. sizes: dimension → fewest and most places.
     numbers, texts, lists, members: attributes that are finite numbers, texts, lists of texts as JSON, lists of texts.
     maybe_numbers: numbers of which some may be missing. together: attributes of which the first needs the others.
+    reads: called with the dataset and the other fields of the class where they are known, to try what else is read
+    of it; what it raises refuses the file.
     positive: fields and numbers that are above zero. asked: field of the class → what of `maybe` is there unless the
     field is None. stats: entries of `stats` of which the first needs the others, all numbers.
     """
@@ -64,6 +66,7 @@ class Holds:
     stats: tuple[str, ...] = ()
     positive: str = ""
     sizes: Mapping[str, tuple[int, float]] = field(default_factory=dict)
+    reads: Callable[[xr.Dataset, Mapping[str, Any]], object] | None = None
 
 
 class BaseResult(ABC):

@@ -25,6 +25,7 @@ _TWICE = "Duplicate dimension names"
 NETCDF = {".nc": "NetCDF", ".nc4": "NetCDF", ".h5": "NetCDF"}
 TABLE = {".csv": "tables"}
 EXCEL = {".xlsx": "an Excel workbook"}
+PARQUET = {".parquet": "Parquet"}
 HTML = {".html": "a page", ".htm": "a page"}
 
 

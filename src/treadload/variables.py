@@ -238,6 +238,26 @@ _SWEEP = {
     "governing_years": ("1", "years until the first criterion fails"),
 }
 
+_SCREENING = {
+    "input_low": ("1", "low end of the range of an input, in its SI unit"),
+    "input_high": ("1", "high end of the range of an input, in its SI unit"),
+    "input_base": ("1", "an input of the base case, in its SI unit"),
+    "reading_low": ("1", "reading with an input at its low end, in the unit of the reading"),
+    "reading_high": ("1", "reading with an input at its high end, in the unit of the reading"),
+    "reading_base": ("1", "reading of the base case, in the unit of the reading"),
+    "swing": ("1", "range of the reading as an input goes from end to end, in the unit of the reading"),
+    "first_order": ("1", "share of the variance that an input has alone"),
+    "first_order_interval": ("1", "half width of the 95 % interval of first_order"),
+    "total_order": ("1", "share of the variance that an input has alone and with others"),
+    "total_order_interval": ("1", "half width of the 95 % interval of total_order"),
+    "second_order": ("1", "share of the variance that two inputs have together, beyond those of each"),
+    "second_order_interval": ("1", "half width of the 95 % interval of second_order"),
+    "absolute_effect": ("1", "mean size of the effects of an input over its range, in the unit of the reading"),
+    "absolute_effect_interval": ("1", "half width of the 95 % interval of absolute_effect"),
+    "mean_effect": ("1", "mean effect of an input over its range, in the unit of the reading"),
+    "effect_deviation": ("1", "standard deviation of the effects of an input, in the unit of the reading"),
+}
+
 _TIRE_CARD = {
     "inflation_pressure": ("Pa", "inflation pressure of the tire"),
     "wheel_load": ("N", "vertical load of the wheel"),
@@ -270,6 +290,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_UNIFORM,
     **_FOOTPRINT,
     **_SWEEP,
+    **_SCREENING,
     **_TIRE_CARD,
 }
 

@@ -11,6 +11,7 @@ import xarray as xr
 
 import treadload as tl
 from cases import COARSE_CASE
+from studies import CASE, study_of
 from treadload.case import Case
 from treadload.composing import BaseResult, dataset_of, result_classes
 from treadload.damage import Climate, Traffic, Wander
@@ -19,6 +20,8 @@ from treadload.damage.miner import miner
 from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
+from treadload.study.screening import asked
+from treadload.study.sweeps.design import product
 from treadload.study.two_grids import with_error
 from treadload.variables import in_order
 
@@ -106,6 +109,14 @@ def calibration():
     return tl.calibrate(TIRE, ["modulus"], rows, road=ROAD, tolerance=1e-6)
 
 
+def screened(verb, **more):
+    """What matters, of a function in the place of the solver."""
+    with pytest.MonkeyPatch.context() as patch:
+        solve = lambda friction, normal_load: {"worst_strain": friction + normal_load / 3e4}  # noqa: E731
+        patch.setattr(asked, "sweep", lambda case, design, **_: study_of(design, solve, case))
+        return verb(CASE, {"friction": (0.3, 0.9), "normal_load": (2e4, 4e4)}, "worst_strain", **more)
+
+
 MADE = {
     "Contact": contact,
     "Response": response,
@@ -133,6 +144,10 @@ MADE = {
     "FootprintComparison": footprint_comparison,
     "TireCard": lambda: tl.study.tire_card(TIRE, ROAD, [200, 300], stiffness=False),
     "Calibration": calibration,
+    "Sweep": lambda: study_of(product(CASE, {"friction": [0.4, 0.6]}), lambda friction: {"worst_strain": friction}),
+    "Tornado": lambda: screened(tl.study.tornado),
+    "Sobol": lambda: screened(tl.study.sobol, blocks=4, second_order=True),
+    "Morris": lambda: screened(tl.study.morris, trajectories=3),
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
 FIGURES = {
@@ -141,6 +156,7 @@ FIGURES = {
     "BondComparison": "lives", "Sensitivity": "inputs", "UniformComparison": "strains", "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
+    "Sweep": lambda plot: plot.curve("worst_strain"), "Tornado": "tornado", "Sobol": "sobol", "Morris": "morris",
 }  # fmt: skip
 
 

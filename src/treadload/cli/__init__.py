@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from treadload._version import __version__
-from treadload.cli import cases, compare, program, results, shell, sweep, tires
+from treadload.cli import cases, compare, program, results, shell, studies, sweep, tires
 
 __all__ = ["app", "main"]
 
@@ -34,6 +34,7 @@ for _command in (
     program.validate,
 ):
     app.command()(shell.one_sentence(_command))
+app.add_typer(studies.app, name="study")
 
 
 @app.callback(invoke_without_command=True)

@@ -15,9 +15,7 @@ def report(
     results: Annotated[
         list[Path], typer.Argument(help="One or more result files of `treadload run` or `treadload life`.")
     ],
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="File to write, .html.", show_default=False)
-    ] = None,
+    output: shell.Page = None,
     title: Annotated[str, typer.Option(help="Heading of the report.")] = "",
     quiet: shell.Quiet = False,
 ) -> None:

@@ -24,6 +24,7 @@ Output = Annotated[
     Path | None,
     typer.Option("--output", "-o", help="File to write: .nc (NetCDF), .csv or .xlsx.", show_default=False),
 ]
+Page = Annotated[Path | None, typer.Option("--output", "-o", help="File to write, .html.", show_default=False)]
 Report = Annotated[Path | None, typer.Option(help="Page to write, .html.", show_default=False)]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on stderr.")]
 Changes = Annotated[

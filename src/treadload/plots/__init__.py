@@ -23,9 +23,13 @@ from treadload.plots.others import (
     FieldsPlots,
     FootprintComparisonPlots,
     LifePlots,
+    MorrisPlots,
     RollingResistancePlots,
     SensitivityPlots,
+    SobolPlots,
+    SweepPlots,
     TireCardPlots,
+    TornadoPlots,
     TransientPlots,
     TurnPlots,
     UniformPlots,
@@ -33,6 +37,9 @@ from treadload.plots.others import (
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
+from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
+from treadload.plots.sweeps.maps import study_map, study_multiples
+from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
 from treadload.plots.tearing import tearing
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
@@ -47,10 +54,14 @@ __all__ = [
     "FieldsPlots",
     "FootprintComparisonPlots",
     "LifePlots",
+    "MorrisPlots",
     "ResponsePlots",
     "RollingResistancePlots",
     "SensitivityPlots",
+    "SobolPlots",
+    "SweepPlots",
     "TireCardPlots",
+    "TornadoPlots",
     "TransientPlots",
     "TurnPlots",
     "UniformPlots",
@@ -78,6 +89,7 @@ __all__ = [
     "life_years",
     "losses",
     "master_curve",
+    "morris_effects",
     "new_figure",
     "orientation_shares",
     "places_under",
@@ -86,8 +98,15 @@ __all__ = [
     "rib_shares",
     "save",
     "shift_factors",
+    "sobol_bars",
+    "study_curve",
+    "study_curves",
+    "study_map",
+    "study_multiples",
+    "study_slip_curve",
     "tearing",
     "tire_card",
+    "tornado_bars",
     "trace_rose",
     "transient_history",
     "turn_history",

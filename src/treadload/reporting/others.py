@@ -13,15 +13,20 @@ from treadload.plots import (
     FieldsPlots,
     FootprintComparisonPlots,
     LifePlots,
+    MorrisPlots,
     RollingResistancePlots,
     SensitivityPlots,
+    SobolPlots,
     TireCardPlots,
+    TornadoPlots,
     TransientPlots,
     TurnPlots,
     UniformPlots,
 )
+from treadload.reporting.inputs import NamedTable
 from treadload.reporting.pictures import Picture, picture
 from treadload.reporting.reading import Other, summary_of
+from treadload.reporting.studies import study_pictures, study_tables
 
 HEADINGS = {
     "calibration": "Calibration of the tire",
@@ -37,23 +42,29 @@ HEADINGS = {
     "rolling_resistance": "Rolling resistance",
     "points": "Response at points",
     "fields": "Fields",
+    "sweep": "Study",
+    "tornado": "Tornado",
+    "sobol": "Sobol indices",
+    "morris": "Morris screening",
 }
 
 
 @dataclass(frozen=True)
 class OtherReport:
-    """A result under its heading. text: its summary."""
+    """A result under its heading. text: its summary. tables: of what figures do not tell."""
 
     heading: str
     pictures: tuple[Picture, ...]
     text: str
+    tables: tuple[NamedTable, ...] = ()
 
 
 def other_report(other: Other) -> OtherReport:
     """What a report says of a result without a table."""
     named = HEADINGS.get(other.kind, other.kind.replace("_", " "))
     heading = named if other.name == other.kind else f"{named}: {other.name}"
-    return OtherReport(heading, tuple(_pictures(other)), summary_of(other.dataset))
+    tables = study_tables(other.dataset) if other.kind == "sweep" else ()
+    return OtherReport(heading, tuple(_pictures(other)), summary_of(other.dataset), tables)
 
 
 def _pictures(other: Other) -> list[Picture]:
@@ -113,6 +124,17 @@ def _pictures(other: Other) -> list[Picture]:
         case "rolling_resistance":
             caption = "The force that resists, and the energy that the materials lose per metre."
             return picture("Rolling resistance", caption, RollingResistancePlots(data).losses)
+        case "sweep":
+            return study_pictures(data)
+        case "tornado":
+            caption = "The result with one input at an end of its range, the others as in the base case."
+            return picture("Tornado", caption, TornadoPlots(data).tornado, wide=True)
+        case "sobol":
+            caption = "Share of the variance of the result over the ranges that is due to each input."
+            return picture("Sobol indices", caption, SobolPlots(data).sobol, wide=True)
+        case "morris":
+            caption = "Right: inputs that matter. High: inputs whose effect bends or depends on others."
+            return picture("Morris screening", caption, MorrisPlots(data).morris)
         case "life":
             return picture("Life by criterion", "Years until the damage is 1.", LifePlots(data).years)
         case "transient" | "turn":

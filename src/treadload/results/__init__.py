@@ -3,7 +3,7 @@
 from treadload.footprint import Footprint
 from treadload.results.cite import citations
 from treadload.results.dataset import Fields, height_map
-from treadload.results.exports import write_csv, write_excel
+from treadload.results.exports import write_csv, write_excel, write_parquet
 from treadload.results.files import open_results, save_results
 from treadload.results.opened import Results
 from treadload.results.roads import road_in_rows
@@ -24,4 +24,5 @@ __all__ = [
     "to_tree",
     "write_csv",
     "write_excel",
+    "write_parquet",
 ]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from treadload.case import LifeCase
+from treadload.case.file import FilePart
 from treadload.contact import Contact
 from treadload.materials import HuetSayegh, Model2S2P1D, Prony
 from treadload.pavement import BONDED, HALF_BONDED, Pavement
@@ -95,7 +97,16 @@ def _of_the_road(road: Pavement | None) -> list[str]:
     return [key for key, used in asked.items() if used]
 
 
+# Of every case that is solved whole.
+_WHOLE = ("chain", "influence", "convolution", "normal", "preconditioner", "rolling", "newton", "stress")
+
+
 def life_citations(road: Pavement | None) -> list[str]:
     """References of the methods that a life on this road uses."""
-    used = ["chain", "influence", "convolution", "normal", "preconditioner", "rolling", "newton", "stress"]
-    return [CITATIONS[key] for key in [*used, *_of_the_road(road), "miner"]]
+    return [CITATIONS[key] for key in [*_WHOLE, *_of_the_road(road), "miner"]]
+
+
+def case_citations(case: FilePart) -> list[str]:
+    """References of the methods that a study of a case uses, before any of it is solved."""
+    miner = ["miner"] if isinstance(case, LifeCase) else []
+    return [CITATIONS[key] for key in [*_WHOLE, *_of_the_road(case.build_road()), *miner]]

@@ -1,4 +1,4 @@
-"""Results as tables for other programs: CSV and Excel, one row per point, units in the headings.
+"""Results as tables for other programs: CSV, Excel and Parquet, one row per point, units in the headings.
 
 NetCDF (`results.files`) keeps everything and is read back; tables are for spreadsheets and scripts.
 """
@@ -10,7 +10,7 @@ import csv
 import math
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,12 +20,14 @@ import xarray as xr
 
 from treadload.composing import BaseResult
 from treadload.errors import InputError, how_to_install
-from treadload.files import EXCEL, NETCDF, TABLE, check_suffix, replacing
+from treadload.files import EXCEL, NETCDF, PARQUET, TABLE, check_suffix, replacing
 from treadload.results.files import save_results
 from treadload.results.tree import ASKED, as_tree
 
-FORMATS = NETCDF | TABLE | EXCEL
+FORMATS = NETCDF | TABLE | EXCEL | PARQUET
 """Suffixes that results can be written with, and what they mean."""
+TABLES = TABLE | EXCEL | PARQUET
+"""Those of tables."""
 
 # Of a sheet of Excel: rows, characters of a cell, characters of a name.
 _MOST_ROWS, _CELL, _NAME = 1_048_576, 32_000, 31
@@ -45,6 +47,8 @@ def check_output(path: str | os.PathLike[str]) -> None:
     suffix = check_suffix(path, FORMATS, "results")
     if suffix in EXCEL:
         _openpyxl(path)
+    if suffix in PARQUET:
+        _pyarrow(path)
 
 
 def write(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> tuple[Path, ...]:
@@ -52,6 +56,8 @@ def write(results: xr.DataTree | xr.Dataset, path: str | os.PathLike[str]) -> tu
     suffix = check_suffix(path, FORMATS, "results")
     if suffix in TABLE:
         return write_csv(results, path)
+    if suffix in PARQUET:
+        return write_parquet(results, path)
     return (write_excel(results, path) if suffix in EXCEL else save_results(results, path),)
 
 
@@ -64,19 +70,47 @@ def write_csv(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...]:
     "r.csv" of a case makes r_contact.csv, r_contact_scalars.csv, r_response.csv, ..., r_about.csv.
     Returns the files written, the main one first: all of them, or none. Raises InputError.
     """
-    path = Path(path)
     check_suffix(path, TABLE, "tables")
-    tables = _tables(results)
+
+    def write(table: Table, file: Path) -> None:
+        with file.open("w", encoding="utf-8", newline="") as stream:
+            writer = csv.writer(stream)
+            writer.writerow(table.columns)
+            writer.writerows(_rows(table))
+
+    return _written(_tables(results), Path(path), write)
+
+
+def write_parquet(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+    """Write results as Parquet, the tables and names of `write_csv`, columns with their types.
+
+    Returns the files written, the main one first: all of them, or none. Raises InputError, also where pyarrow is not
+    installed.
+    """
+    check_suffix(path, PARQUET, "tables")
+    arrow, parquet = _pyarrow(path)
+
+    def write(table: Table, file: Path) -> None:
+        plain = {name: _arrow_column(values) for name, values in table.columns.items()}
+        parquet.write_table(arrow.table(plain), file)
+
+    return _written(_tables(results), Path(path), write)
+
+
+def _written(tables: list[Table], path: Path, write: Callable[[Table, Path], None]) -> tuple[Path, ...]:
+    """Write a file for each table: the path itself for the one without a name, others beside it."""
     files = [path.with_name(f"{path.stem}_{one.name}{path.suffix}") if one.name else path for one in tables]
     with contextlib.ExitStack() as stack:
         # Every table is written before the first one takes its place.
         for table, file in zip(tables, files, strict=True):
-            temporary = stack.enter_context(replacing(file))
-            with temporary.open("w", encoding="utf-8", newline="") as stream:
-                writer = csv.writer(stream)
-                writer.writerow(table.columns)
-                writer.writerows(_rows(table))
+            write(table, stack.enter_context(replacing(file)))
     return tuple(files)
+
+
+def _arrow_column(values: Any) -> Any:
+    """Numbers as they are, anything else as texts."""
+    column = np.asarray(values)
+    return column if column.dtype.kind in "fiub" else [str(value) for value in column.tolist()]
 
 
 def write_excel(results: Any, path: str | os.PathLike[str]) -> Path:
@@ -237,6 +271,18 @@ def _sheet_name(name: str, taken: set[str]) -> str:
         number += 1
     taken.add(name.casefold())
     return name
+
+
+def _pyarrow(path: str | os.PathLike[str]) -> tuple[Any, Any]:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError as error:
+        raise InputError(
+            f"cannot write {path}: Parquet needs pyarrow, which is not installed; {how_to_install('study')}, or "
+            "write .csv"
+        ) from error
+    return pyarrow, pyarrow.parquet
 
 
 def _openpyxl(path: str | os.PathLike[str]) -> Any:

@@ -14,7 +14,7 @@ import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.errors import InputError, one_line
-from treadload.results.schema import check_kind, check_number, check_numbers, read_json, short
+from treadload.results.schema import RESPONSES, check_kind, check_number, check_numbers, read_json, short
 from treadload.variables import in_order
 
 # What a class raises that is made of the wrong things.
@@ -50,7 +50,7 @@ def check_dataset(
 
     where: the file and the part. given: the other fields of the result, where they are known already.
     """
-    check_kind(data, "points" if "point" in data.dims else kind.group, where)
+    check_kind(data, "points" if "point" in data.dims and kind.group in RESPONSES else kind.group, where)
     holds = kind.holds
     for name, dims in _each(holds.fields):
         _check_field(_there(data, name, where), dims, where)
@@ -78,6 +78,13 @@ def check_dataset(
     for entries in (one.split() for one in holds.stats):
         for name in entries if entries[0] in stats else ():
             check_number(_number(stats.get(name)), f"{where}: the entry {name} of stats")
+    if holds.reads is not None:
+        try:
+            holds.reads(data, given)
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from error
+        except _WRONG as error:
+            raise InputError(f"{where}: it cannot be read as a {kind.__name__}: {said(error)}") from error
 
 
 def said(error: Exception) -> str:

@@ -21,7 +21,7 @@ from treadload.files import parse_toml
 from treadload.kernels.arrays import Array
 from treadload.variables import VARIABLES
 
-_RESPONSES = ("response", "slice", "slice_along", "slice_across", "bowl")
+RESPONSES = ("response", "slice", "slice_along", "slice_across", "bowl")
 _OVER_SPEED = ("slip_x", "slip_y", "creepage_x", "creepage_y")
 _OVER_DISTANCE = ("slip_distance_x", "slip_distance_y")
 # Texts that a file and each of its groups may have.
@@ -167,7 +167,7 @@ _POINTS = replace(
 )
 _GROUPS: Mapping[str, _Group] = {
     "contact": _CONTACT,
-    **dict.fromkeys(_RESPONSES, _ROAD),
+    **dict.fromkeys(RESPONSES, _ROAD),
     "points": _POINTS,
     "damage": _DAMAGE,
     "life": _LIFE,

@@ -27,7 +27,7 @@ from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.pavement import Layer, LayerRow, Pavement, layer_rows, road_in_words
 from treadload.response import GridLoad, Response
-from treadload.results.cite import citations, life_citations
+from treadload.results.cite import case_citations, citations, life_citations
 from treadload.results.dataset import Fields
 from treadload.results.questions import Writer
 from treadload.results.roads import rows_of
@@ -60,8 +60,9 @@ def to_tree(
     else each takes the name of its kind: /contact, /response, /damage, /bonds, /life, /sensitivity, /transient, …,
     numbered where there are several, /response, /response_2. A response on a single row of y becomes /slice_along, on
     a single column of x /slice_across, on a single line of the surface /bowl, one at a list of points /points.
-    case: that they answer. road: at its temperature; left out, that of the contact. season: whose temperatures the
-    road has, under a life. summary: of all of them; left out, those of the parts.
+    case: that they answer; left out, that which a study varied. road: at its temperature; left out, that of the
+    contact. season: whose temperatures the road has, under a life. summary: of all of them; left out, those of the
+    parts.
     The root carries the title, the case as TOML text, the layers of the road as JSON, versions, the date and the
     citations as JSON; the group /asked the inputs of every part, for `open_results`.
     Raises InputError for what is not a result, and for a name that no file can hold.
@@ -88,12 +89,16 @@ def to_tree(
         groups[queue[0]] = part.dataset.assign_attrs(_about(part, owner.get(queue[0], "")))
         queue.pop(0)
     own = [part for name, part in named.items() if name not in owner]
+    # Of a study, whose parts are cases of its own.
+    asked_case = next((one for part in own if isinstance(one := getattr(part, "case", None), FilePart)), None)
+    case = case or asked_case
     contact = _first(own, Contact)
     life = _first(own, Life)
     if road is None and contact is not None:
         road = contact.road
     rows = rows_of(road, case) if isinstance(case, Case) or season is None else _warm_rows(road, season)
     used = life_citations(road) if life is not None and contact is None else []
+    used = case_citations(asked_case) if asked_case is not None and not used else used
     root = {
         "title": title or (case.title if case is not None else ""),
         "case": case.to_toml() if case is not None else "",

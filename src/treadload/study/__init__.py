@@ -8,6 +8,7 @@ from treadload.study.plan import plan_case, plan_life
 from treadload.study.run import Result, run_case
 from treadload.study.run_calibration import CalibrationResult, plan_calibration, run_calibration
 from treadload.study.run_life import LifeResult, run_life
+from treadload.study.screening import Morris, Sobol, Tornado, morris, sobol, tornado
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 from treadload.study.sweeps import Sweep, open_sweep, sampled, sweep
 from treadload.study.tire_card import TireCard, tire_card
@@ -19,17 +20,21 @@ __all__ = [
     "Calibration",
     "CalibrationResult",
     "LifeResult",
+    "Morris",
     "Passages",
     "Result",
     "Sensitivity",
+    "Sobol",
     "Sweep",
     "TireCard",
+    "Tornado",
     "UniformComparison",
     "assess_on_two_grids",
     "calibrate",
     "compare_bonds",
     "compare_uniform",
     "life_sensitivity",
+    "morris",
     "open_sweep",
     "plan_calibration",
     "plan_case",
@@ -38,9 +43,11 @@ __all__ = [
     "run_case",
     "run_life",
     "sampled",
+    "sobol",
     "solve_interfaces",
     "solve_life",
     "solve_passages",
     "sweep",
     "tire_card",
+    "tornado",
 ]

@@ -3,7 +3,8 @@
 from treadload.study.sweeps.cluster import SchedulerLost
 from treadload.study.sweeps.design import Design, Input, bounds_of, over_points, sampled
 from treadload.study.sweeps.plan import plan_sweep
-from treadload.study.sweeps.sweep import Sweep, open_sweep, sweep
+from treadload.study.sweeps.sweep import Sweep, by_cause, open_sweep, sweep
+from treadload.study.sweeps.tables import table_of
 from treadload.study.sweeps.vary import from_file, from_texts
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "SchedulerLost",
     "Sweep",
     "bounds_of",
+    "by_cause",
     "from_file",
     "from_texts",
     "open_sweep",
@@ -19,4 +21,5 @@ __all__ = [
     "plan_sweep",
     "sampled",
     "sweep",
+    "table_of",
 ]

@@ -53,7 +53,9 @@ class Sweep(BaseResult, group="sweep"):
     case: the base case. path: of the store, "" in memory.
     """
 
-    holds: ClassVar[Holds] = Holds({"status seconds": "..."}, texts="design failures warnings")
+    holds: ClassVar[Holds] = Holds(
+        {"status seconds": "..."}, texts="design failures warnings", reads=lambda data, known: _tried(data, known)
+    )
 
     dataset: xr.Dataset
     case: FilePart
@@ -73,7 +75,7 @@ class Sweep(BaseResult, group="sweep"):
     def warnings(self) -> tuple[str, ...]:
         """Sentences for the user: those of the cases, each once with how many have it, and what failed."""
         told = []
-        for text, numbers in _by_cause(json.loads(self.dataset.attrs["warnings"])).items():
+        for text, numbers in by_cause(json.loads(self.dataset.attrs["warnings"])).items():
             told.append(text if self.design.count == 1 else f"{_cases(len(numbers))}: {text}")
         return tuple([*told, *self._failed()])
 
@@ -108,11 +110,11 @@ class Sweep(BaseResult, group="sweep"):
         return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
 
     def _failed(self) -> Iterator[str]:
-        by_cause = _by_cause(_grouped(self.failures))
-        for text, numbers in list(by_cause.items())[:_CAUSES]:
+        causes = by_cause(_grouped(self.failures))
+        for text, numbers in list(causes.items())[:_CAUSES]:
             yield f"{_cases(len(numbers))} failed, the first with {self.design.said(min(numbers))}: {text}"
-        if len(by_cause) > _CAUSES:
-            yield f"and {len(by_cause) - _CAUSES} more causes of failures"
+        if len(causes) > _CAUSES:
+            yield f"and {len(causes) - _CAUSES} more causes of failures"
 
     __repr__ = first_line
 
@@ -229,6 +231,21 @@ def _design(case: FilePart, vary: Any) -> Design:
     )
 
 
+def _tried(data: xr.Dataset, known: Mapping[str, Any]) -> None:
+    """Read what a file says of a study, as its methods do. Raises InputError and what else goes wrong."""
+    for numbers in json.loads(data.attrs["warnings"]).values():
+        [int(number) for number in numbers]
+    failed = [(int(number), str(reason)) for number, reason in json.loads(data.attrs["failures"])]
+    case = known.get("case")
+    if isinstance(case, FilePart):
+        design = Design.from_json(json.loads(data.attrs["design"]), case)
+        for name in ("status", "seconds"):
+            if data[name].dims != design.dims or data[name].shape != design.shape:
+                raise InputError(f"{name} is over {data[name].sizes}, the design over {dict(design.sizes)}")
+        if any(not 0 <= number < design.count for number, _ in failed):
+            raise InputError(f"a case that failed is not among the {design.count} of the design")
+
+
 def _anchor(case: FilePart, design: Design) -> dict[str, Any]:
     """The contact that neighbours start from: the first values of what only shears it.
 
@@ -255,7 +272,7 @@ def _grouped(failures: Sequence[tuple[int, str]]) -> dict[str, list[int]]:
     return by_reason
 
 
-def _by_cause(by_text: Mapping[str, Sequence[int]]) -> dict[str, list[int]]:
+def by_cause(by_text: Mapping[str, Sequence[int]]) -> dict[str, list[int]]:
     """Texts that differ in their numbers alone become one, the first; the most frequent first."""
     causes: dict[str, tuple[str, list[int]]] = {}
     for text, numbers in by_text.items():

@@ -1,0 +1,358 @@
+"""Results of a study against one of its inputs: curves, panels of them, the slip curve."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+
+from treadload.composing import Source
+from treadload.errors import InputError
+from treadload.plots.kit.figure import figure_and_axes, new_figure
+from treadload.plots.kit.shown import Shown, numbers, shown
+from treadload.plots.kit.style import (
+    CASES,
+    INK,
+    MUTED,
+    headline,
+    legend_below,
+    measure,
+    open_axes,
+    power_of_ten,
+    sequential,
+    styled,
+)
+from treadload.plots.sweeps.reading import View
+
+# Lines of one figure, and of how many a legend tells each.
+_LINES, _TOLD = 12, 6
+# A range that spans so much is drawn in its logarithms where those are asked for.
+_DECADES = 3.0
+# Panels of a figure.
+_PANELS = 6
+# Share of sliding friction from which its limit is drawn.
+_NEAR = 0.5
+# Letters of a line under a title.
+_WIDE = 62
+
+
+@styled
+def study_curve(
+    study: Source,
+    of: str,
+    against: str = "",
+    *,
+    by: str | None = None,
+    at: Mapping[str, Any] | None = None,
+    ax: Axes | None = None,
+) -> Figure:
+    """A result of every case against one input, a line for each value of another; dots where cases were sampled.
+
+    study: a Sweep or its dataset. of: name of the result. against: of the input; left out, that of most values. by:
+    another input, or a dimension of the result such as depth; left out, the next input; "" for none. at: name → value
+    of what is varied besides, SI, the nearest of which is drawn; left out, the middle one. ax: axes to draw into.
+    Cases that failed leave gaps, a cross at the foot, and are counted. Returns the figure. Raises InputError.
+    """
+    view = View.of(study)
+    figure, ax = figure_and_axes(ax, 6.4, 4.1)
+    handles, of_lines = _draw(ax, view, of, against, by, at)
+    if of_lines is not None:
+        _legend(ax, handles, of_lines)
+    return figure
+
+
+@styled
+def study_curves(
+    study: Source,
+    of: Sequence[str] = (),
+    against: str = "",
+    *,
+    by: str | None = None,
+    at: Mapping[str, Any] | None = None,
+) -> Figure:
+    """Panels of `study_curve`: several results against one input.
+
+    of: names of results, six at most; left out, the first of those that differ between the cases. Returns the figure.
+    Raises InputError.
+    """
+    view = View.of(study)
+    names = list(of) or list(view.readings()[:_PANELS])
+    if not names or len(names) > _PANELS:
+        raise InputError(
+            f"panels show 1 to {_PANELS} results, got {len(names)}; name some of {_some(view.readings())}"
+        )
+    columns = min(len(names), 3 if len(names) in (3, 5, 6) else 2)
+    rows = -(-len(names) // columns)
+    figure = new_figure(3.7 * columns + 0.6, 3.35 * rows + 0.4)
+    axes = figure.subplots(rows, columns, squeeze=False)
+    told: dict[str, tuple[list[Line2D], Shown]] = {}
+    for number, panel in enumerate(axes.flat):
+        if number < len(names):
+            handles, of_lines = _draw(panel, view, names[number], against, by, at, letters=34)
+            if of_lines is not None:
+                told.setdefault(of_lines.words, (handles, of_lines))
+        else:
+            panel.set_visible(False)
+    if told:
+        handles, of_lines = next(iter(told.values()))
+        few = _few(handles)
+        legend = figure.legend(handles=few, loc="outside lower center", ncols=len(few), title=of_lines.words)
+        legend.get_title().set_fontsize(8.5)
+    return figure
+
+
+@styled
+def study_slip_curve(
+    study: Source, *, by: str | None = None, at: Mapping[str, Any] | None = None, ax: Axes | None = None
+) -> Figure:
+    """Shear force over friction times load, Q/μP, against creepage, both as solved, a line for each of another input.
+
+    study: a Sweep or its dataset that varies a creepage or a force. by, at: as in `study_curve`. Returns the figure.
+    Raises InputError where neither was varied.
+    """
+    view = View.of(study)
+    along, varied = slip_input(view)
+    force = view.reading("tractive_force" if along == "x" else "lateral_force")
+    creepage, friction, load = (view.reading(name) for name in (f"creepage_{along}", "friction", "normal_load"))
+    share = (force / (friction * load)).rename("share")
+    second = _by(view, share, varied, by)
+    index, told = view.chosen(share, [varied, *([second] if second else [])], at)
+    figure, ax = figure_and_axes(ax, 6.4, 4.1)
+    handles = []
+    for look, label, place in _lines(view, second, share):
+        x, y = (numbers(one.isel({**index, **place})) for one in (creepage, share))
+        order = np.argsort(x)
+        handles += ax.plot(x[order], y[order], "o-" if view.is_product else "o", ms=3.4, label=label, color=look)
+    known = np.concatenate([line.get_ydata() for line in handles])
+    # A limit that no wheel comes near would squeeze the curves.
+    for limit in (one for one in (-1.0, 1.0) if np.nanmax(one * known) > _NEAR):
+        ax.axhline(limit, color=MUTED, lw=0.8, ls=(0, (4, 2)))
+        ax.annotate("whole contact slides", (0.99, limit), xycoords=("axes fraction", "data"), xytext=(0, 2),
+                    textcoords="offset points", ha="right", va="bottom", fontsize=8, color=MUTED)  # fmt: skip
+    ax.axhline(0, color=MUTED, lw=0.7)
+    ax.axvline(0, color=MUTED, lw=0.7)
+    open_axes(ax)
+    ax.set_xlabel(f"creepage along {along} (–)")
+    ax.set_ylabel("Q/μP: shear force over friction × load (–)")
+    where = "negative creepage drives" if along == "x" else "force of the road, to the right"
+    headline(ax, "Slip curve", under([*told, where, view.counted()]))
+    if second:
+        _legend(ax, handles, shown(view.data[second], second))
+    return figure
+
+
+def slip_input(view: View) -> tuple[str, str]:
+    """Along which axis a study slips, and the dimension that varies it. Raises InputError."""
+    keys = {str(view.data[name].attrs["key"]): str(view.data[name].dims[0]) for name in view.numeric}
+    for name, along in (
+        ("creepage_x", "x"), ("creepage_y", "y"), ("tractive_force", "x"), ("lateral_force", "y"),
+    ):  # fmt: skip
+        if f"rolling.{name}" in keys:
+            return along, keys[f"rolling.{name}"]
+    raise InputError(
+        "a slip curve needs a study that varies rolling.creepage_x, rolling.creepage_y or a force; this one varies "
+        f"{', '.join(view.inputs)}"
+    )
+
+
+def _draw(
+    ax: Axes,
+    view: View,
+    of: str,
+    against: str,
+    by: str | None,
+    at: Mapping[str, Any] | None,
+    letters: int = _WIDE,
+) -> tuple[list[Line2D], Shown | None]:
+    """Lines of a result, and what tells them apart; None where there is one."""
+    field = view.reading(of)
+    along = view.input(against) if against else next(iter((*view.numeric, *view.inputs)))
+    dim = str(view.data[along].dims[0]) if view.data[along].dims else ""
+    if dim not in field.dims or len(view.data[along].dims) != 1:
+        raise InputError(f"{of} is not over {along}; take another input of {', '.join(view.inputs)}")
+    if not view.is_product and view.data[along].dims != (along,):
+        _dots(ax, view, field, along, by, at, letters)
+        return [], None
+    second = _by(view, field, along, by)
+    index, told = view.chosen(field, [dim, *([second] if second else [])], at)
+    x, ticks = _axis(view.data[along])
+    what, across = shown(field, of), shown(view.data[along], along)
+    handles: list[Line2D] = []
+    for number, (look, label, place) in enumerate(_lines(view, second, field)):
+        values = what.factor * numbers(field.isel({**index, **place}))
+        drawn = np.where(np.isfinite(values) & ((values > 0) | (not what.logarithmic)), values, np.nan)
+        handles += ax.plot(
+            across.factor * x, drawn, ls="" if ticks else "-", marker="o", ms=3.4 if len(x) < 40 else 0,
+            color=look, label=label,
+        )  # fmt: skip
+        _cross(ax, across.factor * x[view.failed({**index, **place})], look, number)
+    if ticks:
+        ax.set_xticks(x, ticks, rotation=0 if max(map(len, ticks)) * len(ticks) < 48 else 20, ha="center")
+        ax.margins(x=0.15)
+    elif is_logarithmic(x):
+        ax.set_xscale("log")
+    _finish(ax, what, across, numbers(field))
+    headline(ax, capital(what.words), under([*told, view.counted()], letters), letters)
+    return handles, shown(view.data[second], second) if second else None
+
+
+def _dots(
+    ax: Axes, view: View, field: xr.DataArray, along: str, by: str | None, at: Mapping[str, Any] | None, letters: int
+) -> None:
+    """A result of cases that stand in a list, against one of their inputs, coloured by another."""
+    (dim,) = map(str, view.data[along].dims)
+    index, told = view.chosen(field, [dim], at)
+    what, across = shown(field), shown(view.data[along], along)
+    x, ticks = _axis(view.data[along])
+    values = what.factor * numbers(field.isel(index))
+    second = next((name for name in view.inputs if name != along), "") if by is None else by and view.input(by)
+    small: dict[str, Any] = {"s": 18 if len(x) < 300 else 7, "linewidths": 0}
+    good = np.isfinite(values)
+    if second and view.data[second].dtype.kind in "fiu":
+        how = shown(view.data[second], second)
+        dots = ax.scatter(
+            (across.factor * x)[good], values[good], c=how.factor * numbers(view.data[second])[good],
+            cmap=solid("pressure"), **small,
+        )  # fmt: skip
+        bar = (ax.get_figure(root=True) or ax.figure).colorbar(dots, ax=ax, label=how.label, pad=0.015)
+        bar.outline.set_visible(False)
+    elif second:
+        names = view.data[second].to_numpy().astype(str)
+        for number, name in enumerate(dict.fromkeys(names)):
+            here = good & (names == name)
+            ax.scatter((across.factor * x)[here], values[here], color=CASES[number % len(CASES)], label=name, **small)
+        ax.legend(title=shown(view.data[second], second).words)
+    else:
+        ax.scatter((across.factor * x)[good], values[good], color=CASES[0], **small)
+    _cross(ax, across.factor * x[view.failed({})], INK)
+    if ticks:
+        ax.set_xticks(range(len(ticks)), ticks)
+    _finish(ax, what, across, values)
+    headline(ax, capital(what.words), under([*told, view.counted()], letters), letters)
+
+
+def _finish(ax: Axes, what: Shown, across: Shown, values: np.ndarray) -> None:
+    open_axes(ax)
+    ax.set_xlabel(across.label)
+    endless = bool(np.isposinf(values).any())
+    known = values[np.isfinite(values) & (values > 0)]
+    if what.logarithmic and known.size and known.max() > _DECADES * known.min():
+        ax.set_yscale("log")
+        near = known.max() < 100 * known.min()
+        ax.yaxis.set_major_locator(LogLocator(10, subs=(1.0, 2.0, 5.0) if near else (1.0,)))
+        ax.yaxis.set_major_formatter(FuncFormatter(logarithmic_tick))
+        ax.yaxis.set_minor_formatter(NullFormatter())
+    else:
+        ax.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
+    ax.set_ylabel(f"{what.label}{', gaps: without end' if endless else ''}")
+
+
+def _lines(view: View, second: str, field: xr.DataArray) -> list[tuple[Any, str, dict[str, int]]]:
+    """Colour, label and place of every line; of more than a figure holds evenly some."""
+    if not second:
+        return [(CASES[0], "", {})]
+    count = field.sizes[second]
+    shown_ones = np.unique(np.linspace(0, count - 1, min(count, _LINES)).round().astype(int))
+    axis = view.data[second]
+    how = shown(axis, second)
+    ordered = axis.dtype.kind in "fiu" and len(shown_ones) > 2
+    colours = sequential("pressure")
+    lines = []
+    for number, place in enumerate(shown_ones):
+        colour = colours(0.25 + 0.75 * number / (len(shown_ones) - 1)) if ordered else CASES[number % len(CASES)]
+        value = axis.to_numpy()[place]
+        lines.append((colour, how.number(value.item() if hasattr(value, "item") else value), {second: int(place)}))
+    return lines
+
+
+def _legend(ax: Axes, handles: Sequence[Line2D], how: Shown) -> None:
+    told = _few(handles)
+    if len(handles) > 3 or max(len(str(one.get_label())) for one in told) > 14:
+        legend_below(ax, told, columns=min(3, len(told)))
+    else:
+        ax.legend(handles=told)
+    legend = ax.get_legend()
+    assert legend is not None
+    legend.set_title(how.words)
+    legend.get_title().set_fontsize(8.5)
+
+
+def _few(handles: Sequence[Line2D]) -> list[Line2D]:
+    """As many lines as a legend tells, evenly of all."""
+    most = min(len(handles), _TOLD)
+    return [handles[k] for k in np.unique(np.linspace(0, len(handles) - 1, most).round().astype(int))]
+
+
+def _by(view: View, field: xr.DataArray, along: str, by: str | None) -> str:
+    """The dimension that tells the lines apart; empty for a single line."""
+    if by is not None:
+        name = by if not by or by in field.dims else view.input(by)
+        if name and (name not in field.dims or name == along):
+            raise InputError(f"lines cannot be told apart by {by}; take {_some([str(d) for d in field.dims])}")
+        return name
+    if not view.is_product:
+        return ""
+    others = [str(dim) for dim in field.dims if dim != along and field.sizes[dim] > 1]
+    own = [dim for dim in others if dim in view.dims]
+    return next(iter([*own, *(dim for dim in others if field.sizes[dim] <= _TOLD)]), "")
+
+
+def _axis(axis: xr.DataArray) -> tuple[np.ndarray, list[str]]:
+    """Places on an axis, and texts for them where it has no numbers."""
+    if axis.dtype.kind in "fiu":
+        return numbers(axis), []
+    names = [str(one) for one in axis.to_numpy()]
+    distinct = list(dict.fromkeys(names))
+    return np.array([distinct.index(name) for name in names], dtype=float), distinct
+
+
+def is_logarithmic(x: np.ndarray) -> bool:
+    """True of values that were chosen evenly in their logarithms, over more than a decade."""
+    if len(x) < 3 or not (x > 0).all() or x.max() < 10 * x.min():
+        return False
+    steps = np.diff(np.log(np.sort(x)))
+    return bool(np.ptp(steps) < 0.2 * steps.mean())
+
+
+def logarithmic_tick(value: float, _: Any = None) -> str:
+    """A number of a logarithmic axis: 0.5, 20, 5×10⁷."""
+    return measure(value) if 1e-2 < value < 1e4 else power_of_ten(value).replace(".0×", "×")
+
+
+def solid(name: str) -> ListedColormap:
+    """A sequential map of which no value is as light as paper, which means that there is none."""
+    return ListedColormap(sequential(name)(np.linspace(0.12, 1.0, 256)))
+
+
+def _cross(ax: Axes, x: np.ndarray, colour: Any, number: int = 0) -> None:
+    """Crosses at the foot of the axes where cases of a line failed, those of the next line above."""
+    if x.size:
+        ax.plot(x, np.full(x.shape, 0.025 + 0.032 * number), "x", ms=4.5, mew=1.2, color=colour, clip_on=False,
+                transform=ax.get_xaxis_transform(), zorder=5)  # fmt: skip
+
+
+def under(told: Sequence[str], letters: int = _WIDE) -> str:
+    """Parts of the line under a title, on as many lines as they need."""
+    lines: list[str] = []
+    for part in (one for one in told if one):
+        if lines and len(lines[-1]) + len(part) + 2 <= letters * 1.25:
+            lines[-1] += f", {part}"
+        else:
+            lines.append(part)
+    return "\n".join(lines)
+
+
+def capital(words: str) -> str:
+    """Words with a capital in front."""
+    return words[:1].upper() + words[1:]
+
+
+def _some(names: Sequence[str]) -> str:
+    return ", ".join(names[:12]) or "none"
