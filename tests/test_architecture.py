@@ -70,7 +70,7 @@ ONLY_IN = {
     "embreex": ("tire",),
     "pint": ("units",),
     "pydantic": ("read", "case"),
-    "openpyxl": ("results", "study"),
+    "openpyxl": ("results",),
     "typer": ("cli",),
     "rich": ("cli",),
     "jinja2": ("reporting",),

@@ -296,8 +296,8 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
-    "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "other", "load", "map",
-    "inflation_pressure", "wheel_load", "rib", "step", "interface", "depth", "point", "y", "x", "component",
+    "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "input", "other", "load",
+    "map", "inflation_pressure", "wheel_load", "rib", "step", "interface", "depth", "point", "y", "x", "component",
     "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
