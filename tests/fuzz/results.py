@@ -261,6 +261,8 @@ def _broken_json(rng: random.Random, held: Any) -> Any:
 
 
 def _broken_group(rng: random.Random, data: xr.Dataset) -> xr.Dataset:
+    if not data.variables:  # an earlier break took the last
+        return data
     name = str(rng.choice(sorted(map(str, data.variables))))
     field, dims = data[name], sorted(map(str, data.dims))
     dim = rng.choice(dims) if dims else "x"
