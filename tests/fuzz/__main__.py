@@ -8,6 +8,7 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | cases | 7 | 0 to 100 000 | 5: growth and shift factors beyond all numbers |
 | cases | 8 | 0 to 100 000 | 1: a turn at 1e300 m/s |
 | cases | 7 | 0 to 100 000 once more | 2: a modulus whose inverse is beyond all numbers |
+| cases | 11 | 0 to 100 000 | 0 |
 | tables | 7 | 0 to 20 000 | 0, after the rule for whole numbers between commas |
 | meshes | 5 | 0 to 200 | 3: facets through the tire, a diameter beyond the bound |
 | meshes | 7 | 0 to 1 000 | 3: torn vertices, and one of the attack itself |
@@ -19,8 +20,8 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | results | 7 | 0 to 10 000 | 30 of 15 causes: parts that lack what a summary reads, numbers beyond all |
 | results | 8 | 0 to 1 500, which now break inputs of results too | 0 |
 | results | 9 | 0 to 4 000, the same | 1: a layer beyond the interfaces |
-
-Not yet run: results to 10 000 since inputs are broken too, and cases again after the last repair.
+| results | 10 | 0 to 10 000, the same | 5: dimensions in another order, depths all one, two of the attack itself |
+| results | 11 | 0 to 10 000, in two shares | 2, both of the attack itself |
 """
 
 from __future__ import annotations
