@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
-from scipy import stats as distributions
+from scipy.special import chdtrc, ndtri, stdtrit
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
@@ -114,7 +114,7 @@ class Calibration(BaseResult, group="calibration"):
         given = bool(self.dataset.attrs["errors_given"])
         tail = 0.5 * (1 + level)
         reach = float(
-            distributions.norm.ppf(tail) if given else distributions.t.ppf(tail, free) if free > 0 else math.nan
+            ndtri(tail) if given else stdtrit(free, tail) if free > 0 else math.nan
         )
         half = reach * self.standard_deviation(name)
         return self.value(name) - half, self.value(name) + half
@@ -310,7 +310,7 @@ def _doubts(problem: Problem, found: Found, lost: BoolArray, square: float, left
             )
     if left <= 0:
         said.append("as many numbers as readings: nothing checks the fit; measure more")
-    elif given and distributions.chi2.sf(square, left) < _CHANCE:
+    elif given and chdtrc(left, square) < _CHANCE:
         said.append(
             f"the readings scatter about the fit {math.sqrt(square / left):.2g} times as much as their errors say: "
             "they contradict each other or the model, and the error bars are too narrow by as much"
