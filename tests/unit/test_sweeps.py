@@ -113,6 +113,25 @@ def test_cases_that_differ_behind_the_contact_share_it(tire_case, monkeypatch):
     assert len(solved) == 1
 
 
+def test_a_tire_is_read_once_whatever_inflates_it(tire_case, monkeypatch):
+    from treadload.case.model import Case
+    from treadload.study.sweeps import work
+
+    read, used = [], []
+    build, solve = Case.build_tire, work.contact_of
+    monkeypatch.setattr(Case, "build_tire", lambda case: read.append(1) or build(case))
+
+    def solved(case, *args, tire, **more):
+        used.append((tire, build(case)))
+        return solve(case, *args, tire=tire, **more)
+
+    monkeypatch.setattr(work, "contact_of", solved)
+    tl.sweep(tire_case, {"inflation_pressure": ["6 bar", "8 bar"]})
+    assert len(read) == 1
+    assert all(tire == own for tire, own in used)
+    assert [tire.inflation_pressure for tire, _ in used] == [6e5, 8e5]
+
+
 def test_what_fails_is_kept_and_the_others_go_on(tmp_path):
     case = small_case(tmp_path)
     study = tl.sweep(case, [{"poisson": 0.9}, {"poisson": 0.35}, {"poisson": 0.7}])

@@ -24,6 +24,7 @@ from treadload.response import GridLoad, Response, solve_response
 from treadload.response.superposition import common_grid
 from treadload.results import Study, road_in_rows, to_tree
 from treadload.study.two_grids import COARSER, check_two_grids, with_error
+from treadload.tire import Tire
 
 Progress = Callable[[str], None]
 
@@ -185,12 +186,21 @@ def on_two_grids(case: Case, load: Loaded, verdict: Verdict, tell: Progress) -> 
 
 
 def contact_of(
-    case: Case, road: Pavement, tell: Progress, *, spacing: float | None = None, start: Contact | None = None
+    case: Case,
+    road: Pavement,
+    tell: Progress,
+    *,
+    spacing: float | None = None,
+    start: Contact | None = None,
+    tire: Tire | None = None,
 ) -> Contact:
-    """The contact of a case, on cells of its spacing or another. start: a contact near it, see `solve_contact`."""
+    """The contact of a case, on cells of its spacing or another.
+
+    start: a contact near it, see `solve_contact`. tire: that of the case, where it is read already.
+    """
     tell("reading the tire")
     return solve_contact(
-        case.build_tire(),
+        case.build_tire() if tire is None else tire,
         road,
         case.build_rolling(),
         spacing=case.spacing if spacing is None else spacing,

@@ -113,9 +113,7 @@ class Calibration(BaseResult, group="calibration"):
         free = float(self.dataset.attrs["degrees_of_freedom"])
         given = bool(self.dataset.attrs["errors_given"])
         tail = 0.5 * (1 + level)
-        reach = float(
-            ndtri(tail) if given else stdtrit(free, tail) if free > 0 else math.nan
-        )
+        reach = float(ndtri(tail) if given else stdtrit(free, tail) if free > 0 else math.nan)
         half = reach * self.standard_deviation(name)
         return self.value(name) - half, self.value(name) + half
 

@@ -7,7 +7,7 @@ import threading
 import time
 from collections import OrderedDict
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +19,9 @@ from treadload.study.run import contact_of
 from treadload.study.sweeps.asked import Asked, read
 from treadload.study.sweeps.parts import CaseParts, LifeParts, Parts
 from treadload.study.sweeps.record import Record
+from treadload.tire import Tire
 
-# Contacts that a worker keeps for cases that share them.
+# Contacts and tires that a worker keeps for cases that share them.
 _KEPT = 4
 # Keys of a case that its contact does not depend on, and those of rolling that leave where it is pressed on.
 _BEHIND = ("title", "response", "damage")
@@ -48,6 +49,7 @@ class Worker:
     def __init__(self, question: Question) -> None:
         self.question = question
         self._contacts: OrderedDict[str, Contact | TreadloadError] = OrderedDict()
+        self._tires: OrderedDict[str, Tire] = OrderedDict()
 
     def solve(self, number: int, values: Mapping[str, Any]) -> Record:
         """The record of a case. What fails is recorded with its reason, and so is what nobody foresaw."""
@@ -94,16 +96,30 @@ class Worker:
         found = self._contacts.get(key)
         if found is None:
             try:
-                found = contact_of(case, case.pavement.build(), _quiet, start=start)
+                found = contact_of(case, case.pavement.build(), _quiet, start=start, tire=self._tire(case))
             except TreadloadError as error:
                 found = error
-        self._contacts[key] = found
-        self._contacts.move_to_end(key)
-        while len(self._contacts) > _KEPT:
-            self._contacts.popitem(last=False)
+        _remember(self._contacts, key, found)
         if isinstance(found, TreadloadError):
             raise found
         return found
+
+    def _tire(self, case: Case) -> Tire:
+        """The tire of a case; its scan is read once, whatever inflates it."""
+        table = {name: value for name, value in case.given()["tire"].items() if name != "inflation_pressure"}
+        key = json.dumps(table, sort_keys=True)
+        tire = self._tires.get(key) or case.build_tire()
+        _remember(self._tires, key, tire)
+        assert case.tire is not None
+        return replace(tire, inflation_pressure=case.tire.inflation_pressure)
+
+
+def _remember(kept: OrderedDict[str, Any], key: str, value: Any) -> None:
+    """Keep a value as the newest, and forget the oldest of too many."""
+    kept[key] = value
+    kept.move_to_end(key)
+    while len(kept) > _KEPT:
+        kept.popitem(last=False)
 
 
 def _quiet(text: str) -> None:
