@@ -8,11 +8,11 @@ from timing import best_of
 from treadload.contact.bodies.influence import Influence
 
 
-def normal_product(influence: Influence) -> float:
+def normal_product(influence: Influence, clock=time.perf_counter) -> float:
     """Seconds of one product with the normal operator."""
     load = np.random.default_rng(0).random(influence.shape)
     operator = influence.normal
-    return best_of(lambda: operator(load), repeats=7)[0]
+    return best_of(lambda: operator(load), 7, clock)[0]
 
 
 def rolling_product(influence: Influence, clock=time.perf_counter) -> float:

@@ -22,13 +22,14 @@ def main() -> None:
     import rolling_contact
     import belt
     import peers
+    import scaling
 
     print(f"Python {platform.python_version()}, numpy {numpy.__version__}, scipy {scipy.__version__}, one thread\n")
     whole_chain.main()
     normal_contact.main()
     rolling_contact.main()
     belt.main()
-    peers.main()
+    scaling.main(peers.main())
     layered.main()
     moving.main()
     life.main()

@@ -1,5 +1,7 @@
 """Rates of normal contact, and iterations that do not grow with the grid."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -58,3 +60,15 @@ def test_products_on_a_grooved_tire():
         found = grooved_tire(cells)
         assert found.products <= 16
         assert found.residual <= 1e-6
+
+
+def test_memory_grows_with_the_cells_and_no_faster():
+    """4096 x 4096 cells within 8 GB are 512 bytes a cell; a fine grid in single precision needs a third of it."""
+    used = []
+    for cells in (256, 512):
+        tracemalloc.start()
+        grooved_tire(cells)
+        used.append(tracemalloc.get_traced_memory()[1] / cells**2)
+        tracemalloc.stop()
+    assert max(used) < 200
+    assert used[1] <= 1.05 * used[0]

@@ -3,6 +3,10 @@
 import numpy as np
 import pytest
 
+from treadload.contact.bodies.half_space import HalfSpaces
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.solvers.normal import solve_normal
+from treadload.contact.solvers.rolling import solve_rolling
 from treadload.contact.solvers.shift import solve_shift
 from treadload.kernels.half_space.rectangle import CombinedElasticity
 from treadload.validation.closed_forms import carter_shear, cattaneo_shift, hertz
@@ -58,3 +62,23 @@ def test_shift_of_a_disc():
         errors.append(found.rigid[0] / cattaneo_shift(exact.load, MU, 1.0, 1.0, 0.0, 0.5) - 1)
     assert (rates(errors) > 1).all()
     assert abs(errors[0]) < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("cells", "most"), [(100, 36), (200, 42), pytest.param(400, 54, marks=pytest.mark.slow)], ids=str
+)
+@pytest.mark.parametrize("by_force", [False, True], ids=["creepage", "force"])
+def test_products_of_a_disc(cells, most, by_force):
+    """Half of the friction used: 37, 43 and 55 by creepage while every step sought two digits, asked for or not."""
+    bodies = CombinedElasticity(1.0, 0.25, 0.0)
+    dx = 2.2 / cells
+    x = dx * (np.arange(cells) - (cells - 1) / 2)
+    gap = (x[None, :] ** 2 + x[:, None] ** 2) * 3 / (8 * bodies.contact_modulus)
+    influence = Influence(gap.shape, dx, dx, HalfSpaces(bodies))
+    pressure = solve_normal(influence, gap, load=1.0).pressure
+    rigid, forces = np.zeros((2, *gap.shape)), (0.43 * 0.3, 0.0) if by_force else (None, None)
+    rigid[0] = 0.0 if by_force else 0.5 * 0.3 / 4.12
+    found = solve_rolling(influence, 0.3 * pressure, rigid, forces)
+    assert found.products <= most
+    assert found.residual <= 1e-6
+    assert found.splitting == 0

@@ -96,7 +96,7 @@ def test_single_precision_stays_single():
 
 
 def test_the_padded_space_is_never_there_as_a_whole():
-    n = 700
+    n = 1400
     padding = Padding.of((n, n))
     operator = Convolution(padding, padding.even_spectrum(np.ones(padding.quadrant)))
     load = np.ones((n, n))
@@ -104,7 +104,7 @@ def test_the_padded_space_is_never_there_as_a_whole():
     operator(load)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    # The field, its waves along x (as much as two fields), and 2^16 numbers at a time.
-    assert peak < 3.6 * load.nbytes
+    # The field, its waves along x (as much as two fields), and some 2^17 numbers at a time.
+    assert peak < 3.7 * load.nbytes
     # The padded space alone is four fields.
     assert np.prod(padding.shape) * load.itemsize >= 4 * load.nbytes

@@ -25,7 +25,7 @@ __all__ = [
 ]  # fmt: skip
 
 # Numbers that are transformed at once: what a processor's cache holds, what a GPU keeps busy with.
-_AT_ONCE, _AT_ONCE_ELSEWHERE = 2**16, 2**27
+_AT_ONCE, _AT_ONCE_ELSEWHERE = 2**17, 2**27
 
 _chosen: ContextVar[Any] = ContextVar("treadload_array_library", default=None)
 

@@ -114,10 +114,12 @@ def _problem(
     """The problem on the disc; rigid is stretched already, forces are those of the bodies."""
     cell = influence.dx * influence.dy
     padding = influence.rolling_padding if rolls else influence.padding
+    compliance = influence.tangential(padding) * _stretches(axes)
     along, across = (None if force is None else force / (cell * d) for force, d in zip(forces, axes, strict=True))
     return CoulombProblem(
         padding=padding,
-        compliance=influence.tangential(padding) * _stretches(axes),
+        # Columns lie side by side, as products walk through them.
+        compliance=np.ascontiguousarray(compliance.transpose(0, 2, 1)).transpose(0, 2, 1),
         rolls=rolls,
         self_influence=influence.self_influence(rolls=rolls),
         bound=bound,

@@ -23,6 +23,9 @@ _SPLITTING_BURST = 40
 _KRYLOV_MEMORY = 60
 # Two digits a step near the solution, where Newton's method converges; one while cells still change sides.
 _KRYLOV_TOLERANCES = (1e-2, 1e-1)
+_RESERVE = 0.2
+# A step may be followed in single precision where ten times what that loses of the residual is below the tolerance.
+_SINGLE = 1e-6
 _FAR, _POOR_STEP = 1e-4, 0.05
 # A stick cell below this share of its bound can take up what clipping took from the forces.
 _ROOM = 0.999
@@ -65,7 +68,7 @@ def solve(
     start: q (2, ny, nx) and xi: ξ (2,) to begin with. tolerance: of the residual.
     Returns the solution, converged or not.
     """
-    newton = _Newton(problem)
+    newton = _Newton(problem, tolerance)
     q = np.zeros_like(problem.rigid) if start is None else project_disc(start, problem.bound)
     xi = np.zeros(2) if xi is None else np.asarray(xi, float).copy()
     state = newton.state_of(q, xi)
@@ -129,6 +132,7 @@ class _Newton:
     """The semi-smooth Newton iteration and its counts."""
 
     problem: CoulombProblem
+    tolerance: float
     count: int = 0
     krylov: int = 0
     splitting: int = 0
@@ -183,7 +187,10 @@ class _Newton:
         self.count += 1
         self.products += 1
         # Slip is affine in shear: one product serves every step length.
-        along = self.problem.apply(step_q) + self.problem.travel * step_xi[:, None, None]
+        if _SINGLE * state.residual <= self.tolerance:
+            along = self.single.apply(step_q.astype(np.float32)) + self.problem.travel * step_xi[:, None, None]
+        else:
+            along = self.problem.apply(step_q) + self.problem.travel * step_xi[:, None, None]
         best = state
         for length in _LINE_SEARCH:
             trial = self.state(state.q + length * step_q, state.xi + length * step_xi, state.slip + length * along)
@@ -204,8 +211,12 @@ class _Newton:
         n·dq = -n·F and (1 - m) t·dq + m r t·(S dq + e dξ) = -t·F. Force rows: Σ dq_c = Q_c - Σ q_c.
         Unknowns: dq and, scaled like it, r e dξ.
         """
-        poor = state.merit > _FAR and state.residual > _POOR_STEP * self.last_residual
+        poor = state.merit > _FAR and (self.count == 0 or state.residual > _POOR_STEP * self.last_residual)
         self.last_residual = state.residual
+        # No further than what is asked, with a reserve for what the step cannot see.
+        rtol = max(
+            _KRYLOV_TOLERANCES[poor], min(_RESERVE * self.tolerance / state.residual, _KRYLOV_TOLERANCES[True])
+        )
         rows = _Rows(self, state)
         rhs = rows.right_hand_side(state)
         shape = (rhs.size, rhs.size)
@@ -215,7 +226,7 @@ class _Newton:
                 LinearOperator(shape, matvec=rows.matvec, dtype=np.float32),
                 rhs,
                 M=LinearOperator(shape, matvec=rows.precondition, dtype=np.float32),
-                rtol=_KRYLOV_TOLERANCES[poor],
+                rtol=rtol,
                 restart=_KRYLOV_MEMORY,
                 maxiter=1,
             )
