@@ -14,7 +14,7 @@ from timing import print_table
 import treadload as tl
 from treadload.study import solve_passages
 
-GOAL = 60.0
+GOAL = 8.0
 TIRE = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ROAD = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 CRITERIA = (
