@@ -7,7 +7,7 @@ cores, one thread for each product of matrices; before roads and loads shared an
 
     stage                       before    now   what changed
     contacts                        18      7   those of a changed input start from the life's own
-    closed form of the top         133      6   once for all roads; for wheels on the same cells, and behind each other
+    closed form of the top         133      6   once for all roads, for wheels on the same cells or behind each other
     loads into wavenumbers          32      1   once for all roads; wheels behind each other are one
     functions of |k|                16      3   tabulated once for each road and depth, as many as components need
     products of both                12      3   only the components that are read, a quarter of the wavenumbers
