@@ -22,6 +22,7 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | results | 9 | 0 to 4 000, the same | 1: a layer beyond the interfaces |
 | results | 10 | 0 to 10 000, the same | 5: dimensions in another order, depths all one, two of the attack itself |
 | results | 11 | 0 to 10 000, in two shares | 2, both of the attack itself |
+| results | 12 | 0 to 3 000 | 0 |
 """
 
 from __future__ import annotations
