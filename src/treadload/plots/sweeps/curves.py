@@ -242,7 +242,10 @@ def _finish(ax: Axes, what: Shown, across: Shown, values: np.ndarray) -> None:
     open_axes(ax)
     ax.set_xlabel(across.label)
     endless = bool(np.isposinf(values).any())
-    known = values[np.isfinite(values) & (values > 0)]
+    # Of lines that are drawn: others may lie decades away.
+    drawn = [np.asarray(line.get_ydata(), dtype=float) for line in ax.get_lines() if line.get_marker() != "x"]
+    seen = np.concatenate(drawn) if drawn else values
+    known = seen[np.isfinite(seen) & (seen > 0)]
     if what.logarithmic and known.size and known.max() > _DECADES * known.min():
         ax.set_yscale("log")
         near = known.max() < 100 * known.min()
@@ -323,7 +326,7 @@ def is_logarithmic(x: np.ndarray) -> bool:
 
 def logarithmic_tick(value: float, _: Any = None) -> str:
     """A number of a logarithmic axis: 0.5, 20, 5×10⁷."""
-    return measure(value) if 1e-2 < value < 1e4 else power_of_ten(value).replace(".0×", "×")
+    return measure(value) if 1e-2 < value < 1e4 else power_of_ten(value).replace(".0×", "×").removeprefix("1×")
 
 
 def solid(name: str) -> ListedColormap:

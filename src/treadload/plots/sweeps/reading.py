@@ -18,8 +18,8 @@ from treadload.results.schema import read_json
 UNSOLVED, FAILED = 0, 2
 # Dimensions of maps.
 PLANE = ("y", "x")
-# What differs by less is round-off in every unit: strains are the smallest quantities.
-_LEAST = 1e-8
+# What differs by less is round-off: of strains, the smallest quantities, and of forces, moments and stresses in SI.
+_LEAST, _LEAST_FORCE = 1e-8, 1e-2
 # What every study has and no figure draws.
 _OWN = ("status", "seconds")
 
@@ -149,7 +149,8 @@ def said(axis: xr.DataArray, number: int, name: str = "") -> str:
 def _varies(field: xr.DataArray) -> bool:
     values = np.asarray(field.to_numpy(), dtype=float)
     known = values[np.isfinite(values)]
-    return known.size > 1 and float(np.ptp(known)) > max(_LEAST, 1e-9 * float(np.abs(known).max()))
+    least = _LEAST_FORCE if field.attrs.get("units") in ("N", "Pa", "N m") else _LEAST
+    return known.size > 1 and float(np.ptp(known)) > max(least, 1e-9 * float(np.abs(known).max()))
 
 
 def _others(field: xr.DataArray, kept: Sequence[str]) -> str:
