@@ -233,7 +233,7 @@ _FOOTPRINT = {
 _SWEEP = {
     "status": ("1", "0 not solved yet, 1 solved, 2 failed"),
     "seconds": ("s", "time that a case took"),
-    "largest_shear": ("Pa", "largest shear stress of a cell"),
+    "largest_traction": ("Pa", "largest shear stress of a cell"),
     "governing": ("1", "criterion that fails first"),
     "governing_years": ("1", "years until the first criterion fails"),
 }

@@ -134,7 +134,7 @@ class CaseParts(Parts):
                 "net_area": area,
                 "mean_pressure": float(data["normal_load"]) / area if area else math.nan,
                 "largest_pressure": float(data["pressure"].max()),
-                "largest_shear": float(shear.max()),
+                "largest_traction": float(shear.max()),
                 "slip_fraction": contact.slip_fraction,
             }
             told |= {name: ((), np.array(value)) for name, value in measures.items()}

@@ -33,7 +33,7 @@ Progress = Callable[[int, int, str], None]
 _FAMILY = 3
 # Results that a summary gives with their range: what a reader looks for first, and what was asked for.
 _FIRST = (
-    "net_area", "largest_pressure", "largest_shear", "slip_fraction", "largest_extension", "worst_strain",
+    "net_area", "largest_pressure", "largest_traction", "slip_fraction", "largest_extension", "worst_strain",
     "worst_passes", "life_years", "governing_years",
 )  # fmt: skip
 _REDUCED = ("max_", "min_", "mean_of_")
