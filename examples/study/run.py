@@ -30,6 +30,7 @@ from sklearn.model_selection import KFold
 
 import treadload as tl
 from treadload.plots import new_figure
+from treadload.plots.kit.style import styled
 from treadload.study import sampled
 from treadload.study.sweeps import table_of
 
@@ -179,6 +180,7 @@ def load(folder: Path) -> Surrogate:
     return Surrogate(**pickle.loads((folder / "surrogate.pickle").read_bytes()))
 
 
+@styled
 def draw(
     surrogate: Surrogate, solved: dict[str, np.ndarray], unseen: dict[str, np.ndarray], used: np.ndarray, folder: Path
 ) -> None:
