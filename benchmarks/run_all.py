@@ -23,6 +23,7 @@ def main() -> None:
     import belt
     import peers
     import scaling
+    import studies
 
     print(f"Python {platform.python_version()}, numpy {numpy.__version__}, scipy {scipy.__version__}, one thread\n")
     whole_chain.main()
@@ -30,6 +31,7 @@ def main() -> None:
     rolling_contact.main()
     belt.main()
     scaling.main(peers.main())
+    studies.main()
     layered.main()
     moving.main()
     life.main()
