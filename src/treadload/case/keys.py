@@ -72,12 +72,13 @@ def with_values(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str
     return changed
 
 
-def value_at(table: Mapping[str, Any], path: str) -> Any:
-    """The value of a key in the tables of a case; None where the case does not give it."""
-    here: Any = table
+def value_at(case: FilePart | Mapping[str, Any], path: str) -> Any:
+    """The value of a key in a case, with its defaults, or in the tables of one; None where it is not given."""
+    here: Any = case
     for part in path.split("."):
         if isinstance(here, list | tuple):
             here = here[int(part)] if part.isdigit() and int(part) < len(here) else None
         else:
-            here = here.get(part) if isinstance(here, Mapping) else None
+            table = {part: getattr(here, part, None)} if isinstance(here, Table) else here
+            here = table.get(part) if isinstance(table, Mapping) else None
     return here

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -93,10 +93,5 @@ def sweep(
         )  # fmt: skip
     shell.out.print(study.summary(), markup=False)
     shell.written([path])
-    _fail_if_none(study)
-
-
-def _fail_if_none(study: Any) -> None:
-    """Exit with 1 where nothing was solved."""
     if not study.stats["solved"]:
         raise typer.Exit(shell.FAILED)

@@ -17,7 +17,7 @@ from treadload.plots.sweeps.curves import capital, slip_input
 from treadload.plots.sweeps.reading import FAILED, UNSOLVED, View
 from treadload.reporting.inputs import NamedTable
 from treadload.reporting.pictures import Picture, picture
-from treadload.study.sweeps import by_cause
+from treadload.study.sweeps import causes_of
 from treadload.variables import VARIABLES
 
 # What a reader looks for first, in this order; behind what was asked for by name.
@@ -154,10 +154,7 @@ def _case(view: View, place: tuple[int, ...] | tuple[np.intp, ...]) -> str:
 
 def _failures(view: View) -> Iterator[tuple[str, ...]]:
     failures = [(int(number), str(reason)) for number, reason in json.loads(view.data.attrs.get("failures", "[]"))]
-    by_reason: dict[str, list[int]] = {}
-    for number, reason in failures:
-        by_reason.setdefault(reason, []).append(number)
-    for reason, cases in list(by_cause(by_reason).items())[:_ROWS]:
+    for reason, cases in list(causes_of(failures).items())[:_ROWS]:
         first = np.unravel_index(min(cases), view.data["status"].shape)
         yield thousands(len(cases)), _case(view, first), reason
 

@@ -87,8 +87,12 @@ def run_case(case: Case, progress: Progress | None = None) -> Result:
     progress: called with a line of text at every stage.
     Raises the errors of reading, contact, response and verdict.
     """
-    tell = progress or (lambda text: None)
-    load = load_case(case, tell)
+    return read_loaded(load_case(case, progress or (lambda text: None)))
+
+
+def read_loaded(load: Loaded) -> Result:
+    """Everything that the case of a loaded road asks for."""
+    case, tell = load.case, load.tell
     response = load.solve(case.response.depths)
     verdict = None
     if case.damage is not None:

@@ -15,7 +15,7 @@ from treadload.case.file import FilePart
 from treadload.case.keys import find_key, keys_of
 from treadload.errors import InputError, how_to_install, nearest
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.study.sweeps import Design, Sweep, bounds_of, by_cause, sweep
+from treadload.study.sweeps import Design, Sweep, bounds_of, causes_of, sweep
 
 Progress = Callable[[int, int, str], None]
 # Share of the trajectories or blocks that may be lost to cases that failed.
@@ -88,10 +88,8 @@ class Answer:
 
     def lost(self) -> str:
         """The most frequent reason of cases without a number, for a sentence."""
-        by_reason: dict[str, list[int]] = {}
-        for number in np.flatnonzero(~np.isfinite(self.values)).tolist():
-            by_reason.setdefault(self.reason(number), []).append(number)
-        return next(iter(by_cause(by_reason)), "")
+        lost = np.flatnonzero(~np.isfinite(self.values)).tolist()
+        return next(iter(causes_of((number, self.reason(number)) for number in lost)), "")
 
 
 def answer(

@@ -13,6 +13,7 @@ import xarray as xr
 
 from treadload import variables
 from treadload.case.file import FilePart
+from treadload.case.keys import value_at
 from treadload.composing import BaseResult, Holds
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -125,12 +126,7 @@ def tornado(
 
 def base_value(case: FilePart, name: str, key: str) -> float:
     """What the case itself gives for a key, or leaves to its default. Raises InputError where that is no number."""
-    here: Any = case
-    for part in key.split("."):
-        if isinstance(here, tuple | list):
-            here = here[int(part)] if part.isdigit() and int(part) < len(here) else None
-        else:
-            here = here.get(part) if isinstance(here, Mapping) else getattr(here, part, None)
+    here = value_at(case, key)
     if isinstance(here, bool) or not isinstance(here, int | float):
         said = "gives none" if here is None else f"gives {here!r}"
         raise InputError(f"a tornado turns around the number that the case gives for {name}, and it {said}; give one")

@@ -3,7 +3,7 @@
 from treadload.study.sweeps.cluster import SchedulerLost
 from treadload.study.sweeps.design import Design, Input, bounds_of, over_points, sampled
 from treadload.study.sweeps.plan import plan_sweep
-from treadload.study.sweeps.sweep import Sweep, by_cause, open_sweep, sweep
+from treadload.study.sweeps.sweep import Sweep, causes_of, open_sweep, sweep
 from treadload.study.sweeps.tables import table_of
 from treadload.study.sweeps.vary import from_file, from_texts
 
@@ -13,7 +13,7 @@ __all__ = [
     "SchedulerLost",
     "Sweep",
     "bounds_of",
-    "by_cause",
+    "causes_of",
     "from_file",
     "from_texts",
     "open_sweep",

@@ -15,7 +15,7 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Verdict
 from treadload.response import MATERIAL_LENGTH, Response
-from treadload.study.run import Loaded, judge, load_case, on_two_grids, run_case
+from treadload.study.run import Loaded, judge, load_case, on_two_grids, read_loaded
 from treadload.study.run_life import run_life
 from treadload.study.sweeps.record import Values
 from treadload.study.uniform import READINGS
@@ -26,7 +26,7 @@ LIFE_PARTS = ("life", "sensitivity")
 _SEARCHED = ("contact", "response", "damage")
 
 
-def _quiet(text: str) -> None:
+def quiet(text: str) -> None:
     """Progress of a study is counted in cases."""
 
 
@@ -76,7 +76,7 @@ class CaseParts(Parts):
     @cached_property
     def load(self) -> Loaded:
         """The road and its wheels."""
-        return load_case(self.case, _quiet, contact=self._known, start=self._start)
+        return load_case(self.case, quiet, contact=self._known, start=self._start)
 
     @cached_property
     def mean(self) -> Response:
@@ -101,13 +101,13 @@ class CaseParts(Parts):
         # A verdict at a depth reads points; one of a mean reads it as it is.
         verdict = judge(damage, self.points if damage.depth is not None else self.mean)
         if damage.error_estimate:
-            verdict = on_two_grids(self.case, self.load, verdict, _quiet)
+            verdict = on_two_grids(self.case, self.load, verdict, quiet)
         self._solved["damage"] = verdict
         return verdict
 
     @cached_property
     def _sections(self) -> Mapping[str, BaseResult]:
-        return run_case(self.case).parts
+        return read_loaded(self.load).parts
 
     def dataset(self, part: str) -> xr.Dataset | None:
         """The fields of a part; None where the case has none."""

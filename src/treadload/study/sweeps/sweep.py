@@ -6,7 +6,7 @@ import json
 import os
 import re
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
@@ -110,7 +110,7 @@ class Sweep(BaseResult, group="sweep"):
         return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
 
     def _failed(self) -> Iterator[str]:
-        causes = by_cause(_grouped(self.failures))
+        causes = causes_of(self.failures)
         for text, numbers in list(causes.items())[:_CAUSES]:
             yield f"{_cases(len(numbers))} failed, the first with {self.design.said(min(numbers))}: {text}"
         if len(causes) > _CAUSES:
@@ -265,11 +265,12 @@ def _go_on(store: Store) -> str:
     return f"{store.told()}; the same command goes on from there"
 
 
-def _grouped(failures: Sequence[tuple[int, str]]) -> dict[str, list[int]]:
+def causes_of(failures: Iterable[tuple[int, str]]) -> dict[str, list[int]]:
+    """Numbers of cases by why they failed, see `by_cause`. failures: number and reason of each."""
     by_reason: dict[str, list[int]] = {}
     for number, reason in failures:
         by_reason.setdefault(reason, []).append(number)
-    return by_reason
+    return by_cause(by_reason)
 
 
 def by_cause(by_text: Mapping[str, Sequence[int]]) -> dict[str, list[int]]:

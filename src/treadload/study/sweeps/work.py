@@ -17,7 +17,7 @@ from treadload.contact import Contact
 from treadload.errors import TreadloadError, one_line
 from treadload.study.run import contact_of
 from treadload.study.sweeps.asked import Asked, read
-from treadload.study.sweeps.parts import CaseParts, LifeParts, Parts
+from treadload.study.sweeps.parts import CaseParts, LifeParts, Parts, quiet
 from treadload.study.sweeps.record import Record
 from treadload.tire import Tire
 
@@ -96,7 +96,7 @@ class Worker:
         found = self._contacts.get(key)
         if found is None:
             try:
-                found = contact_of(case, case.pavement.build(), _quiet, start=start, tire=self._tire(case))
+                found = contact_of(case, case.pavement.build(), quiet, start=start, tire=self._tire(case))
             except TreadloadError as error:
                 found = error
         _remember(self._contacts, key, found)
@@ -120,10 +120,6 @@ def _remember(kept: OrderedDict[str, Any], key: str, value: Any) -> None:
     kept.move_to_end(key)
     while len(kept) > _KEPT:
         kept.popitem(last=False)
-
-
-def _quiet(text: str) -> None:
-    """Progress of a study is counted in cases."""
 
 
 # Of a thread that works for another: its worker, by the name of the question that it is for.
