@@ -1,5 +1,6 @@
 """Materials: what deforms, and how."""
 
+from treadload.materials.anisotropic import Anisotropic, TransverselyIsotropic
 from treadload.materials.elastic import Elastic
 from treadload.materials.fit import MaterialFit, fit_2s2p1d, fit_huet_sayegh, fit_prony
 from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
@@ -21,6 +22,7 @@ from treadload.materials.viscoelastic import Prony
 
 __all__ = [
     "WLF",
+    "Anisotropic",
     "Arrhenius",
     "Elastic",
     "FrequencySweep",
@@ -40,6 +42,7 @@ __all__ = [
     "TabulatedShift",
     "TemperatureDependent",
     "Thermorheological",
+    "TransverselyIsotropic",
     "Unbound",
     "Viscoelastic",
     "as_prony",
