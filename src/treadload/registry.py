@@ -170,6 +170,7 @@ def _place(target: Callable[..., Any]) -> str:
 
 MATERIALS = Registry("material", "treadload.materials", default="elastic")
 SHIFTS = Registry("shift", "treadload.shifts")
+PLASTICITY = Registry("plastic law", "treadload.plasticity")
 BONDS = Registry("bond", "treadload.bonds", default="spring", words=True, example='{ stiffness = "1000 MPa/m" }')
 FRICTION = Registry("friction law", "treadload.friction", key="law", number="coulomb")
 MANEUVERS = Registry("maneuver", "treadload.maneuvers", words=True, example='{ kind = "braking", deceleration = 3 }')
@@ -180,4 +181,4 @@ QUANTITIES = Registry(
 )  # fmt: skip
 READERS = Registry("reader of meshes", "treadload.readers", key="")
 FOOTPRINTS = Registry("reader of footprints", "treadload.footprints", key="format")
-ALL = (MATERIALS, SHIFTS, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS, FOOTPRINTS)
+ALL = (MATERIALS, SHIFTS, PLASTICITY, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS, FOOTPRINTS)

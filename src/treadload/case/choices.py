@@ -9,11 +9,12 @@ from treadload.materials import Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.materials.tables import ROAD_MATERIAL
 from treadload.read import Choice
-from treadload.registry import BONDS, FRICTION, MANEUVERS, MATERIALS
+from treadload.registry import BONDS, FRICTION, MANEUVERS, MATERIALS, PLASTICITY
 from treadload.units import Share
 
 TIRE_MATERIAL = Choice(MATERIALS, "material of a tire", only=(Elastic, Prony, Surfaced))
 BOND = Choice(BONDS, "bond")
+PLASTIC = Choice(PLASTICITY)
 # A number, or the table of a law.
 FRICTION_OR_NUMBER = Choice(FRICTION, keeps_number=True)
 MANEUVER = Choice(
@@ -26,6 +27,7 @@ MANEUVER = Choice(
 RoadMaterial = Annotated[Any, ROAD_MATERIAL]
 TireMaterial = Annotated[Any, TIRE_MATERIAL]
 BondTable = Annotated[Any, BOND]
+PlasticTable = Annotated[Any, PLASTIC]
 Friction = Annotated[Any, FRICTION_OR_NUMBER]
 ManeuverTable = Annotated[Any, MANEUVER]
 

@@ -6,9 +6,9 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BeforeValidator, model_validator
 
-from treadload.case.choices import BOND, BondTable, RoadMaterial
+from treadload.case.choices import BOND, PLASTIC, BondTable, PlasticTable, RoadMaterial
 from treadload.catalogue import mixes
-from treadload.materials import Material, Mix, TemperatureDependent
+from treadload.materials import ElastoPlastic, Material, Mix, TemperatureDependent
 from treadload.materials.tables import ROAD_MATERIAL
 from treadload.pavement import Layer, Pavement, TemperatureProfile
 from treadload.read import As, Table, table_of
@@ -26,7 +26,7 @@ class LayerPart(Table):
 
     material: a table; or mix. mix: a name of the catalogue of road materials. thickness: left out, the layer is
     semi-infinite. bond: to the layer below, "bonded", "half-bonded", "frictionless", `{ stiffness = "1000 MPa/m" }`
-    or of another kind. name: left out, that of the mix.
+    or of another kind. name: left out, that of the mix. plasticity: how an elastic material yields.
     """
 
     one_of: ClassVar = ("material", "mix")
@@ -36,12 +36,15 @@ class LayerPart(Table):
     thickness: Annotated[Length | None, BeforeValidator(_finite)] = None
     name: str = ""
     bond: BondTable = "bonded"
+    plasticity: PlasticTable | None = None
 
     @model_validator(mode="after")
     def _one_material(self) -> LayerPart:
         if (self.material is None) == (self.mix is None):
             got = "none" if self.material is None else "both"
             raise ValueError(f"a layer needs either a material or the name of a mix, got {got} of them")
+        if self.plasticity is not None and self.mix is not None:
+            raise ValueError("plasticity belongs to an elastic material: give the modulus of the mix as a material")
         return self
 
     def build(self, frequency: float | None = None) -> Layer:
@@ -50,10 +53,12 @@ class LayerPart(Table):
             self._material(frequency), self.thickness, name=self.name or self.mix or "", bond=BOND.build(self.bond)
         )
 
-    def _material(self, frequency: float | None) -> Material | TemperatureDependent:
+    def _material(self, frequency: float | None) -> Material | TemperatureDependent | ElastoPlastic:
         if self.material is not None:
-            made: Material | TemperatureDependent = ROAD_MATERIAL.build(self.material)
-            return made
+            made: Any = ROAD_MATERIAL.build(self.material)
+            if self.plasticity is not None:
+                made = ElastoPlastic(made, PLASTIC.build(self.plasticity))
+            return made  # type: ignore[no-any-return]
         assert self.mix is not None
         mix = mixes[self.mix]
         return mix.with_frequency(frequency) if frequency is not None and isinstance(mix, Mix) else mix

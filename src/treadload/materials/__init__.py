@@ -13,6 +13,16 @@ from treadload.materials.measured import (
     read_shift_factors,
 )
 from treadload.materials.mixture import HydraulicMix, Mix, RoadMaterial, Unbound
+from treadload.materials.plastic import (
+    DruckerPrager,
+    ElastoPlastic,
+    MohrCoulomb,
+    PassesPowerLaw,
+    Perzyna,
+    PlasticLaw,
+    Swift,
+    VonMises,
+)
 from treadload.materials.power_law import PowerLawCreep
 from treadload.materials.published import PublishedMaterial
 from treadload.materials.series import as_prony
@@ -24,7 +34,9 @@ __all__ = [
     "WLF",
     "Anisotropic",
     "Arrhenius",
+    "DruckerPrager",
     "Elastic",
+    "ElastoPlastic",
     "FrequencySweep",
     "HuetSayegh",
     "HydraulicMix",
@@ -33,18 +45,24 @@ __all__ = [
     "MaterialFit",
     "Mix",
     "Model2S2P1D",
+    "MohrCoulomb",
+    "PassesPowerLaw",
+    "Perzyna",
+    "PlasticLaw",
     "PowerLawCreep",
     "Prony",
     "PublishedMaterial",
     "QuadraticShift",
     "RelaxationTest",
     "RoadMaterial",
+    "Swift",
     "TabulatedShift",
     "TemperatureDependent",
     "Thermorheological",
     "TransverselyIsotropic",
     "Unbound",
     "Viscoelastic",
+    "VonMises",
     "as_prony",
     "fit_2s2p1d",
     "fit_huet_sayegh",

@@ -11,6 +11,7 @@ from typing_extensions import Protocol, runtime_checkable
 
 from treadload.kernels.arrays import ComplexArray
 from treadload.materials.elastic import Elastic
+from treadload.materials.plastic import ElastoPlastic
 from treadload.registry import MATERIALS
 
 
@@ -50,7 +51,7 @@ class TemperatureDependent(Protocol):
         """The material at a temperature, °C. Raises InputError outside its data unless told to extrapolate."""
 
 
-MATERIALS.makes(Elastic, Viscoelastic, TemperatureDependent)
+MATERIALS.makes(Elastic, Viscoelastic, TemperatureDependent, ElastoPlastic)
 Material = Elastic | Viscoelastic
 """What can be solved with."""
 

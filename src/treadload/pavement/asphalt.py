@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
+from treadload.materials.plastic import elastic_part
 from treadload.pavement.bonds import FRICTIONLESS
 from treadload.pavement.layer import Layer
 from treadload.pavement.structure import Pavement
@@ -24,7 +25,7 @@ def bituminous_thickness(road: Pavement, layer: int) -> float:
     """
     number = _number(road, layer)
     own = road.layers[number]
-    if own.thickness is None or is_bituminous(own.material) is False:
+    if own.thickness is None or is_bituminous(elastic_part(own.material)) is False:
         why = "is semi-infinite" if own.thickness is None else f"is not asphalt ({own.material})"
         raise InputError(f"layer {number + 1} {own.name!r} {why}; ask for a bituminous layer, or give the thickness")
     total = own.thickness
@@ -67,7 +68,7 @@ def _counts(layer: Layer, number: int) -> bool:
     """Whether a neighbour adds to the asphalt."""
     if layer.thickness is None:
         return False
-    bituminous = is_bituminous(layer.material)
+    bituminous = is_bituminous(elastic_part(layer.material))
     if bituminous is None:
         raise InputError(
             f"layer {number + 1} {layer.name!r} ({layer.material}) may be asphalt or bound by cement, so that the "

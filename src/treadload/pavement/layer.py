@@ -7,22 +7,23 @@ from numbers import Real
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
-from treadload.materials import Elastic, Material, TemperatureDependent
+from treadload.materials import Elastic, ElastoPlastic, Material, TemperatureDependent
+from treadload.materials.plastic import elastic_part
 from treadload.pavement.bonds import BONDED, BondLaw
 
-_KINDS = "Elastic, a viscoelastic material such as Prony, or one that depends on temperature"
+_KINDS = "Elastic, ElastoPlastic, a viscoelastic material such as Prony, or one that depends on temperature"
 
 
 @dataclass(frozen=True)
 class Layer:
     """One layer of a road.
 
-    material: what it is made of: elastic, viscoelastic, or known once its temperature is. thickness: m; None for
-    the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED, FRICTIONLESS or
-    Bond(stiffness=...).
+    material: what it is made of: elastic, viscoelastic, elastoplastic, or known once its temperature is. thickness:
+    m; None for the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED,
+    FRICTIONLESS or Bond(stiffness=...).
     """
 
-    material: Material | TemperatureDependent
+    material: Material | TemperatureDependent | ElastoPlastic
     thickness: float | None = None
     name: str = ""
     bond: BondLaw = BONDED
@@ -30,7 +31,8 @@ class Layer:
     def __post_init__(self) -> None:
         # The protocols themselves would evaluate limits that a fluid has not.
         if not (
-            isinstance(self.material, Elastic | TemperatureDependent) or hasattr(self.material, "complex_modulus")
+            isinstance(self.material, Elastic | ElastoPlastic | TemperatureDependent)
+            or hasattr(self.material, "complex_modulus")
         ):
             raise InputError(
                 f"layer {self.name!r}: material must be {_KINDS}, got {type(self.material).__name__} "
@@ -58,13 +60,17 @@ class Layer:
 
     @property
     def resolved(self) -> Material:
-        """The material, elastic or viscoelastic. Raises InputError for one that needs a temperature."""
+        """The material, elastic or viscoelastic; of an elastoplastic one its elastic part.
+
+        Raises InputError for one that needs a temperature.
+        """
         if isinstance(self.material, TemperatureDependent):
             raise InputError(
                 f"layer {self.name!r} depends on temperature ({self.material}): choose one first with "
                 "Pavement.at_temperature(...)"
             )
-        return self.material
+        material: Material = elastic_part(self.material)
+        return material
 
     @property
     def depends_on_temperature(self) -> bool:

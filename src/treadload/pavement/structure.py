@@ -16,6 +16,7 @@ from treadload.kernels.layers.depths import SAME_DEPTH, layers_at
 from treadload.materials import Elastic, Material, TemperatureDependent
 from treadload.materials.celsius import check_celsius
 from treadload.materials.kinds import limit_of
+from treadload.materials.plastic import ElastoPlastic, elastic_part
 from treadload.pavement.bonds import BONDED
 from treadload.pavement.catalogue import Structure, find_structure
 from treadload.pavement.layer import Layer
@@ -69,7 +70,7 @@ class Pavement:
             )
 
     @classmethod
-    def half_space(cls, material: Material | TemperatureDependent, name: str = "") -> Pavement:
+    def half_space(cls, material: Material | TemperatureDependent | ElastoPlastic, name: str = "") -> Pavement:
         """A homogeneous half-space."""
         return cls([Layer(material, name=name)])
 
@@ -108,7 +109,7 @@ class Pavement:
         joined = [self.layers[0]]
         for layer in self.layers[1:]:
             above = joined[-1]
-            if above.bond != BONDED or above.material != layer.material:
+            if above.bond != BONDED or elastic_part(above.material) != elastic_part(layer.material):
                 joined.append(layer)
                 continue
             assert above.thickness is not None

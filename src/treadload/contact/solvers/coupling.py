@@ -4,14 +4,13 @@ Shear opens or closes the gap, pressure makes the surfaces slip. The unknown is 
 solves normal contact with it, then rolling, and asks what gap the new shear makes. Anderson's method mixes the
 last rounds, so that strong coupling settles where plain alternation circles.
 
-Sources: Panagiotopoulos (1975), Ing. Arch. 44, 421-432 (the loop); Anderson (1965), J. ACM 12, 547-560; Walker
-& Ni (2011), SIAM J. Numer. Anal. 49, 1715-1735.
+Source of the loop: Panagiotopoulos (1975), Ing. Arch. 44, 421-432; of the mixing that of `kernels.mixing`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from treadload.contact.solvers.tangential import TangentialSolution
 from treadload.errors import ConvergenceError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
+from treadload.kernels.mixing import Anderson
 
 _MOST_ROUNDS = 40
 _MEMORY = 6
@@ -97,7 +97,7 @@ def solve_coupled(
     if rows is not None:
         rigid[0] += rows
     last = None if start is None else start.tangential
-    mixing = _Anderson()
+    mixing = Anderson(_MEMORY)
     iterations, newton, krylov, splitting, change = normal.iterations, 0, 0, 0, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
@@ -134,24 +134,3 @@ def _at_rest(pressure: Array, grid: Grid, rolling: Rolling) -> Interface:
     at_rest = Interface(pressure, np.zeros((2, *grid.shape)), grid.x, grid.y, grid.dx, rolling.speed)
     rolling.check_friction_limit(load, float(rolling.law.bound(at_rest).sum()) * grid.cell_area)
     return at_rest
-
-
-@dataclass
-class _Anderson:
-    """Anderson's mixing of a fixed-point iteration x ← g(x) over its last rounds."""
-
-    points: list[Array] = field(default_factory=list)
-    residuals: list[Array] = field(default_factory=list)
-
-    def next(self, x: Array, g: Array) -> Array:
-        """The next point, from a point and what the iteration makes of it."""
-        self.points = [*self.points[-_MEMORY:], x]
-        self.residuals = [*self.residuals[-_MEMORY:], g - x]
-        if len(self.points) == 1:
-            return g
-        steps = np.array([b - a for a, b in zip(self.points, self.points[1:], strict=False)])
-        changes = np.array([b - a for a, b in zip(self.residuals, self.residuals[1:], strict=False)])
-        basis = changes.reshape(len(changes), -1).T
-        weights = np.linalg.lstsq(basis, self.residuals[-1].ravel(), rcond=1e-10)[0]
-        mixed: Array = g - np.tensordot(weights, steps + changes, 1)
-        return mixed

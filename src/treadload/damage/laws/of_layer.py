@@ -14,6 +14,7 @@ from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
+from treadload.materials.plastic import elastic_part
 from treadload.pavement import Pavement, bituminous_thickness
 from treadload.registry import CRITERIA
 from treadload.units import Length, Modulus, Number, Share, Strain
@@ -32,7 +33,8 @@ class OnLayer:
     @property
     def material(self) -> Material | TemperatureDependent:
         """What the layer is made of."""
-        return self.road.layers[self.number].material
+        material: Material | TemperatureDependent = elastic_part(self.road.layers[self.number].material)
+        return material
 
     @property
     def platform_modulus(self) -> float | None:
