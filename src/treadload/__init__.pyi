@@ -34,8 +34,8 @@ from treadload.errors import TreadloadError as TreadloadError
 from treadload.footprint import compare as compare
 from treadload.grid import Grid as Grid
 from treadload.materials import Elastic as Elastic
-from treadload.materials import TransverselyIsotropic as TransverselyIsotropic
 from treadload.materials import ElastoPlastic as ElastoPlastic
+from treadload.materials import TransverselyIsotropic as TransverselyIsotropic
 from treadload.pavement import BONDED as BONDED
 from treadload.pavement import FRICTIONLESS as FRICTIONLESS
 from treadload.pavement import Bond as Bond
