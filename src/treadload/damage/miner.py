@@ -93,8 +93,9 @@ class Life(BaseResult, group="life"):
             lines.append(f"Verdict: {self.governing} governs, after {_years(self.years(self.governing))}.")
         if self.stats:
             lines.append(
-                "solved: {contacts} contacts and {responses} responses for {combinations} combinations; readings "
-                "interpolated over the climate are off by at most {interpolation_error:.1g}".format(**self.stats)
+                "solved: {contacts} contacts and {responses} responses for {combinations} combinations; what is "
+                "interpolated over the climate moves damage no more than readings off by {interpolation_error:.1g} "
+                "would".format(**self.stats)
             )
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 

@@ -171,8 +171,8 @@ def _solved(data: xr.Dataset) -> str:
         return ""
     told = (
         f"{stats['contacts']} contacts and {stats['responses']} responses were solved for {stats['combinations']} "
-        f"combinations of class and season in {measure(stats['seconds'])} s; readings interpolated over the climate "
-        f"are off by at most {stats['interpolation_error']:.1g} of the largest"
+        f"combinations of class and season in {measure(stats['seconds'])} s; what is interpolated over the climate "
+        f"moves damage no more than readings off by {stats['interpolation_error']:.1g} of the largest would"
     )
     if stats.get("wheels_moved"):
         told += f"; wheels were moved by up to {stats['wheels_moved'] * 1e3:.1f} mm onto the common cells"

@@ -12,6 +12,7 @@ import xarray as xr
 
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criterion import Criterion
+from treadload.damage.miner import wander_of
 from treadload.damage.traffic import Climate, Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -20,7 +21,7 @@ from treadload.response.doubts import overlapping, road_doubts
 from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.study.contacts import Contacts, Counter, Progress
 from treadload.study.passage import Passing, solve_passings
-from treadload.study.seasons import Warm, layer_temperatures, warmed
+from treadload.study.seasons import layer_temperatures, warmed
 from treadload.study.wheels import Wheels, across, check_speed, states_of, wheels_of
 from treadload.tire import Tire
 
@@ -33,9 +34,9 @@ class Passages:
     valley: peak, valley, peak, ..., zeros behind the last. crack_angle, crack_dip: (criterion, axle_class, season,
     y), rad, of the crack at the worst instant, in the season's road or the nearest that was solved.
     layer_temperatures: (criterion, season), °C. contacts, responses: how many were really solved.
-    interpolation_error: largest relative error of a reading that was interpolated over the climate, measured on the
-    heaviest class; 0 if none was. moved: how far a wheel was moved to stand on the common cells, m. warnings:
-    sentences for the user.
+    interpolation_error: the largest that interpolation over the climate does, measured on the heaviest class: the
+    relative error of its largest reading that would move damage as much; 0 if nothing was interpolated. moved: how
+    far a wheel was moved to stand on the common cells, m. warnings: sentences for the user.
     """
 
     readings: xr.DataArray
@@ -79,8 +80,9 @@ def solve_passages(
     cores if left out. progress: called after every solve. contacts: known already, on cells of this
     spacing; those solved join them.
     One contact is solved for each load, pressure and maneuver: the road's moduli do not matter to it. With many
-    seasons of one temperature each, the heaviest class is solved in all of them, and the others only in those
-    from which splines give the heaviest class within the tolerance.
+    seasons of one temperature each, the heaviest class is solved in all of them, and the others, criterion by
+    criterion, only in those from which splines give the harm of the heaviest class within the tolerance, see
+    `climate.nodes`.
     Raises InputError, and ConvergenceError of a contact.
     """
     if not criteria:
@@ -93,6 +95,7 @@ def solve_passages(
     warm = [warmed(road, criteria, season) for season in seasons]
     for row in classes:
         check_speed(row, warm[0].road)
+    temperatures = layer_temperatures(road, criteria, seasons)
     distinct = [one for k, one in enumerate(warm) if one not in warm[:k]]
     states = [one for row in classes for one in states_of(row, tire)]
     contacts = contacts or Contacts(tire, spacing)
@@ -105,22 +108,33 @@ def solve_passages(
         wheels = [wheels_of(own, row, y) for own, row in zip(by_class, classes, strict=True)]
         turns = 2 * max(len(one.x) for one in wheels) - 1
 
-        def solve_all(rows: Sequence[int], which: Sequence[Warm]) -> Array:
-            tasks = [Passing(wheels[row], one, y, turns) for row in rows for one in which]
-            solved = np.array(solve_passings(tasks, pool, count))
-            return solved.reshape(len(rows), len(which), *solved.shape[1:])
+        values = np.empty((len(classes), len(distinct), len(criteria), turns + 2, len(y)))
+
+        def solve_all(rows: Sequence[int], asked: Sequence[tuple[int, list[int]]]) -> None:
+            """Into values, for classes, of roads those criteria; all by number."""
+            tasks = [(row, number, own) for row in rows for number, own in asked]
+            passings = [Passing(wheels[row], distinct[number].reading(own), y, turns) for row, number, own in tasks]
+            for (row, number, own), read in zip(tasks, solve_passings(passings, pool, count), strict=True):
+                values[row, number, own] = read
 
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
         others = [row for row in range(len(classes)) if row != heaviest]
-        pilot = solve_all([heaviest], distinct)[0]
+        solve_all([heaviest], [(number, list(range(len(criteria)))) for number in range(len(distinct))])
         warmth = warmth_of(seasons, [one.road for one in distinct])
-        kept, error = nodes(warmth, pilot[:, :, :turns], tolerance)
-        count.total = touched + len(distinct) + len(others) * len(kept)
-        values = np.empty((len(classes), *pilot.shape))
-        values[heaviest] = pilot
+        kept, errors = [], []
+        for k, criterion in enumerate(criteria):
+            wander = wander_of(criterion.law_at(temperatures[k, 0]), traffic)
+            few, error = nodes(warmth, values[heaviest, :, k, :turns], tolerance, wander, float(y[1] - y[0]))
+            kept.append(few)
+            errors.append(error)
+        asked = [(n, [k for k, few in enumerate(kept) if n in few]) for n in sorted(set().union(*kept))]
+        count.total = touched + len(distinct) + len(others) * len(asked)
         if others:
-            rest = solve_all(others, [distinct[k] for k in kept])
-            values[others] = rest if len(kept) == len(distinct) else over_the_climate(warmth, kept, rest, turns)
+            solve_all(others, asked)
+            for k, few in enumerate(kept):
+                if len(few) < len(distinct):
+                    rest = values[np.ix_(others, few)][:, :, k]
+                    values[others, :, k] = over_the_climate(warmth, few, rest, turns)
     where = [distinct.index(one) for one in warm]
     # (criterion, axle_class, season, turn, y), with the crack behind the turns.
     everything = values[:, where].transpose(2, 0, 1, 3, 4)
@@ -138,10 +152,10 @@ def solve_passages(
         readings,
         everything[:, :, :, turns],
         everything[:, :, :, turns + 1],
-        layer_temperatures(road, criteria, seasons),
+        temperatures,
         touched,
         count.total - touched,
-        error,
+        max(errors),
         max(one.moved for one in wheels),
         tuple(wheels),
         tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads)) + road_doubts(warm[0].road),

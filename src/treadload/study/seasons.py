@@ -21,6 +21,10 @@ class Warm:
     road: Pavement
     criteria: tuple[Criterion, ...]
 
+    def reading(self, numbers: Sequence[int]) -> Warm:
+        """With those of the criteria."""
+        return Warm(self.road, tuple(self.criteria[k] for k in numbers))
+
 
 def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season) -> Warm:
     """The road and the criteria in a season. Raises InputError for temperatures that do not fit the road."""
