@@ -20,8 +20,8 @@ from scipy import fft as _scipy
 from scipy.fft import fftfreq, next_fast_len, rfftfreq
 
 __all__ = [
-    "cosine2", "device", "fft", "fftfreq", "ifft", "irfft", "irfft2", "namespace", "next_fast_len", "on", "portions",
-    "rfft", "rfft2", "rfftfreq", "to_device", "to_host",
+    "cosine2", "cosines", "device", "fft", "fftfreq", "ifft", "irfft", "irfft2", "namespace", "next_fast_len", "on",
+    "portions", "rfft", "rfft2", "rfftfreq", "sines", "to_device", "to_host",
 ]  # fmt: skip
 
 # Numbers that are transformed at once: what a processor's cache holds, what a GPU keeps busy with.
@@ -128,3 +128,17 @@ def irfft2(x: Any, s: tuple[int, int]) -> Any:
 def cosine2(quadrant: Any) -> Any:
     """The transform (ny, nx) of what is even both ways about both ends of a quadrant (ny, nx), of which it is one."""
     return _scipy.dctn(quadrant, type=1)
+
+
+def cosines(half: Any, n: int, axis: int = -1) -> Any:
+    """The transform (n + 1 numbers) of what is even about 0, zero from n on, and repeats after 2 n, from its half."""
+    return _scipy.dct(half, type=1, n=n + 1, axis=axis)
+
+
+def sines(half: Any, n: int, axis: int = -1) -> Any:
+    """As `cosines`, of what is odd, times i: the number at 0 is not read."""
+    values = np.moveaxis(half, axis, -1)
+    result = np.zeros((*values.shape[:-1], n + 1), half.dtype)
+    if n > 1 and values.shape[-1] > 1:
+        result[..., 1:n] = _scipy.dst(values[..., 1:], type=1, n=n - 1, axis=-1)
+    return np.moveaxis(result, -1, axis)
