@@ -3,10 +3,13 @@
 import numpy as np
 import pytest
 
+import treadload as tl
 from treadload.kernels.eigenstrain import operator
 from treadload.kernels.eigenstrain.cuboid import Cuboid, cuboid_stress, cuboid_surface_displacement
 from treadload.kernels.eigenstrain.operator import Grid
+from treadload.kernels.eigenstrain.surface import settlement
 from treadload.kernels.half_space.interior import fields_on_grid
+from treadload.response.layered import layered_response
 
 _WEIGHTS = np.array([1, 1, 1, 2, 2, 2])
 _NU = 0.3
@@ -201,3 +204,29 @@ def test_a_sphere_that_swells_below_the_surface_is_mindlins_and_chengs(cover, bo
     plane = operator.cells(grid, 1.0, _NU, depths=np.array([0.0]))(swelling)[:, 0]
     assert abs(plane[:2, 7:9, 7:9].mean() / expected - 1) < 2e-2
     assert np.abs(plane[[2, 4, 5]]).max() < 1e-12 * expected
+
+
+def test_the_surface_sinks_by_betti_as_it_does_in_closed_form_and_on_layers_that_are_one():
+    grid = Grid(6, 5, 1.0, 1.3, np.array([2.5, 3.5, 5.0]))
+    strain = np.random.default_rng(9).normal(size=(6, *grid.shape))
+    expected = operator.moved_by_cells(grid, _NU)(strain)[2, 0]
+
+    def half_space(depths, x, y):
+        load = np.eye(3)[0].reshape(3, 1, 1)
+        stress, _, _ = fields_on_grid(load, 1.0, 1.3, depths, 1.0, _NU, x, y, moves=False)
+        return np.moveaxis(stress, 1, 0)
+
+    # Six Gauss points over a layer 2.5 cells deep.
+    assert _error(settlement(strain, grid, half_space), expected) < 1e-8
+
+    def layers(thickness, moduli):
+        stack = [tl.Layer(tl.Elastic(modulus, _NU), part) for modulus, part in zip(moduli, thickness, strict=True)]
+        road = tl.Pavement((*stack, tl.Layer(tl.Elastic(moduli[-1], _NU))))
+        load = tl.GridLoad(tl.Grid(1, 1, 1.0, 1.3, 0.0, 0.0), np.ones((1, 1)))
+        return lambda depths, x, y: layered_response([load], road, depths, x, y, below=True)[0]
+
+    one = settlement(strain, grid, layers([1.7, 6.0], [2.6, 2.6 * (1 + 1e-12)]))
+    assert _error(one, expected) < 1e-8
+    # Above a stiff slab the surface follows less sharply.
+    slab = settlement(strain, grid, layers([1.7, 6.0], [260.0, 2.6]))
+    assert np.ptp(slab) < 0.5 * np.ptp(expected)
