@@ -2,21 +2,22 @@
 
     python benchmarks/life_profile.py [spacing in mm]
 
-Of 9 classes, 11 roads and 18 changed questions, 528 responses. Seconds of one processor, on one busy machine of two
-cores, one thread for each product of matrices; before roads and loads shared anything, under a profiler, and with
-what they share now, under a stopwatch. Plain runs with the page took 262 s before and 48 s after:
+Of 9 classes, 11 roads and 18 changed questions. Seconds of one processor, on one busy machine of two cores, one thread
+for each product of matrices; before roads and loads shared anything, 528 responses, under a profiler, and with what
+they share now, under a stopwatch. Plain runs with the page took 262 s before and 48 s before the last two rows of
+savings, single numbers and seasons told by the harm after wander:
 
-    stage                       before    now   what changed
-    contacts                        18      7   those of a changed input start from the life's own
-    closed form of the top         133      6   once for all roads, for wheels on the same cells or behind each other
-    loads into wavenumbers          32      1   once for all roads; wheels behind each other are one
-    functions of |k|                16      3   tabulated once for each road and depth, as many as components need
-    products of both                12      3   only the components that are read, a quarter of the wavenumbers
-    back to points                  37      6   the same
-    fields by their names           23      0   only what is read; roots of the cubic in place of an eigenvalue solver
-    reading                         13      4   the crack at its worst instant alone
-    rest                            13      8
-    all                            297     38
+    stage                       before   then    now   what changed
+    contacts                        18      7      5   those of a changed input start from the life's own
+    closed form of the top         133      6      3   once for all roads, for wheels on the same cells or in line; single
+    loads into wavenumbers          32      1      0   once for all roads; wheels behind each other are one
+    functions of |k|                16      3      2   tabulated once for each road and depth, as many as are read
+    products of both                12      3      1   only the components that are read, fewer wavenumbers; single
+    back to points                  37      6      2   the same
+    fields by their names           23      0      0   only what is read; roots of the cubic, no eigenvalue solver
+    reading                         13      4      3   the crack at its worst instant alone
+    rest                            13      8      7
+    all                            297     38     23
 """
 
 import os

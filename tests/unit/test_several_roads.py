@@ -64,8 +64,8 @@ def test_every_pair_is_what_it_is_alone(side, mean_over):
         alone = solve_response(question.loads, question.road, depths=question.depths, x=X, y=Y, **asked).dataset
         for name in (*STRESS, *STRAIN):
             size = max(float(np.abs(alone[part]).max()) for part in alone if str(part).startswith(name[:6]))
-            # Waves as readings need them.
-            np.testing.assert_allclose(one[name], alone[name], rtol=0, atol=1e-7 * size, err_msg=name)
+            # Waves as readings need them, multiplied in single numbers.
+            np.testing.assert_allclose(one[name], alone[name], rtol=0, atol=1e-6 * size, err_msg=name)
 
 
 @pytest.mark.parametrize(
@@ -148,7 +148,8 @@ def test_passages_together_are_those_alone(tasks):
             task = tasks[number]
             alone = passage(task.wheels, task.warm, task.y, task.turns)
             size = np.abs(alone[:, :3]).max(axis=(1, 2), keepdims=True)
-            np.testing.assert_allclose(found[:, :3] / size, alone[:, :3] / size, rtol=0, atol=1e-7)
+            # Single numbers, added up in another order.
+            np.testing.assert_allclose(found[:, :3] / size, alone[:, :3] / size, rtol=0, atol=1e-6)
             # A trace at the angle π/2 is the one at -π/2.
             np.testing.assert_allclose(np.sin(found[:, 3:] - alone[:, 3:]), 0 * found[:, 3:], atol=1e-6)
 

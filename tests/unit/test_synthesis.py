@@ -124,6 +124,21 @@ def test_readings_keep_seven_digits_of_stress(stack):
         assert error.max() <= 1e-7 * np.abs(exact[row, :6]).max()
 
 
+@pytest.mark.parametrize("stack", [LAYERS, ALONE])
+def test_single_numbers_keep_six_digits(stack):
+    """Waves that cancel each other to a field: single numbers have seven digits, of the largest at a depth."""
+    nodes = rule(36 / DEPTHS.min(), 0.3, 2.0, READING)
+    planes = [plane(stack, z, READING.fall) for z in DEPTHS]
+    tasks = [(0, row) for row in range(len(planes))]
+    exact, short = (
+        synthesise_cells([[cells()]], planes, tasks, X, Y, nodes, nodes, None, range(6), precision)
+        for precision in (np.float64, np.float32)
+    )
+    for whole, error in zip(exact, np.abs(short - exact), strict=True):
+        assert error.max() <= 1e-6 * np.abs(whole).max()
+    assert np.abs(short - exact).max() > 0
+
+
 def test_readings_cost_a_third():
     fine, few = (len(rule(one.fall / 0.2, 0.8, 2.0, one)[0]) for one in (FULL, READING))
     assert few**2 < 0.3 * fine**2

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -56,12 +56,13 @@ def half_space_fields(
     tell: Callable[[str], None] | None = None,
     *,
     moves: bool = True,
+    precision: type[np.floating[Any]] = np.float64,
 ) -> list[tuple[Array, str]]:
     """Stress and displacement times the shear modulus, (nz, 9, my, mx), and the method, for each of some loads.
 
     loads: each superposed from several. The others as in `half_space_response`; moves: False leaves the displacement
-    out, zero. What cells do to each other is computed once for all loads that stand on the same cells, and once for
-    wheels behind each other that press alike.
+    out, zero. precision: of convolutions. What cells do to each other is computed once for all loads that stand on
+    the same cells, and once for wheels behind each other that press alike.
     """
     shape = (len(y), len(x)) if at is None else at.shape
     results = [np.zeros((len(depths), 9, *shape)) for _ in loads]
@@ -84,7 +85,7 @@ def half_space_fields(
                 used.add("disc")
     for (print_, places), members in _prints(loads).items():
         said(len(places) * len(members))
-        array = np.stack([member for _, member in members], axis=1)
+        array = np.stack([member for _, member in members], axis=1).astype(precision, copy=False)
         fields, method = _under_print(print_, places, array, poisson, depths, x, y, at, moves=moves)
         for column, (owner, _) in enumerate(members):
             results[owner] += fields[:, :, column]

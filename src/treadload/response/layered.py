@@ -246,9 +246,15 @@ class _Top:
         material, depths, view = layout.materials[0], layout.depths[layout.rows], self.view
         key = (material.poisson, *depths)
         if key not in self.known:
-            moves = max(view.components) > _YZ
             self.known[key] = half_space_fields(
-                self.loads, material.poisson, depths, view.x, view.y, view.at, moves=moves
+                self.loads,
+                material.poisson,
+                depths,
+                view.x,
+                view.y,
+                view.at,
+                moves=max(view.components) > _YZ,
+                precision=view.accuracy.precision,
             )
         top, method = self.known[key][load]
         fields[layout.rows, :6] += top[:, :6]
@@ -344,7 +350,9 @@ def _under_cells(
                 planes.append(plane)
             tasks.append((load, planes.index(plane)))
     cells = [_cells(several) for several in loads]
-    fields = synthesise_cells(cells, planes, tasks, view.x, view.y, along, across, view.at, view.components)
+    fields = synthesise_cells(
+        cells, planes, tasks, view.x, view.y, along, across, view.at, view.components, view.accuracy.precision
+    )
     ends = np.cumsum([len(layouts[site].depths) for _, site in pairs])[:-1]
     return np.split(fields, ends)
 

@@ -41,8 +41,9 @@ Offsets from its centre, m: x[a], x[a] + dx, … n of them, and y[b], y[b] + dy,
 class Source:
     """A gridded load, or several on the same cells, and the field of its cells.
 
-    load: (3, ny, nx) or (3, n, ny, nx), Pa; fields then are (nz, components, n, my, mx). dx, dy: cell, m. kernels:
-    see `Kernels`. components: of the field. half: of the width of the load of one cell, in cells.
+    load: (3, ny, nx) or (3, n, ny, nx), Pa; fields then are (nz, components, n, my, mx); convolutions are in its
+    precision, single or double. dx, dy: cell, m. kernels: see `Kernels`. components: of the
+    field. half: of the width of the load of one cell, in cells.
     """
 
     load: Array
@@ -89,7 +90,8 @@ def by_lattices(source: Source, depths: Array, x: Array, y: Array) -> Array:
     depths: (nz,), m. x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order.
     """
     ny, nx = source.load.shape[-2:]
-    fields = np.zeros((len(depths), source.components, *source.load.shape[1:-2], len(y), len(x)))
+    shape = (len(depths), source.components, *source.load.shape[1:-2], len(y), len(x))
+    fields = np.zeros(shape, source.load.dtype)
     for y0, count_y, at_y, from_y in as_lattices(y, source.dy, ny):
         for x0, count_x, at_x, from_x in as_lattices(x, source.dx, nx):
             fields[..., at_y[:, None], at_x] = on_lattice(
@@ -120,14 +122,14 @@ def on_lattice(
     first_x, first_y = np.array([x0 - dx * (nx - 1)]), np.array([y0 - dy * (ny - 1)])
     # The offsets start at the most negative one; what wraps around lies in the rows and columns before.
     rows, columns = np.arange(ny - 1, high)[wanted[0]], np.arange(nx - 1, wide)[wanted[1]]
-    fields = np.zeros((len(depths), source.components, *load.shape[1:-2], len(rows), len(columns)))
+    fields = np.zeros((len(depths), source.components, *load.shape[1:-2], len(rows), len(columns)), load.dtype)
     for field, depth in zip(fields, depths, strict=True):
         spectra: dict[int, ComplexArray] = {}
         for values, uses in source.kernels(first_x, first_y, (high, wide), float(depth)):
             served = [(k, component) for k, component in uses if k in transformed]
             if not served:
                 continue
-            spectrum = fft.rfft2(values[0, :, 0], s=padded)
+            spectrum = fft.rfft2(values[0, :, 0].astype(load.dtype, copy=False), s=padded)
             for k, component in served:
                 product = spectrum * transformed[k]
                 if component in spectra:

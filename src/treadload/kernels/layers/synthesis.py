@@ -19,6 +19,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -51,12 +52,14 @@ class Accuracy:
 
     fall: they are cut where they have fallen to e^-fall. smallest: panels of wavenumbers start at this over the
     length of the problem. few, some: points of a panel below all lengths, and among those of the layers.
+    precision: in which waves, and the half-space split off, are multiplied and added up.
     """
 
     fall: float
     smallest: float
     few: int
     some: int
+    precision: type[np.floating[Any]] = np.float64
 
 
 # Errors by a field's largest value, measured: 1e-11 of stress and strain, 1e-9 of displacement, which goes as 1/k.
@@ -64,8 +67,8 @@ class Accuracy:
 # at e^-27 3e-7, at e^-36 4e-12.
 FULL = Accuracy(33.0, 1e-7, 8, 10)
 # 1e-7 of stress and strain alone, see `tests/unit/test_synthesis.py`: for what is read in five digits, a third of
-# the cost.
-READING = Accuracy(28.0, 1e-4, 4, 6)
+# the cost; 1e-6 with single numbers, half of that again.
+READING = Accuracy(28.0, 1e-4, 4, 6, np.float32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,13 +160,14 @@ def synthesise_cells(
     across: tuple[Array, Array],
     at: Points | None = None,
     components: Sequence[int] = range(9),
+    precision: type[np.floating[Any]] = np.float64,
 ) -> Array:
     """Stress and displacement of elastic layers under gridded loads.
 
     loads: each a sum of cells. planes: depths, of one road or of many. pairs: (n) of a load and a plane, by number.
     x: (mx,), y: (my,), m, any coordinates. along, across: nodes and weights in kx and in ky, see `rule`. at: of the
     grid of x and y only these points. components: those to compute of xx, yy, zz, xy, xz, yz in Pa, tension positive,
-    and u_x, u_y, u_z in m, z down.
+    and u_x, u_y, u_z in m, z down. precision: in which waves are multiplied and added up, see `Accuracy`.
     Returns (n, len(components), my, mx). Every load is transformed once, every plane gives its functions of |k| once,
     and a pair is their product. Works in blocks of kx; the cost is that of the wavenumbers, whatever the number of
     cells times points.
@@ -176,7 +180,7 @@ def synthesise_cells(
     smallest = math.hypot(kx_all[0], ky_all[0])
     rows = [int(np.searchsorted(ky_all, plane.limit, side="right")) for plane in planes]
     ky_all, wy_all = ky_all[: max(rows)], wy_all[: max(rows)]
-    back = _back(ky_all, wy_all / math.pi**2, y)
+    back = _back(ky_all, wy_all / math.pi**2, y).astype(precision)
     transforms = [_Transform.of(one, ky_all) for one in loads]
     sums = np.zeros((len(pairs), len(sources), *((len(y), len(x)) if at is None else at.shape)))
     step = max(1, _BLOCK // max(rows))
@@ -184,16 +188,18 @@ def synthesise_cells(
         kx, wx = kx_all[start : start + step], wx_all[start : start + step]
         if all(kx[0] > plane.limit for plane in planes):
             break
-        spectra = [one.at(kx, ky_all) for one in transforms]
-        out = _back(kx, wx, x)
+        spectra = [one.at(kx, ky_all).astype(precision, copy=False) for one in transforms]
+        out = _back(kx, wx, x).astype(precision, copy=False)
+        short_x, short_y = kx.astype(precision, copy=False), ky_all.astype(precision, copy=False)[:, None]
         for number, (plane, n) in enumerate(zip(planes, rows, strict=True)):
             served = [(place, load) for place, (load, own) in enumerate(pairs) if own == number]
             count = int(np.searchsorted(kx, plane.limit, side="right"))
             if not count or not served:
                 continue
-            radial = plane.radial(kx[:count], ky_all[:n], functions, smallest)
+            exact = plane.radial(kx[:count], ky_all[:n], functions, smallest)
+            radial = {own: values.astype(precision, copy=False) for own, values in exact.items()}
             for place, load in served:
-                waves = _waves(spectra[load][..., :n, :count], radial, kx[:count], ky_all[:n, None], sources)
+                waves = _waves(spectra[load][..., :n, :count], radial, short_x[:count], short_y[:n], sources)
                 _add(sums[place], waves, back[:, :n], out[:, :count], at)
     places = dict(zip(sources, range(len(sources)), strict=True))
     solved = zip(sums, (planes[own] for _, own in pairs), strict=True)
@@ -298,7 +304,7 @@ def _waves(spectrum: Array, radial: Mapping[int, Array], kx: Array, ky: Array, s
             potential += spectrum[shear] * radial[by]
         return potential
 
-    waves = np.empty((2, len(sources), *pressure.shape[1:]))
+    waves = np.empty((2, len(sources), *pressure.shape[1:]), pressure.dtype)
     phi = joined(2, 1) if {_EXX, _EYY, _GXY, _UX, _UY} & set(sources) else pressure
     psi = joined(7, 6) if {_FX, _FY} & set(sources) else pressure
     make = {
