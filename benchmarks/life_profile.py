@@ -2,14 +2,14 @@
 
     python benchmarks/life_profile.py [spacing in mm]
 
-Of 9 classes, 11 roads and 18 changed questions. Seconds of one processor, on one busy machine of two cores, one thread
-for each product of matrices; before roads and loads shared anything, 528 responses, under a profiler, and with what
-they share now, under a stopwatch. Plain runs with the page took 262 s before and 48 s before the last two rows of
-savings, single numbers and seasons told by the harm after wander:
+Of 9 classes, 11 roads and 18 changed questions. Seconds of one processor, on one busy machine of two cores, one
+thread for each product of matrices; before roads and loads shared anything, 528 responses, under a profiler, and,
+under a stopwatch, as they share what they can, then as well with single numbers and seasons told by the harm after
+wander. Plain runs with the page took 262 s before and 48 s then:
 
     stage                       before   then    now   what changed
     contacts                        18      7      5   those of a changed input start from the life's own
-    closed form of the top         133      6      3   once for all roads, for wheels on the same cells or in line; single
+    closed form of the top         133      6      3   once for all roads, for wheels on the same cells; single
     loads into wavenumbers          32      1      0   once for all roads; wheels behind each other are one
     functions of |k|                16      3      2   tabulated once for each road and depth, as many as are read
     products of both                12      3      1   only the components that are read, fewer wavenumbers; single

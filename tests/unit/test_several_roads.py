@@ -150,8 +150,8 @@ def test_passages_together_are_those_alone(tasks):
             size = np.abs(alone[:, :3]).max(axis=(1, 2), keepdims=True)
             # Single numbers, added up in another order.
             np.testing.assert_allclose(found[:, :3] / size, alone[:, :3] / size, rtol=0, atol=1e-6)
-            # A trace at the angle π/2 is the one at -π/2.
-            np.testing.assert_allclose(np.sin(found[:, 3:] - alone[:, 3:]), 0 * found[:, 3:], atol=1e-6)
+            # A trace at the angle π/2 is the one at -π/2; it turns by the error over the gap of principals.
+            np.testing.assert_allclose(np.sin(found[:, 3:] - alone[:, 3:]), 0 * found[:, 3:], atol=1e-5)
 
 
 def test_what_stands_on_the_same_cells_goes_together_road_by_road(tasks, monkeypatch):
