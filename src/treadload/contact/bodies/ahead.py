@@ -13,6 +13,7 @@ import numpy as np
 
 from treadload.contact.bodies.influence import Influence
 from treadload.kernels.arrays import Array, ComplexArray
+from treadload.kernels.complementarity.coulomb import four
 
 
 @dataclass(frozen=True)
@@ -32,11 +33,11 @@ class Ahead:
             # Layers that drift under shear have no such kernels, and need none here.
             return np.zeros(shear.shape) if pressure is None else self.by_pressure(pressure)
         padding = self.influence.padding
-        xx, yy, xy = self._tangential
+        xx, yy, xy, yx = four(self._tangential)
         x, y = padding.forward(shear)
-        spectra = np.stack([xx * x + xy * y, xy * x + yy * y])
+        spectra = np.stack([xx * x + xy * y, yx * x + yy * y])
         if pressure is not None and self.influence.coupled:
-            spectra -= self._coupling * padding.forward(pressure)
+            spectra += self._coupling[1] * padding.forward(pressure)
         return padding.inverse(spectra)
 
     def by_pressure(self, pressure: Array) -> Array:
@@ -44,19 +45,19 @@ class Ahead:
         if not self.influence.coupled:
             return np.zeros((2, *pressure.shape))
         padding = self.influence.padding
-        return padding.inverse(-self._coupling * padding.forward(pressure))
+        return padding.inverse(self._coupling[1] * padding.forward(pressure))
 
     def gap(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear on body 1 (2, ny, nx), Pa: zero for like bodies."""
         if not self.influence.coupled:
             return np.zeros(shear.shape[1:])
         padding = self.influence.padding
-        return padding.inverse((self._coupling * padding.forward(shear)).sum(0))
+        return padding.inverse((self._coupling[0] * padding.forward(shear)).sum(0))
 
     @cached_property
     def _tangential(self) -> ComplexArray:
         return self.influence.tangential_ahead(self.distance)
 
     @cached_property
-    def _coupling(self) -> ComplexArray:
+    def _coupling(self) -> tuple[ComplexArray, ComplexArray]:
         return self.influence.coupling_ahead(self.distance)

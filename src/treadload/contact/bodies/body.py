@@ -10,14 +10,21 @@ gives its displacement with the sign of -u2. Then for every pair
     u_y = T_xy ∗ q_x + T_yy ∗ q_y - k_y ∗ p
 
 N, T_xx and T_yy are even in y, T_xy and k_y odd in y, k_x even in y; so they are along x in a symmetric body, with
-T_xy and k_x odd there.
+T_xy and k_x odd there. A body whose grain is turned or tilted is no image of itself in these planes. Its kernels have
+no parity but that under (x, y) → (-x, -y), which a symmetric body keeps, and there are three more, `Body.tilted`:
+
+    u_n = N ∗ p + (k_x + e_x) ∗ q_x + (k_y + e_y) ∗ q_y
+    u_x = T_xx ∗ q_x + (T_xy + a) ∗ q_y - (k_x - e_x) ∗ p
+    u_y = (T_xy - a) ∗ q_x + T_yy ∗ q_y - (k_y - e_y) ∗ p
+
+a is odd under (x, y) → (-x, -y), e_x and e_y are even: loads work on each other's displacements alike.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -31,7 +38,8 @@ from treadload.kernels.arrays import Array, ComplexArray
 class Offsets:
     """Where a surface is looked at: distances from the centre of a loaded cell of dx by dy, m.
 
-    x = first + dx · (0 … nx - 1), y = dy · (0 … ny - 1). first: 0 in the middle of the cell.
+    x = first + dx · (0 … nx - 1), y = first_y + dy · (0 … ny - 1). first, first_y: 0 in the middle of the cell;
+    first_y is a whole number of cells, and 0 for mirrored bodies.
     """
 
     ny: int
@@ -39,6 +47,7 @@ class Offsets:
     dx: float
     dy: float
     first: float = 0.0
+    first_y: float = 0.0
 
     @property
     def x(self) -> Array:
@@ -48,7 +57,7 @@ class Offsets:
     @property
     def y(self) -> Array:
         """(ny,), m."""
-        return self.dy * np.arange(self.ny)
+        return self.first_y + self.dy * np.arange(self.ny)
 
 
 @dataclass(frozen=True)
@@ -100,6 +109,11 @@ class Body(ABC):
         return True
 
     @property
+    def mirrored(self) -> bool:
+        """True if it is its own image in the plane y = 0, and in x = 0 where it is symmetric, as without a grain."""
+        return True
+
+    @property
     def at_rest(self) -> Body:
         """The body under loads that stay: itself, unless it has memory."""
         return self
@@ -115,6 +129,10 @@ class Body(ABC):
     @abstractmethod
     def coupling(self, at: Offsets) -> Array:
         """k_x, k_y (2, ny, nx); zero in a body that does not couple pressure and shear."""
+
+    def tilted(self, at: Offsets) -> Array:
+        """a, e_x, e_y (3, ny, nx), asked of bodies that are not mirrored; zero unless the grain leans."""
+        return np.zeros((3, at.ny, at.nx))
 
     @abstractmethod
     def compliance(self, waves: Waves) -> Array | ComplexArray:
@@ -174,21 +192,30 @@ class Sum(Body):
         return all(part.symmetric for part in self.parts)
 
     @property
+    def mirrored(self) -> bool:
+        """As all of them are."""
+        return all(part.mirrored for part in self.parts)
+
+    @property
     def at_rest(self) -> Body:
         """Of all of them."""
         return Sum.of(*(part.at_rest for part in self.parts))
 
     def normal(self, at: Offsets) -> Array:
         """Added up."""
-        return np.asarray(sum(part.normal(at) for part in self.parts))
+        return np.asarray(sum(_either_side(part, part.normal, at, 1.0) for part in self.parts))
 
     def tangential(self, at: Offsets) -> Array:
         """Added up."""
-        return np.asarray(sum(part.tangential(at) for part in self.parts))
+        return np.asarray(sum(_either_side(part, part.tangential, at, _OF_SHEAR) for part in self.parts))
 
     def coupling(self, at: Offsets) -> Array:
         """Added up."""
-        return np.asarray(sum(part.coupling(at) for part in self.parts))
+        return np.asarray(sum(_either_side(part, part.coupling, at, _OF_COUPLING) for part in self.parts))
+
+    def tilted(self, at: Offsets) -> Array:
+        """Added up; of those alone that are not mirrored."""
+        return np.asarray(sum(part.tilted(at) for part in self.parts if not part.mirrored))
 
     def compliance(self, waves: Waves) -> Array | ComplexArray:
         """Added up."""
@@ -211,3 +238,17 @@ class Sum(Body):
     def stats(self) -> Mapping[str, Any]:
         """Of all of them."""
         return {name: value for part in self.parts for name, value in part.stats.items()}
+
+
+# Parities along y of T_xx, T_yy, T_xy and of k_x, k_y in a mirrored body.
+_OF_SHEAR = np.array([1.0, 1.0, -1.0])[:, None, None]
+_OF_COUPLING = np.array([1.0, -1.0])[:, None, None]
+
+
+def _either_side(part: Body, kernels: Callable[[Offsets], Array], at: Offsets, parity: float | Array) -> Array:
+    """Kernels of a part where y may be negative: a mirrored one is asked for y ≥ 0 alone."""
+    if not part.mirrored or at.first_y == 0:
+        return kernels(at)
+    rows = np.rint(at.y / at.dy).astype(int)
+    half = kernels(replace(at, ny=int(np.abs(rows).max()) + 1, first_y=0.0))
+    return half[..., np.abs(rows), :] * np.where(rows[:, None] < 0, parity, 1.0)

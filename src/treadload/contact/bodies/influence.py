@@ -12,10 +12,13 @@ from numpy.typing import DTypeLike
 from treadload.contact.bodies.body import Body, Offsets, Waves
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray
+from treadload.kernels.complementarity.coulomb import four
 from treadload.kernels.gridding.convolution import Convolution, Padding
 
 # Waves that a patch holds, at which the coupling of pressure and shear is looked at.
 _WAVES = 64
+# Of like bodies whose couplings cancel, relative.
+_ROUND_OFF = 1e-12
 
 
 @dataclass(frozen=True)
@@ -46,9 +49,21 @@ class Influence:
         """True if loads work on each other's displacements alike, as in elastic bodies."""
         return self.pair.symmetric
 
+    @property
+    def mirrored(self) -> bool:
+        """True if kernels have parities along y, as without a turned grain."""
+        return self.pair.mirrored
+
     @cached_property
     def dundurs(self) -> float:
-        """Dundurs' β: coupling over normal compliance, the largest of the waves that the patch holds."""
+        """Dundurs' β: coupling over normal compliance, the largest of the waves that the patch holds.
+
+        The size alone, where it differs with the direction of a turned grain.
+        """
+        if not self.mirrored:
+            by_shear, _ = self._coupling(self.padding)
+            largest = float((np.linalg.norm(by_shear, axis=0) / np.abs(self.normal.spectrum)).max())
+            return largest if largest > _ROUND_OFF else 0.0
         longest = np.pi / np.hypot(self.shape[0] * self.dy, self.shape[1] * self.dx)
         normal, coupling = self.pair.across(np.geomspace(longest, np.pi / min(self.dx, self.dy), _WAVES))
         ratio = coupling / normal
@@ -62,15 +77,19 @@ class Influence:
     @cached_property
     def normal(self) -> Convolution:
         """Gap opening by pressure, m/Pa."""
-        if self.symmetric:
+        if self.symmetric and self.mirrored:
             return Convolution(self.padding, self.padding.even_spectrum(self._normal_quadrant))
         return Convolution(
-            self.padding, self._spectra_of(self.padding, lambda at: self.pair.normal(at)[None], (1,))[0]
+            self.padding, self._spectra(self.padding, lambda at: self.pair.normal(at)[None], ((1, 1),))[0]
         )
 
     def normal_on(self, shape: tuple[int, int], real: DTypeLike) -> Convolution:
         """`normal` of a symmetric pair on a part of (ny, nx) cells, in a precision."""
         padding = Padding.of(shape)
+        if not self.mirrored:
+            across, along = (np.rint(fft.fftfreq(m, 1 / m)).astype(int) for m in padding.shape)
+            kernel = self._normal_kernel[np.ix_(across, along)].astype(real)
+            return Convolution(padding, np.ascontiguousarray(padding.spectrum(kernel).real.T).T)
         rows, columns = padding.quadrant
         spectrum = padding.even_spectrum(self._normal_quadrant[:rows, :columns].astype(real))
         return Convolution(padding, spectrum)
@@ -88,9 +107,11 @@ class Influence:
     def tangential(self, padding: Padding) -> Array | ComplexArray:
         """Symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy.
 
-        Real for symmetric operators. Raises InputError where a body drifts under shear.
+        Real for symmetric operators. Of a pair that is not mirrored (4, …), with u_y by q_x as the fourth.
+        Raises InputError where a body drifts under shear.
         """
-        return self._spectra(padding, self.pair.tangential, ((1, 1), (1, 1), (-1, -1)))
+        symbols = self._spectra(padding, self.pair.tangential, ((1, 1), (1, 1), (-1, -1)))
+        return symbols if self.mirrored else self._leaning(symbols, self._tilted(padding)[0])
 
     def self_influence(self, *, rolls: bool) -> float:
         """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
@@ -111,12 +132,12 @@ class Influence:
     def gap_by_shear(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear (2, ny, nx) on body 1, Pa: zero for like bodies."""
         spectra = self.padding.forward(shear)
-        return self.padding.inverse((self._coupling(self.padding) * spectra).sum(0))
+        return self.padding.inverse((self._coupling(self.padding)[0] * spectra).sum(0))
 
     def slip_by_pressure(self, pressure: Array) -> Array:
         """u(x) - u(x + dx) (2, ny, nx), m, by pressure (ny, nx), Pa: zero for like bodies."""
         padding = self.rolling_padding
-        u = padding.inverse(-self._coupling(padding) * padding.forward(pressure))
+        u = padding.inverse(self._coupling(padding)[1] * padding.forward(pressure))
         return u[..., :-1] - u[..., 1:]
 
     def displacement(self, pressure: Array, shear: Array) -> Array:
@@ -125,26 +146,38 @@ class Influence:
         Raises InputError for shear where a body drifts under it.
         """
         p = self.padding.forward(pressure)
-        k_x, k_y = self._coupling(self.padding)
-        spectra = np.array([-k_x * p, -k_y * p, self.normal.spectrum * p])
+        (k_x, k_y), (by_x, by_y) = self._coupling(self.padding)
+        spectra = np.array([by_x * p, by_y * p, self.normal.spectrum * p])
         if shear.any():
             x, y = self.padding.forward(shear)
-            xx, yy, xy = self.tangential(self.padding)
-            spectra += np.array([xx * x + xy * y, xy * x + yy * y, k_x * x + k_y * y])
+            xx, yy, xy, yx = four(self.tangential(self.padding))
+            spectra += np.array([xx * x + xy * y, yx * x + yy * y, k_x * x + k_y * y])
         return self.padding.inverse(spectra)
 
     def tangential_ahead(self, distance: float) -> ComplexArray:
         """`tangential` at a distance ahead of the cells along x, m, in `padding`."""
-        return self._spectra_of(self.padding, self.pair.tangential, (1, 1, -1), distance)
+        symbols = self._spectra_of(self.padding, self.pair.tangential, (1, 1, -1), distance)
+        if self.mirrored:
+            return symbols
+        return self._leaning(symbols, self._spectra_of(self.padding, self.pair.tilted, (1, 1, 1), distance)[0])
 
-    def coupling_ahead(self, distance: float) -> ComplexArray:
-        """Symbols k_x, k_y at a distance ahead of the cells along x, m, in `padding`."""
-        return self._spectra_of(self.padding, self.pair.coupling, (1, -1), distance)
+    def coupling_ahead(self, distance: float) -> tuple[ComplexArray, ComplexArray]:
+        """Symbols (2, …) of u_n by q and of u by p at a distance ahead of the cells along x, m, in `padding`."""
+        k = self._spectra_of(self.padding, self.pair.coupling, (1, -1), distance)
+        if self.mirrored:
+            return k, -k
+        e = self._spectra_of(self.padding, self.pair.tilted, (1, 1, 1), distance)[1:]
+        return k + e, e - k
 
     @cached_property
     def _normal_quadrant(self) -> Array:
         """The kernel of `normal` at the offsets of `Padding.quadrant`."""
         return self.pair.normal(Offsets(*self.padding.quadrant, self.dx, self.dy))
+
+    @cached_property
+    def _normal_kernel(self) -> Array:
+        """The kernel of `normal` of a pair that is not mirrored, at the wrapped offsets of `padding`."""
+        return self._everywhere(self.padding, self.pair.normal, 0.0)
 
     @cached_property
     def _waves(self) -> Waves:
@@ -154,15 +187,38 @@ class Influence:
     def _compliance(self) -> Array | ComplexArray:
         return self.pair.compliance(self._waves)
 
-    def _coupling(self, padding: Padding) -> Array | ComplexArray:
-        return self._spectra(padding, self.pair.coupling, ((-1, 1), (1, -1)))
+    def _coupling(self, padding: Padding) -> tuple[Array | ComplexArray, Array | ComplexArray]:
+        """Symbols (2, my, mx // 2 + 1) of u_n by q and of u by p, m/Pa."""
+        k = self._spectra(padding, self.pair.coupling, ((-1, 1), (1, -1)))
+        if self.mirrored:
+            return k, -k
+        e = self._tilted(padding)[1:]
+        return k + e, e - k
+
+    def _tilted(self, padding: Padding) -> Array | ComplexArray:
+        """Symbols (3, my, mx // 2 + 1) of a, e_x, e_y, m/Pa."""
+        return self._spectra(padding, self.pair.tilted, ((-1, 1), (1, 1), (1, 1)))
+
+    def _leaning(self, symbols: Array | ComplexArray, a: Array | ComplexArray) -> ComplexArray:
+        """Symbols xx, yy, xy, yx of the displacement by shear with what a tilted grain adds."""
+        xx, yy, xy = symbols
+        return np.array([xx, yy, xy + a, xy - a])
 
     def _spectra(
         self, padding: Padding, kernels: Callable[[Offsets], Array], parities: tuple[tuple[int, int], ...]
     ) -> Array | ComplexArray:
-        """Spectra of kernels with these parities along x and y, +1 even, -1 odd; along y only if not symmetric."""
+        """Spectra of kernels with these parities along x and y, +1 even, -1 odd; along y only if not symmetric.
+
+        Of pairs that are not mirrored only the product of both parities is what the kernels have.
+        """
         if not self.symmetric:
             return self._spectra_of(padding, kernels, tuple(along_y for _, along_y in parities))
+        if not self.mirrored:
+            whole = padding.spectrum(self._everywhere(padding, kernels, 0.0))
+            # Half way round, where plus and minus meet, no pair of cells is: the parity holds there, too.
+            return np.array(
+                [one.real if x == y else 1j * one.imag for one, (x, y) in zip(whole, parities, strict=True)]
+            )
         quadrants = kernels(Offsets(*padding.quadrant, self.dx, self.dy))
         spectra = [
             padding.spectrum(padding.wrap(quadrant, *parity))
@@ -176,6 +232,8 @@ class Influence:
         self, padding: Padding, kernels: Callable[[Offsets], Array], parities: tuple[int, ...], distance: float = 0.0
     ) -> ComplexArray:
         """Spectra of kernels that have a parity along y only, at a distance ahead of the cells' centres, m."""
+        if not self.mirrored:
+            return padding.spectrum(self._everywhere(padding, kernels, distance))
         my, mx = padding.shape
         behind = mx - 1 - mx // 2
         at = Offsets(my // 2 + 1, mx, self.dx, self.dy, distance - behind * self.dx)
@@ -186,3 +244,9 @@ class Influence:
             sign = np.where(offset < 0, parity, 1) * np.where((2 * np.abs(offset) == my) & (parity < 0), 0, 1)
             spectra.append(padding.spectrum(np.roll(half, -behind, axis=-1)[np.abs(offset)] * sign[:, None]))
         return np.array(spectra)
+
+    def _everywhere(self, padding: Padding, kernels: Callable[[Offsets], Array], distance: float) -> Array:
+        """Kernels (…, my, mx) without parities on the wrapped offsets, at a distance ahead of the cells, m."""
+        behind_y, behind_x = (m - 1 - m // 2 for m in padding.shape)
+        at = Offsets(*padding.shape, self.dx, self.dy, distance - behind_x * self.dx, -behind_y * self.dy)
+        return np.roll(kernels(at), (-behind_y, -behind_x), axis=(-2, -1))

@@ -114,7 +114,8 @@ def _problem(
     """The problem on the disc; rigid is stretched already, forces are those of the bodies."""
     cell = influence.dx * influence.dy
     padding = influence.rolling_padding if rolls else influence.padding
-    compliance = influence.tangential(padding) * _stretches(axes)
+    symbols = influence.tangential(padding)
+    compliance = symbols * _stretches(axes, len(symbols))
     along, across = (None if force is None else force / (cell * d) for force, d in zip(forces, axes, strict=True))
     return CoulombProblem(
         padding=padding,
@@ -130,10 +131,10 @@ def _problem(
     )
 
 
-def _stretches(axes: Axes) -> Array:
-    """Factors (3, 1, 1) that stretch the symbols xx, yy and xy of a compliance."""
+def _stretches(axes: Axes, symbols: int = 3) -> Array:
+    """Factors (symbols, 1, 1) that stretch the symbols xx, yy, xy and, if there are four, yx of a compliance."""
     d_x, d_y = axes
-    return np.array([d_x * d_x, d_y * d_y, d_x * d_y])[:, None, None]
+    return np.array([d_x * d_x, d_y * d_y, d_x * d_y, d_x * d_y])[:symbols, None, None]
 
 
 class _Preconditioner:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +27,8 @@ class CoulombProblem:
     """What is given in the tangential problem.
 
     padding: padded space of the patch; in rolling its field has one column more than the load.
-    compliance: symbols (3, my, mx // 2 + 1) of A: xx, yy, xy; real where A is symmetric.
+    compliance: symbols (3, my, mx // 2 + 1) of A: xx, yy, xy; real where A is symmetric. Where u_y by q_x differs
+    from u_x by q_y, (4, …), with yx as the fourth.
     rolls: S q is u(x) - u(x + dx), else u. self_influence: diagonal of S, > 0.
     bound: g = μp (ny, nx) ≥ 0, zero outside contact.
     rigid: w (2, ny, nx): rigid slip that is known. travel: e, slip distance per unit of rigid slip ξ.
@@ -52,13 +54,13 @@ class CoulombProblem:
 
     def apply(self, q: Array) -> Array:
         """S q (2, ny, nx), in the precision of q and the compliance."""
-        xx, yy, xy = self.compliance.transpose(0, 2, 1)
+        xx, yy, xy, yx = four(self.compliance.transpose(0, 2, 1))
 
         def mix(waves: list[ComplexArray], some: slice) -> list[ComplexArray]:
             x, y = waves
             u_x = xx[some] * x
             u_x += xy[some] * y
-            x *= xy[some]
+            x *= yx[some]
             y *= yy[some]
             y += x
             return [u_x, y]
@@ -75,6 +77,11 @@ class CoulombProblem:
     def slip(self, q: Array, xi: Array) -> Array:
         """S q + w + e ξ (2, ny, nx), with ξ (2,) the rigid slips so far."""
         return self.apply(q) + self.rigid + self.travel * xi[:, None, None]
+
+
+def four(symbols: Any) -> tuple[Any, Any, Any, Any]:
+    """Symbols xx, yy, xy and yx of a compliance that has three, of which the last counts twice, or four."""
+    return symbols[0], symbols[1], symbols[2], symbols[-1]
 
 
 def project_disc(q: Array, bound: Array) -> Array:

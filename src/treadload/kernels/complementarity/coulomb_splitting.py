@@ -13,7 +13,7 @@ import numpy as np
 
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array
-from treadload.kernels.complementarity.coulomb import CoulombProblem, project_disc
+from treadload.kernels.complementarity.coulomb import CoulombProblem, four, project_disc
 
 # Measured best on circles and ribbed treads.
 _STEP = 0.5
@@ -34,12 +34,12 @@ def split(
     forced = [c for c in (0, 1) if totals[c] is not None]
     free = [c for c in (0, 1) if totals[c] is None]
     lam = _STEP / problem.self_influence
-    xx, yy, xy = problem.compliance
+    xx, yy, xy, yx = four(problem.compliance)
     advance = 1 - np.exp(2j * np.pi * np.arange(mx // 2 + 1) / mx) if problem.rolls else np.ones(mx // 2 + 1)
     # (1 + λ S) and its inverse, mode by mode.
-    a, d, b = 1 + lam * xx * advance, 1 + lam * yy * advance, lam * xy * advance
-    determinant = a * d - b * b
-    zero_mode = np.array([[a[0, 0].real, b[0, 0].real], [b[0, 0].real, d[0, 0].real]])
+    a, d, b, c = (one + lam * symbol * advance for one, symbol in ((1, xx), (1, yy), (0, xy), (0, yx)))
+    determinant = a * d - b * c
+    zero_mode = np.array([[a[0, 0].real, b[0, 0].real], [c[0, 0].real, d[0, 0].real]])
 
     def pad(fields: Array) -> Array:
         padded = np.zeros((*fields.shape[:-2], my, mx))
@@ -51,14 +51,14 @@ def split(
     bound = pad(problem.bound)
     q = pad(start)
     x, y = fft.rfft2(q)
-    s = np.stack([(xx * x + xy * y) * advance, (xy * x + yy * y) * advance])
+    s = np.stack([(xx * x + xy * y) * advance, (yx * x + yy * y) * advance])
     xi = xi_start - known
     z = q - lam * (fft.irfft2(s, s=(my, mx)) + rigid + problem.travel * xi[:, None, None])
     scale = float(np.linalg.norm(bound))
     for iterations in range(1, max_iterations + 1):  # noqa: B007, it is returned
         q = project_disc(z, bound)
         v_x, v_y = fft.rfft2(2 * q - z - lam * rigid)
-        resolved = np.stack([(d * v_x - b * v_y) / determinant, (a * v_y - b * v_x) / determinant])
+        resolved = np.stack([(d * v_x - b * v_y) / determinant, (a * v_y - c * v_x) / determinant])
         if forced:
             mean = np.array([0.0 if total is None else total for total in totals])
             v0 = np.array([v_x[0, 0].real, v_y[0, 0].real])
