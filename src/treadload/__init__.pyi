@@ -35,6 +35,7 @@ from treadload.footprint import compare as compare
 from treadload.grid import Grid as Grid
 from treadload.materials import Elastic as Elastic
 from treadload.materials import ElastoPlastic as ElastoPlastic
+from treadload.materials import Orthotropic as Orthotropic
 from treadload.materials import TransverselyIsotropic as TransverselyIsotropic
 from treadload.pavement import BONDED as BONDED
 from treadload.pavement import FRICTIONLESS as FRICTIONLESS

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from treadload.contact import Maneuver
-from treadload.materials import Elastic, Prony
+from treadload.materials import Anisotropic, Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.materials.tables import ROAD_MATERIAL
 from treadload.read import Choice
 from treadload.registry import BONDS, FRICTION, MANEUVERS, MATERIALS, PLASTICITY
 from treadload.units import Share
 
-TIRE_MATERIAL = Choice(MATERIALS, "material of a tire", only=(Elastic, Prony, Surfaced))
+TIRE_MATERIAL = Choice(MATERIALS, "material of a tire", only=(Elastic, Anisotropic, Prony, Surfaced))
 BOND = Choice(BONDS, "bond")
 PLASTIC = Choice(PLASTICITY)
 # A number, or the table of a law.

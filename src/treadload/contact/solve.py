@@ -13,7 +13,7 @@ from treadload.contact import cautions
 from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair, RoadCompliance
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.bodies.layers import RoadShare, road_share
+from treadload.contact.bodies.layers import RoadShare, half_space_share, road_share
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
 from treadload.contact.rolling_state import Rolling
@@ -23,6 +23,7 @@ from treadload.contact.solvers.normal import solve_normal
 from treadload.errors import GeometryError, InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.materials import Anisotropic
 from treadload.pavement import Pavement
 from treadload.pavement.stack import stack_of
 from treadload.tire import Tire
@@ -291,8 +292,13 @@ def _contact(
 
 
 def _share(scene: Scene, area: float) -> RoadShare | None:
-    """The road's share in a contact of an area, m²; None while a layer waits for its temperature."""
+    """The road's share in a contact of an area, m²; None while a layer waits for its temperature.
+
+    None also for layers of which one is anisotropic.
+    """
     if any(layer.depends_on_temperature for layer in scene.road.layers):
         return None
+    if any(isinstance(layer.resolved, Anisotropic) for layer in scene.road.layers):
+        return half_space_share(scene.bodies.tire, scene.bodies.road, area) if scene.road.is_homogeneous else None
     # Of a road that changes with time or bond, the stiffest: the one that the half-space stands for.
     return road_share(scene.bodies.tire, stack_of(scene.road.glassy.bond_limits[0]), area)

@@ -13,6 +13,7 @@ from treadload.materials.measured import (
     read_shift_factors,
 )
 from treadload.materials.mixture import HydraulicMix, Mix, RoadMaterial, Unbound
+from treadload.materials.orthotropic import Orthotropic
 from treadload.materials.plastic import (
     DruckerPrager,
     ElastoPlastic,
@@ -46,6 +47,7 @@ __all__ = [
     "Mix",
     "Model2S2P1D",
     "MohrCoulomb",
+    "Orthotropic",
     "PassesPowerLaw",
     "Perzyna",
     "PlasticLaw",

@@ -35,6 +35,12 @@ class Anisotropic(ABC):
         """Its inverse, 1/Pa: engineering strain of stress."""
         return np.linalg.inv(self.stiffness)
 
+    @property
+    def upright(self) -> tuple[float, float]:
+        """What vertical stress meets: Young's modulus along z, Pa, and Poisson's ratio, the mean of x and y."""
+        along = self.compliance[:3, 2]
+        return float(1 / along[2]), float(-0.5 * (along[0] + along[1]) / along[2])
+
 
 def eigenvalues(compliance: Array) -> Array:
     """Of a compliance (6, 6) in Voigt's order, 1/Pa, as a tensor, smallest first: the same in every frame."""

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from typing_extensions import Protocol, runtime_checkable
 
 from treadload.kernels.arrays import ComplexArray
+from treadload.materials.anisotropic import Anisotropic
 from treadload.materials.elastic import Elastic
 from treadload.materials.plastic import ElastoPlastic
 from treadload.registry import MATERIALS
@@ -51,13 +52,20 @@ class TemperatureDependent(Protocol):
         """The material at a temperature, °C. Raises InputError outside its data unless told to extrapolate."""
 
 
-MATERIALS.makes(Elastic, Viscoelastic, TemperatureDependent, ElastoPlastic)
-Material = Elastic | Viscoelastic
+AnyElastic = Elastic | Anisotropic
+"""What deforms at once and comes back, the same in all directions or not."""
+Material = Elastic | Viscoelastic | Anisotropic
 """What can be solved with."""
+MATERIALS.makes(Elastic, Viscoelastic, Anisotropic, TemperatureDependent, ElastoPlastic)
 
 
-def limit_of(material: Material, which: Literal["glassy", "rubbery"]) -> Elastic:
+def limit_of(material: Material, which: Literal["glassy", "rubbery"]) -> AnyElastic:
     """The elastic limit of fast ("glassy") or slow ("rubbery") loading; an elastic material is its own."""
-    if isinstance(material, Elastic):
+    if isinstance(material, AnyElastic):
         return material
     return material.glassy if which == "glassy" else material.rubbery
+
+
+def upright(material: AnyElastic) -> tuple[float, float]:
+    """Young's modulus, Pa, and Poisson's ratio; of an anisotropic material those under vertical stress."""
+    return material.upright if isinstance(material, Anisotropic) else (material.modulus, material.poisson)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from treadload.errors import InputError
-from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
+from treadload.materials import HydraulicMix, Material, Mix, TemperatureDependent, Unbound
+from treadload.materials.kinds import AnyElastic, upright
 from treadload.materials.plastic import elastic_part
 from treadload.pavement.bonds import FRICTIONLESS
 from treadload.pavement.layer import Layer
@@ -43,8 +44,8 @@ def is_bituminous(material: Material | TemperatureDependent) -> bool | None:
     """Whether a material is bituminous; None where it cannot be known, see `bituminous_thickness`."""
     if isinstance(material, Unbound | HydraulicMix):
         return False
-    if isinstance(material, Elastic):
-        return False if material.modulus < _UNBOUND else None
+    if isinstance(material, AnyElastic):
+        return False if upright(material)[0] < _UNBOUND else None
     return True
 
 

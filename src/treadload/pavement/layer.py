@@ -7,19 +7,20 @@ from numbers import Real
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
-from treadload.materials import Elastic, ElastoPlastic, Material, TemperatureDependent
+from treadload.materials import Anisotropic, Elastic, ElastoPlastic, Material, TemperatureDependent
+from treadload.materials.kinds import AnyElastic
 from treadload.materials.plastic import elastic_part
 from treadload.pavement.bonds import BONDED, BondLaw
 
-_KINDS = "Elastic, ElastoPlastic, a viscoelastic material such as Prony, or one that depends on temperature"
+_KINDS = "Elastic, ElastoPlastic, anisotropic, viscoelastic such as Prony, or one that depends on temperature"
 
 
 @dataclass(frozen=True)
 class Layer:
     """One layer of a road.
 
-    material: what it is made of: elastic, viscoelastic, elastoplastic, or known once its temperature is. thickness:
-    m; None for the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED,
+    material: what it is made of: elastic, anisotropic, viscoelastic, elastoplastic, or known once its temperature is.
+    thickness: m; None for the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED,
     FRICTIONLESS or Bond(stiffness=...).
     """
 
@@ -31,7 +32,7 @@ class Layer:
     def __post_init__(self) -> None:
         # The protocols themselves would evaluate limits that a fluid has not.
         if not (
-            isinstance(self.material, Elastic | ElastoPlastic | TemperatureDependent)
+            isinstance(self.material, AnyElastic | ElastoPlastic | TemperatureDependent)
             or hasattr(self.material, "complex_modulus")
         ):
             raise InputError(
@@ -49,8 +50,16 @@ class Layer:
 
     @property
     def elastic(self) -> Elastic:
-        """The material, where it is elastic. Raises InputError for one that needs a speed or a temperature."""
+        """The material, where it is isotropic and elastic.
+
+        Raises InputError for an anisotropic one and for one that needs a speed or a temperature.
+        """
         material = self.resolved
+        if isinstance(material, Anisotropic):
+            raise InputError(
+                f"layer {self.name!r} is {material}, and this computation knows isotropic layers alone; take the "
+                "road as a half-space of it, or an Elastic"
+            )
         if not isinstance(material, Elastic):
             raise InputError(
                 f"layer {self.name!r} is viscoelastic ({material}): give the speed of the load (m/s), or solve with "

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.materials import Elastic
+from treadload.materials import Anisotropic
+from treadload.materials.kinds import AnyElastic, upright
 from treadload.pavement.bonds import BONDED
 from treadload.pavement.layer import Layer
 from treadload.pavement.structure import Pavement
@@ -22,8 +23,9 @@ class LayerRow:
     """A layer in plain values.
 
     name: of the layer. thickness: m, None where it is semi-infinite. modulus: Young's, Pa; of a viscoelastic
-    material |E*| at `frequency`, Hz, which is None otherwise. poisson: Poisson's ratio. bond: to the layer below, in
-    words; empty below the last. temperature: °C, None where it is not known. material: in words.
+    material |E*| at `frequency`, Hz, which is None otherwise. poisson: Poisson's ratio; of an anisotropic material
+    both are those under vertical stress. bond: to the layer below, in words; empty below the last. temperature: °C,
+    None where it is not known. material: in words. anisotropic: True if the words alone tell all of its moduli.
     """
 
     name: str
@@ -34,6 +36,7 @@ class LayerRow:
     bond: str
     temperature: float | None
     material: str
+    anisotropic: bool = False
 
 
 def layer_rows(road: Pavement, temperatures: Sequence[float | None] = ()) -> tuple[LayerRow, ...]:
@@ -61,12 +64,15 @@ def road_in_words(road: Pavement) -> str:
 
 def _row(layer: Layer, temperature: float | None, bond: str) -> LayerRow:
     material = layer.resolved
-    if isinstance(material, Elastic):
-        modulus, frequency = material.modulus, None
+    frequency = None
+    if isinstance(material, AnyElastic):
+        modulus, poisson = upright(material)
     else:
-        modulus, frequency = float(np.abs(material.complex_modulus(2 * math.pi * FREQUENCY))), FREQUENCY
+        frequency, poisson = FREQUENCY, material.poisson
+        modulus = float(np.abs(material.complex_modulus(2 * math.pi * FREQUENCY)))
     return LayerRow(
-        layer.name, layer.thickness, modulus, frequency, material.poisson, bond, temperature, str(material)
+        *(layer.name, layer.thickness, modulus, frequency, poisson, bond, temperature, str(material)),
+        anisotropic=isinstance(material, Anisotropic),
     )
 
 

@@ -13,9 +13,9 @@ from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import SAME_DEPTH, layers_at
-from treadload.materials import Elastic, Material, TemperatureDependent
+from treadload.materials import Material, TemperatureDependent
 from treadload.materials.celsius import check_celsius
-from treadload.materials.kinds import limit_of
+from treadload.materials.kinds import AnyElastic, limit_of
 from treadload.materials.plastic import ElastoPlastic, elastic_part
 from treadload.pavement.bonds import BONDED
 from treadload.pavement.catalogue import Structure, find_structure
@@ -96,7 +96,7 @@ class Pavement:
         return road if temperature is None else road.at_temperature(temperature)
 
     @property
-    def surface_material(self) -> Elastic:
+    def surface_material(self) -> AnyElastic:
         """Elastic material of the top layer; of a viscoelastic one the limit of fast loads.
 
         Raises InputError for a material that needs a temperature.
@@ -151,7 +151,7 @@ class Pavement:
 
         Raises InputError for a layer that needs a temperature.
         """
-        return any(not isinstance(layer.resolved, Elastic) for layer in self.layers)
+        return any(not isinstance(layer.resolved, AnyElastic) for layer in self.layers)
 
     @property
     def glassy(self) -> Pavement:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.materials.kinds import limit_of
+from treadload.materials.kinds import limit_of, upright
 from treadload.pavement import Pavement
 from treadload.plausible import doubt
 from treadload.response.loads import GridLoad, PlacedLoad, UniformDisc
@@ -22,11 +22,11 @@ def road_doubts(road: Pavement) -> tuple[str, ...]:
     said: tuple[str, ...] = ()
     for number, layer in enumerate(road.layers):
         material = layer.resolved
-        fast = limit_of(material, "glassy")
+        modulus, poisson = upright(limit_of(material, "glassy"))
         who = f"layer {number + 1}" + (f" ({layer.name})" if layer.name else "")
-        said += doubt("modulus of the layer", fast.modulus, who) + doubt("Poisson's ratio", fast.poisson, who)
+        said += doubt("modulus of the layer", modulus, who) + doubt("Poisson's ratio", poisson, who)
         if layer.thickness is not None:
-            kind = _position(number, len(road.layers), fast.modulus)
+            kind = _position(number, len(road.layers), modulus)
             said += doubt(kind, layer.thickness, "" if number == 0 else who)
         if len(layer.bond.limits) == 1 and 0 < layer.bond.stiffness < math.inf:
             said += doubt("stiffness of the bond", layer.bond.stiffness, f"the bond below {who}")

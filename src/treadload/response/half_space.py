@@ -7,13 +7,15 @@ from typing import Any, Literal
 
 import numpy as np
 
+from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.half_space.bilinear import bilinear_on_grid
 from treadload.kernels.half_space.disc import disc_fields
 from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.tensors import strain_from_stress
-from treadload.materials import Elastic
+from treadload.materials import Anisotropic
+from treadload.materials.kinds import AnyElastic
 from treadload.response.loads import SurfaceLoad, UniformDisc
 
 # Distances that differ by less than this part of a cell are the same.
@@ -22,7 +24,7 @@ _SAME = 1e-7
 
 def half_space_response(
     loads: Sequence[SurfaceLoad],
-    material: Elastic,
+    material: AnyElastic,
     depths: Array,
     x: Array,
     y: Array,
@@ -41,6 +43,10 @@ def half_space_response(
     Exact for loads uniform on each cell or bilinear between cells; near the surface the first leaves an error
     O(dx), see the kernels.
     """
+    if isinstance(material, Anisotropic):
+        raise InputError(
+            f"the road is {material}: the contact on it is known, the stress below is not yet; take an Elastic"
+        )
     ((fields, method),) = half_space_fields([loads], material.poisson, depths, x, y, at, tell)
     stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0) / material.shear_modulus
     return stress, strain_from_stress(stress, material.modulus, material.poisson), displacement, method

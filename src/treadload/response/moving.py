@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -16,8 +17,8 @@ from treadload.kernels.layers.layered import Stack
 from treadload.kernels.layers.moving import Body, Level, Path, dissipated_energy, moving_fields
 from treadload.kernels.layers.wavenumbers import Spectrum, disc_spectrum, quadrature
 from treadload.kernels.tensors import strain_from_stress
-from treadload.materials import Elastic, Material, Prony, Viscoelastic, as_prony
-from treadload.materials.kinds import limit_of
+from treadload.materials import Anisotropic, Elastic, Material, Prony, Viscoelastic, as_prony
+from treadload.materials.kinds import AnyElastic, limit_of
 from treadload.pavement import Layer, Pavement
 from treadload.pavement.stack import stack_of
 from treadload.response.half_space import half_space_response
@@ -56,7 +57,9 @@ def at_speed(road: Pavement, speed: float | None) -> Pavement:
     if not road.is_viscoelastic:
         return road
     if speed is None:
-        name, solid = next((one.name, one.resolved) for one in road.layers if not isinstance(one.resolved, Elastic))
+        name, solid = next(
+            (one.name, one.resolved) for one in road.layers if not isinstance(one.resolved, AnyElastic)
+        )
         raise InputError(
             f"layer {name!r} is viscoelastic ({solid}): give speed=, of the load, in m/s; or solve an elastic "
             "limit of the road, speed=0 for a load at rest and speed=math.inf for a very fast one"
@@ -157,7 +160,7 @@ class _Problem:
     ) -> _Problem:
         layers = road.distinct_layers
         materials = [layer.resolved for layer in layers]
-        glassy = [limit_of(material, "glassy") for material in materials]
+        glassy = _isotropic(layers, "glassy")
         stack = stack_of(road, glassy)
         bottom = float(stack.interfaces[-1]) if len(stack.interfaces) else 0.0
         depths = stack.snapped(depths)
@@ -171,10 +174,10 @@ class _Problem:
         extent_x, extent_y = _extent(load.extent_x for load in loads), _extent(load.extent_y for load in loads)
         reach, reach_x = _reach(extent_y, y), _reach(extent_x, x)
         stiff = [material.modulus for material in glassy]
-        soft = [limit_of(material, "rubbery").modulus for material in materials]
+        soft = [material.modulus for material in _isotropic(layers, "rubbery")]
         length = max(reach, reach_x, bottom * (max(stiff) / min(soft)) ** (1 / 3), float(depths.max()))
         series = None
-        if any(level.split for level in levels) and not isinstance(materials[0], Elastic):
+        if any(level.split for level in levels) and not isinstance(materials[0], AnyElastic):
             cell = min(load.grid.dx if isinstance(load, GridLoad) else load.radius for load in loads)
             lowest, highest = speed / (_LONGEST * length), speed / (_SHORTEST * cell)
             series = as_prony(materials[0], lowest, highest, tolerance=_SERIES)
@@ -322,9 +325,24 @@ def _cells_of_disc(disc: UniformDisc, y: Array) -> Cells:
     return Cells(load, dx, dy, disc.x + float(edges[0]) + 0.5 * dx, first)
 
 
+def _isotropic(layers: Sequence[Layer], which: Literal["glassy", "rubbery"]) -> list[Elastic]:
+    """Elastic limits of layers. Raises InputError for an anisotropic one."""
+    limits = []
+    for layer in layers:
+        limit = limit_of(layer.resolved, which)
+        if isinstance(limit, Anisotropic):
+            raise InputError(
+                f"layer {layer.name!r} is {limit}, beside viscoelastic layers: under moving loads all layers must be "
+                "isotropic; take an Elastic, or elastic limits of the others with speed=0 or speed=math.inf"
+            )
+        limits.append(limit)
+    return limits
+
+
 def _modulus(material: Material, speed: float) -> float | Callable[[Array], ComplexArray]:
     if isinstance(material, Elastic):
         return material.modulus
+    assert not isinstance(material, Anisotropic)
     solid: Viscoelastic = material
     return lambda kx: solid.complex_modulus(kx * speed).conj()
 

@@ -15,6 +15,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.layers.depths import snapped
+from treadload.materials.kinds import upright
 from treadload.pavement import Pavement
 from treadload.response.doubts import overlapping, question_doubts, road_doubts
 from treadload.response.fields import response_dataset
@@ -108,6 +109,7 @@ def solve_response(
     (answer,) = answers([question], view, side=side, speed=speed, mean_over=mean_over, tell=progress)
     solved, read = answer.fields, answer.read
     stress, strain, displacement = solved.stress, solved.strain, solved.displacement
+    modulus, poisson = upright(road.surface_material)
     dataset = response_dataset(
         stress,
         strain,
@@ -119,8 +121,8 @@ def solve_response(
         layers=layers,
         side=side,
         road=_in_words(road),
-        modulus=road.surface_material.modulus,
-        poisson=road.surface_material.poisson,
+        modulus=modulus,
+        poisson=poisson,
         layer_names=json.dumps([layer.name for layer in road.layers], ensure_ascii=False),
         **({"interfaces": road.interfaces} if len(road.interfaces) else {}),
         **({} if speed is None else {"speed": float(speed)}),

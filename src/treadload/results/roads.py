@@ -18,7 +18,7 @@ def road_in_rows(road: Pavement, case: Case | None = None) -> str:
     wide = max(len(row.name) for row in rows)
     for number, row in enumerate(rows, start=1):
         thickness = "" if row.thickness is None else f"{row.thickness * 1e3:g} mm"
-        told = [f"E = {row.modulus / 1e6:.5g} MPa", f"ν = {row.poisson:g}"]
+        told = [row.material] if row.anisotropic else [f"E = {row.modulus / 1e6:.5g} MPa", f"ν = {row.poisson:g}"]
         if row.frequency is not None:
             told[0] = f"|E*| = {row.modulus / 1e6:.4g} MPa at {row.frequency:g} Hz"
         told += [f"{row.temperature:g} °C"] if row.temperature is not None else []

@@ -17,7 +17,7 @@ from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic, Prony
+from treadload.materials import Anisotropic, Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
 from treadload.tire.belt import Belt, InflatedBelt
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 POISSON_OF_RUBBER = 0.5
-TireMaterial = Elastic | Prony | Surfaced
+TireMaterial = Elastic | Anisotropic | Prony | Surfaced
 # Cells, m, on which a tread is compared with its mirror image; round-off of their places and of its gap, m.
 _LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
 
@@ -47,10 +47,10 @@ _LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
 class Tire:
     """A tire, as the road meets it.
 
-    surface: of the tread. material: of the half-space that stands for the tire, elastic or, for steady rolling,
-    viscoelastic; or one that makes a surface of its own (`materials.kinds.Surfaced`). belt: in its place, a tread on
-    an inflated belt. inflation_pressure: Pa, gives the modulus when there is neither; a belt needs it. name: free
-    text.
+    surface: of the tread. material: of the half-space that stands for the tire, elastic, anisotropic or, for steady
+    rolling, viscoelastic; or one that makes a surface of its own (`materials.kinds.Surfaced`). belt: in its place, a
+    tread on an inflated belt. inflation_pressure: Pa, gives the modulus when there is neither; a belt needs it.
+    name: free text.
     Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
     """
 
@@ -68,7 +68,8 @@ class Tire:
             )
         if self.material is not None and not isinstance(self.material, TireMaterial):
             raise InputError(
-                f"material must be an Elastic, a Prony or what makes a surface of its own, got {self.material!r}"
+                "material must be an Elastic, an anisotropic one, a Prony or what makes a surface of its own, got "
+                f"{self.material!r}"
             )
         if self.inflation_pressure is not None:
             object.__setattr__(self, "inflation_pressure", check_inflation_pressure(self.inflation_pressure))
@@ -212,7 +213,7 @@ class Tire:
         return Elastic(modulus_from_inflation(self.inflation_pressure), POISSON_OF_RUBBER)
 
     @property
-    def elastic(self) -> Elastic | Surfaced | InflatedBelt:
+    def elastic(self) -> Elastic | Anisotropic | Surfaced | InflatedBelt:
         """The same, of a tire without memory. Raises InputError for a viscoelastic one."""
         carcass = self.carcass
         material = carcass.belt.tread if isinstance(carcass, InflatedBelt) else carcass

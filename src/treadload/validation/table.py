@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from treadload.errors import InputError, TreadloadError, nearest
 from treadload.validation import (
     dissimilar,
+    grain,
     histories,
     journeys,
     laws,
@@ -35,6 +36,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "bentall": dissimilar.bentall_checks,
     "rubber": dissimilar.rubber_checks,
     "viscoelastic": viscoelastic.cylinder_checks,
+    "grain": grain.grain_checks,
     "histories": histories.history_checks,
     "stress": stress.stress_checks,
     "layers": layers.layer_checks,

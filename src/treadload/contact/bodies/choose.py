@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from functools import cached_property, singledispatch
 from typing import Any, Literal, get_args
 
+from treadload.contact.bodies.anisotropic import AnisotropicHalfSpace
 from treadload.contact.bodies.belt import belt_surface
 from treadload.contact.bodies.body import Body, Sum
 from treadload.contact.bodies.layers import layered_road
 from treadload.contact.bodies.viscoelastic import half_space
 from treadload.errors import InputError
-from treadload.materials import Elastic, Prony
+from treadload.materials import Anisotropic, Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.pavement import Pavement
 from treadload.pavement.stack import stack_of
@@ -30,7 +31,8 @@ RoadCompliance = Literal["half_space", "layers"]
 def surface_of(material: Any, *, is_tire: bool, speed: float | None = None) -> Body:
     """The body whose surface a material makes, on the tire's side or the road's.
 
-    material: an Elastic or a Prony for half-spaces, or one that makes its surface itself. speed: of rolling, m/s.
+    material: an Elastic, an anisotropic one or a Prony for half-spaces, or one that makes its surface itself.
+    speed: of rolling, m/s.
     Raises InputError for a material of which no body is known, and what its body refuses.
     """
     if isinstance(material, Surfaced):
@@ -38,8 +40,8 @@ def surface_of(material: Any, *, is_tire: bool, speed: float | None = None) -> B
         return body
     name = "tire" if is_tire else "road"
     raise InputError(
-        f"no body is known for the material of the {name}, a {type(material).__name__}; give an Elastic, a Prony or "
-        "a material with a method surface(is_tire, speed)"
+        f"no body is known for the material of the {name}, a {type(material).__name__}; give an Elastic, an "
+        "Orthotropic, a Prony or a material with a method surface(is_tire, speed)"
     )
 
 
@@ -49,9 +51,14 @@ def _(material: Elastic | Prony, *, is_tire: bool, speed: float | None = None) -
 
 
 @surface_of.register
+def _(material: Anisotropic, *, is_tire: bool, speed: float | None = None) -> Body:
+    return AnisotropicHalfSpace.of(material.stiffness, is_tire=is_tire)
+
+
+@surface_of.register
 def _(material: InflatedBelt, *, is_tire: bool, speed: float | None = None) -> Body:
     if not is_tire:
-        raise InputError("an inflated belt is a tire; give the road an Elastic or a Prony")
+        raise InputError("an inflated belt is a tire; give the road an Elastic, an Orthotropic or a Prony")
     return belt_surface(material, speed)
 
 

@@ -129,12 +129,25 @@ def road_share(tire: Body, stack: Stack, area: float) -> RoadShare:
 
     By Parseval's theorem the mean sinking is 2 ∫ k·u_z(k) (J1(k a)/k)² dk.
     """
+    at, weight, radius = _disc_waves(area)
+    road = float(weight @ surface_compliance(at / radius, stack)[0])
+    top = float(weight.sum()) * (1 - stack.poisson[0]) / stack.shear[0]
+    return RoadShare(float(weight @ tire.at_rest.across(at / radius)[0]), road, top)
+
+
+def half_space_share(tire: Body, road: Body, area: float) -> RoadShare:
+    """Compliance of a tire and of a road without layers, as in `road_share`; the mean over directions."""
+    at, weight, radius = _disc_waves(area)
+    mean = float(weight @ road.at_rest.across(at / radius)[0])
+    return RoadShare(float(weight @ tire.at_rest.across(at / radius)[0]), mean, mean)
+
+
+def _disc_waves(area: float) -> tuple[Array, Array, float]:
+    """Wavenumbers times the radius of a disc of an area, m², their weights in its mean sinking, and the radius, m."""
     radius = float(np.sqrt(area / np.pi))
     nodes, weights = np.polynomial.legendre.leggauss(8)
     edges = np.concatenate([np.geomspace(_LONGEST_WAVE, 1.0, 25), np.arange(2.0, _SHORTEST_WAVE + 1, 2.0)])
     half = np.diff(edges) / 2
     at = (edges[:-1, None] + half[:, None] * (1 + nodes)).ravel()
     weight = (half[:, None] * weights).ravel() * 2 * radius * (special.j1(at) / at) ** 2
-    road = float(weight @ surface_compliance(at / radius, stack)[0])
-    top = float(weight.sum()) * (1 - stack.poisson[0]) / stack.shear[0]
-    return RoadShare(float(weight @ tire.at_rest.across(at / radius)[0]), road, top)
+    return at, weight, radius
