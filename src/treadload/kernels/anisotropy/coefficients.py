@@ -25,6 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from treadload.kernels import fft
 from treadload.kernels.anisotropy.symbol import Symbol
 from treadload.kernels.arrays import Array, ComplexArray
 
@@ -82,7 +83,7 @@ class Angular:
         for power in range(_TERMS):
             padded = np.zeros((9, entries), complex)
             padded[:, at] = smooth * (1j * at) ** power / math.factorial(power)
-            table[:, power] = np.fft.ifft(padded, axis=1).real.T * entries
+            table[:, power] = fft.ifft(padded, axis=1).real.T * entries
         return cls(_value(g, 0.5 * math.pi), _value(g, 0.0), turn_x[6:], turn_y[6:], table, error)
 
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from treadload.kernels import fft
 from treadload.kernels.anisotropy.stiffness import as_tensor
 from treadload.kernels.arrays import Array, ComplexArray
 
@@ -62,7 +63,7 @@ def surface_symbol(stiffness: Array) -> Symbol:
     while True:
         values, means = _converged(tensor, np.pi * np.arange(count) / count, means)
         # L(θ + π) is the conjugate of L(θ).
-        harmonics = np.fft.fft(np.concatenate([values, values.conj()]), axis=0) / (2 * count)
+        harmonics = fft.fft(np.concatenate([values, values.conj()]), axis=0) / (2 * count)
         size = np.abs(harmonics).max((1, 2))
         # The upper half of the harmonics is the error of the lower one.
         if size[count // 2 : -count // 2].max() <= _CONVERGED * size.max():
