@@ -35,7 +35,11 @@ def test_run():
         ("0.4,", "0.7,", "Maxwell"),
         ("terms", "term", "did you mean 'terms'"),
         ('"20 ms"', '"20 mm"', r"tire\.material\.terms\.1\.1: cannot read '20 mm'"),
-        ('"prony"', '"steel"', r"tire\.material: no material of the kind 'steel'; known are .*elastic, prony, orthotropic"),
+        (
+            '"prony"',
+            '"steel"',
+            r"tire\.material: no material of the kind 'steel'; known are .*elastic, prony, orthotropic",
+        ),
         ('"10 MPa"', '"-1 MPa"', "modulus must be a positive number"),
     ],
 )

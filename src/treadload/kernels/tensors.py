@@ -13,6 +13,8 @@ from treadload.kernels.arrays import Array
 
 # Where each entry of the 3 x 3 matrix stands in (xx, yy, zz, xy, xz, yz).
 _FULL = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
+# Where each component stands in Voigt's order.
+_VOIGT = np.array([0, 1, 2, 5, 4, 3])
 # Components of a unit vector below this are zero when its sign is chosen: round-off of a unit vector.
 _ZERO = 1e-12
 # cos 3φ beyond which two principal values count as close: φ keeps 1e-14 up to there.
@@ -28,6 +30,18 @@ def strain_from_stress(stress: Array, modulus: float, poisson: float) -> Array:
     """
     strain: Array = stress * ((1 + poisson) / modulus)
     strain[:3] -= poisson / modulus * stress[:3].sum(axis=0)
+    return strain
+
+
+def strain_by_compliance(stress: Array, compliance: Array) -> Array:
+    """Strain of an anisotropic elastic body.
+
+    stress: (6, ...), Pa. compliance: (6, 6), 1/Pa, engineering strain in Voigt's order xx, yy, zz, yz, xz, xy.
+    Returns (6, ...), extension positive, tensor shear.
+    """
+    own = compliance[np.ix_(_VOIGT, _VOIGT)]
+    own[3:] *= 0.5
+    strain: Array = np.tensordot(own, stress, axes=1)
     return strain
 
 

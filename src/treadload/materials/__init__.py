@@ -4,7 +4,7 @@ from treadload.materials.anisotropic import Anisotropic, TransverselyIsotropic
 from treadload.materials.elastic import Elastic
 from treadload.materials.fit import MaterialFit, fit_2s2p1d, fit_huet_sayegh, fit_prony
 from treadload.materials.huet_sayegh import HuetSayegh, Model2S2P1D
-from treadload.materials.kinds import Material, TemperatureDependent, Viscoelastic
+from treadload.materials.kinds import Material, Solid, TemperatureDependent, Viscoelastic
 from treadload.materials.measured import (
     FrequencySweep,
     RelaxationTest,
@@ -57,6 +57,7 @@ __all__ = [
     "QuadraticShift",
     "RelaxationTest",
     "RoadMaterial",
+    "Solid",
     "Swift",
     "TabulatedShift",
     "TemperatureDependent",

@@ -13,6 +13,7 @@ import numpy as np
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
+from treadload.kernels.tensors import strain_by_compliance
 from treadload.registry import MATERIALS
 from treadload.units import Modulus, Number
 
@@ -40,6 +41,10 @@ class Anisotropic(ABC):
         """What vertical stress meets: Young's modulus along z, Pa, and Poisson's ratio, the mean of x and y."""
         along = self.compliance[:3, 2]
         return float(1 / along[2]), float(-0.5 * (along[0] + along[1]) / along[2])
+
+    def strain(self, stress: Array) -> Array:
+        """Strain (6, ...) of a stress (6, ...), Pa: xx, yy, zz, xy, xz, yz, extension positive, tensor shear."""
+        return strain_by_compliance(stress, self.compliance)
 
 
 def eigenvalues(compliance: Array) -> Array:
@@ -115,6 +120,11 @@ class TransverselyIsotropic(Anisotropic):
     def shear_horizontal(self) -> float:
         """G_hh = E_h / 2(1 + ν_hh), the shear modulus in the horizontal plane, Pa."""
         return self.horizontal / (2 * (1 + self.poisson_horizontal))
+
+    @property
+    def compliance(self) -> Array:
+        """The inverse of the stiffness, 1/Pa."""
+        return self._compliance()
 
     def _compliance(self) -> Array:
         across, down = -self.poisson_horizontal / self.horizontal, -self.poisson_vertical / self.vertical

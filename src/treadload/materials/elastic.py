@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
+from treadload.kernels.arrays import Array
+from treadload.kernels.tensors import strain_from_stress
 from treadload.registry import MATERIALS
 from treadload.units import Modulus, Number
 
@@ -41,6 +43,10 @@ class Elastic:
     def shear_modulus(self) -> float:
         """G = E / 2(1 + ν), Pa."""
         return self.modulus / (2 * (1 + self.poisson))
+
+    def strain(self, stress: Array) -> Array:
+        """Strain (6, ...) of a stress (6, ...), Pa: xx, yy, zz, xy, xz, yz, extension positive, tensor shear."""
+        return strain_from_stress(stress, self.modulus, self.poisson)
 
     def __str__(self) -> str:
         return f"elastic, E = {self.modulus / 1e6:g} MPa, ν = {self.poisson:g}"

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from typing_extensions import Protocol, runtime_checkable
 
 from treadload.kernels.arrays import ComplexArray
-from treadload.materials.anisotropic import Anisotropic
+from treadload.materials.anisotropic import Anisotropic, TransverselyIsotropic
 from treadload.materials.elastic import Elastic
 from treadload.materials.plastic import ElastoPlastic
 from treadload.registry import MATERIALS
@@ -54,6 +54,8 @@ class TemperatureDependent(Protocol):
 
 AnyElastic = Elastic | Anisotropic
 """What deforms at once and comes back, the same in all directions or not."""
+Solid = Elastic | TransverselyIsotropic
+"""What elastic layers of a road can be: the same in all horizontal directions."""
 Material = Elastic | Viscoelastic | Anisotropic
 """What can be solved with."""
 MATERIALS.makes(Elastic, Viscoelastic, Anisotropic, TemperatureDependent, ElastoPlastic)

@@ -7,7 +7,7 @@ from numbers import Real
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
-from treadload.materials import Anisotropic, Elastic, ElastoPlastic, Material, TemperatureDependent
+from treadload.materials import Anisotropic, ElastoPlastic, Material, Solid, TemperatureDependent
 from treadload.materials.kinds import AnyElastic
 from treadload.materials.plastic import elastic_part
 from treadload.pavement.bonds import BONDED, BondLaw
@@ -49,18 +49,18 @@ class Layer:
             )
 
     @property
-    def elastic(self) -> Elastic:
-        """The material, where it is isotropic and elastic.
+    def elastic(self) -> Solid:
+        """The material, where it is elastic and the same in all horizontal directions.
 
-        Raises InputError for an anisotropic one and for one that needs a speed or a temperature.
+        Raises InputError for another anisotropic one and for one that needs a speed or a temperature.
         """
         material = self.resolved
-        if isinstance(material, Anisotropic):
+        if isinstance(material, Anisotropic) and not isinstance(material, Solid):
             raise InputError(
-                f"layer {self.name!r} is {material}, and this computation knows isotropic layers alone; take the "
-                "road as a half-space of it, or an Elastic"
+                f"layer {self.name!r} is {material}, and layers must be the same in all horizontal directions; take "
+                "the road as a half-space of it, or a TransverselyIsotropic or an Elastic"
             )
-        if not isinstance(material, Elastic):
+        if not isinstance(material, Solid):
             raise InputError(
                 f"layer {self.name!r} is viscoelastic ({material}): give the speed of the load (m/s), or solve with "
                 "an elastic limit of the material, .glassy for fast and .rubbery for slow loads"

@@ -6,12 +6,14 @@ import math
 from collections.abc import Sequence
 
 from treadload.errors import InputError
+from treadload.kernels.half_space.upright import Medium, UprightMedium
 from treadload.kernels.layers.layered import Stack
-from treadload.materials.elastic import Elastic
+from treadload.kernels.layers.upright import Upright
+from treadload.materials import Elastic, Solid
 from treadload.pavement.structure import Pavement
 
 
-def stack_of(road: Pavement, materials: Sequence[Elastic] | None = None) -> Stack:
+def stack_of(road: Pavement, materials: Sequence[Solid] | None = None) -> Stack:
     """Moduli, thicknesses and springs of the distinct layers, neighbours of one material taken as one.
 
     materials: of the distinct layers, in place of their own.
@@ -28,9 +30,31 @@ def stack_of(road: Pavement, materials: Sequence[Elastic] | None = None) -> Stac
             )
         springs.append(layer.bond.stiffness)
     return Stack(
-        tuple(material.shear_modulus for material in materials),
-        tuple(material.poisson for material in materials),
+        tuple(plane_of(material)[0] for material in materials),
+        tuple(plane_of(material)[1] for material in materials),
         tuple(math.inf if layer.thickness is None else layer.thickness for layer in layers),
         tuple(springs),
         road.rigid_base,
+        () if all(isinstance(one, Elastic) for one in materials) else tuple(map(upright_of, materials)),
     )
+
+
+def plane_of(material: Solid) -> tuple[float, float]:
+    """Shear modulus, Pa, and Poisson's ratio in the horizontal plane."""
+    if isinstance(material, Elastic):
+        return material.shear_modulus, material.poisson
+    return material.shear_horizontal, material.poisson_horizontal
+
+
+def upright_of(material: Solid) -> Upright | None:
+    """What a material has of its own along the vertical; None of an isotropic one."""
+    if isinstance(material, Elastic):
+        return None
+    stiffness = material.stiffness
+    return Upright(float(stiffness[2, 2]), float(stiffness[0, 2]), float(stiffness[3, 3]))
+
+
+def medium_of(material: Solid) -> Medium:
+    """A half-space of a material, but for the shear modulus in the horizontal plane."""
+    (shear, poisson), upright = plane_of(material), upright_of(material)
+    return poisson if upright is None else UprightMedium.of(shear, poisson, upright)

@@ -46,12 +46,15 @@ def _table(case: ReportCase, layers: list[dict[str, Any]], *, named: bool) -> Ro
 
 def _row(number: int, layer: dict[str, Any]) -> tuple[str, ...]:
     thickness, temperature = layer.get("thickness"), layer.get("temperature")
-    modulus = f"{layer['modulus'] / 1e6:.4g}"
+    modulus, poisson = f"{layer['modulus'] / 1e6:.4g}", f"{layer['poisson']:g}"
+    if layer.get("anisotropic") and layer.get("material"):
+        # The words tell all of its moduli and ratios.
+        modulus, poisson = str(layer["material"]), MISSING
     return (
         layer.get("name") or f"layer {number}",
         "semi-infinite" if thickness is None else f"{thickness * 1e3:g}",
         modulus + (f" (|E*| at {layer['frequency']:g} Hz)" if layer.get("frequency") else ""),
-        f"{layer['poisson']:g}",
+        poisson,
         MISSING if temperature is None else f"{temperature:g}",
         layer.get("bond") or MISSING,
     )

@@ -13,9 +13,9 @@ from treadload.kernels.gridding.points import Points
 from treadload.kernels.half_space.bilinear import bilinear_on_grid
 from treadload.kernels.half_space.disc import disc_fields
 from treadload.kernels.half_space.interior import fields_on_grid
-from treadload.kernels.tensors import strain_from_stress
-from treadload.materials import Anisotropic
-from treadload.materials.kinds import AnyElastic
+from treadload.kernels.half_space.upright import Medium
+from treadload.materials.kinds import AnyElastic, Solid
+from treadload.pavement.stack import medium_of, plane_of
 from treadload.response.loads import SurfaceLoad, UniformDisc
 
 # Distances that differ by less than this part of a cell are the same.
@@ -43,18 +43,19 @@ def half_space_response(
     Exact for loads uniform on each cell or bilinear between cells; near the surface the first leaves an error
     O(dx), see the kernels.
     """
-    if isinstance(material, Anisotropic):
+    if not isinstance(material, Solid):
         raise InputError(
-            f"the road is {material}: the contact on it is known, the stress below is not yet; take an Elastic"
+            f"the road is {material}: the contact on it is known, the stress below is not yet; take a "
+            "TransverselyIsotropic or an Elastic"
         )
-    ((fields, method),) = half_space_fields([loads], material.poisson, depths, x, y, at, tell)
-    stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0) / material.shear_modulus
-    return stress, strain_from_stress(stress, material.modulus, material.poisson), displacement, method
+    ((fields, method),) = half_space_fields([loads], medium_of(material), depths, x, y, at, tell)
+    stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0) / plane_of(material)[0]
+    return stress, material.strain(stress), displacement, method
 
 
 def half_space_fields(
     loads: Sequence[Sequence[SurfaceLoad]],
-    poisson: float,
+    medium: Medium,
     depths: Array,
     x: Array,
     y: Array,
@@ -66,9 +67,10 @@ def half_space_fields(
 ) -> list[tuple[Array, str]]:
     """Stress and displacement times the shear modulus, (nz, 9, my, mx), and the method, for each of some loads.
 
-    loads: each superposed from several. The others as in `half_space_response`; moves: False leaves the displacement
-    out, zero. precision: of convolutions. What cells do to each other is computed once for all loads that stand on
-    the same cells, and once for wheels behind each other that press alike.
+    loads: each superposed from several. medium: Poisson's ratio, or what stands in its place where the half-space is
+    another along z; the shear modulus is then that of the horizontal plane. The others as in `half_space_response`;
+    moves: False leaves the displacement out, zero. precision: of convolutions. What cells do to each other is
+    computed once for all loads that stand on the same cells, and once for wheels behind each other that press alike.
     """
     shape = (len(y), len(x)) if at is None else at.shape
     results = [np.zeros((len(depths), 9, *shape)) for _ in loads]
@@ -87,12 +89,12 @@ def half_space_fields(
         for load in several:
             if isinstance(load, UniformDisc):
                 said(1)
-                _add_disc(result, load, poisson, depths, x, y, at)
+                _add_disc(result, load, medium, depths, x, y, at)
                 used.add("disc")
     for (print_, places), members in _prints(loads).items():
         said(len(places) * len(members))
         array = np.stack([member for _, member in members], axis=1).astype(precision, copy=False)
-        fields, method = _under_print(print_, places, array, poisson, depths, x, y, at, moves=moves)
+        fields, method = _under_print(print_, places, array, medium, depths, x, y, at, moves=moves)
         for column, (owner, _) in enumerate(members):
             results[owner] += fields[:, :, column]
             methods[owner].add(method)
@@ -131,7 +133,7 @@ def _under_print(
     cells: _Print,
     places: tuple[float, ...],
     array: Array,
-    poisson: float,
+    medium: Medium,
     depths: Array,
     x: Array,
     y: Array,
@@ -147,7 +149,7 @@ def _under_print(
     def fields(x: Array, y: Array) -> Array:
         apart = (x - np.array(places)[:, None]).ravel()
         _, first, back = np.unique(np.round(apart / (_SAME * dx)), return_index=True, return_inverse=True)
-        stress, displacement, method = on_grid(array, dx, dy, depths, 1.0, poisson, apart[first], y - y0, moves=moves)
+        stress, displacement, method = on_grid(array, dx, dy, depths, 1.0, medium, apart[first], y - y0, moves=moves)
         methods.add(method)
         both = np.concatenate([stress, displacement], axis=1)
         turns = back.reshape(len(places), -1)
@@ -161,11 +163,11 @@ def _under_print(
 
 
 def _add_disc(
-    result: Array, disc: UniformDisc, poisson: float, depths: Array, x: Array, y: Array, at: Points | None
+    result: Array, disc: UniformDisc, medium: Medium, depths: Array, x: Array, y: Array, at: Points | None
 ) -> None:
     lines = np.meshgrid(x, y) if at is None else (x[None, at.columns], y[None, at.rows])
     across_x, across_y = lines[0] - disc.x, lines[1] - disc.y
     for row, depth in enumerate(depths):
-        stress, displacement = disc_fields(disc.radius, across_x, across_y, float(depth), 1.0, poisson)
+        stress, displacement = disc_fields(disc.radius, across_x, across_y, float(depth), 1.0, medium)
         result[row, :6] += disc.pressure * stress
         result[row, 6:] += disc.pressure * displacement

@@ -12,13 +12,13 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.gridded import grid_cost
 from treadload.kernels.gridding.points import Points
+from treadload.kernels.half_space.upright import Medium
 from treadload.kernels.layers.hankel import AxialPlanes, Disc, synthesise_discs
 from treadload.kernels.layers.layered import Stack, transfer
 from treadload.kernels.layers.synthesis import FULL, Accuracy, Cells, ElasticPlane, rule, synthesise_cells
-from treadload.kernels.tensors import strain_from_stress
-from treadload.materials import Elastic
+from treadload.materials import Solid
 from treadload.pavement import Pavement
-from treadload.pavement.stack import stack_of
+from treadload.pavement.stack import medium_of, plane_of, stack_of
 from treadload.response.half_space import half_space_fields
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
@@ -138,8 +138,7 @@ def _solved(
             displacement[component, loose] = np.nan
     strain = np.empty_like(stress)
     for row, layer in enumerate(layout.where):
-        material = layout.materials[layer]
-        strain[:, row] = strain_from_stress(stress[:, row], material.modulus, material.poisson)
+        strain[:, row] = layout.materials[layer].strain(stress[:, row])
     method = "+".join(sorted(methods - {"none"}, key=lambda name: (name != "layered", name)))
     return stress, strain, displacement, method
 
@@ -161,7 +160,7 @@ class _Layout:
     fall: waves are cut where they have fallen to e^-fall.
     """
 
-    materials: tuple[Elastic, ...]
+    materials: tuple[Solid, ...]
     stack: Stack
     depths: Array
     where: list[int]
@@ -182,17 +181,15 @@ class _Layout:
     @property
     def length(self) -> float:
         """Characteristic length, m: of the layers, or the deepest point."""
-        shear = self.stack.shear
-        contrast = float(max(shear) / min(shear)) ** (1 / 3)
+        contrast = (max(self.stack.moduli) / min(self.stack.moduli)) ** (1 / 3)
         return float(max(self.stack.interfaces[-1] * contrast, self.depths.max()))
 
     @property
     def limit(self) -> Array:
         """Largest wavenumber that matters at each depth, 1/m."""
-        top = float(self.stack.interfaces[0])
-        return np.array(
-            [self.fall / (2 * top - z if near else z) for z, near in zip(self.depths, self.split, strict=True)]
-        )
+        top = self.stack.faded(float(self.stack.interfaces[0]))
+        faded = [self.stack.faded(float(z)) for z in self.depths]
+        return np.array([self.fall / (2 * top - z if near else z) for z, near in zip(faded, self.split, strict=True)])
 
     @property
     def rows(self) -> list[int]:
@@ -204,8 +201,7 @@ class _Layout:
         result = transfer(k, self.stack, list(self.depths), [self.below] * len(self.depths))
         rows = self.rows
         if rows:
-            top = Stack((self.stack.shear[0],), (self.stack.poisson[0],), (), ())
-            alone = transfer(k, top, list(self.depths[rows]), [False] * len(rows))
+            alone = transfer(k, self.stack.top, list(self.depths[rows]), [False] * len(rows))
             result.plane[rows] -= alone.plane
             result.transverse[rows] -= alone.transverse
         return result.plane, result.transverse
@@ -224,7 +220,8 @@ def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool, fal
         plane, transverse = layout.kernels(k)
         return plane[0], transverse[0]
 
-    return ElasticPlane(kernels, stack.shear[layer], stack.poisson[layer], float(layout.limit[0]))
+    lift = None if stack.upright_of(layer) is None else stack.lift_of(layer)
+    return ElasticPlane(kernels, stack.shear[layer], stack.poisson[layer], float(layout.limit[0]), lift)
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,23 +229,24 @@ class _Top:
     """The half-space of the top layer in a view, under loads that are seen together.
 
     known: its fields (nz, 9, my, mx) under each of the loads, with displacement times the shear modulus, and the
-    method that gave them; by Poisson's ratio and depths, all that they depend on.
+    method that gave them; by the medium, Poisson's ratio in isotropy, and depths, all that they depend on.
     """
 
     loads: Sequence[Sequence[SurfaceLoad]]
     view: View
-    known: dict[tuple[float, ...], list[tuple[Array, str]]] = field(default_factory=dict)
+    known: dict[tuple[Medium, ...], list[tuple[Array, str]]] = field(default_factory=dict)
 
     def add(self, fields: Array, load: int, layout: _Layout) -> str:
         """Add that of a load to fields (nz, 9, my, mx) where it was split off; the method."""
         if not layout.rows:
             return "none"
         material, depths, view = layout.materials[0], layout.depths[layout.rows], self.view
-        key = (material.poisson, *depths)
+        medium = medium_of(material)
+        key = (medium, *depths)
         if key not in self.known:
             self.known[key] = half_space_fields(
                 self.loads,
-                material.poisson,
+                medium,
                 depths,
                 view.x,
                 view.y,
@@ -258,7 +256,7 @@ class _Top:
             )
         top, method = self.known[key][load]
         fields[layout.rows, :6] += top[:, :6]
-        fields[layout.rows, 6:] += top[:, 6:] / material.shear_modulus
+        fields[layout.rows, 6:] += top[:, 6:] / plane_of(material)[0]
         return method
 
 
@@ -294,7 +292,7 @@ def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, view: View) -> 
         z = float(layout.depths[row])
         if not layout.split[row] or z == 0:
             return layout.split[row]
-        along, across = _rules(loads, layout.fall / z, view, layout.length)
+        along, across = _rules(loads, layout.fall / layout.stack.faded(z), view, layout.length)
         return bool(closed[row] < _WAVE_COST * len(along[0]) * len(across[0]))
 
     return [worth(row) for row in range(len(layout.depths))]
@@ -323,6 +321,7 @@ def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, view: View) -> A
         np.array([layout.stack.poisson[layer] for layer in layout.where]),
         layout.limit,
         layout.fall / float(layout.limit.max()),
+        np.array([layout.stack.lift_of(layer) for layer in layout.where]) if layout.stack.upright else None,
     )
     places = [Disc(one.radius, one.pressure, one.x, one.y) for one in discs]
     return synthesise_discs(places, planes, view.x, view.y, layout.length, view.at)

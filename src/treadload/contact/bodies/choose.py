@@ -15,9 +15,10 @@ from treadload.contact.bodies.anisotropic import AnisotropicHalfSpace
 from treadload.contact.bodies.belt import belt_surface
 from treadload.contact.bodies.body import Body, Sum
 from treadload.contact.bodies.layers import layered_road
+from treadload.contact.bodies.upright import UprightHalfSpace
 from treadload.contact.bodies.viscoelastic import half_space
 from treadload.errors import InputError
-from treadload.materials import Anisotropic, Elastic, Prony
+from treadload.materials import Anisotropic, Elastic, Prony, TransverselyIsotropic
 from treadload.materials.kinds import Surfaced
 from treadload.pavement import Pavement
 from treadload.pavement.stack import stack_of
@@ -53,6 +54,11 @@ def _(material: Elastic | Prony, *, is_tire: bool, speed: float | None = None) -
 @surface_of.register
 def _(material: Anisotropic, *, is_tire: bool, speed: float | None = None) -> Body:
     return AnisotropicHalfSpace.of(material.stiffness, is_tire=is_tire)
+
+
+@surface_of.register
+def _(material: TransverselyIsotropic, *, is_tire: bool, speed: float | None = None) -> Body:
+    return UprightHalfSpace.of(stack_of(Pavement.half_space(material)), is_tire=is_tire)
 
 
 @surface_of.register

@@ -14,6 +14,7 @@ from scipy import special
 
 from treadload.contact.bodies.body import Body, Offsets, Sum, Waves
 from treadload.contact.bodies.half_space import RIGID, HalfSpaces
+from treadload.contact.bodies.upright import UprightHalfSpace
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.half_space.rectangle import CombinedElasticity
@@ -84,8 +85,12 @@ class Layering(Body):
 
 def layered_road(stack: Stack) -> Body:
     """A road of layers, body 2. Raises ConvergenceError as `images_of`."""
-    top = CombinedElasticity.of(*RIGID, stack.shear[0], stack.poisson[0])
-    return Sum.of(HalfSpaces(top), Layering(images_of(stack)))
+    top: Body
+    if stack.upright_of(0) is None:
+        top = HalfSpaces(CombinedElasticity.of(*RIGID, stack.shear[0], stack.poisson[0]))
+    else:
+        top = UprightHalfSpace.of(stack)
+    return Sum.of(top, Layering(images_of(stack)))
 
 
 def images_of(stack: Stack) -> Images:
@@ -131,7 +136,7 @@ def road_share(tire: Body, stack: Stack, area: float) -> RoadShare:
     """
     at, weight, radius = _disc_waves(area)
     road = float(weight @ surface_compliance(at / radius, stack)[0])
-    top = float(weight.sum()) * (1 - stack.poisson[0]) / stack.shear[0]
+    top = float(weight.sum()) * imaging.half_space_compliance(stack, 0)[0]
     return RoadShare(float(weight @ tire.at_rest.across(at / radius)[0]), road, top)
 
 

@@ -25,7 +25,8 @@ from numpy.typing import NDArray
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.gridding.gridded import Method, on_grid
 from treadload.kernels.gridding.lattice import Corner, Kernels, Source
-from treadload.kernels.half_space.corners import at_corners, at_nodes, fields
+from treadload.kernels.half_space.corners import at_corners, at_nodes, is_surface
+from treadload.kernels.half_space.upright import Medium, fields_of
 from treadload.kernels.layers.wavenumbers import Spectrum, cells_spectrum
 
 # Cells from which on the average of uniform cells replaces differences of G.
@@ -40,7 +41,7 @@ def bilinear_on_grid(
     dy: float,
     depths: Array,
     shear: float,
-    poisson: float,
+    poisson: Medium,
     x: Array,
     y: Array,
     method: Method = "auto",
@@ -50,8 +51,9 @@ def bilinear_on_grid(
     """Stress and displacement on the grid of any coordinates x and y.
 
     load: (3, ny, nx), Pa, values at the centres of the cells. dx, dy: cell, m. depths: (nz,), m, >= 0.
-    shear: shear modulus, Pa. poisson: Poisson's ratio. x: (mx,), y: (my,): coordinates relative to the centre of
-    the first cell, m, in any order. moves: False leaves the displacement out, zero.
+    shear: shear modulus, Pa. poisson: Poisson's ratio, or what stands in its place where the half-space is another
+    along z; shear is then that of the horizontal plane. x: (mx,), y: (my,): coordinates relative to the centre of the
+    first cell, m, in any order. moves: False leaves the displacement out, zero.
     Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and the methods, see
     `kernels.gridding.gridded.on_grid`.
     """
@@ -76,7 +78,7 @@ def bilinear_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -
     return spectrum
 
 
-def hat_kernels(dx: float, dy: float, nu: float, *, moves: bool = True) -> Kernels:
+def hat_kernels(dx: float, dy: float, nu: Medium, *, moves: bool = True) -> Kernels:
     """Fields of one node's hat, times the shear modulus for displacement, see `kernels.gridding.lattice.Kernels`.
 
     moves: False leaves the displacement out.
@@ -95,14 +97,15 @@ def hat_kernels(dx: float, dy: float, nu: float, *, moves: bool = True) -> Kerne
         node_x, node_y = places(1, 2)
         node_x = node_x[..., columns.start : columns.stop + 2]
         node_y = node_y[:, rows.start : rows.stop + 2]
-        close = fields(at_nodes(node_x, node_y, z, dx, dy), nu, moves=moves)
+        deep = not is_surface(z, dx, dy)
+        close = fields_of(lambda stretch: at_nodes(node_x, node_y, z, dx, dy, stretch), nu, deep, moves=moves)
         if near.all():
             for values, uses in close:
                 yield _differences(values, 2) / (dx * dy), uses
             return
         average = _window_average()
         corner_x, corner_y = places(_SIDE + 0.5, 2 * _SIDE + 1)
-        far = fields(at_corners(corner_x, corner_y, z, dx, dy), nu, moves=moves)
+        far = fields_of(lambda stretch: at_corners(corner_x, corner_y, z, dx, dy, stretch), nu, deep, moves=moves)
         inside = near[:, rows, :, columns]
         for values, uses in far:
             if np.ndim(values):

@@ -47,7 +47,7 @@ class _Corners:
 
     x: Array
     y: Array
-    z: float
+    z: Any
     r: Array
     log_x: Array
     log_y: Array
@@ -58,23 +58,23 @@ class _Corners:
 
     @property
     def part(self) -> Any:
-        return self.z / self.r if self.z > 0 else 0.0
+        return self.z / self.r if self.z != 0 else 0.0
 
     @property
     def over_x(self) -> Any:
-        return self.part * (self.x / (self.x * self.x + self.z * self.z)) * self.y if self.z > 0 else 0.0
+        return self.part * (self.x / (self.x * self.x + self.z * self.z)) * self.y if self.z != 0 else 0.0
 
     @property
     def over_y(self) -> Any:
-        return self.part * (self.y / (self.y * self.y + self.z * self.z)) * self.x if self.z > 0 else 0.0
+        return self.part * (self.y / (self.y * self.y + self.z * self.z)) * self.x if self.z != 0 else 0.0
 
     @property
     def deep_x(self) -> Any:
-        return self.part * (self.z / (self.x * self.x + self.z * self.z)) * self.y if self.z > 0 else 0.0
+        return self.part * (self.z / (self.x * self.x + self.z * self.z)) * self.y if self.z != 0 else 0.0
 
     @property
     def deep_y(self) -> Any:
-        return self.part * (self.z / (self.y * self.y + self.z * self.z)) * self.x if self.z > 0 else 0.0
+        return self.part * (self.z / (self.y * self.y + self.z * self.z)) * self.x if self.z != 0 else 0.0
 
     @property
     def slope_x(self) -> Array:
@@ -101,23 +101,23 @@ class _Corners:
         return self.y * self.log_x
 
     @property
-    def tilt_x(self) -> Array:
+    def tilt_x(self) -> Any:
         return self.y * self.log_r + self.z * self.log_y + self.x * self.turn_x
 
     @property
-    def tilt_y(self) -> Array:
+    def tilt_y(self) -> Any:
         return self.x * self.log_r + self.z * self.log_x + self.y * self.turn_y
 
     @property
     def _far(self) -> Array:
-        return self.r + self.z if self.z > 0 else np.where(self.r == 0, 1.0, self.r)
+        return self.r + self.z if self.z != 0 else np.where(self.r == 0, 1.0, self.r)
 
 
 @dataclass(frozen=True)
 class _Nodes:
     """Integrals over x and y of the functions of `_Corners`, by their names; continuous, the surface included."""
 
-    z: float
+    z: Any
     r: Array
     log_x: Array
     log_y: Array
@@ -140,9 +140,11 @@ class _Nodes:
     tilt_y: Array
 
 
-def at_corners(x: Array, y: Array, z: float, dx: float, dy: float) -> _Corners:
+def at_corners(x: Array, y: Array, z: Any, dx: float, dy: float, stretch: complex = 1.0) -> _Corners:
     """The functions at (x, y, z) from a corner of cells dx by dy, m, broadcast from x and y.
 
+    stretch: of the depth: how fast waves of a medium that is another along z decay, by those of isotropic ones; its
+    real part is positive, and all functions are real analytic in it.
     Singular points of the surface get finite values: a quantity that jumps takes the mean of its sides, and ln d at
     a distance d = 0 is cut at dx / 2π, with which evenly spaced steps sum to the field of a smooth load to second
     order, O(dx²).
@@ -151,6 +153,8 @@ def at_corners(x: Array, y: Array, z: float, dx: float, dy: float) -> _Corners:
     surface = is_surface(z, dx, dy)
     if surface:
         z = 0.0
+    elif stretch != 1:
+        z = z * stretch
     x2, y2 = x * x + z * z, y * y + z * z
     r, edge_x, edge_y = np.sqrt(x2 + y * y), np.sqrt(x2), np.sqrt(y2)
     far = r + z
@@ -175,17 +179,25 @@ def at_corners(x: Array, y: Array, z: float, dx: float, dy: float) -> _Corners:
         log_x=log_x,
         log_y=log_y,
         log_r=np.log(far),
-        turn=0.0 if surface else np.arctan2(x * y, z * r),
-        turn_x=np.arctan2(slope, x * x * r + z * y * y),
-        turn_y=np.arctan2(slope, y * y * r + z * x * x),
+        turn=0.0 if surface else _angle(x * y, z * r),
+        turn_x=_angle(slope, x * x * r + z * y * y),
+        turn_y=_angle(slope, y * y * r + z * x * x),
     )
 
 
-def at_nodes(x: Array, y: Array, z: float, dx: float, dy: float) -> _Nodes:
+def _angle(sine: Any, cosine: Any) -> Any:
+    """The angle, 0 where both are zero; no branch is met while the real part of the depth is > 0."""
+    if not np.iscomplexobj(cosine):
+        return np.arctan2(sine, cosine)
+    ratio = np.divide(sine, cosine, out=np.zeros(np.broadcast(sine, cosine).shape, complex), where=cosine != 0)
+    return np.arctan(ratio)
+
+
+def at_nodes(x: Array, y: Array, z: Any, dx: float, dy: float, stretch: complex = 1.0) -> _Nodes:
     """The integrals at (x, y, z), m, less what second differences take away; arguments as in `at_corners`."""
-    c = at_corners(x, y, z, dx, dy)
+    c = at_corners(x, y, z, dx, dy, stretch)
     x, y, z, r, log_x, log_y, log_r = c.x, c.y, c.z, c.r, c.log_x, c.log_y, c.log_r
-    turn_x, turn_y, turn = c.turn_x, c.turn_y, c.turn if z > 0 else np.arctan2(x * y, z * r)
+    turn_x, turn_y, turn = c.turn_x, c.turn_y, c.turn if z != 0 else np.arctan2(x * y, z * r)
     xx, yy, xy, zz = x * x, y * y, x * y, z * z
     by_y, by_x, over = y * log_y, x * log_x, x * log_y + y * log_x
     flat_x, flat_y = (yy - zz) / 2 * log_x, (xx - zz) / 2 * log_y

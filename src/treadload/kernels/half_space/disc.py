@@ -8,78 +8,145 @@ integrals (Numer. Algorithms 10 (1995), 13-26) so that the axis and far points k
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from scipy.special import elliprd, elliprf, elliprj
+from scipy.special import elliprc, elliprd, elliprf, elliprj
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.half_space.upright import Modes, UprightMedium
 
 # Closer to the axis than this part of the distance to the rim, two terms of the power series in r serve:
 # the next one is below 1e-16, while the closed form would lose its digits in r - r.
 _AXIS = 1e-4
 # Keeps the integrals finite on the rim itself, where they are multiplied by zero.
 _RIM = 1e-290
+_DUPLICATIONS = 3
 
 
-def disc_fields(radius: float, x: Array, y: Array, z: float, shear: float, poisson: float) -> tuple[Array, Array]:
+def disc_fields(
+    radius: float, x: Array, y: Array, z: float, shear: float, poisson: float | UprightMedium
+) -> tuple[Array, Array]:
     """Stress and displacement at (x, y, z) per unit pressure on a disc centred at the origin.
 
-    radius: m. x, y: m, broadcast together. z: depth, m, >= 0. shear: shear modulus, Pa. poisson: ν.
+    radius: m. x, y: m, broadcast together. z: depth, m, >= 0. shear: shear modulus, Pa. poisson: ν, or what stands in
+    its place where the half-space is another along z; shear is then that of the horizontal plane.
     Returns stress (6, ...) in the order xx, yy, zz, xy, xz, yz, tension positive, and displacement (3, ...) in m
     per Pa, z down. On the rim at the surface stress takes the mean of its sides.
     """
     x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-    a, r, soft = radius, np.hypot(x, y), 1 - 2 * poisson
-    s2, d2 = (a + r) ** 2 + z * z, (a - r) ** 2 + z * z
-    s, m, rest = np.sqrt(s2), 4 * a * r / s2, np.maximum(d2 / s2, _RIM)
-    zero, one = np.zeros_like(r), np.ones_like(r)
-    first = elliprf(zero, rest, one)
-    part = elliprd(zero, rest, one) / 3
-    second = first - m * part
-    # ∫ J0 J0 and ∫ J1 J1 of arguments a t and r t under e^(-z t).
-    i000 = 2 / (math.pi * s) * first
-    i110_r = np.where(r > 0, (2 * part - first) * 2 / (math.pi * s) / np.where(r > 0, r, 1), 0)
-    inside = 0.5 * (1 + np.sign(a - r))
-    if z > 0:
-        third = elliprj(zero, rest, one, np.maximum(((a - r) / (a + r)) ** 2, _RIM)) * np.sign(a - r) ** 2
-        angle = inside - z / (math.pi * s) * (
-            first + (a - r) / (a + r) * (first + 4 * a * r / (a + r) ** 2 * third / 3)
-        )
-        # Solid angle of the disc of radius r seen from the rim's circle, over 2π r.
-        outer = np.where(r > 0, (1 - inside) / np.where(r > 0, r, 1), 0) + z / (math.pi * s * (a + r)) * (
-            -2 * first + 4 * a * (a - r) / (3 * (a + r) ** 2) * third
-        )
-        zi101 = z / (math.pi * a * s) * ((a * a - r * r - z * z) / d2 * second + first)
-        # r in the denominator is taken by the bracket, which falls off as r².
-        bracket = (1 - m / 2) / rest * second - first
-        zi111 = np.where(r > 0, z * z / (math.pi * a * s) * bracket / np.where(r > 0, r, 1), 0)
-    else:
-        angle, outer = inside, np.where(r > 0, (1 - inside) / np.where(r > 0, r, 1), 0)
-        zi101 = zi111 = zero
-    i100 = angle / a
-    i11m_r = 0.5 * (a * outer / np.where(r > 0, r, 1) + i100 - z * i110_r)
-    near = r < _AXIS * s
-    s0 = math.hypot(a, z)
-    axis = 0.5 * (1 - z / s0) / a - r**2 / 16 * 3 * a * z / s0**5
-    axis_1 = 0.5 * a / s0**3 - r**2 / 16 * 3 * a * (4 * z * z - a * a) / s0**7
-    i11m_r, i110_r = np.where(near, axis, i11m_r), np.where(near, axis_1, i110_r)
-    zi111 = np.where(near, r * z * 1.5 * a * z / s0**5, zi111)
-    i10m = a * i000 - r * r * i110_r - z * i100
-
-    hoop = soft * i11m_r - z * i110_r
-    radial, around = -a * (i100 - zi101 - hoop), -a * (2 * poisson * i100 + hoop)
+    a, r = radius, np.hypot(x, y)
+    make = _isotropic if isinstance(poisson, int | float) else _upright
+    radial, around, down, slant, outward, sunk = make(a, r, z, poisson)
     c, t = np.where(r > 0, x / np.where(r > 0, r, 1), 1), np.where(r > 0, y / np.where(r > 0, r, 1), 0)
-    slant = -a * zi111
     stress = np.stack(
         [
             c * c * radial + t * t * around,
             t * t * radial + c * c * around,
-            -a * (i100 + zi101),
+            down,
             c * t * (radial - around),
             c * slant,
             t * slant,
         ]
     )
-    outward = -a / (2 * shear) * hoop
-    displacement = np.stack([x * outward, y * outward, a / (2 * shear) * (2 * (1 - poisson) * i10m + z * i100)])
-    return stress, displacement
+    return stress, np.stack([x * outward, y * outward, sunk]) / shear
+
+
+def _isotropic(a: float, r: Array, z: float, nu: Any) -> tuple[Array, ...]:
+    """σ_rr, σ_tt, σ_zz, σ_rz, u_r / r and u_z, displacement times the shear modulus."""
+    f, soft = _Integrals.of(a, r, z), 1 - 2 * nu
+    hoop = soft * f.i11m_r - z * f.i110_r
+    radial, around = -a * (f.i100 - f.zi101 - hoop), -a * (2 * nu * f.i100 + hoop)
+    sunk = a / 2 * (2 * (1 - nu) * f.i10m + z * f.i100)
+    return radial, around, -a * (f.i100 + f.zi101), -a * f.zi111, -a / 2 * hoop, sunk
+
+
+def _upright(a: float, r: Array, z: float, medium: Any) -> tuple[Array, ...]:
+    """The same of a half-space that is another along z: the waves of `kernels.half_space.upright`."""
+    modes: Modes = medium.modes
+    alone = _Integrals.of(a, r, z) if z <= 0 else None
+    total: Any = 0.0
+    for s, weight, kk, tt, out, down in zip(
+        modes.decay, modes.pressed, modes.along, modes.across, modes.out, modes.down, strict=True
+    ):
+        f = _Integrals.of(a, r, z * s) if alone is None else alone
+        turned = (kk - tt) * f.i11m_r
+        total = total + weight * np.stack(
+            [kk * f.i100 - turned, tt * f.i100 + turned, -f.i100, -s * r * f.i110_r, out * f.i11m_r, down * f.i10m]
+        )
+    return tuple(a * total.real)
+
+
+@dataclass(frozen=True, eq=False)
+class _Integrals:
+    """∫ J(k a) J(k r) kⁿ e^{-k z} dk at distances r (...): the orders of both J and n, `m` for -1, `_r` over r.
+
+    zi101, zi111: times z, those that only isotropy needs, at real depths.
+    """
+
+    i000: Any
+    i100: Any
+    i110_r: Any
+    i10m: Any
+    i11m_r: Any
+    zi101: Any
+    zi111: Any
+
+    @classmethod
+    def of(cls, a: float, r: Array, z: complex) -> _Integrals:
+        """z: depth, complex with a positive real part where waves swing; 0 is the surface."""
+        s2, d2 = (a + r) ** 2 + z * z, (a - r) ** 2 + z * z
+        s, m, rest = np.sqrt(s2), 4 * a * r / s2, d2 / s2
+        rest = np.where(np.abs(rest) < _RIM, _RIM, rest)
+        zero, one = np.zeros_like(rest), np.ones_like(rest)
+        first = elliprf(zero, rest, one)
+        part = elliprd(zero, rest, one) / 3
+        second = first - m * part
+        # ∫ J0 J0 and ∫ J1 J1 of arguments a t and r t under e^(-z t).
+        i000 = 2 / (math.pi * s) * first
+        i110_r = np.where(r > 0, (2 * part - first) * 2 / (math.pi * s) / np.where(r > 0, r, 1), 0)
+        inside = 0.5 * (1 + np.sign(a - r))
+        if z != 0:
+            third = _third(rest, np.maximum(((a - r) / (a + r)) ** 2, _RIM)) * np.sign(a - r) ** 2
+            angle = inside - z / (math.pi * s) * (
+                first + (a - r) / (a + r) * (first + 4 * a * r / (a + r) ** 2 * third / 3)
+            )
+            # Solid angle of the disc of radius r seen from the rim's circle, over 2π r.
+            outer = np.where(r > 0, (1 - inside) / np.where(r > 0, r, 1), 0) + z / (math.pi * s * (a + r)) * (
+                -2 * first + 4 * a * (a - r) / (3 * (a + r) ** 2) * third
+            )
+            zi101 = z / (math.pi * a * s) * ((a * a - r * r - z * z) / d2 * second + first)
+            # r in the denominator is taken by the bracket, which falls off as r².
+            bracket = (1 - m / 2) / rest * second - first
+            zi111 = np.where(r > 0, z * z / (math.pi * a * s) * bracket / np.where(r > 0, r, 1), 0)
+        else:
+            angle, outer = inside, np.where(r > 0, (1 - inside) / np.where(r > 0, r, 1), 0)
+            zi101 = zi111 = np.zeros_like(r)
+        i100 = angle / a
+        i11m_r = 0.5 * (a * outer / np.where(r > 0, r, 1) + i100 - z * i110_r)
+        near = r < _AXIS * np.abs(s)
+        s0 = np.sqrt(a * a + z * z)
+        axis = 0.5 * (1 - z / s0) / a - r**2 / 16 * 3 * a * z / s0**5
+        axis_1 = 0.5 * a / s0**3 - r**2 / 16 * 3 * a * (4 * z * z - a * a) / s0**7
+        i11m_r, i110_r = np.where(near, axis, i11m_r), np.where(near, axis_1, i110_r)
+        zi111 = np.where(near, r * z * 1.5 * a * z / s0**5, zi111)
+        i10m = a * i000 - r * r * i110_r - z * i100
+        return cls(i000, i100, i110_r, i10m, i11m_r, zi101, zi111)
+
+
+def _third(rest: Any, p: Any) -> Any:
+    """Carlson's R_J(0, rest, 1, p), p > 0; rest may be complex, off the negative real axis."""
+    if not np.iscomplexobj(rest):
+        return elliprj(np.zeros_like(rest), rest, np.ones_like(rest), p)
+    # SciPy's wants arguments in the right half of the plane: duplication moves them there.
+    x, y, z, p = np.zeros_like(rest), rest, np.ones_like(rest), p + 0j
+    total, share = np.zeros_like(rest), 1.0
+    for _ in range(_DUPLICATIONS):
+        root_x, root_y, root_z, root_p = np.sqrt(x), np.sqrt(y), np.sqrt(z), np.sqrt(p)
+        moved = root_x * root_y + root_x * root_z + root_y * root_z
+        d = (root_p + root_x) * (root_p + root_y) * (root_p + root_z)
+        total += share * 6 / d * elliprc(np.ones_like(d), 1 + (p - x) * (p - y) * (p - z) / d**2)
+        share /= 4
+        x, y, z, p = ((one + moved) / 4 for one in (x, y, z, p))
+    return total + share * elliprj(x, y, z, p)

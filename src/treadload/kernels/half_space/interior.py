@@ -21,7 +21,8 @@ import numpy as np
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.gridded import Method, on_grid
 from treadload.kernels.gridding.lattice import Corner, Source, of_corners
-from treadload.kernels.half_space.corners import at_corners, fields, is_surface, snapped
+from treadload.kernels.half_space.corners import at_corners, is_surface, snapped
+from treadload.kernels.half_space.upright import Medium, fields_of, own_share
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _XX, _YY, _ZZ, _XY, _XZ, _YZ = range(6)
@@ -34,7 +35,7 @@ def fields_on_grid(
     dy: float,
     depths: Array,
     shear: float,
-    poisson: float,
+    poisson: Medium,
     x: Array,
     y: Array,
     method: Method = "auto",
@@ -44,14 +45,16 @@ def fields_on_grid(
     """Stress and displacement on the grid of any coordinates x and y, by the cheapest method.
 
     load: (3, ny, nx), Pa, or (3, n, ny, nx), several on the same cells. dx, dy: cell, m. depths: (nz,), m, >= 0.
-    shear: shear modulus, Pa. poisson: Poisson's ratio. x: (mx,), y: (my,): coordinates relative to the centre of the
+    shear: shear modulus, Pa. poisson: Poisson's ratio, or what stands in its place where the half-space is another
+    along z; shear is then that of the horizontal plane. x: (mx,), y: (my,): coordinates relative to the centre of the
     first cell, m, in any order. moves: False leaves the displacement out, zero.
     Returns stress (nz, 6, …, my, mx), Pa, displacement (nz, 3, …, my, mx), m, and the methods, see
     `kernels.gridding.gridded.on_grid`.
     """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
-        return fields(at_corners(x, y, z, dx, dy), poisson, moves=moves)
+        deep = not is_surface(z, dx, dy)
+        return fields_of(lambda stretch: at_corners(x, y, z, dx, dy, stretch), poisson, deep, moves=moves)
 
     both, used = on_grid(Source(load, dx, dy, of_corners(corners, dx, dy), 9), depths, x, y, method)
     _add_standing_load(both, load, dx, dy, depths, poisson, x, y)
@@ -59,7 +62,7 @@ def fields_on_grid(
 
 
 def _add_standing_load(
-    stress: Array, load: Array, dx: float, dy: float, depths: Array, poisson: float, x: Array, y: Array
+    stress: Array, load: Array, dx: float, dy: float, depths: Array, poisson: Medium, x: Array, y: Array
 ) -> None:
     """Add to stress (nz, 6 or more, my, mx) what the load gives where it stands itself, at depths of the surface."""
     rows = np.flatnonzero(is_surface(depths, dx, dy))
@@ -68,9 +71,10 @@ def _add_standing_load(
     ny, nx = load.shape[-2:]
     share_x, share_y = _share(x[:, None] - dx * np.arange(nx), dx), _share(y[:, None] - dy * np.arange(ny), dy)
     local = share_y @ load @ share_x.T
+    share = own_share(poisson)
     for row in rows:
-        stress[row, _XX] -= 2 * poisson * local[_P]
-        stress[row, _YY] -= 2 * poisson * local[_P]
+        stress[row, _XX] += share * local[_P]
+        stress[row, _YY] += share * local[_P]
         stress[row, _ZZ] -= local[_P]
         stress[row, _XZ] -= local[_QX]
         stress[row, _YZ] -= local[_QY]

@@ -47,8 +47,9 @@ class AxialPlanes:
     """Depths to compute.
 
     kernels: k (n,) → (nz, 4, n): k·i u_k, k·u_z, i f_k, f_z under f_z = 1, as in `kernels.layers.layered.Transfer`.
-    shear, poisson: (nz,) of the material there, Pa and 1. limit: (nz,) largest wavenumber that matters, 1/m.
-    clearance: m, > 0; every kernel falls at least like exp(-k clearance).
+    shear, poisson: (nz,) of the material there, Pa and 1, in the horizontal plane. lift: (nz,) see
+    `kernels.layers.layered.Stack.lift_of`; None is isotropy everywhere. limit: (nz,) largest wavenumber that
+    matters, 1/m. clearance: m, > 0; every kernel falls at least like exp(-k clearance).
     """
 
     kernels: Callable[[Array], Array]
@@ -56,6 +57,7 @@ class AxialPlanes:
     poisson: Array
     limit: Array
     clearance: float
+    lift: Array | None = None
 
 
 def synthesise_discs(
@@ -154,8 +156,9 @@ def _add(result: Array, pressure: float, values: Array, dx: Array, dy: Array, r:
     nu, double = planes.poisson[:, None, None], 2 * planes.shear[:, None, None]
     c, s = np.divide(dx, r, out=np.ones_like(r), where=r > 0), np.divide(dy, r, out=np.zeros_like(r), where=r > 0)
     settle, force, stretch, outward, slant = pressure * np.moveaxis(values, 1, 0)
-    radial = (double * stretch - nu * force) / (1 - nu) - double * outward
-    hoop = nu * (double * stretch - force) / (1 - nu) + double * outward
+    lifted = nu if planes.lift is None else planes.lift[:, None, None] * (1 - nu)
+    radial = (double * stretch - lifted * force) / (1 - nu) - double * outward
+    hoop = (nu * double * stretch - lifted * force) / (1 - nu) + double * outward
     result[:, 0] += c * c * radial + s * s * hoop
     result[:, 1] += s * s * radial + c * c * hoop
     result[:, 2] -= force

@@ -83,14 +83,15 @@ def fit_images(stack: Stack) -> Images:
     """
     held = 0.0 not in stack.spring
     length = _longest(stack)
-    near, far = _NEAREST * stack.thickness[0], _FARTHEST * length
+    first = stack.faded(stack.thickness[0])
+    near, far = _NEAREST * first, _FARTHEST * length
     depth = np.geomspace(near, far, math.ceil(_A_DECADE * math.log10(far / near)))
     # On a rigid base compliance falls with k itself: its limit says all that lies below.
     low = _LONGEST_ON_ROCK / length if stack.rigid else 1e-2 / far
-    high = _CUT / stack.thickness[0]
+    high = _CUT / first
     samples = np.geomspace(low, high, 2 * math.ceil(_SAMPLES_A_DECADE * math.log10(high / low)) + 1)
-    top = _half_space(stack.shear[0], stack.poisson[0])
-    end = np.zeros(4) if stack.rigid else _half_space(stack.shear[-1], stack.poisson[-1])
+    top = half_space_compliance(stack, 0)
+    end = np.zeros(4) if stack.rigid else half_space_compliance(stack, -1)
     floor = _FLOOR_ON_ROCK if stack.rigid else _FLOOR
     whole = surface_compliance(samples, stack)
     change = whole - top[:, None]
@@ -168,15 +169,24 @@ def _sums(images: Images, ny: int, nx: int, dx: float, dy: float, first: float) 
     return sums
 
 
-def _half_space(shear: float, poisson: float) -> Array:
-    """`surface_compliance` of a half-space. Source: Johnson (1985), Contact Mechanics, section 3."""
-    return np.array([1 - poisson, -(1 - 2 * poisson) / 2, 1.0, -poisson]) / shear
+def half_space_compliance(stack: Stack, layer: int) -> Array:
+    """`surface_compliance`, (4,), 1/Pa, of a half-space of one of the layers.
+
+    Source: Johnson (1985), Contact Mechanics, section 3; of layers that are another along z that of
+    `kernels.layers.upright`.
+    """
+    shear, poisson, own = stack.shear[layer], stack.poisson[layer], stack.upright_of(layer)
+    if own is None:
+        return np.array([1 - poisson, -(1 - 2 * poisson) / 2, 1.0, -poisson]) / float(shear)
+    xx, zz, xz, transverse = own.half_space(shear, poisson)
+    return np.array([zz, xz, transverse, xx - transverse])
 
 
 def _longest(stack: Stack) -> float:
     """The longest length over which layers act together, m: stretching, bending and sliding of the stiffest."""
-    depth, stiffest = float(stack.interfaces[-1]), float(max(stack.shear))
-    softest, lowest = float(min(stack.shear)), float(stack.shear[-1])
+    depth, stiffest, softest = float(stack.interfaces[-1]), max(stack.moduli), min(stack.moduli)
+    last = stack.upright_of(-1)
+    lowest = float(stack.shear[-1]) if last is None else min(stack.shear[-1], last.shear)
     length = depth * math.cbrt(stiffest / softest)
     if not stack.rigid:
         length = max(length, depth * stiffest / lowest)

@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import layers_at, snapped
+from treadload.kernels.layers.upright import Upright
 
 # Below this phase, k times the thickness, sinh x - x is summed as a series: the difference would lose digits.
 _SHORT = 0.5
@@ -48,6 +49,8 @@ class Stack:
     spring: stiffness of each interface between layers against relative sliding, Pa/m, len(shear) - 1 values:
     inf for bonded layers, 0 for a frictionless interface; normal displacement is continuous.
     rigid: True if the last layer is bonded to a rigid base, False if it is a half-space.
+    upright: of each layer what it has of its own along z, None where it is isotropic, or () if all of them are. Of
+    those that have it `shear` and `poisson` are those in the horizontal plane.
     """
 
     shear: Sequence[Scalars]
@@ -55,6 +58,38 @@ class Stack:
     thickness: Sequence[float]
     spring: Sequence[float]
     rigid: bool = False
+    upright: Sequence[Upright | None] = ()
+
+    def upright_of(self, layer: int) -> Upright | None:
+        """What a layer has of its own along z, None in isotropy."""
+        return self.upright[layer] if self.upright else None
+
+    def lift_of(self, layer: int) -> Scalars:
+        """Horizontal normal stress by vertical where nothing strains horizontally: ν / (1 - ν) in isotropy."""
+        own = self.upright_of(layer)
+        return self.poisson[layer] / (1 - self.poisson[layer]) if own is None else own.lift
+
+    @property
+    def moduli(self) -> list[float]:
+        """Shear moduli of all layers, in the plane and across it: of real moduli, for scales."""
+        return [float(one) for one in self.shear] + [own.shear for own in self.upright if own is not None]
+
+    def faded(self, depth: float) -> float:
+        """How deep a depth, m, lies for waves: they fall at least like e^{-k times it}; itself in isotropy."""
+        if not any(self.upright):
+            return depth
+        total, top = 0.0, 0.0
+        for layer, end in enumerate([*self.interfaces[: len(self.shear) - 1], math.inf]):
+            own = self.upright_of(layer)
+            rate = 1.0 if own is None else own.fade(float(self.shear[layer]), float(self.poisson[layer]))
+            total += rate * max(0.0, min(depth, end) - top)
+            top = end
+        return total
+
+    @property
+    def top(self) -> Stack:
+        """The half-space of the top layer."""
+        return Stack(self.shear[:1], self.poisson[:1], (), (), upright=self.upright[:1])
 
     @property
     def interfaces(self) -> Array:
@@ -178,9 +213,13 @@ class _Slab:
     t_transverse: Scalars
 
     @classmethod
-    def of(cls, k: Array, shear: Scalars, poisson: Scalars, thickness: float, bottom: float) -> _Slab:
+    def of(
+        cls, k: Array, shear: Scalars, poisson: Scalars, thickness: float, bottom: float, upright: Upright | None
+    ) -> _Slab:
         """A slab of a material at wavenumbers k (nk,)."""
         a = k * thickness
+        if upright is not None:
+            return cls._upright(a, shear, poisson, upright, bottom)
         squeeze = 2 - 4 * poisson
         chi, more = 1 + squeeze, 2 + squeeze
         e = np.exp(-a)
@@ -228,6 +267,21 @@ class _Slab:
             tanh / shear,
             tanh * shear,
             2 * e / (1 + ee),
+        )
+
+    @classmethod
+    def _upright(cls, a: Array, shear: Scalars, poisson: Scalars, upright: Upright, bottom: float) -> _Slab:
+        (cx, cz, cc), (kx, kz, kc), t = upright.slab(a, shear, poisson)
+        modulus, turn = math.sqrt(shear * upright.shear), a * upright.roots(shear, poisson)[2]
+        e, tanh = np.exp(-turn), np.tanh(turn)
+        return cls(
+            bottom,
+            (cx, cz, cc, cx * cz - cc * cc),
+            (kx, kz, kc, kx * kz - kc * kc),
+            t,
+            tanh / modulus,
+            tanh * modulus,
+            2 * e / (1 + e * e),
         )
 
     def up(self, s: _Compliance) -> _Compliance:
@@ -278,19 +332,28 @@ def _upwards(k: Array, stack: Stack, depths: Sequence[float]) -> tuple[list[_Sla
         zero = np.zeros_like(k)
         plane, transverse = _Compliance(1.0, zero, zero, zero, zero), zero
     else:
-        shear, squeeze = stack.shear[-1] * np.ones_like(k), 2 - 4 * stack.poisson[-1]
-        own = (2 + squeeze) / (4 * shear)
-        plane = _Compliance(1.0, own, own, -squeeze / (4 * shear), (1 + squeeze) / (4 * shear * shear))
-        transverse = 1 / shear
+        plane, transverse = _half_space(np.ones_like(k), stack)
     slabs: list[_Slab] = []
     bodies: list[_Body] = []
     for layer, thickness, bottom, spring in reversed(pieces):
         shear = stack.shear[layer]
         bodies.append(_Body.of(plane, transverse, k, spring, shear))
-        slabs.append(_Slab.of(k, shear, stack.poisson[layer], thickness, bottom))
+        own = stack.upright_of(layer)
+        slabs.append(_Slab.of(k, shear, stack.poisson[layer], thickness, bottom, own))
         plane, transverse = slabs[-1].up(bodies[-1].held), slabs[-1].up_transverse(bodies[-1].held_transverse)
     bodies.append(_Body.of(plane, transverse, k, math.inf, 1.0))
     return slabs[::-1], bodies[::-1]
+
+
+def _half_space(ones: Array, stack: Stack) -> tuple[_Compliance, Scalars]:
+    """Compliance of the last layer as a half-space, plane and transverse."""
+    shear, poisson, upright = stack.shear[-1], stack.poisson[-1], stack.upright_of(-1)
+    if upright is not None:
+        xx, zz, xz, transverse = (one * ones for one in upright.half_space(shear, poisson))
+        return _Compliance(1.0, xx, zz, xz, xx * zz - xz * xz), transverse
+    shear, squeeze = shear * ones, 2 - 4 * poisson
+    own = (2 + squeeze) / (4 * shear)
+    return _Compliance(1.0, own, own, -squeeze / (4 * shear), (1 + squeeze) / (4 * shear * shear)), 1 / shear
 
 
 def _pieces(stack: Stack, depths: Sequence[float]) -> list[tuple[int, float, float, float]]:

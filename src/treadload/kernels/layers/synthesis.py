@@ -91,7 +91,8 @@ class ElasticPlane:
     """One depth of one road to synthesise.
 
     kernels: k (n,) → (4, 2, n) and (2, n), as one depth of `kernels.layers.layered.Transfer`. shear, poisson: of the
-    material there, Pa and 1. limit: largest wavenumber that matters at this depth, 1/m.
+    material there, Pa and 1, in the horizontal plane. limit: largest wavenumber that matters at this depth, 1/m.
+    lift: see `kernels.layers.layered.Stack.lift_of`; None is isotropy.
     What it makes of wavenumbers is tabulated once, however many loads stand on it.
     """
 
@@ -99,6 +100,7 @@ class ElasticPlane:
     shear: float
     poisson: float
     limit: float
+    lift: float | None = None
     _tables: dict[int, Table] = field(default_factory=dict, repr=False)
 
     def radial(self, kx: Array, ky: Array, functions: Sequence[int], smallest: float) -> dict[int, Array]:
@@ -335,9 +337,10 @@ def _add(total: Array, waves: Array, back: Array, out: Array, at: Points | None)
 def _components(total: Array, place: Mapping[int, int], plane: ElasticPlane, components: Sequence[int]) -> Array:
     """Stress and displacement (n, my, mx) from what was summed up. place: of each source in the sum."""
     nu, double = plane.poisson, 2 * plane.shear
+    lifted = nu if plane.lift is None else plane.lift * (1 - nu)
 
     def normal(own: int, other: int) -> Array:
-        stress: Array = double * (total[place[own]] + nu * total[place[other]]) - nu * total[place[_FZ]]
+        stress: Array = double * (total[place[own]] + nu * total[place[other]]) - lifted * total[place[_FZ]]
         return stress / (1 - nu)
 
     make = (
