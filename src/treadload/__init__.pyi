@@ -33,6 +33,7 @@ from treadload.errors import InputError as InputError
 from treadload.errors import TreadloadError as TreadloadError
 from treadload.footprint import compare as compare
 from treadload.grid import Grid as Grid
+from treadload.materials import Aggregates as Aggregates
 from treadload.materials import Elastic as Elastic
 from treadload.materials import ElastoPlastic as ElastoPlastic
 from treadload.materials import Orthotropic as Orthotropic

@@ -1,5 +1,6 @@
 """Materials: what deforms, and how."""
 
+from treadload.materials.aggregates import Aggregates
 from treadload.materials.anisotropic import Anisotropic, TransverselyIsotropic
 from treadload.materials.elastic import Elastic
 from treadload.materials.fit import MaterialFit, fit_2s2p1d, fit_huet_sayegh, fit_prony
@@ -33,6 +34,7 @@ from treadload.materials.viscoelastic import Prony
 
 __all__ = [
     "WLF",
+    "Aggregates",
     "Anisotropic",
     "Arrhenius",
     "DruckerPrager",
