@@ -41,7 +41,10 @@ def strain_by_compliance(stress: Array, compliance: Array) -> Array:
     """
     own = compliance[np.ix_(_VOIGT, _VOIGT)]
     own[3:] *= 0.5
-    strain: Array = np.tensordot(own, stress, axes=1)
+    strain = np.zeros_like(stress)
+    for row, column in zip(*np.nonzero(own), strict=True):
+        # What a component does not take may be unknown.
+        strain[row] += own[row, column] * stress[column]
     return strain
 
 
