@@ -52,6 +52,7 @@ class Orthotropic(Anisotropic):
             value = getattr(self, name)
             if isinstance(value, bool | str) or not math.isfinite(value):
                 raise InputError(f"{name} must be an angle in rad, got {value!r}; 30° is 0.5236")
+            object.__setattr__(self, name, float(value))
         values = eigenvalues(self._own_compliance())
         if not values[0] > _LEAST * values[-1]:
             raise InputError(

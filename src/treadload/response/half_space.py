@@ -7,7 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from treadload.errors import InputError
+from treadload.kernels.anisotropy import interior
+from treadload.kernels.anisotropy.interior import Modes
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.half_space.bilinear import bilinear_on_grid
@@ -16,6 +17,7 @@ from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.half_space.upright import Medium
 from treadload.materials.kinds import AnyElastic, Solid
 from treadload.pavement.stack import medium_of, plane_of
+from treadload.response.grain import modes_of, on_cells
 from treadload.response.loads import SurfaceLoad, UniformDisc
 
 # Distances that differ by less than this part of a cell are the same.
@@ -41,21 +43,23 @@ def half_space_response(
     x and y lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
     "precorrected" elsewhere, "direct" for few points, "disc" for discs.
     Exact for loads uniform on each cell or bilinear between cells; near the surface the first leaves an error
-    O(dx), see the kernels.
+    O(dx), see the kernels. On a material that is neither isotropic nor the same in all horizontal directions discs
+    are laid on cells, and InputError is raised for loads that are bilinear.
     """
-    if not isinstance(material, Solid):
-        raise InputError(
-            f"the road is {material}: the contact on it is known, the stress below is not yet; take a "
-            "TransverselyIsotropic or an Elastic"
-        )
-    ((fields, method),) = half_space_fields([loads], medium_of(material), depths, x, y, at, tell)
-    stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0) / plane_of(material)[0]
+    medium: Medium | Modes
+    if isinstance(material, Solid):
+        medium, unit = medium_of(material), plane_of(material)[0]
+    else:
+        unit = material.upright[0]
+        medium, loads = modes_of(material, unit), on_cells(loads)
+    ((fields, method),) = half_space_fields([loads], medium, depths, x, y, at, tell)
+    stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0) / unit
     return stress, material.strain(stress), displacement, method
 
 
 def half_space_fields(
     loads: Sequence[Sequence[SurfaceLoad]],
-    medium: Medium,
+    medium: Medium | Modes,
     depths: Array,
     x: Array,
     y: Array,
@@ -68,7 +72,8 @@ def half_space_fields(
     """Stress and displacement times the shear modulus, (nz, 9, my, mx), and the method, for each of some loads.
 
     loads: each superposed from several. medium: Poisson's ratio, or what stands in its place where the half-space is
-    another along z; the shear modulus is then that of the horizontal plane. The others as in `half_space_response`;
+    another along z; the shear modulus is then that of the horizontal plane. Or the modes of any other anisotropy, and
+    the unit of its stiffness, for loads on cells alone. The others as in `half_space_response`;
     moves: False leaves the displacement out, zero. precision: of convolutions. What cells do to each other is
     computed once for all loads that stand on the same cells, and once for wheels behind each other that press alike.
     """
@@ -88,6 +93,7 @@ def half_space_fields(
     for several, result, used in zip(loads, results, methods, strict=True):
         for load in several:
             if isinstance(load, UniformDisc):
+                assert not isinstance(medium, Modes)
                 said(1)
                 _add_disc(result, load, medium, depths, x, y, at)
                 used.add("disc")
@@ -133,7 +139,7 @@ def _under_print(
     cells: _Print,
     places: tuple[float, ...],
     array: Array,
-    medium: Medium,
+    medium: Medium | Modes,
     depths: Array,
     x: Array,
     y: Array,
@@ -143,13 +149,18 @@ def _under_print(
 ) -> tuple[Array, str]:
     """Fields (nz, 9, n, my, mx) of arrays (3, n, ny, nx) on the same cells, summed over the places of these."""
     _, _, dx, dy, y0, interpolation = cells
-    on_grid = bilinear_on_grid if interpolation == "bilinear" else fields_on_grid
     methods: set[str] = set()
+
+    def on_grid(x: Array, y: Array) -> tuple[Array, Array, str]:
+        if isinstance(medium, Modes):
+            return interior.fields_on_grid(array, dx, dy, depths, 1.0, medium, x, y, moves=moves)
+        closed = bilinear_on_grid if interpolation == "bilinear" else fields_on_grid
+        return closed(array, dx, dy, depths, 1.0, medium, x, y, moves=moves)
 
     def fields(x: Array, y: Array) -> Array:
         apart = (x - np.array(places)[:, None]).ravel()
         _, first, back = np.unique(np.round(apart / (_SAME * dx)), return_index=True, return_inverse=True)
-        stress, displacement, method = on_grid(array, dx, dy, depths, 1.0, medium, apart[first], y - y0, moves=moves)
+        stress, displacement, method = on_grid(apart[first], y - y0)
         methods.add(method)
         both = np.concatenate([stress, displacement], axis=1)
         turns = back.reshape(len(places), -1)

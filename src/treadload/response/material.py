@@ -84,7 +84,7 @@ def spread_over(load: SurfaceLoad, length: float) -> GridLoad:
     load: a disc is laid on cells first. length: side of the square, m. The force is kept.
     The sum of moved copies of the load with the force, the centre and the second moments of the exact mean.
     """
-    cells = _laid(load, length / _DISC_CELLS) if isinstance(load, UniformDisc) else load
+    cells = laid(load, length / _DISC_CELLS) if isinstance(load, UniformDisc) else load
     cells = _divided(cells, _FINE * length)
     grid, array = cells.grid, cells.array
     across, along = (_weights(length / step) for step in (grid.dy, grid.dx))
@@ -118,8 +118,8 @@ def _divided(load: GridLoad, most: float) -> GridLoad:
     return GridLoad(Grid(grid.nx * nx, grid.ny * ny, dx, dy, x0, y0), *parts)
 
 
-def _laid(disc: UniformDisc, cell: float) -> GridLoad:
-    """A disc on cells, each loaded as far as it is covered."""
+def laid(disc: UniformDisc, cell: float) -> GridLoad:
+    """A disc on cells of a size, m, each loaded as far as it is covered; the force is kept."""
     flat = Grid.centred(2 * disc.radius, 2 * disc.radius, cell)
     inside = (np.arange(_SAMPLES) + 0.5) / _SAMPLES - 0.5
     x, y = ((at[:, None] + cell * inside).ravel() for at in (flat.x, flat.y))

@@ -1,4 +1,4 @@
-"""Checks of contact on material with a grain: Hertz's pressure on tilted axes, by one integral."""
+"""Checks of material with a grain: Hertz's pressure on tilted axes by one integral, and the stress below."""
 
 from __future__ import annotations
 
@@ -12,9 +12,12 @@ from scipy.optimize import root
 from treadload.contact.bodies.choose import surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
+from treadload.grid import Grid
 from treadload.kernels.anisotropy.symbol import surface_symbol, symbol_at
 from treadload.kernels.arrays import Array
-from treadload.materials import Anisotropic, Orthotropic
+from treadload.materials import Anisotropic, Orthotropic, TransverselyIsotropic
+from treadload.pavement import Pavement
+from treadload.response import GridLoad, solve_response
 from treadload.validation.check import Check, absolute, relative
 
 _DIRECTIONS = 512
@@ -103,8 +106,26 @@ def axes_of(pressure: Array) -> tuple[float, float]:
     return float(np.sqrt(values[1] / values[0])), float(math.atan2(vectors[1, 1], vectors[0, 1]) % math.pi)
 
 
+def _below() -> Iterator[Check]:
+    """Stress by the integral over directions beside the closed form of an upright axis, cell by cell."""
+    upright = TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
+    ratio = 0.25 * 5.4 / 3.8
+    same = Orthotropic((5.4e9, 5.4e9, 3.8e9), (2e9, 1.6e9, 1.6e9), (0.35, ratio, ratio))
+    cell = GridLoad(Grid(1, 1, 0.02, 0.02, 0.0, 0.0), *([[part]] for part in (8e5, 1e5, -2e5)))
+    x = 0.003 + 0.01 * np.arange(-3, 4)
+    for depth in (0.0, 0.001, 0.02):
+        one, other = (
+            solve_response(cell, Pavement.half_space(material), depths=[depth], x=x, y=x).dataset
+            for material in (same, upright)
+        )
+        names = [f"stress_{name}" for name in ("xx", "yy", "zz", "xy", "xz", "yz")]
+        apart = max(float(np.abs(one[name] - other[name]).max()) for name in names) / 8e5
+        what = f"largest stress apart at {depth * 1e3:g} mm, over p"
+        yield absolute("stress, any anisotropy", what, apart, 0.0, 1e-9, "closed form of an upright axis")
+
+
 def grain_checks() -> Iterator[Check]:
-    """A rigid sphere on a solid whose stiff axis leans, 64 cells over 2.6 radii of the contact."""
+    """A rigid sphere on a solid whose stiff axis leans, 64 cells over 2.6 radii of the contact, and stress below."""
     curvature, load = np.eye(2) / 2, 1e6
     exact = hertz_on_grain(LEANING, curvature, load)
     found = pressed(LEANING, curvature, load, 64, 2.6 * exact.axes[0])
@@ -115,3 +136,4 @@ def grain_checks() -> Iterator[Check]:
     long, short = exact.axes
     yield relative(group, "long over short axis", ratio, long / short, 5e-4, _SOURCE)
     yield absolute(group, "angle of the long axis, °", math.degrees(angle), math.degrees(exact.angle), 0.5, _SOURCE)
+    yield from _below()

@@ -41,7 +41,7 @@ _SECTORS = 4
 _HEIGHTS, _APART = (0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6, 0.8), 0.3
 _SAMPLES = 256
 # Points of half a path: half as many more until that changes the largest field of a corner by less than this.
-_FEWEST, _MOST, _CONVERGED = 16, 1000, 1e-11
+_FEWEST, _MOST, _CONVERGED = 16, 1000, 1e-10
 # Modes nearer to each other than this lose digits: the stiffness is then changed by as little as it says.
 _DEFECTIVE, _SPLIT = 1e6, 1e-9
 # Corners that are worked on together.
@@ -116,6 +116,7 @@ def fields_on_grid(
     dx: float,
     dy: float,
     depths: Array,
+    unit: float,
     modes: Modes,
     x: Array,
     y: Array,
@@ -125,7 +126,8 @@ def fields_on_grid(
 ) -> tuple[Array, Array, str]:
     """Stress and displacement on the grid of any coordinates x and y, by the cheapest method.
 
-    modes: of the stiffness. The others, and what is returned, as in `kernels.half_space.interior.fields_on_grid`.
+    modes: of the stiffness over a unit, Pa. The others, and what is returned, as in
+    `kernels.half_space.interior.fields_on_grid`.
     """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
@@ -138,7 +140,7 @@ def fields_on_grid(
             yield values, ((load, component),)
 
     both, used = on_grid(Source(load, dx, dy, of_corners(corners, dx, dy), 9), depths, x, y, method)
-    return both[:, :6], both[:, 6:], used
+    return both[:, :6], both[:, 6:] / unit, used
 
 
 def corner_fields(
