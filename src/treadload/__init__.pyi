@@ -50,6 +50,7 @@ from treadload.response import UniformDisc as UniformDisc
 from treadload.response import UniformRectangle as UniformRectangle
 from treadload.response import dual_wheels as dual_wheels
 from treadload.response import place_load as place_load
+from treadload.response import roll_passes as roll_passes
 from treadload.response import solve_response as solve_response
 from treadload.results import open_results as open_results
 from treadload.results import save_results as save_results

@@ -135,6 +135,21 @@ _QUANTITIES = {
     "total_tension": ("Pa", "largest horizontal tension of earlier passes and the wheel together"),
 }
 
+_PASSES = {
+    "pass": ("1", "number of passes"),
+    "across": ("m", "place to the right of travel, of the surface"),
+    **{f"plastic_strain_{c}": ("1", f"plastic strain component {c}, of the tensor") for c in _TENSOR},
+    "equivalent_plastic_strain": ("1", "accumulated equivalent plastic strain"),
+    "residual_displacement_z": ("m", "displacement of the surface that passes leave, down positive"),
+    "rut_depth": ("m", "largest displacement downwards that passes leave"),
+    "heave": ("m", "largest displacement upwards that passes leave"),
+    "plastic_increment": ("1", "largest equivalent plastic strain that a pass adds"),
+    "plastic_left": ("1", "largest change of plastic strain that a pass leaves"),
+    "wheel_offset": ("m", "place of the wheel to the right of its line in a pass"),
+    "shakedown_load": ("1", "largest load that shakes down, over that at first yield without shear"),
+    "elastic_limit_load": ("1", "largest load that yields nowhere, over that at first yield without shear"),
+}
+
 _UNIFORM = {
     "largest_extension": ("1", "largest principal strain of the plane, three-dimensional"),
     "largest_in_plane_extension": ("1", "largest principal strain of the plane, horizontal"),
@@ -287,6 +302,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_CALIBRATION,
     **_LIFE,
     **_INTERFACES,
+    **_PASSES,
     **_UNIFORM,
     **_FOOTPRINT,
     **_SWEEP,
@@ -297,8 +313,8 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
     "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "input", "other", "load",
-    "map", "inflation_pressure", "wheel_load", "rib", "step", "interface", "depth", "point", "y", "x", "component",
-    "orientation",
+    "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth", "point", "y", "across",
+    "x", "component", "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
 

@@ -3,18 +3,22 @@
 from treadload.response.gears import axle, dual_wheels, place_load, tandem
 from treadload.response.loads import GridLoad, UniformDisc, UniformRectangle
 from treadload.response.material import MATERIAL_LENGTH
+from treadload.response.passes.solution import Passes
+from treadload.response.passes.solve import roll_passes
 from treadload.response.solution import Response
 from treadload.response.solve import solve_response
 
 __all__ = [
     "MATERIAL_LENGTH",
     "GridLoad",
+    "Passes",
     "Response",
     "UniformDisc",
     "UniformRectangle",
     "axle",
     "dual_wheels",
     "place_load",
+    "roll_passes",
     "solve_response",
     "tandem",
 ]

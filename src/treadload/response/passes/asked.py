@@ -1,0 +1,158 @@
+"""What is rolled over what: the load, the layers that can yield, and the piece of road around what does."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from statistics import NormalDist
+from typing import Any
+
+import numpy as np
+
+from treadload.errors import InputError, positive
+from treadload.kernels.arrays import Array
+from treadload.materials import Perzyna
+from treadload.pavement import Pavement
+from treadload.response.layered import View
+from treadload.response.loads import GridLoad, PlacedLoad, UniformRectangle, gather
+from treadload.response.passes.box import Box, Course, courses, over_strength, row_edges
+from treadload.response.several import Question, answers
+from treadload.response.superposition import merged
+
+# Cells of a box along the longer side of the footprint, where no spacing is given.
+_CELLS = 32
+# Beyond what yields on the elastic road the box reaches by this part of its size, and this much deeper.
+_BESIDE, _DEEPER = 0.2, 1.5
+# Depths, in halves of the footprint's longer side, that are searched for yield, and how many.
+SEARCHED, _PROBED = 4.0, 14
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """What is rolled over what: loads as cells, the plastic courses, and what a pass is."""
+
+    loads: tuple[Any, ...]
+    road: Pavement
+    courses: tuple[Course, ...]
+    spacing: float
+    layers: int
+    depth: float | None
+    speed: float | None
+    offsets: tuple[float, ...]
+    tell: Callable[[str], None]
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Of the footprint along and across, m."""
+        along, across = ([one.extent_x for one in self.loads], [one.extent_y for one in self.loads])
+        return (
+            min(low for low, _ in along), max(high for _, high in along),
+            min(low for low, _ in across), max(high for _, high in across),
+        )  # fmt: skip
+
+    def material_at(self, depth: float) -> Any:
+        """The plastic material at a depth, m; None between its layers."""
+        return next((one.material for one in self.courses if one.top <= depth <= one.bottom), None)
+
+    def stress(self, x: Array, y: Array, depths: Array) -> Array:
+        """Stress (6, nz, ny, nx), Pa, of the load on the elastic road."""
+        view = View(x, y, components=range(6))
+        (answer,) = answers(
+            [Question(self.loads, self.road, depths)], view, side="below", speed=self.speed, mean_over=None
+        )
+        return answer.fields.stress
+
+
+def asked(
+    loads: Any,
+    road: Pavement,
+    speed: Any,
+    spacing: Any,
+    depth: Any,
+    layers: Any,
+    offsets: Any,
+    wander: Any,
+    tell: Any,
+) -> Asked:
+    """The question, checked; arguments as of `roll_passes`. Raises InputError."""
+    placed: tuple[PlacedLoad, ...] = gather(loads)
+    among = courses(road)
+    if not among:
+        raise InputError(
+            "no layer of this road can yield; give one of them an ElastoPlastic(elastic, law) as its material"
+        )
+    for name, value in (("spacing", spacing), ("depth", depth), ("wander", wander)):
+        if value is not None:
+            positive(name, value, "metres", "leave it out for the default")
+    if isinstance(layers, bool) or not isinstance(layers, int) or not 2 <= layers <= 64:
+        raise InputError(f"layers must be a whole number in [2, 64], got {layers!r}; 14 is the default")
+    viscous = any(isinstance(one.material.law, Perzyna) for one in among)
+    if viscous and not (isinstance(speed, int | float) and 0 < speed < math.inf):
+        raise InputError(f"a law of Perzyna follows the time under the load: give the speed, m/s, > 0, got {speed!r}")
+    if depth is not None and depth <= among[0].top:
+        raise InputError(
+            f"depth {depth:g} m does not reach the first layer that can yield, {among[0].top:g} m down; raise it"
+        )
+    if offsets is not None and wander is not None:
+        raise InputError("offsets are the places of the wheel and wander their spread: give one of them")
+    if offsets is not None:
+        places = np.asarray(offsets, float).ravel()
+        if not places.size or not np.isfinite(places).all():
+            raise InputError(f"offsets must be finite numbers of metres, got {offsets!r}")
+    else:
+        places = np.zeros(1) if wander is None else wander * _normal_places()
+    cells = tuple(merged([one.cell if isinstance(one, UniformRectangle) else one for one in placed]))
+    question = Asked(
+        cells, road, among, 0.0, layers, depth, speed, tuple(places.tolist()),
+        (lambda text: None) if tell is None else tell,
+    )  # fmt: skip
+    low_x, high_x, low_y, high_y = question.extent
+    size = max(high_x - low_x, high_y - low_y)
+    finest = max((one.grid.dx for one in cells if isinstance(one, GridLoad) and one.grid.nx > 1), default=0.0)
+    return replace(question, spacing=float(spacing) if spacing is not None else max(size / _CELLS, finest))
+
+
+def _normal_places(count: int = 32) -> Array:
+    """Places of unit deviation, evenly spread in an order that fills the whole at once (van der Corput's)."""
+    order = [int(f"{k:05b}"[::-1], 2) for k in range(count)]
+    return np.array([NormalDist().inv_cdf((k + 0.5) / count) for k in order])
+
+
+def probe(question: Asked) -> Box | None:
+    """A box around what yields on the elastic road; None where nothing does."""
+    low_x, high_x, low_y, high_y = question.extent
+    step, half = question.spacing, 0.5 * max(high_x - low_x, high_y - low_y)
+    coarse = max(step, 2 * half / _CELLS)
+    top, last = question.courses[0].top, question.courses[-1].bottom
+    deepest = min(last, top + SEARCHED * half if question.depth is None else question.depth)
+    x, y = (
+        np.arange(math.floor((low - half) / coarse), math.ceil((high + half) / coarse) + 1) * coarse
+        for low, high in ((low_x, high_x), (low_y, high_y))
+    )
+    depths = top + np.geomspace(min(step, deepest - top) / 2, (deepest - top) * (1 - 1e-9), _PROBED)
+    stress = question.stress(x, y, depths)
+    over = np.full(stress.shape[1:], -1.0)
+    for row, depth in enumerate(depths):
+        material = question.material_at(float(depth))
+        if material is not None:
+            over[row] = over_strength(material, stress[:, row])
+    yields = over > 0
+    if not yields.any():
+        return None
+    rows, lines, columns = (np.flatnonzero(yields.any(axis=other)) for other in ((1, 2), (0, 2), (0, 1)))
+    below = float(depths[min(rows[-1] + 1, len(depths) - 1)])
+    deep = question.depth if question.depth is not None else top + _DEEPER * (below - top)
+    edges = row_edges(question.courses, 0.8 * step, deep, question.layers)
+    places = [round(one / step) for one in question.offsets]
+    left, right = -min(0, *places), max(0, *places)
+    nx, x0 = _covering(x[columns[0]], x[columns[-1]], coarse, step)
+    ny, y0 = _covering(y[lines[0]], y[lines[-1]], coarse, step)
+    return Box(nx, ny + left + right, step, step, x0, y0 - left * step, edges)
+
+
+def _covering(low: float, high: float, coarse: float, step: float) -> tuple[int, float]:
+    """Number of cells and centre of the first around what yields, found to within a coarse step, m."""
+    beside = coarse + max(2 * step, _BESIDE * (high - low + step))
+    count = math.ceil((high - low + 2 * beside) / step - 1e-9)
+    return count, 0.5 * (low + high) - 0.5 * (count - 1) * step

@@ -1,0 +1,140 @@
+"""The piece of road that yields: rows of cells between depths, and what they are made of."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.kernels.eigenstrain.operator import Grid as Cells
+from treadload.kernels.plasticity.state import State
+from treadload.materials import ElastoPlastic
+from treadload.pavement import Pavement
+
+# Rows of one layer may grow by this factor from one to the next.
+_STEEPEST = 1.5
+# Of the operator, bytes; with its transforms a pass stays within twice that.
+_MOST = 1.5e9
+
+
+@dataclass(frozen=True)
+class Course:
+    """A plastic layer of a road: its number and material, and its top and bottom, m."""
+
+    number: int
+    material: ElastoPlastic
+    top: float
+    bottom: float
+
+
+def courses(road: Pavement) -> tuple[Course, ...]:
+    """The layers of a road that can yield, from the surface down."""
+    ends = [0.0, *road.interfaces.tolist(), math.inf]
+    return tuple(
+        Course(number, layer.material, ends[number], ends[number + 1])
+        for number, layer in enumerate(road.layers)
+        if isinstance(layer.material, ElastoPlastic)
+    )
+
+
+def over_strength(material: ElastoPlastic, stress: Array) -> Array:
+    """Yield function of the virgin material over its strength (...), at a stress (6, ...), Pa."""
+    law: Any = material.law
+    virgin = State(np.zeros_like(stress), np.zeros(stress.shape[1:]), np.zeros_like(stress))
+    excess: Array = material.return_map().excess(stress, virgin) / law.strength
+    return excess
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """Cells nx by ny of dx by dy, m, the centre of the first at x0, y0, in rows between depths `edges`, m."""
+
+    nx: int
+    ny: int
+    dx: float
+    dy: float
+    x0: float
+    y0: float
+    edges: Array
+
+    @property
+    def cells(self) -> Cells:
+        """As the operators of eigenstrain take them."""
+        return Cells(self.nx, self.ny, self.dx, self.dy, self.edges)
+
+    @cached_property
+    def depths(self) -> Array:
+        """Centres of the rows, (nz,), m."""
+        middle: Array = 0.5 * (self.edges[1:] + self.edges[:-1])
+        return middle
+
+    @property
+    def x(self) -> Array:
+        """Centres along travel, (nx,), m."""
+        return self.x0 + self.dx * np.arange(self.nx)
+
+    @property
+    def y(self) -> Array:
+        """Centres across, (ny,), m."""
+        return self.y0 + self.dy * np.arange(self.ny)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Of a state: rows, and cells across."""
+        return len(self.depths), self.ny
+
+    def __str__(self) -> str:
+        long, wide, deep = self.nx * self.dx, self.ny * self.dy, self.edges[-1] - self.edges[0]
+        return f"{long * 1e3:.0f} x {wide * 1e3:.0f} x {deep * 1e3:.0f} mm"
+
+    def grown(self, behind: float, ahead: float, left: float, right: float) -> Box:
+        """Longer and wider by parts of its sides."""
+        back, front = math.ceil(behind * self.nx), math.ceil(ahead * self.nx)
+        low, high = math.ceil(left * self.ny), math.ceil(right * self.ny)
+        return replace(
+            self, nx=self.nx + back + front, ny=self.ny + low + high,
+            x0=self.x0 - back * self.dx, y0=self.y0 - low * self.dy,
+        )  # fmt: skip
+
+    def check_size(self) -> None:
+        """Raise InputError where the operator of these cells would not fit into memory."""
+        rows = len(self.depths)
+        size = 8.0 * (self.nx + 1) * (self.ny + 1) * (6 * rows) ** 2
+        if size > _MOST:
+            raise InputError(
+                f"a box of {self.nx} x {self.ny} cells in {rows} rows of depth needs {size / 1e9:.1f} GB, above "
+                f"{_MOST / 1e9:.1f} GB; raise spacing (now {self.dx * 1e3:.3g} mm) or lower layers"
+            )
+
+
+def row_edges(among: tuple[Course, ...], cell: float, depth: float, count: int) -> Array:
+    """Edges (n + 1,), m, of rows from the top of the plastic courses to a depth, all interfaces between among them.
+
+    cell: thickness of the first row, m, if so many rows of that reach the depth; else they are graded.
+    """
+    top = among[0].top
+    bottom = min(max(depth, top + cell), among[-1].bottom)
+    deep = bottom - top
+    first = min(cell, deep / 2)
+    count = max(2, min(count, math.ceil(deep / first - 1e-9)))
+    ratio = 1.0
+    if count * first < deep * (1 - 1e-9):
+        low, high = 1.0, _STEEPEST
+        for _ in range(60):
+            ratio = 0.5 * (low + high)
+            low, high = (ratio, high) if first * (ratio**count - 1) / (ratio - 1) < deep else (low, ratio)
+    steps = ratio ** np.arange(count)
+    edges = top + deep * np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
+    for inside in {z for one in among for z in (one.top, one.bottom) if top < z < bottom}:
+        nearest = 1 + int(np.abs(edges[1:-1] - inside).argmin())
+        if abs(edges[nearest] - inside) > 0.45 * min(np.diff(edges)[nearest - 1 : nearest + 1]):
+            edges = np.sort(np.append(edges, inside))
+        else:
+            edges[nearest] = inside
+    rising: Array = edges
+    return rising

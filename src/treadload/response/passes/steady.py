@@ -1,0 +1,186 @@
+"""One pass at once: the plastic strain that a load leaves as it rolls steadily over a track.
+
+In the load's frame material enters at large x and comes out behind. Its plastic strain at x is the sum of the
+increments D at all larger x; each is eigenstrain in a bar that reaches back without end. The stress is that of the
+elastic road, of the endless bars of earlier passes, and of these bars; along every line of material the return map is
+marched from the front, strain-driven. -K of the residual stress is a projection in the elastic energy, so that the
+whole contracts; Anderson's mixing takes the plastic strain of the pass to its fixed point.
+
+Source: Dang Van & Maitournam (1993), J. Mech. Phys. Solids 41, 1691-1710, for the steady pass; mixing as in
+`kernels.mixing`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from treadload.kernels.arrays import Array
+from treadload.kernels.eigenstrain.operator import Operator, endless, track
+from treadload.kernels.mixing import Anderson
+from treadload.kernels.plasticity.state import ReturnMap, State
+from treadload.materials.plastic import ElastoPlastic, PassesPowerLaw
+from treadload.response.passes.box import Box
+
+# Rounds of the mixing keep so many; near-perfect plasticity needs them (fewer take twice as long, or do not end).
+_MEMORY = 15
+_MOST_ROUNDS = 120
+# After so many rounds a change above this part will not settle any more.
+_PATIENCE, _FAR = 40, 0.03
+# Changes below this part of the strain at yield are no plastic flow.
+_NOTHING = 1e-6
+
+
+class NoSteadyPassError(RuntimeError):
+    """A pass whose plastic strain did not settle; residual: change of the last round, relative."""
+
+    def __init__(self, residual: float) -> None:
+        super().__init__(f"the plastic strain of a pass still changed by {residual:.1e} of itself")
+        self.residual = residual
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Rows of a box that are of one material. rows: of the box. law: its return map. strength: Pa."""
+
+    rows: slice
+    material: ElastoPlastic
+    law: ReturnMap
+    strength: float
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """What a pass runs over: the box, its materials, and the operators of eigenstrain.
+
+    stiffness: √G of each row, (nz,), √Pa: rows of different stiffness stress each other by the mean of their moduli,
+    0 in a row that does not yield. bars, endless: operators for a shear modulus of 1 Pa.
+    """
+
+    box: Box
+    parts: tuple[Part, ...]
+    stiffness: Array
+    bars: Operator
+    endless: Operator
+
+    @classmethod
+    def of(cls, box: Box, layers: Sequence[ElastoPlastic | None]) -> Track:
+        """layers: the material of each row, None where it is elastic."""
+        box.check_size()
+        known = next(one for one in layers if one is not None)
+        poisson = known.elastic.poisson
+        stiffness = np.sqrt([0.0 if one is None else one.elastic.shear_modulus for one in layers])
+        parts, first = [], 0
+        for row in range(1, len(layers) + 1):
+            if row == len(layers) or layers[row] != layers[first]:
+                material = layers[first]
+                if material is not None and not isinstance(material.law, PassesPowerLaw):
+                    parts.append(Part(slice(first, row), material, material.return_map(), material.law.strength))
+                first = row
+        cells = box.cells
+        bars = track(cells, 1.0, poisson, single=True)
+        return cls(box, tuple(parts), stiffness, bars, endless(cells, 1.0, poisson))
+
+    @cached_property
+    def yield_strain(self) -> float:
+        """Smallest strain at yield of the materials: of strength over modulus."""
+        return min(one.strength / one.material.elastic.modulus for one in self.parts)
+
+    def residual(self, strain: Array) -> Array:
+        """Stress (6, nz, ny), Pa, of plastic strain (6, nz, ny) that no longer varies along travel."""
+        scale = self.stiffness[:, None]
+        return scale * self.endless((scale * strain)[..., None])[..., 0]
+
+    def stress(self, change: Array) -> Array:
+        """Stress (6, nz, ny, nx), Pa, of what a pass has changed of the plastic strain so far, (6, nz, ny, nx)."""
+        increments = change.copy()
+        increments[..., :-1] -= change[..., 1:]
+        scale = self.stiffness[:, None, None]
+        stress: Array = scale * self.bars(scale * increments)
+        return stress
+
+    def virgin(self) -> tuple[State, ...]:
+        """The states of its parts before the first pass."""
+        return tuple(State.virgin((one.rows.stop - one.rows.start, self.box.ny)) for one in self.parts)
+
+    def whole(self, states: Sequence[State]) -> tuple[Array, Array]:
+        """Plastic strain (6, nz, ny) and equivalent plastic strain (nz, ny) of the states of its parts."""
+        strain, hardening = np.zeros((6, *self.box.shape)), np.zeros(self.box.shape)
+        for part, state in zip(self.parts, states, strict=True):
+            strain[:, part.rows], hardening[part.rows] = state.strain, state.hardening
+        return strain, hardening
+
+
+@dataclass(frozen=True, eq=False)
+class Pass:
+    """What one pass did. states: of the parts of the track after it. rounds: of the mixing. ends: largest equivalent
+    plastic strain that it added in the rows and columns at the sides of the box: behind, ahead, left, right, below.
+    """
+
+    states: tuple[State, ...]
+    rounds: int
+    ends: Array
+
+
+def roll(
+    road: Track,
+    elastic: Array,
+    before: Sequence[State],
+    *,
+    duration: float = 0.0,
+    tolerance: float = 1e-3,
+    most: int = _MOST_ROUNDS,
+) -> Pass:
+    """One pass. elastic: stress (6, nz, ny, nx), Pa, of the load on the elastic road. before: states of the track.
+
+    duration: in which material passes one cell, s. tolerance: of the plastic strain of the pass, relative. most:
+    rounds.
+    Raises NoSteadyPassError where it does not settle.
+    """
+    old = road.whole(before)[0]
+    given = elastic + road.residual(old)[..., None]
+    change, mixing = np.zeros_like(elastic), Anderson(_MEMORY)
+    least, residual = _NOTHING * road.yield_strain, np.inf
+    for rounds in range(1, most + 1):
+        stress = given + road.stress(change) if rounds > 1 else given
+        after, found, ends = _march(road, stress, old[..., None] + change, before, duration)
+        found -= old[..., None]
+        size, moved = float(np.linalg.norm(found)), float(np.linalg.norm(found - change))
+        residual = moved / size if size else 0.0
+        if residual <= tolerance or np.abs(found - change).max() <= least:
+            return Pass(after, rounds, ends)
+        if rounds >= _PATIENCE and residual > _FAR:
+            break
+        change = mixing.next(change, found)
+    raise NoSteadyPassError(residual)
+
+
+def _march(
+    road: Track, stress: Array, strain: Array, before: Sequence[State], duration: float
+) -> tuple[tuple[State, ...], Array, Array]:
+    """States behind, plastic strain everywhere (6, nz, ny, nx), and what yields at the sides, see `Pass`.
+
+    stress, strain: of which the trial stress is made; strain is the plastic one.
+    """
+    found, ends, columns = np.zeros_like(strain), np.zeros(5), strain.shape[-1]
+    after = []
+    for part, start in zip(road.parts, before, strict=True):
+        driven = np.moveaxis(stress[:, part.rows] + part.law.elastic(strain[:, part.rows]), -1, 0).copy()
+        state = start
+        for column in range(columns - 1, -1, -1):
+            last = state
+            state = part.law(driven[column] - part.law.elastic(last.strain), last, duration)
+            found[:, part.rows, :, column] = state.strain
+            if column in (0, columns - 1) and state is not last:
+                ends[0 if column == 0 else 1] = max(
+                    ends[0 if column == 0 else 1], float((state.hardening - last.hardening).max())
+                )
+        added = state.hardening - start.hardening
+        ends[2], ends[3] = max(ends[2], added[:, 0].max()), max(ends[3], added[:, -1].max())
+        if part.rows.stop == found.shape[1]:
+            ends[4] = float(added[-1].max())
+        after.append(state)
+    return tuple(after), found, ends

@@ -1,0 +1,159 @@
+"""Passes one after the other, of laws that follow the material step by step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.response.passes.asked import SEARCHED, Asked, probe
+from treadload.response.passes.box import Box, over_strength, row_edges
+from treadload.response.passes.steady import NoSteadyPassError, Track, roll
+from treadload.response.passes.verdict import elastic_factor, judged, shakedown_factor, still_falls
+
+# How often a box may grow that what yields has reached, and by which part of a side.
+_GROWTHS, _GROWN = 4, 0.35
+# What yields at a side counts from this part of the largest plastic strain of the pass on.
+_REACHED = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """After one pass: its number, plastic strain (6, nz, ny), accumulated (nz, ny), and residual stress, Pa.
+
+    added, left: largest equivalent plastic strain that it added, largest change that it left. offset: of the wheel,
+    m. rounds: of the mixing.
+    """
+
+    number: float
+    strain: Array
+    hardening: Array
+    residual: Array
+    added: float
+    left: float
+    offset: float
+    rounds: int
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """Beside the records: attributes of the dataset, entries of stats, sentences."""
+
+    attrs: dict[str, Any]
+    stats: dict[str, Any]
+    warnings: tuple[str, ...]
+
+
+def by_steps(question: Asked, passes: int, tolerance: float) -> tuple[Box, list[Record], Told]:
+    """Passes of laws that are followed step by step, in a box that holds what yields."""
+    box = probe(question)
+    if box is None:
+        return _nothing(question, passes)
+    for _ in range(_GROWTHS + 1):
+        question.tell(f"operator of {box.nx} x {box.ny} cells in {len(box.depths)} rows")
+        track = Track.of(box, [question.material_at(float(z)) for z in box.depths])
+        records, ends, told = _run(question, track, passes, tolerance)
+        bottom = question.courses[-1].bottom
+        if box.edges[-1] >= bottom * (1 - 1e-9):
+            ends[4] = 0.0
+        if not (ends > _REACHED).any():
+            return box, records, told
+        if ends[4] > _REACHED and question.depth is not None:
+            raise InputError(
+                f"the plastic zone reaches the depth of the box, {question.depth:g} m: the last row takes "
+                f"{100 * ends[4]:.0f} % of the largest plastic strain; raise depth, or leave it out"
+            )
+        reached = np.where(ends > _REACHED, _GROWN, 0.0)
+        box = box.grown(*reached[:4].tolist())
+        if reached[4]:
+            top = question.courses[0].top
+            deeper = top + (box.edges[-1] - top) * (1 + _GROWN)
+            box = replace(box, edges=row_edges(question.courses, 0.8 * question.spacing, deeper, question.layers))
+    raise InputError(
+        f"the plastic zone reaches the sides of a box of {box} and grew with it {_GROWTHS} times: this load is far "
+        "above what the road bears; lower it, or give a stronger law"
+    )
+
+
+def _run(question: Asked, track: Track, passes: int, tolerance: float) -> tuple[list[Record], Array, Told]:
+    """All passes over a track, and what of the largest strain of a pass yields at the sides of the box at most."""
+    box = track.box
+    places = [round(one / box.dy) for one in question.offsets]
+    left, right = -min(0, *places), max(0, *places)
+    # The load moved to the right stands still in a frame that moves to the left.
+    y = box.y0 + box.dy * np.arange(-right, box.ny + left)
+    question.tell("stress of the elastic road")
+    wide = question.stress(box.x, y, box.depths)
+    duration = 0.0 if question.speed is None or not question.speed > 0 else box.dx / question.speed
+    states, records, ends = track.virgin(), [], np.zeros(5)
+    strain, hardening = track.whole(states)
+    attrs: dict[str, Any] = {"yield_strain": track.yield_strain, "elastic_load_factor": elastic_factor(track, wide)}
+    warnings: tuple[str, ...] = ()
+    verdict = None
+    for number in range(1, passes + 1):
+        place = places[(number - 1) % len(places)]
+        stress = wide[:, :, right - place : right - place + box.ny]
+        question.tell(f"pass {number} of {passes}")
+        try:
+            done = roll(track, stress, states, duration=duration, tolerance=tolerance)
+        except NoSteadyPassError as error:
+            verdict = "ratchetting"
+            question.tell("the load that would shake down")
+            factor = shakedown_factor(track, stress, duration=duration)
+            attrs["shakedown_load_factor"] = factor
+            warnings += (
+                f"pass {number} has no steady state (its plastic strain still changed by {error.residual:.1e} of "
+                f"itself): the road ratchets; it would shake down under {100 * factor:.0f} % of this load; lower the "
+                "load, or give a law that hardens",
+            )
+            break
+        states, old, before = done.states, strain, hardening
+        strain, hardening = track.whole(states)
+        added, left_over = float((hardening - before).max()), float(np.abs(strain - old).max())
+        if added > 0:
+            ends = np.maximum(ends, np.where(done.ends > 1e-3 * track.yield_strain, done.ends / added, 0.0))
+        records.append(
+            Record(number, strain, hardening, track.residual(strain), added, left_over, place * box.dy, done.rounds)
+        )
+    if not records:
+        records.append(Record(0, strain, hardening, 0 * strain, 0.0, 0.0, 0.0, 0))
+    added_by, left_by = [one.added for one in records], [one.left for one in records]
+    attrs["verdict"] = verdict or judged(added_by, left_by, track.yield_strain)
+    falls = still_falls(added_by)
+    if attrs["verdict"] in ("cyclic", "ratchetting") and falls is not None and len(question.offsets) == 1:
+        warnings += (
+            f"the plastic strain that a pass adds still falls, by {100 * falls:.0f} % in the last: more passes may "
+            f"end in shakedown; the verdict is that of pass {records[-1].number:g}",
+        )
+    return records, ends, Told(attrs, {"memory_mb": track.bars.bytes / 1e6}, warnings)
+
+
+def _nothing(question: Asked, passes: int) -> tuple[Box, list[Record], Told]:
+    """A load under which nothing yields."""
+    low_x, high_x, low_y, high_y = question.extent
+    step = question.spacing
+    nx, ny = (max(2, math.ceil((high - low) / step)) for low, high in ((low_x, high_x), (low_y, high_y)))
+    top = question.courses[0].top
+    deepest = top + SEARCHED * 0.5 * max(high_x - low_x, high_y - low_y)
+    edges = row_edges(question.courses, 0.8 * step, question.depth or deepest, question.layers)
+    box = Box(nx, ny, step, step, low_x + step / 2, low_y + step / 2, edges)
+    zeros = np.zeros((6, *box.shape))
+    materials = [question.material_at(float(z)) for z in box.depths]
+    stress = question.stress(box.x, box.y, box.depths)
+    most, yield_strain = 0.0, math.inf
+    for row, one in enumerate(materials):
+        if one is None:
+            continue
+        most = max(most, 1 + float(over_strength(one, stress[:, row]).max()))
+        yield_strain = min(yield_strain, one.law.strength / one.elastic.modulus)
+    records = [Record(n, zeros, zeros[0], zeros, 0.0, 0.0, 0.0, 0) for n in sorted({1, passes})]
+    attrs = {
+        "verdict": "elastic",
+        "yield_strain": yield_strain,
+        "elastic_load_factor": 1 / most if most else math.inf,
+    }
+    return box, records, Told(attrs, {}, ())

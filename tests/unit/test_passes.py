@@ -1,0 +1,226 @@
+"""Passes over a road that yields: steady states, verdicts, what is refused, and what a file keeps."""
+
+import math
+
+import numpy as np
+import pytest
+
+import treadload as tl
+from treadload.kernels.eigenstrain.operator import moved_by_endless
+from treadload.materials import MohrCoulomb, PassesPowerLaw, Perzyna, VonMises
+from treadload.response.passes.box import Box, courses, row_edges
+from treadload.response.passes.counts import told_counts
+from treadload.response.passes.surface import surface_profile
+from treadload.response.passes.verdict import judged
+
+SOFT = tl.Elastic(600e6, 0.35)
+YIELDING = tl.ElastoPlastic(SOFT, VonMises(0.4e6, kinematic=60e6))
+ROAD = tl.Pavement.half_space(YIELDING)
+DISC = tl.UniformDisc(0.1, 0.8e6)
+COARSE = {"spacing": 0.025, "layers": 7}
+
+
+@pytest.fixture(scope="module")
+def yielded():
+    return tl.roll_passes(DISC, ROAD, passes=3, **COARSE)
+
+
+def test_a_load_below_first_yield_leaves_nothing():
+    weak = tl.roll_passes(tl.UniformDisc(0.1, 0.3e6), ROAD, passes=5, **COARSE)
+    assert weak.verdict == "elastic"
+    assert not weak.dataset.equivalent_plastic_strain.any()
+    assert not weak.dataset.residual_displacement_z.any()
+    assert weak.dataset.attrs["elastic_load_factor"] > 1
+    assert "Verdict: elastic" in weak.summary()
+
+
+def test_first_yield_is_where_the_elastic_road_says(yielded):
+    factor = yielded.dataset.attrs["elastic_load_factor"]
+    below, above = (
+        tl.roll_passes(tl.UniformDisc(0.1, part * factor * 0.8e6), ROAD, passes=1, **COARSE) for part in (0.9, 1.1)
+    )
+    assert below.verdict == "elastic"
+    assert above.dataset.plastic_increment[0] > 0
+
+
+def test_what_a_pass_leaves_is_a_rut_that_earlier_passes_brake(yielded):
+    data = yielded.dataset
+    # The material sinks under the wheel and keeps its volume, so that it heaves beside it.
+    assert float(data.rut_depth[0]) > 0
+    rising = data.rut_depth.to_numpy()
+    assert (np.diff(rising) > 0).all()
+    assert data.plastic_increment[2] < data.plastic_increment[1] < data.plastic_increment[0]
+    # Von Mises' flow keeps the volume.
+    volume = sum(data[f"plastic_strain_{c}"] for c in ("xx", "yy", "zz"))
+    assert np.abs(volume).max() < 1e-12
+    # A wheel in the middle leaves what is even in y, and its surface free of traction.
+    middle = data.residual_stress_xx[2].to_numpy()
+    np.testing.assert_allclose(middle, middle[:, ::-1], atol=2e-3 * np.abs(middle).max())
+
+
+def test_residual_stress_balances(yielded):
+    # Across any vertical plane that holds the track the residual stress σ_yy sums up to nothing: the road pushes
+    # itself only. Rows end above where it fades, so that a part of it stays below.
+    data = yielded.dataset.isel({"pass": -1})
+    thick = np.diff(yielded.dataset.attrs["row_edges"])
+    pushed = (data.residual_stress_yy.to_numpy() * thick[:, None]).sum(axis=0)
+    size = (np.abs(data.residual_stress_yy.to_numpy()) * thick[:, None]).sum(axis=0).max()
+    assert np.abs(pushed).max() < 0.35 * size
+
+
+def test_the_surface_of_a_half_space_is_that_of_endless_bars():
+    box = Box(4, 16, 0.1, 0.1, 0.0, -0.75, np.array([0, 0.1, 0.25, 0.5]))
+    strain = np.random.default_rng(1).standard_normal((6, 3, 16))
+    bars = moved_by_endless(box.cells, 0.35)(strain[..., None])[2, 0, :, 0]
+    layers = tl.Pavement([tl.Layer(SOFT, 0.2), tl.Layer(tl.Elastic(600e6 * (1 + 1e-9), 0.35))])
+    for road in (ROAD, layers):
+        # Waves of two equal layers are those of their half-space, to round-off of long waves.
+        np.testing.assert_allclose(surface_profile(strain, box, road, box.y), bars, atol=1e-7 * np.abs(bars).max())
+
+
+def test_the_rut_on_layers_is_that_of_bettis_long_load():
+    box = Box(4, 12, 0.1, 0.1, 0.0, -0.55, np.linspace(0, 0.5, 21))
+    shape = np.exp(-((box.y / 0.3) ** 2)) * np.exp(-(((box.depths - 0.2) / 0.15) ** 2))[:, None]
+    strain = np.stack([0.3 * shape, 0.7 * shape, -shape, 0 * shape, 0 * shape, 0.2 * shape * box.y])
+    road = tl.Pavement([tl.Layer(tl.Elastic(1e9, 0.35), 0.6), tl.Layer(tl.Elastic(3e8, 0.4))])
+    offsets = np.arange(-11, 12) * 0.1
+    load = tl.UniformRectangle(100.0, 0.1, 10.0)
+    data = tl.solve_response(load, road, depths=box.depths, x=[0.0], y=offsets).dataset
+    stress = np.stack([data[f"stress_{c}"].to_numpy()[:, :, 0] for c in ("xx", "yy", "zz", "xy", "xz", "yz")])
+    weights = np.array([1, 1, 1, 2, 2, 2])[:, None, None] * np.diff(box.edges)[:, None] * 0.1
+    betti = [(weights * strain * stress[:, :, 11 - k : 23 - k]).sum() for k in range(12)]
+    found = surface_profile(strain, box, road, box.y)
+    # The load ends after 100 m, and its stress is read at the middle of rows: 0.7 % with rows of 50 mm, a quarter here.
+    np.testing.assert_allclose(found, betti, atol=4e-3 * np.abs(betti).max())
+
+
+def test_a_slow_pass_of_a_viscous_road_leaves_more():
+    law = Perzyna(MohrCoulomb(60e3, math.radians(35), math.radians(5)), fluidity=1e-3, exponent=2.0)
+    road = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, law))
+    fast, slow = (tl.roll_passes(DISC, road, passes=1, speed=v, **COARSE).dataset for v in (10.0, 1.0))
+    # Ten times the time, in which the overstress relaxes a little.
+    ratio = float(slow.plastic_increment[0] / fast.plastic_increment[0])
+    assert 6 < ratio < 10
+    with pytest.raises(tl.InputError, match="give the speed, m/s, > 0, got None"):
+        tl.roll_passes(DISC, road)
+
+
+def test_a_law_of_passes_counts_them_on_the_same_stress():
+    law = PassesPowerLaw(0.8, 0.4791)
+    road = tl.Pavement([tl.Layer(tl.ElastoPlastic(SOFT, law), 0.1), tl.Layer(tl.Elastic(2e8, 0.35))])
+    done = tl.roll_passes(DISC, road, passes=100_000, **COARSE)
+    data = done.dataset
+    assert list(data["pass"].to_numpy()[:5]) == [1, 2, 5, 10, 20]
+    assert float(data["pass"][-1]) == 1e5
+    # All of it grows with the power of the passes.
+    np.testing.assert_allclose(data.rut_depth / data.rut_depth[0], data["pass"] ** 0.4791, rtol=1e-9)
+    # Under the middle of the disc the stress keeps its axes: the vertical strain is the law's, q/E.
+    stress = tl.solve_response(DISC, road, depths=[float(data.depth[2])], x=[0.0], y=[0.0]).dataset
+    expected = 0.8 * float(stress.von_mises_stress[0, 0, 0]) / 600e6
+    middle = data.isel({"pass": 0, "depth": 2}).sel(y=0.0, method="nearest")
+    assert 0.5 < float(middle.equivalent_plastic_strain) / expected < 1.3
+    assert list(told_counts(7)) == [1, 2, 5, 7]
+
+
+def test_wheels_that_wander_spread_the_rut():
+    straight = tl.roll_passes(DISC, ROAD, passes=2, **COARSE).dataset
+    beside = tl.roll_passes(DISC, ROAD, passes=2, offsets=[0.0, 0.05], **COARSE).dataset
+    assert list(beside.wheel_offset) == pytest.approx([0.0, 0.05])
+    # Beside its first line the wheel finds a road that has not hardened.
+    assert float(beside.plastic_increment[1]) > 2 * float(straight.plastic_increment[1])
+
+    # The second rut lies to the right.
+    def centre(profile):
+        part = np.clip(profile.to_numpy(), 0, None)
+        return float((part * profile.across.to_numpy()).sum() / part.sum())
+
+    assert centre(beside.residual_displacement_z[1]) > centre(straight.residual_displacement_z[1]) + 0.01
+    spread = tl.roll_passes(DISC, ROAD, passes=3, wander=0.05, **COARSE).dataset
+    assert len(set(spread.wheel_offset.to_numpy().round(6))) == 3
+
+
+def test_only_layers_that_can_yield_do():
+    road = tl.Pavement(
+        [tl.Layer(tl.Elastic(2e9, 0.35), 0.05), tl.Layer(YIELDING, 0.1), tl.Layer(tl.Elastic(1e8, 0.35))]
+    )
+    done = tl.roll_passes(DISC, road, passes=1, **COARSE)
+    assert float(done.dataset.attrs["row_edges"][0]) == pytest.approx(0.05)
+    assert float(done.dataset.attrs["row_edges"][-1]) <= 0.15 + 1e-9
+    assert any("half-space of the yielding material" in text for text in done.warnings)
+
+
+def test_rows_end_at_interfaces():
+    road = tl.Pavement([tl.Layer(YIELDING, 0.07), tl.Layer(YIELDING, 0.08), tl.Layer(YIELDING)])
+    edges = row_edges(courses(road), 0.01, 0.3, 12)
+    assert edges[0] == 0
+    assert edges[-1] == pytest.approx(0.3)
+    assert {0.07, 0.15} <= set(edges.round(12))
+    assert (np.diff(edges) > 0).all()
+
+
+def test_a_strain_above_five_per_cent_is_told():
+    soft = tl.ElastoPlastic(tl.Elastic(3e6, 0.35), VonMises(0.25e6, hardening=1e6))
+    done = tl.roll_passes(DISC, tl.Pavement.half_space(soft), passes=1, **COARSE)
+    assert any("above 5 %: strains are taken as small" in text for text in done.warnings)
+    assert any(text in done.summary() for text in done.warnings)
+
+
+def test_a_road_that_does_not_come_to_rest_says_so_with_the_load_that_would():
+    perfect = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, VonMises(0.2e6)))
+    done = tl.roll_passes(DISC, perfect, passes=3, spacing=0.04, layers=5)
+    assert done.verdict == "ratchetting"
+    (text,) = [text for text in done.warnings if "no steady state" in text]
+    factor = done.dataset.attrs["shakedown_load_factor"]
+    assert f"would shake down under {100 * factor:.0f} % of this load" in text
+    assert done.dataset.attrs["elastic_load_factor"] <= factor < 1
+    rest = tl.roll_passes(tl.UniformDisc(0.1, 0.8e6 * factor * 0.97), perfect, passes=8, spacing=0.04, layers=5)
+    assert rest.verdict in ("elastic", "shakedown")
+
+
+@pytest.mark.parametrize(
+    ("added", "left", "verdict"),
+    [
+        ([0.0, 0.0], [0.0, 0.0], "elastic"),
+        ([1e-3, 1e-4, 5e-6], [1e-3, 1e-4, 5e-6], "shakedown"),
+        ([1e-3, 1e-3], [1e-3, 5e-5], "cyclic"),
+        ([1e-3, 1e-3], [1e-3, 5e-4], "ratchetting"),
+    ],
+)
+def test_the_criterion_of_the_verdict(added, left, verdict):
+    assert judged(added, left, 1e-3) == verdict
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({"passes": 0}, "passes must be a whole number >= 1, got 0"),
+        ({"passes": 2.5}, "passes must be a whole number >= 1"),
+        ({"spacing": -1.0}, "spacing must be a positive number of metres"),
+        ({"layers": 1}, r"layers must be a whole number in \[2, 64\], got 1"),
+        ({"tolerance": 1.0}, r"tolerance must lie in \[1e-8, 0.1\]"),
+        ({"offsets": [0.0], "wander": 0.1}, "give one of them"),
+        ({"offsets": [math.nan]}, "offsets must be finite"),
+        ({"depth": 0.06, **COARSE}, "the plastic zone reaches the depth of the box, 0.06 m"),
+        ({"spacing": 0.0004}, r"needs \d+\.\d GB, above 1.5 GB; raise spacing"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_a_sentence(asked, words):
+    with pytest.raises(tl.InputError, match=words) as caught:
+        tl.roll_passes(DISC, ROAD, **asked)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_a_road_that_cannot_yield_is_refused():
+    with pytest.raises(tl.InputError, match="no layer of this road can yield; give one of them an ElastoPlastic"):
+        tl.roll_passes(DISC, tl.Pavement.half_space(SOFT))
+    both = tl.Pavement([tl.Layer(YIELDING, 0.1), tl.Layer(tl.ElastoPlastic(SOFT, PassesPowerLaw(1, 0.5)))])
+    with pytest.raises(tl.InputError, match="need a PassesPowerLaw, or none"):
+        tl.roll_passes(DISC, both)
+
+
+def test_a_file_holds_all_of_it(yielded, tmp_path):
+    opened = tl.open_results(tl.save_results(yielded, tmp_path / "ruts.nc")).passes
+    assert opened.summary() == yielded.summary()
+    assert opened.road == ROAD
+    again = tl.roll_passes(opened.loads[0], opened.road, passes=1, **COARSE)
+    assert float(again.dataset.rut_depth[0]) == pytest.approx(float(yielded.dataset.rut_depth[0]), rel=1e-6)
