@@ -109,6 +109,12 @@ def calibration():
     return tl.calibrate(TIRE, ["modulus"], rows, road=ROAD, tolerance=1e-6)
 
 
+def passes():
+    soft = tl.ElastoPlastic(tl.Elastic(6e8, 0.35), tl.materials.VonMises(4e5, kinematic=6e7))
+    disc = tl.UniformDisc(0.1, 8e5)
+    return tl.roll_passes(disc, tl.Pavement.half_space(soft), passes=2, spacing=0.04, layers=4)
+
+
 def screened(verb, **more):
     """What matters, of a function in the place of the solver."""
     with pytest.MonkeyPatch.context() as patch:
@@ -148,6 +154,7 @@ MADE = {
     "Tornado": lambda: screened(tl.study.tornado),
     "Sobol": lambda: screened(tl.study.sobol, blocks=4, second_order=True),
     "Morris": lambda: screened(tl.study.morris, trajectories=3),
+    "Passes": passes,
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
 FIGURES = {
@@ -156,6 +163,7 @@ FIGURES = {
     "BondComparison": "lives", "Sensitivity": "inputs", "UniformComparison": "strains", "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
+    "Passes": "rut",
     "Sweep": lambda plot: plot.curve("worst_strain"), "Tornado": "tornado", "Sobol": "sobol", "Morris": "morris",
 }  # fmt: skip
 

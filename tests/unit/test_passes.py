@@ -78,19 +78,20 @@ def test_the_surface_of_a_half_space_is_that_of_endless_bars():
         np.testing.assert_allclose(surface_profile(strain, box, road, box.y), bars, atol=1e-7 * np.abs(bars).max())
 
 
+@pytest.mark.slow
 def test_the_rut_on_layers_is_that_of_bettis_long_load():
     box = Box(4, 12, 0.1, 0.1, 0.0, -0.55, np.linspace(0, 0.5, 21))
     shape = np.exp(-((box.y / 0.3) ** 2)) * np.exp(-(((box.depths - 0.2) / 0.15) ** 2))[:, None]
     strain = np.stack([0.3 * shape, 0.7 * shape, -shape, 0 * shape, 0 * shape, 0.2 * shape * box.y])
     road = tl.Pavement([tl.Layer(tl.Elastic(1e9, 0.35), 0.6), tl.Layer(tl.Elastic(3e8, 0.4))])
     offsets = np.arange(-11, 12) * 0.1
-    load = tl.UniformRectangle(100.0, 0.1, 10.0)
+    load = tl.UniformRectangle(1000.0, 0.1, 10.0)
     data = tl.solve_response(load, road, depths=box.depths, x=[0.0], y=offsets).dataset
     stress = np.stack([data[f"stress_{c}"].to_numpy()[:, :, 0] for c in ("xx", "yy", "zz", "xy", "xz", "yz")])
     weights = np.array([1, 1, 1, 2, 2, 2])[:, None, None] * np.diff(box.edges)[:, None] * 0.1
     betti = [(weights * strain * stress[:, :, 11 - k : 23 - k]).sum() for k in range(12)]
     found = surface_profile(strain, box, road, box.y)
-    # The load ends after 100 m, and its stress is read at the middle of rows: 0.7 % with rows of 50 mm, a quarter here.
+    # The load ends after 1 km, and stress is read at the middle of rows: 0.7 % with rows of 50 mm, a quarter here.
     np.testing.assert_allclose(found, betti, atol=4e-3 * np.abs(betti).max())
 
 
@@ -165,6 +166,7 @@ def test_a_strain_above_five_per_cent_is_told():
     assert any(text in done.summary() for text in done.warnings)
 
 
+@pytest.mark.slow
 def test_a_road_that_does_not_come_to_rest_says_so_with_the_load_that_would():
     perfect = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, VonMises(0.2e6)))
     done = tl.roll_passes(DISC, perfect, passes=3, spacing=0.04, layers=5)
@@ -224,3 +226,76 @@ def test_a_file_holds_all_of_it(yielded, tmp_path):
     assert opened.road == ROAD
     again = tl.roll_passes(opened.loads[0], opened.road, passes=1, **COARSE)
     assert float(again.dataset.rut_depth[0]) == pytest.approx(float(yielded.dataset.rut_depth[0]), rel=1e-6)
+
+
+CASE = """
+title = "hot"
+[[pavement.layers]]
+name = "asphalt"
+thickness = "80 mm"
+material = { modulus = "600 MPa", poisson = 0.35 }
+[pavement.layers.plasticity]
+kind = "mohr-coulomb"
+cohesion = "40 kPa"
+friction_angle = "35 deg"
+hardening = "20 MPa"
+[[pavement.layers]]
+material = { modulus = "300 MPa", poisson = 0.35 }
+[footprint]
+file = "print.csv"
+spacing = "20 mm"
+[passes]
+count = 2
+spacing = "25 mm"
+layers = 5
+"""
+
+
+@pytest.fixture
+def hot(tmp_path):
+    pressure = np.zeros((11, 13))
+    pressure[2:9, 2:11] = 0.8e6
+    np.savetxt(tmp_path / "print.csv", pressure, delimiter=",")
+    (tmp_path / "case.toml").write_text(CASE)
+    return tl.Case.from_toml(tmp_path / "case.toml")
+
+
+@pytest.mark.slow
+def test_a_case_runs_its_passes_and_reports_them(hot, tmp_path, monkeypatch):
+    result = tl.run_case(hot)
+    assert "Verdict: " in result.summary()
+    assert result.passes.dataset.sizes["pass"] == 2
+    opened = tl.open_results(tl.save_results(result, tmp_path / "r.nc"))
+    assert opened.passes.summary() == result.passes.summary()
+    assert any("Dang Van" in text for text in opened.tree.attrs["citations"].split('", "'))
+    monkeypatch.setattr("treadload.reporting.figures.picture", lambda *_, **__: [])
+    page = tl.report(opened, tmp_path / "r.html").read_text()
+    assert "Passes over a road that yields" in page
+    assert page.count("could not be drawn") == 0
+
+
+def test_passes_of_a_case_need_a_layer_that_yields(hot):
+    table = hot.given()
+    del table["pavement"]["layers"][0]["plasticity"]
+    with pytest.raises(tl.InputError, match=r"\[passes\] need a layer that can yield"):
+        tl.Case.from_dict(table, folder=hot.folder)
+    table = hot.given() | {"passes": {"count": 0}}
+    with pytest.raises(tl.InputError, match="count must be >= 1, got 0"):
+        tl.Case.from_dict(table, folder=hot.folder)
+
+
+@pytest.mark.slow
+def test_the_map_of_shakedown_falls_with_friction():
+    load = tl.UniformRectangle(0.2, 0.2, 0.5e6)
+    fields = tl.study.shakedown_map(load, ROAD, (0.0, 0.4), spacing=0.04, layers=5)
+    data = fields.dataset
+    # Both are over the load of first yield without shear.
+    assert float(data.elastic_limit_load[0]) == 1.0
+    assert (data.shakedown_load >= data.elastic_limit_load).all()
+    assert float(data.shakedown_load[1]) < float(data.shakedown_load[0])
+    assert tl.plots.shakedown_map(fields).axes
+    with pytest.raises(tl.InputError, match="a disc carries no shear"):
+        tl.study.shakedown_map(DISC, ROAD)
+    viscous = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, Perzyna(VonMises(1e5), 1.0)))
+    with pytest.raises(tl.InputError, match="Perzyna yields under every load"):
+        tl.study.shakedown_map(load, viscous)

@@ -9,6 +9,7 @@ from pydantic import model_validator
 from treadload.case.choices import TIRE_MATERIAL
 from treadload.case.file import FilePart
 from treadload.case.loading import FootprintPart
+from treadload.case.passes import PassesPart
 from treadload.case.response import ResponsePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
@@ -17,6 +18,7 @@ from treadload.contact.bodies.choose import RoadCompliance, surface_of
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.kernels.layers.depths import same_depth
+from treadload.materials import ElastoPlastic
 from treadload.pavement import Pavement
 from treadload.read import As, Made, Table
 from treadload.response import MATERIAL_LENGTH
@@ -57,10 +59,10 @@ class Case(FilePart):
     road_compliance: "layers" for a stiff body such as a steel wheel, see `solve_contact`; else the top layer's
     half-space. tire: its surface and what it is made of. pavement: the road. rolling: load, friction, forces.
     footprint: recorded contact stress in place of tire and rolling. response: where the road is read. damage: what it
-    does to the surface.
+    does to the surface. passes: how often it rolls over a road that yields.
     """
 
-    own_tables: ClassVar = ("rolling", "footprint", "response", "damage")
+    own_tables: ClassVar = ("rolling", "footprint", "response", "damage", "passes")
     how_to_run: ClassVar = "the case of a wheel: use `treadload run {name}`, in Python Case"
 
     spacing: Length | None = None
@@ -72,6 +74,7 @@ class Case(FilePart):
     footprint: FootprintPart | None = None
     response: ResponsePart = ResponsePart()
     damage: DamagePart | None = None
+    passes: PassesPart | None = None
 
     @model_validator(mode="after")
     def _buildable(self) -> Case:
@@ -86,6 +89,12 @@ class Case(FilePart):
             raise ValueError(
                 f"response.depths reach {max(self.response.depths):g} m, below the rigid base at "
                 f"{road.interfaces[-1]:g} m"
+            )
+        yields = any(isinstance(layer.material, ElastoPlastic) for layer in road.layers)
+        if self.passes is not None and not yields:
+            raise ValueError(
+                "[passes] need a layer that can yield: give one of the layers a plasticity, "
+                'such as { kind = "mohr-coulomb", cohesion = "100 kPa", friction_angle = "35 deg" }'
             )
         if self.damage is not None:
             depth = self.damage.depth

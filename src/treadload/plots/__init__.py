@@ -24,6 +24,7 @@ from treadload.plots.others import (
     FootprintComparisonPlots,
     LifePlots,
     MorrisPlots,
+    PassesPlots,
     RollingResistancePlots,
     SensitivityPlots,
     SobolPlots,
@@ -34,6 +35,7 @@ from treadload.plots.others import (
     TurnPlots,
     UniformPlots,
 )
+from treadload.plots.passes import plastic_strain, residual_stress, rut_profile, shakedown_map
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
@@ -55,6 +57,7 @@ __all__ = [
     "FootprintComparisonPlots",
     "LifePlots",
     "MorrisPlots",
+    "PassesPlots",
     "ResponsePlots",
     "RollingResistancePlots",
     "SensitivityPlots",
@@ -94,9 +97,13 @@ __all__ = [
     "orientation_shares",
     "places_under",
     "plain_map",
+    "plastic_strain",
     "png",
+    "residual_stress",
     "rib_shares",
+    "rut_profile",
     "save",
+    "shakedown_map",
     "shift_factors",
     "sobol_bars",
     "study_curve",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,6 +16,7 @@ from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shar
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
+from treadload.plots.passes import plastic_strain, residual_stress, rut_profile
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
@@ -46,6 +47,25 @@ class LifePlots(_Plots):
     def shares(self, criterion: str | None = None) -> Figure:
         """Who does the damage, and when: classes of axles by seasons."""
         return life_shares(self._result, criterion)
+
+
+@offers("plot", "Passes")
+class PassesPlots(_Plots):
+    """Figures of passes over a road that yields."""
+
+    def rut(self, *, ax: Axes | None = None) -> Figure:
+        """Shape of the surface across travel, pass by pass."""
+        return rut_profile(self._result, ax=ax)
+
+    def strain(self, *, ax: Axes | None = None) -> Figure:
+        """Accumulated plastic strain in a section across travel, %."""
+        return plastic_strain(self._result, ax=ax)
+
+    def stress(
+        self, component: Literal["xx", "yy", "zz"] = "xx", *, y: float = 0.0, ax: Axes | None = None
+    ) -> Figure:
+        """Residual stress against depth below a line y, m, pass by pass."""
+        return residual_stress(self._result, component, y=y, ax=ax)
 
 
 @offers("plot", "Sensitivity")

@@ -14,6 +14,7 @@ from treadload.plots import (
     FootprintComparisonPlots,
     LifePlots,
     MorrisPlots,
+    PassesPlots,
     RollingResistancePlots,
     SensitivityPlots,
     SobolPlots,
@@ -46,6 +47,7 @@ HEADINGS = {
     "tornado": "Tornado",
     "sobol": "Sobol indices",
     "morris": "Morris screening",
+    "passes": "Passes over a road that yields",
 }
 
 
@@ -110,6 +112,18 @@ def _pictures(other: Other) -> list[Picture]:
         case "creep_curve":
             caption = "Force over friction times load, and the share of the contact that slips, against creepage."
             return picture("Force against creepage", caption, CreepCurvePlots(data).forces, wide=True)
+        case "passes":
+            plots_of_passes = PassesPlots(data)
+            caption = "Displacement of the surface that passes leave, down; the same all along travel."
+            drawn = picture("Rut across travel", caption, plots_of_passes.rut, wide=True)
+            if not data["equivalent_plastic_strain"].any():
+                return drawn
+            drawn += picture(
+                "Plastic strain", "Equivalent plastic strain after the last pass.", plots_of_passes.strain, wide=True
+            )
+            return drawn + picture(
+                "Residual stress", "Along travel, below the wheel's line, tension positive.", plots_of_passes.stress
+            )
         case "sensitivity":
             caption = "Change of the governing life as each input grows by 5 %, temperature by 1 °C."
             return picture("What the life depends on", caption, SensitivityPlots(data).inputs)

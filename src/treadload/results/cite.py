@@ -52,6 +52,10 @@ CITATIONS = {
     "functions. Int. J. Solids Struct. 36, 1653-1675.",
     "moving": "Duhamel, D., Chabot, A., Tamagny, P., Harfouche, L. (2005). ViscoRoute: visco-elastic modeling for "
     "asphalt pavements. Bull. Lab. Ponts Chaussées 258-259, 89-103.",
+    "eigenstrain": "Chiu, Y. P. (1978). On the stress field and surface deformation in a half space with a cuboidal "
+    "zone in which initial strains are uniform. J. Appl. Mech. 45, 302-306.",
+    "passes": "Dang Van, K., Maitournam, M. H. (1993). Steady-state flow in classical elastoplasticity: applications "
+    "to repeated rolling and sliding contact. J. Mech. Phys. Solids 41, 1691-1710.",
     "miner": "Miner, M. A. (1945). Cumulative damage in fatigue. J. Appl. Mech. 12, A159-A164.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
 }
@@ -95,6 +99,11 @@ def _of_the_road(road: Pavement | None) -> list[str]:
         "prony": any(isinstance(one, Prony) for one in materials),
     }
     return [key for key, used in asked.items() if used]
+
+
+def passes_citations() -> list[str]:
+    """References of the methods that passes over a road that yields use beside those of its response."""
+    return [CITATIONS[key] for key in ("eigenstrain", "passes", "mixing")]
 
 
 # Of every case that is solved whole.

@@ -26,8 +26,8 @@ from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.pavement import Layer, LayerRow, Pavement, layer_rows, road_in_words
-from treadload.response import GridLoad, Response
-from treadload.results.cite import case_citations, citations, life_citations
+from treadload.response import GridLoad, Passes, Response
+from treadload.results.cite import case_citations, citations, life_citations, passes_citations
 from treadload.results.dataset import Fields
 from treadload.results.questions import Writer
 from treadload.results.roads import rows_of
@@ -99,13 +99,16 @@ def to_tree(
     rows = rows_of(road, case) if isinstance(case, Case) or season is None else _warm_rows(road, season)
     used = life_citations(road) if life is not None and contact is None else []
     used = case_citations(asked_case) if asked_case is not None and not used else used
+    used = used or citations(contact, _last(own, Response), road)
+    if any(isinstance(part, Passes) for part in own):
+        used = list(dict.fromkeys([*used, *passes_citations()]))
     root = {
         "title": title or (case.title if case is not None else ""),
         "case": case.to_toml() if case is not None else "",
         "layers": json.dumps([asdict(row) for row in rows], ensure_ascii=False),
         **({} if season is None else {"season": season.name}),
         **({"summary": summary} if summary else {}),
-        "citations": json.dumps(used or citations(contact, _last(own, Response), road), ensure_ascii=False),
+        "citations": json.dumps(used, ensure_ascii=False),
         **_provenance(),
     }
     asked = {name: ([f"{name}_{k}" for k in range(one.ndim)], one) for name, one in writer.arrays.items()}

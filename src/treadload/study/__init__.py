@@ -10,6 +10,7 @@ from treadload.study.run_calibration import CalibrationResult, plan_calibration,
 from treadload.study.run_life import LifeResult, run_life
 from treadload.study.screening import Morris, Sobol, Tornado, morris, sobol, tornado
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
+from treadload.study.shakedown import shakedown_map
 from treadload.study.sweeps import Sweep, open_sweep, sampled, sweep
 from treadload.study.tire_card import TireCard, tire_card
 from treadload.study.two_grids import assess_on_two_grids
@@ -43,6 +44,7 @@ __all__ = [
     "run_case",
     "run_life",
     "sampled",
+    "shakedown_map",
     "sobol",
     "solve_interfaces",
     "solve_life",

@@ -20,7 +20,7 @@ from treadload.footprint import Footprint
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
-from treadload.response import GridLoad, Response, solve_response
+from treadload.response import GridLoad, Passes, Response, roll_passes, solve_response
 from treadload.response.superposition import common_grid
 from treadload.results import Study, road_in_rows, to_tree
 from treadload.study.two_grids import COARSER, check_two_grids, with_error
@@ -45,7 +45,8 @@ class Result(Study):
     road: at its temperature. contact: None if a footprint was recorded, which is then `footprint`. response: maps at
     the case's depths, over all wheels. slice_along, slice_across: vertical slices along travel and across it through
     the worst point of the map that the verdict reads, else the first. bowl: deflection of the surface along travel
-    under the first wheel; None on a half-space. verdict: None if the case has no fatigue line.
+    under the first wheel; None on a half-space. verdict: None if the case has no fatigue line. passes: None if the
+    case has none.
     """
 
     case: Case
@@ -57,6 +58,7 @@ class Result(Study):
     slice_across: Response
     bowl: Response | None
     verdict: Verdict | None
+    passes: Passes | None = None
 
     @property
     def parts(self) -> Mapping[str, BaseResult]:
@@ -65,6 +67,7 @@ class Result(Study):
         parts = {
             "contact": load, "response": self.response, "slice_along": self.slice_along,
             "slice_across": self.slice_across, "bowl": self.bowl, "damage": self.verdict,
+            "passes": self.passes,
         }  # fmt: skip
         return {name: part for name, part in parts.items() if part is not None}
 
@@ -76,7 +79,7 @@ class Result(Study):
         """One screen: contact, road, response, verdict."""
         parts = self.parts
         told = [parts["contact"].summary(), road_in_rows(self.road, self.case), self.response.summary()]
-        return "\n\n".join(told if self.verdict is None else [*told, self.verdict.summary()])
+        return "\n\n".join([*told, *(one.summary() for one in (self.verdict, self.passes) if one is not None)])
 
     __repr__ = first_line
 
@@ -116,7 +119,18 @@ def read_loaded(load: Loaded) -> Result:
         bowl = load.solve([0.0], x=ahead + steps, y=[right])
         # For whoever draws it: a line of points does not say where the load's centre is.
         bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
-    return Result(case, road, load.contact, load.footprint, response, along, across, bowl, verdict)
+    passes = None if case.passes is None else passes_of(case, load)
+    return Result(case, road, load.contact, load.footprint, response, along, across, bowl, verdict, passes)
+
+
+def passes_of(case: Case, load: Loaded) -> Passes:
+    """What the passes leave that a case asks for."""
+    asked = case.passes
+    assert asked is not None
+    return roll_passes(
+        load.wheels, load.road, passes=asked.count, speed=case.speed, spacing=asked.spacing, depth=asked.depth,
+        layers=asked.layers, wander=asked.wander, progress=load.tell,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

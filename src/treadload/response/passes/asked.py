@@ -119,8 +119,19 @@ def _normal_places(count: int = 32) -> Array:
     return np.array([NormalDist().inv_cdf((k + 0.5) / count) for k in order])
 
 
-def probe(question: Asked) -> Box | None:
-    """A box around what yields on the elastic road; None where nothing does."""
+@dataclass(frozen=True, eq=False)
+class _Probed:
+    """Yield functions over strengths of the virgin road, (nz, ny, nx), and where; coarse: of x and y, m."""
+
+    x: Array
+    y: Array
+    depths: Array
+    over: Array
+    coarse: float
+
+
+def _probed(question: Asked) -> _Probed:
+    """The elastic road around the footprint, as far as it may yield."""
     low_x, high_x, low_y, high_y = question.extent
     step, half = question.spacing, 0.5 * max(high_x - low_x, high_y - low_y)
     coarse = max(step, 2 * half / _CELLS)
@@ -137,7 +148,23 @@ def probe(question: Asked) -> Box | None:
         material = question.material_at(float(depth))
         if material is not None:
             over[row] = over_strength(material, stress[:, row])
-    yields = over > 0
+    return _Probed(x, y, depths, over, coarse)
+
+
+def first_yield(question: Asked) -> float:
+    """Multiple of the load at which the road first yields, to the cells that it is looked for on."""
+    most = 1 + float(_probed(question).over.max())
+    if not most > 0:
+        raise InputError("no multiple of this load makes the road yield: it presses nowhere")
+    return 1 / most
+
+
+def probe(question: Asked) -> Box | None:
+    """A box around what yields on the elastic road; None where nothing does."""
+    found = _probed(question)
+    x, y, depths, coarse = found.x, found.y, found.depths, found.coarse
+    step, top = question.spacing, question.courses[0].top
+    yields = found.over > 0
     if not yields.any():
         return None
     rows, lines, columns = (np.flatnonzero(yields.any(axis=other)) for other in ((1, 2), (0, 2), (0, 1)))
