@@ -215,6 +215,9 @@ def test_what_cannot_be_is_refused_in_a_sentence(asked, words):
 def test_a_road_that_cannot_yield_is_refused():
     with pytest.raises(tl.InputError, match="no layer of this road can yield; give one of them an ElastoPlastic"):
         tl.roll_passes(DISC, tl.Pavement.half_space(SOFT))
+    glue = tl.materials.Prony.standard_linear_solid(4e9, 3e9, 0.01, 0.35)
+    with pytest.raises(tl.InputError, match=r"layer 'base' is .*give it an Elastic"):
+        tl.roll_passes(DISC, tl.Pavement([tl.Layer(YIELDING, 0.1), tl.Layer(glue, name="base")]))
     both = tl.Pavement([tl.Layer(YIELDING, 0.1), tl.Layer(tl.ElastoPlastic(SOFT, PassesPowerLaw(1, 0.5)))])
     with pytest.raises(tl.InputError, match="need a PassesPowerLaw, or none"):
         tl.roll_passes(DISC, both)

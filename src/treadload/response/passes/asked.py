@@ -12,7 +12,7 @@ import numpy as np
 
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
-from treadload.materials import Perzyna
+from treadload.materials import Elastic, Perzyna
 from treadload.pavement import Pavement
 from treadload.response.layered import View
 from treadload.response.loads import GridLoad, PlacedLoad, UniformRectangle, gather
@@ -82,6 +82,12 @@ def asked(
         raise InputError(
             "no layer of this road can yield; give one of them an ElastoPlastic(elastic, law) as its material"
         )
+    for layer in road.layers:
+        if not isinstance(layer.resolved, Elastic):
+            raise InputError(
+                f"layer {layer.name!r} is {layer.resolved}: passes are known over layers that are elastic or "
+                "elastoplastic; give it an Elastic with its modulus at the time of loading"
+            )
     for name, value in (("spacing", spacing), ("depth", depth), ("wander", wander)):
         if value is not None:
             positive(name, value, "metres", "leave it out for the default")

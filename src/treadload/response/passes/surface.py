@@ -32,9 +32,9 @@ def surface_profile(strain: Array, box: Box, road: Pavement, across: Array) -> A
     lateral places, on the lattice of the box's cells. Of half-bonded interfaces the mean of both limits.
     """
     places = np.rint((across - box.y0) / box.dy).astype(int)
-    profile = _half_space(strain, box, places, road.surface_material.poisson)
+    stacks = [stack_of(one) for one in road.bond_limits]
+    profile = _half_space(strain, box, places, stacks[0].poisson[0])
     if not road.is_homogeneous:
-        stacks = [stack_of(one) for one in road.bond_limits]
         profile += np.mean([_change(strain, box, places, stack) for stack in stacks], axis=0)
     return profile
 
