@@ -40,6 +40,7 @@ def smooth_tire(speed):
     return solve(SOLID, speed, x[None, :] ** 2 + x[:, None] ** 2 / 1.2)
 
 
+@pytest.mark.slow
 @given(
     seed=st.integers(0, 10**6),
     speed=st.floats(-3, 3).map(lambda e: 10**e),

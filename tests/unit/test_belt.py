@@ -211,6 +211,7 @@ def test_rows_of_smaller_radius_drag(ribbed):
 SOLID = tl.materials.Prony.standard_linear_solid(6e6, 4e6, 5e-3, 0.47)
 
 
+@pytest.mark.slow
 def test_a_tread_that_remembers_lies_between_its_limits():
     at, carcass = Offsets(3, 8, 8e-3, 8e-3, -5 * 8e-3), inflated(tl.Belt(tread=SOLID))
     fast, slow = (belt_surface(inflated(tl.Belt(tread=limit))) for limit in (SOLID.glassy, SOLID.rubbery))

@@ -194,6 +194,7 @@ def test_a_response_without_its_road_needs_a_depth(response):
         assess(SimpleNamespace(dataset=response.dataset), LINE)
 
 
+@pytest.mark.slow
 def test_two_grids_tell_the_error(driving):
     verdict = tl.study.assess_on_two_grids(driving.tire, HALF, driving.rolling, LINE, spacing=3e-3)
     text = next(line for line in verdict.summary().splitlines() if line.startswith("error estimate"))

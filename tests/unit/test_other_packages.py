@@ -431,6 +431,7 @@ def test_a_bond_law_is_one_file_of_theirs(road_laws):
     )
 
 
+@pytest.mark.slow
 def test_a_reader_of_meshes_is_one_file_of_theirs(road_laws, tmp_path):
     points, triangles = tire_mesh()
     with (tmp_path / "wheel.lab").open("wb") as stream:

@@ -97,6 +97,7 @@ def test_revolving_removes_noise(tmp_path):
     assert np.quantile(np.abs(smooth[rib]), 0.9) < 0.3 * np.quantile(np.abs(raw[rib]), 0.9)
 
 
+@pytest.mark.slow
 def test_formats_give_the_same_tire(tmp_path):
     vertices, faces = tire_mesh(around=180, across=80)
     maps = []
@@ -121,6 +122,7 @@ def test_units_given(tmp_path, unit, factor):
     assert quality.width == pytest.approx(0.322, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_units_that_cannot_be(tmp_path):
     vertices, faces = tire_mesh(around=180, across=60)
     thousands = write(tmp_path / "mm.ply", 1e3 * vertices, faces)
@@ -388,6 +390,7 @@ def test_without_trimesh_the_remedy_is_named(monkeypatch):
         Tire.from_scan(example_mesh())
 
 
+@pytest.mark.slow
 def test_without_embree_the_map_is_the_same(tmp_path, monkeypatch):
     pytest.importorskip("rtree")
     # Rays are a millimetre apart: a narrow tire takes a quarter of them.

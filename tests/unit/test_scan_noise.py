@@ -118,7 +118,10 @@ def test_a_window_too_short_is_told(tmp_path):
             Tire.from_scan(path, smooth=bad)
 
 
-@pytest.mark.parametrize("height", [0.7e-3, 5e-3, 0.1, 1e9])
+_SLOW = pytest.mark.slow
+
+
+@pytest.mark.parametrize("height", [0.7e-3, 5e-3, pytest.param(0.1, marks=_SLOW), pytest.param(1e9, marks=_SLOW)])
 def test_a_point_that_sticks_out_is_named_and_put_back(tmp_path, height):
     vertices, faces = tire_mesh(around=300, across=60)
     below = (0.0, 0.02, -0.538)
@@ -154,6 +157,7 @@ def test_a_clump_and_a_speck_beside_the_tire_are_outliers(tmp_path):
     assert tire.surface.first_contact == pytest.approx(0.538, abs=0.1e-3)
 
 
+@pytest.mark.slow
 def test_nothing_of_a_clean_tire_is_taken(tmp_path):
     meshes = example_mesh().parents[0], MESHES
     paths = [path for folder in meshes for path in sorted(folder.glob("*.obj"))]
@@ -190,6 +194,7 @@ def test_many_places_are_refused_unless_they_belong(tmp_path):
     assert len(Tire.from_scan(path, outliers="keep").quality.outliers) > 40
 
 
+@pytest.mark.slow
 def test_the_command_tells_noise_and_outliers(tmp_path):
     vertices, faces = tire_mesh(noise=0.2e-3, around=300, across=70)
     path = str(write(tmp_path / "tire.ply", stick_out(vertices, 0.05, near=(0.0, 0.02, -0.538)), faces))
