@@ -18,7 +18,7 @@ from collections.abc import Callable
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.kernels.layers.images import surface_compliance
+from treadload.kernels.layers.images import half_space_compliance, surface_compliance
 from treadload.kernels.layers.layered import Stack
 
 _NODES = 48
@@ -42,7 +42,7 @@ def _solved(stack: Stack, radius: float, side: Callable[[Array], Array]) -> tupl
     """∫ φ dt and φ at the rim, t in radii; side(t): right sides (n, sides) over 2/(π N∞)."""
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
     t, w = np.append((nodes + 1) / 2, 1.0), weights / 2
-    top = (1 - stack.poisson[0]) / stack.shear[0]
+    top = float(half_space_compliance(stack, 0)[0])
     # N/N∞ - 1 is gone at k h = 20; panels graded towards k = 0 hold what happens at long waves.
     last = max(2.0, 20 * radius / stack.thickness[0]) + 1
     edges = np.concatenate([[0], np.geomspace(1e-9, 1, 60), np.arange(1.5, last, 0.5)])

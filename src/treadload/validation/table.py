@@ -23,6 +23,7 @@ from treadload.validation import (
     stress,
     tensors,
     tires,
+    upright,
     viscoelastic,
 )
 from treadload.validation.check import Check
@@ -37,6 +38,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "rubber": dissimilar.rubber_checks,
     "viscoelastic": viscoelastic.cylinder_checks,
     "grain": grain.grain_checks,
+    "upright": upright.upright_checks,
     "histories": histories.history_checks,
     "stress": stress.stress_checks,
     "layers": layers.layer_checks,
