@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from scipy.special import j0, j1
-from tests.upright import MATERIALS, decays, medium_of, nearly, plane_of, upright_of
 
 import treadload as tl
 from treadload.kernels.half_space.disc import disc_fields
 from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.layers.layered import Stack, transfer
 from treadload.kernels.tensors import strain_from_stress
+from upright import MATERIALS, decays, medium_of, nearly, plane_of, upright_of
 
 DX, DY = 0.03, 0.02
 X, Y = np.array([0.0, 0.011, 0.04, -0.07]), np.array([0.003, 0.025, -0.06])

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from tests.upright import MATERIALS, decays, nearly, plane_of, upright_of
 
 import treadload as tl
 from treadload.contact.bodies.choose import road_surface
@@ -13,6 +12,7 @@ from treadload.contact.bodies.upright import UprightHalfSpace
 from treadload.kernels.layers.images import fit_images, surface_compliance
 from treadload.kernels.layers.layered import Stack, transfer
 from treadload.pavement.stack import stack_of
+from upright import MATERIALS, decays, nearly, plane_of, upright_of
 
 MIX, UNBOUND, WEAK, NEAR = MATERIALS.values()
 SOIL = tl.Elastic(80e6, 0.4)

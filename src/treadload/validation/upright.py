@@ -57,7 +57,7 @@ def _inside(material: TransverselyIsotropic) -> float:
     worst = 0.0
     for one in load.swapaxes(0, 1):
         found = fields_on_grid(one, *cell, depths, plane_of(material)[0], medium_of(material), x, y)[0]
-        expected = by_directions(one, *cell, depths, modes, x, y)[0]
+        expected = by_directions(one, *cell, depths, 1.0, modes, x, y)[0]
         worst = max(worst, float(np.abs(found - expected).max()))
     return worst
 
