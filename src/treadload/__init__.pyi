@@ -48,6 +48,7 @@ from treadload.response import GridLoad as GridLoad
 from treadload.response import Response as Response
 from treadload.response import UniformDisc as UniformDisc
 from treadload.response import UniformRectangle as UniformRectangle
+from treadload.response import compute_heterogeneous as compute_heterogeneous
 from treadload.response import dual_wheels as dual_wheels
 from treadload.response import place_load as place_load
 from treadload.response import roll_passes as roll_passes

@@ -291,6 +291,39 @@ _TIRE_CARD = {
     "relaxation_length": ("m", "cornering stiffness over lateral stiffness"),
 }
 
+_HETEROGENEOUS = {
+    "principal_stress_1": ("Pa", "largest principal stress (largest tension), three-dimensional"),
+    "tension_without_stones": ("Pa", "largest principal stress of the mortar alone"),
+    "extension_without_stones": ("1", "largest principal strain of the mortar alone"),
+    "phase": ("1", "0 mortar, then the aggregates in the order in which they were given, from 1"),
+    "stone": ("1", "number of the stone that a cell is in, from 1, 0 in mortar"),
+    "percentile": ("1", "share of the volume, in hundredths, with a lower value"),
+    "mastic_tension": ("Pa", "largest principal stress in the mastic, by percentile of its volume"),
+    "mastic_extension": ("1", "largest principal strain in the mastic, by percentile of its volume"),
+    "stone_tension": ("Pa", "largest principal stress in the stones, by percentile of their volume"),
+    "homogeneous_tension": ("Pa", "largest principal stress of the mortar alone, by percentile of the volume"),
+    "homogeneous_extension": ("1", "largest principal strain of the mortar alone, by percentile of the volume"),
+    "mean_extension": ("1", "mean over stones and mastic of the largest principal strain, where it extends"),
+    "peak_over_mean": ("1", "largest principal strain in the mastic, by percentile, over mean_extension"),
+    "bond_normal": ("Pa", "stress across a face between stone and mortar, tension positive"),
+    "bond_shear": ("Pa", "size of the shear stress along a face between stone and mortar"),
+    "bond_pull": ("Pa", "root of tension and shear squared on a face between stone and mortar"),
+    "face_area": ("m^2", "area of the stone's surface at a face"),
+    "face_stone": ("1", "number of the stone of a face"),
+    "face_x": ("m", "position of a face along travel"),
+    "face_y": ("m", "position of a face to the right of travel"),
+    "face_depth": ("m", "depth of a face"),
+    "bond_tension_high": ("Pa", "stress across the faces that 95 % of their area are below"),
+    "bond_shear_high": ("Pa", "shear stress along the faces that 95 % of their area are below"),
+    "ravelling_index": (
+        "1",
+        "bond_pull that 95 % of the faces of the upper stones are below, over the bond's strength, else the load's "
+        "largest pressure",
+    ),
+    "stone_fraction": ("1", "share of the window that its cells of stones fill"),
+    "stone_over_mastic": ("1", "mean vertical stress of the stones over that of the mastic"),
+}
+
 VARIABLES: Mapping[str, tuple[str, str]] = {
     **_COORDINATES,
     **_CONTACT,
@@ -308,6 +341,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_SWEEP,
     **_SCREENING,
     **_TIRE_CARD,
+    **_HETEROGENEOUS,
 }
 
 # In this order an array has its dimensions, and who takes its values counts on it.

@@ -104,6 +104,13 @@ def viscoelastic_tire():
     )
 
 
+def heterogeneous():
+    stones = tl.Aggregates.from_centres(0, 0, 3e-3, 2e-3, tl.Elastic(60e9, 0.2))
+    return tl.compute_heterogeneous(
+        contact(), tl.Elastic(3e9, 0.35), stones, window=(8e-3, 7e-3), depth=6e-3, spacing=1e-3
+    )
+
+
 def calibration():
     rows = [tl.footprint.Measured(load=load, deflection=depth) for load, depth in ((200, 2.9e-3), (300, 3.8e-3))]
     return tl.calibrate(TIRE, ["modulus"], rows, road=ROAD, tolerance=1e-6)
@@ -155,6 +162,7 @@ MADE = {
     "Sobol": lambda: screened(tl.study.sobol, blocks=4, second_order=True),
     "Morris": lambda: screened(tl.study.morris, trajectories=3),
     "Passes": passes,
+    "Heterogeneous": heterogeneous,
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
 FIGURES = {
@@ -163,7 +171,7 @@ FIGURES = {
     "BondComparison": "lives", "Sensitivity": "inputs", "UniformComparison": "strains", "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
-    "Passes": "rut",
+    "Passes": "rut", "Heterogeneous": "section",
     "Sweep": lambda plot: plot.curve("worst_strain"), "Tornado": "tornado", "Sobol": "sobol", "Morris": "morris",
 }  # fmt: skip
 
@@ -307,7 +315,7 @@ def test_every_result_is_reported(saved, tmp_path):
     page = tl.report(result, tmp_path / "r.html").read_text()
     assert "could not be drawn" not in page
     for text in result.warnings:
-        assert text.replace("'", "&#39;") in page or text in page
+        assert text.replace("'", "&#39;").replace('"', "&#34;") in page or text in page
     again = tl.report(opened, tmp_path / "again.html").read_text()
     assert page.count("<figure") == again.count("<figure") > 0
 

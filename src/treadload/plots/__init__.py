@@ -22,6 +22,7 @@ from treadload.plots.others import (
     CreepCurvePlots,
     FieldsPlots,
     FootprintComparisonPlots,
+    HeterogeneousPlots,
     LifePlots,
     MorrisPlots,
     PassesPlots,
@@ -39,6 +40,7 @@ from treadload.plots.passes import plastic_strain, residual_stress, rut_profile,
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
+from treadload.plots.stones import stones_in_mortar
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
@@ -55,6 +57,7 @@ __all__ = [
     "CreepCurvePlots",
     "FieldsPlots",
     "FootprintComparisonPlots",
+    "HeterogeneousPlots",
     "LifePlots",
     "MorrisPlots",
     "PassesPlots",
@@ -106,6 +109,7 @@ __all__ = [
     "shakedown_map",
     "shift_factors",
     "sobol_bars",
+    "stones_in_mortar",
     "study_curve",
     "study_curves",
     "study_map",

@@ -18,6 +18,7 @@ from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.passes import plastic_strain, residual_stress, rut_profile
 from treadload.plots.plain import losses, plain_map
+from treadload.plots.stones import stones_in_mortar
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
@@ -66,6 +67,15 @@ class PassesPlots(_Plots):
     ) -> Figure:
         """Residual stress against depth below a line y, m, pass by pass."""
         return residual_stress(self._result, component, y=y, ax=ax)
+
+
+@offers("plot", "Heterogeneous")
+class HeterogeneousPlots(_Plots):
+    """Figures of a window of mortar with stones."""
+
+    def section(self, *, along: Literal["travel", "across"] = "across", at: float | None = None) -> Figure:
+        """Largest tension in a vertical section with stones and without, and how it is spread. at: m."""
+        return stones_in_mortar(self._result, along=along, at=at)
 
 
 @offers("plot", "Sensitivity")

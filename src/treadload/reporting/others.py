@@ -12,6 +12,7 @@ from treadload.plots import (
     CreepCurvePlots,
     FieldsPlots,
     FootprintComparisonPlots,
+    HeterogeneousPlots,
     LifePlots,
     MorrisPlots,
     PassesPlots,
@@ -43,6 +44,7 @@ HEADINGS = {
     "rolling_resistance": "Rolling resistance",
     "points": "Response at points",
     "fields": "Fields",
+    "heterogeneous": "Stones in mortar",
     "sweep": "Study",
     "tornado": "Tornado",
     "sobol": "Sobol indices",
@@ -127,6 +129,12 @@ def _pictures(other: Other) -> list[Picture]:
         case "sensitivity":
             caption = "Change of the governing life as each input grows by 5 %, temperature by 1 °C."
             return picture("What the life depends on", caption, SensitivityPlots(data).inputs)
+        case "heterogeneous":
+            caption = (
+                "Largest tension in a section with stones, which are outlined, and of the mortar alone; right: the "
+                "share of the mastic, and of the stones' faces, that bears more."
+            )
+            return picture("Stones in mortar", caption, HeterogeneousPlots(data).section, wide=True)
         case "uniform":
             caption = (
                 "Largest strains at every depth under the computed contact and under uniform loads of the same force."

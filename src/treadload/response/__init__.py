@@ -1,6 +1,7 @@
 """Stress, strain and displacement in the road."""
 
 from treadload.response.gears import axle, dual_wheels, place_load, tandem
+from treadload.response.heterogeneous import Heterogeneous, compute_heterogeneous
 from treadload.response.loads import GridLoad, UniformDisc, UniformRectangle
 from treadload.response.material import MATERIAL_LENGTH
 from treadload.response.passes.solution import Passes
@@ -11,11 +12,13 @@ from treadload.response.solve import solve_response
 __all__ = [
     "MATERIAL_LENGTH",
     "GridLoad",
+    "Heterogeneous",
     "Passes",
     "Response",
     "UniformDisc",
     "UniformRectangle",
     "axle",
+    "compute_heterogeneous",
     "dual_wheels",
     "place_load",
     "roll_passes",

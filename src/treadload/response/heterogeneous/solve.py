@@ -1,0 +1,284 @@
+"""The verb: a contact over a mortar with stones in it gives the stress in both."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from treadload.errors import ConvergenceError, InputError, positive
+from treadload.kernels.arrays import Array
+from treadload.kernels.eigenstrain import operator
+from treadload.kernels.eigenstrain.inclusions import equivalent
+from treadload.kernels.eigenstrain.operator import Grid
+from treadload.kernels.tensors import strain_from_stress
+from treadload.materials import Aggregates, Elastic
+from treadload.materials.aggregates import Spheres, Window, check_apart
+from treadload.pavement import Pavement
+from treadload.response.fields import COMPONENTS
+from treadload.response.heterogeneous.bonds import faces
+from treadload.response.heterogeneous.readings import readings
+from treadload.response.heterogeneous.solution import Heterogeneous
+from treadload.response.loads import GridLoad, Load, gather
+from treadload.response.solve import solve_response
+
+# A matrix near incompressibility has no eigenstrain that stands for another volume.
+_STIFFEST_POISSON = 0.49
+# Bytes of the operator beyond which it is kept in single precision, and the most that it may take.
+_DOUBLE, _MOST = 128e6, 1.5e9
+# Whole cells of a window, within this part of a cell.
+_WHOLE = 1e-6
+# Of the equations; products of the operator before they count as unsolved.
+_TOLERANCE, _ITERATIONS = 1e-6, 600
+# Cells of a radius below which the stress at a stone's border is that of its steps.
+_RESOLVED = 4.0
+
+
+def compute_heterogeneous(
+    loads: Load | Sequence[Load],
+    mortar: Elastic | Pavement,
+    stones: Aggregates | Sequence[Aggregates],
+    *,
+    window: tuple[float, float] | None = None,
+    depth: float | None = None,
+    at: tuple[float, float] = (0.0, 0.0),
+    spacing: float | None = None,
+    bond_strength: float | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Heterogeneous:
+    """Stress and strain in a window of road in which stones stand in a mortar.
+
+    loads: a contact or other loads, see `solve_response`. mortar: what is between the stones, Elastic; or a road of
+    layers whose top layer it is, for the stress that comes from the layers. stones: Aggregates, or several of other
+    materials, voids among them. window: length along x and width along y, m. depth: of the window from the surface
+    down, m. at: its middle, m, for instance below the edge of a rib. spacing: of the cells, m, a whole part of the
+    window's sides. A scan brings window, depth and spacing with it. bond_strength: tension that the bond of mortar
+    and stone bears, Pa, for the ravelling index; left out, the load's largest pressure takes its place.
+    progress: called with a line of text while it computes.
+
+    The stress of the mortar alone is that of `solve_response` at the cells' centres. Stones change it by equivalent
+    eigenstrain in cells, below a free surface, see `kernels.eigenstrain.inclusions`. Limits: one Poisson's ratio and
+    modulus around the stones, that of the mortar also outside of the window; layers below do not feel the stones; the
+    contact does not either, which is right for a tire, a thousand times softer than the road; a stone's border is
+    made of steps, so the peak in the cells beside it never converges: percentiles do.
+    Returns a Heterogeneous. Raises InputError for what cannot be, ConvergenceError where the equations stay unsolved.
+    """
+    start = time.perf_counter()
+    tell = progress or (lambda text: None)
+    groups = _groups(stones)
+    road, matrix = _road(mortar)
+    block = _block(groups, window, depth, spacing)
+    _check_layer(road, block.window)
+    for name, value in zip("xy", at, strict=True):
+        if isinstance(value, bool | str) or not math.isfinite(value):
+            raise InputError(f"the window's middle must be finite numbers of metres, got {name} = {value!r}")
+    if bond_strength is not None:
+        positive("bond_strength", bond_strength, "Pa", "bitumen on stone bears near 1e6")
+    placed = gather(loads)
+
+    tell("placing the stones")
+    numbers, group, spheres, warnings = _stones(groups, block)
+    grid = block.grid
+    x, y = at[0] + block.x, at[1] + block.y
+    tell("stress of the mortar alone")
+    response = solve_response(placed, road, depths=grid.depths, x=x, y=y, progress=progress)
+    alone = np.stack([response.dataset[f"stress_{name}"].to_numpy() for name in COMPONENTS])
+
+    tell("cells of eigenstrain")
+    size = 8 * (6 * grid.shape[0]) ** 2 * (grid.nx + 1) * (grid.ny + 1)
+    apply = operator.cells(grid, matrix.shear_modulus, matrix.poisson, averaged=True, single=size > _DOUBLE)
+    inside = numbers > 0
+    own = [_moduli(groups[k].material) for k in group[numbers[inside] - 1]]
+    stiffness = np.array([one[0] for one in own]), np.array([one[1] for one in own])
+    tell("stones")
+    found = equivalent(
+        apply, alone, inside, stiffness, _moduli(matrix), grid.thickness, tolerance=_TOLERANCE, most=_ITERATIONS
+    )
+    if not found.residual < 10 * _TOLERANCE:
+        raise ConvergenceError(
+            f"the stress around the stones reached a residual of {found.residual:.2g} in {found.iterations} "
+            f"iterations of {found.method}, not {_TOLERANCE:g}; lessen the contrast of stiff and soft stones in one "
+            "window",
+            found.residual,
+        )
+    strain = strain_from_stress(found.stress, matrix.modulus, matrix.poisson) + found.eigenstrain
+    radii = np.concatenate([one.radius for one in spheres]) if spheres else np.empty(0)
+    bonds = faces(numbers * _bonded(numbers, group, groups), found.stress, x, y, grid.depths, grid.thickness)
+    pressure = max((_largest_pressure(load) for load in placed), default=0.0)
+    dataset = readings(
+        numbers, group, found.stress, strain, alone, strain_from_stress(alone, matrix.modulus, matrix.poisson),
+        bonds, (x, y, grid.depths), grid, float(radii.max(initial=0.0)), bond_strength, pressure,
+    )  # fmt: skip
+    dataset.attrs |= {
+        "mortar": str(matrix), "aggregates": "; ".join(map(str, groups)), "spacing": block.spacing[0],
+        "window_x": float(at[0]), "window_y": float(at[1]),
+    }  # fmt: skip
+    if radii.size and radii.min() < _RESOLVED * max(block.spacing):
+        warnings.append(
+            f"the smallest stones have a radius of {radii.min() / max(block.spacing):.2g} cells, fewer than "
+            f"{_RESOLVED:g}: they look larger than they are, by some 3 % of their effect with 10 cells and 5 % with "
+            "5; a smaller spacing or counting them as mortar helps"
+        )
+    if radii.size and min(block.window.length, block.window.width) < 3 * 2 * radii.max():
+        warnings.append(
+            f"the window of {block.window} is less than three diameters of the largest stone wide, "
+            f"{2e3 * radii.max():g} mm: what is read in it depends on where single stones stand; enlarge it, or take "
+            "several seeds"
+        )
+    stats = {
+        "seconds": time.perf_counter() - start, "iterations": found.iterations, "residual": found.residual,
+        "method": found.method, "cells": int(numbers.size), "bytes": apply.bytes,
+    }  # fmt: skip
+    return Heterogeneous(dataset, stats, (*warnings, *response.warnings), placed, road, tuple(groups), bond_strength)
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """The cells of a window. x, y: centres from its middle, m. spacing: (dx, dy, dz), m."""
+
+    window: Window
+    grid: Grid
+    x: Array
+    y: Array
+    spacing: tuple[float, float, float]
+
+
+def _groups(stones: Any) -> list[Aggregates]:
+    groups = [stones] if isinstance(stones, Aggregates) else list(stones) if isinstance(stones, Sequence) else []
+    if not groups or not all(isinstance(one, Aggregates) for one in groups):
+        raise InputError(
+            f"stones must be Aggregates or a list of them, got {type(stones).__name__}; see tl.Aggregates.random"
+        )
+    if any(one.scanned for one in groups) and len(groups) > 1:
+        raise InputError("a scan of stones says what every cell is: it cannot be put together with other stones")
+    return groups
+
+
+def _road(mortar: Any) -> tuple[Pavement, Elastic]:
+    """The road that the mortar's stress comes from, and the mortar."""
+    road = mortar if isinstance(mortar, Pavement) else None
+    material = road.layers[0].material if road is not None else mortar
+    if not isinstance(material, Elastic):
+        why = (
+            "it relaxes, and stones take over the load as it does: give it as it is at the passage's frequency f, "
+            "tl.Elastic(abs(mortar.complex_modulus(2 * np.pi * f)), mortar.poisson)"
+            if hasattr(material, "complex_modulus")
+            else "give tl.Elastic(modulus, poisson)"
+        )
+        raise InputError(f"the mortar between stones must be Elastic, got {type(material).__name__}; {why}")
+    if road is not None and road.is_viscoelastic:
+        raise InputError(
+            "the road below the mortar is viscoelastic, and stones are computed at one instant: give the layers as "
+            "they are at the passage's frequency, as tl.Elastic"
+        )
+    if material.poisson > _STIFFEST_POISSON:
+        raise InputError(
+            f"the mortar's Poisson's ratio is {material.poisson:g}, above {_STIFFEST_POISSON}: of a matrix that "
+            "keeps its volume no eigenstrain changes it; take 0.49 or less, asphalt mortar is near 0.4"
+        )
+    return road if road is not None else Pavement.half_space(material, "mortar"), material
+
+
+def _check_layer(road: Pavement, window: Window) -> None:
+    top = float(road.interfaces[0]) if len(road.interfaces) else math.inf
+    if window.depth > top * (1 + _WHOLE):
+        raise InputError(
+            f"the window is {window.depth * 1e3:g} mm deep and the mortar's layer {top * 1e3:g} mm: stones lie in "
+            "the top layer alone; lessen the depth"
+        )
+
+
+def _block(groups: Sequence[Aggregates], window: Any, depth: float | None, spacing: float | None) -> _Block:
+    scan = groups[0].scanned
+    if scan is not None:
+        if window is not None or depth is not None or spacing is not None:
+            raise InputError("a scan of stones brings its window, depth and spacing with it; leave them out")
+        (nz, ny, nx), (dx, dy, dz) = scan
+        whole = Window(nx * dx, ny * dy, nz * dz)
+    else:
+        if window is None or depth is None or spacing is None:
+            raise InputError(
+                "stones need a window to stand in: give window=(length, width), depth and spacing, m, for instance "
+                "window=(36e-3, 36e-3), depth=16e-3, spacing=1e-3"
+            )
+        if not isinstance(window, tuple | list) or len(window) != 2:
+            raise InputError(f"window must be a length along x and a width along y, m, got {window!r}")
+        for name, value in {"length": window[0], "width": window[1], "depth": depth}.items():
+            positive(f"the {name} of the window", value, "metres", "36 mm is 0.036")
+        positive("spacing", spacing, "metres", "1 mm is 0.001")
+        whole = Window(float(window[0]), float(window[1]), float(depth))
+        nx, ny, nz = (_count(name, side, spacing) for name, side in vars(whole).items())
+        dx = dy = dz = float(spacing)
+    size = 4 * (6 * nz) ** 2 * (nx + 1) * (ny + 1)
+    if size > _MOST:
+        raise InputError(
+            f"{nx} x {ny} x {nz} cells need {size / 1e9:.3g} GB, more than {_MOST / 1e9:g}; memory goes with the "
+            "square of the layers: take a shallower window or larger cells"
+        )
+    grid = Grid(nx, ny, dx, dy, dz * np.arange(nz + 1.0))
+    x, y = (size * (np.arange(count) - 0.5 * (count - 1)) for size, count in ((dx, nx), (dy, ny)))
+    return _Block(whole, grid, x, y, (dx, dy, dz))
+
+
+def _count(name: str, side: float, spacing: float) -> int:
+    cells = side / spacing
+    if cells < 1 - _WHOLE or abs(cells - round(cells)) > _WHOLE * max(cells, 1.0):
+        whole = max(1, round(cells))
+        raise InputError(
+            f"the window's {name} of {side * 1e3:g} mm is {cells:.4g} cells of {spacing * 1e3:g} mm; take a whole "
+            f"number, {whole * spacing * 1e3:g} mm is {whole}"
+        )
+    return round(cells)
+
+
+def _stones(groups: Sequence[Aggregates], block: _Block) -> tuple[Any, Any, list[Spheres], list[str]]:
+    """Numbers (nz, ny, nx) of stones, from 1; the group of each; those that are spheres; warnings."""
+    numbers = np.zeros(block.grid.shape, int)
+    group: list[int] = []
+    spheres: list[Spheres] = []
+    for which, one in enumerate(groups):
+        balls = one.spheres(block.window, spheres)
+        own = one.numbers(balls, block.x, block.y, block.grid.depths)
+        found, renumbered = np.unique(own[own > 0], return_inverse=True)
+        count = len(balls.x) if balls is not None else len(found)
+        numbers[own > 0] = len(group) + (own[own > 0] if balls is not None else renumbered + 1)
+        group += [which] * count
+        if balls is not None:
+            spheres.append(balls)
+    if len(spheres) > 1:
+        check_apart(*spheres)
+    lost = len(group) - len(np.unique(numbers[numbers > 0]))
+    if lost == len(group):
+        raise InputError(
+            f"none of the {len(group)} stones holds the centre of a cell of {block.spacing[0] * 1e3:g} mm; take a "
+            "smaller spacing"
+        )
+    told = []
+    if lost:
+        told.append(
+            f"{lost} of {len(group)} stones hold no cell's centre and are left out; take a smaller spacing, or count "
+            "them as mortar"
+        )
+    return numbers, np.array(group, int), spheres, told
+
+
+def _moduli(material: Elastic | None) -> tuple[float, float]:
+    """3 k and 2 G, Pa; of a void none."""
+    if material is None:
+        return 0.0, 0.0
+    squeeze = 1 - 2 * material.poisson
+    return (material.modulus / squeeze if squeeze > 0 else math.inf), 2 * material.shear_modulus
+
+
+def _bonded(numbers: Any, group: Any, groups: Sequence[Aggregates]) -> Any:
+    """Where a cell is of a stone, and not of a void, which nothing is bonded to."""
+    solid = np.array([False, *(groups[k].material is not None for k in group)])
+    return solid[numbers]
+
+
+def _largest_pressure(load: Any) -> float:
+    return float(load.pressure.max()) if isinstance(load, GridLoad) else float(load.pressure)
