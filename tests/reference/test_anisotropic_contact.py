@@ -152,5 +152,5 @@ def test_a_tire_with_memory_rolls_on_a_tilted_road():
 
 def test_the_table_of_validation_holds():
     checks = list(grain_checks())
-    assert len(checks) == 7
+    assert len(checks) == 8
     assert all(check.passed for check in checks)

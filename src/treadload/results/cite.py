@@ -5,7 +5,7 @@ from __future__ import annotations
 from treadload.case import LifeCase
 from treadload.case.file import FilePart
 from treadload.contact import Contact
-from treadload.materials import HuetSayegh, Model2S2P1D, Prony
+from treadload.materials import HuetSayegh, Model2S2P1D, Orthotropic, Prony
 from treadload.pavement import BONDED, HALF_BONDED, Pavement
 from treadload.response import Response
 
@@ -57,6 +57,9 @@ CITATIONS = {
     "passes": "Dang Van, K., Maitournam, M. H. (1993). Steady-state flow in classical elastoplasticity: applications "
     "to repeated rolling and sliding contact. J. Mech. Phys. Solids 41, 1691-1710.",
     "miner": "Miner, M. A. (1945). Cumulative damage in fatigue. J. Appl. Mech. 12, A159-A164.",
+    "grain": "Barnett, D. M., Lothe, J. (1973). Synthesis of the sextic and the integral formalism for dislocations, "
+    "Green's functions and surface waves in anisotropic elastic solids. Phys. Norv. 7, 13-19.",
+    "grain below": "Willis, J. R. (1966). Hertzian contact of anisotropic bodies. J. Mech. Phys. Solids 14, 163-176.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
 }
 
@@ -74,6 +77,8 @@ def citations(contact: Contact | None, response: Response | None, road: Pavement
             used.append("falling")
         if "flash_temperature" in contact.dataset:
             used.append("flash")
+        if isinstance(contact.tire.material, Orthotropic) or _has_grain(contact.road):
+            used.append("grain")
         if isinstance(contact.tire.material, Prony):
             used += ["memory", "pivoting"]
     if response is not None:
@@ -82,8 +87,15 @@ def citations(contact: Contact | None, response: Response | None, road: Pavement
     return [CITATIONS[key] for key in used]
 
 
+def _has_grain(road: Pavement) -> bool:
+    """Whether the surface of a road is stiffer in some horizontal directions than in others, or its axes lean."""
+    return isinstance(road.layers[0].material, Orthotropic)
+
+
 def _of_the_road(road: Pavement | None) -> list[str]:
     """Keys of the methods that a road calls for."""
+    if road is not None and _has_grain(road):
+        return ["grain below"]
     if road is None or (road.is_homogeneous and not road.is_viscoelastic):
         return []
     bonds = [layer.bond for layer in road.layers[:-1]]

@@ -13,9 +13,11 @@ from treadload.contact.bodies.choose import surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.grid import Grid
+from treadload.kernels.anisotropy.stiffness import rotated
 from treadload.kernels.anisotropy.symbol import surface_symbol, symbol_at
 from treadload.kernels.arrays import Array
 from treadload.materials import Anisotropic, Orthotropic, TransverselyIsotropic
+from treadload.materials.orthotropic import rotation
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, solve_response
 from treadload.validation.check import Check, absolute, relative
@@ -106,6 +108,21 @@ def axes_of(pressure: Array) -> tuple[float, float]:
     return float(np.sqrt(values[1] / values[0])), float(math.atan2(vectors[1, 1], vectors[0, 1]) % math.pi)
 
 
+def _zirconia() -> Check:
+    """Contact modulus of monoclinic zirconia, which has 13 constants, for one direction of the normal."""
+    constants = {(0, 0): 361, (1, 1): 408, (2, 2): 258, (3, 3): 99.9, (4, 4): 81.2, (5, 5): 126, (0, 1): 142,
+                 (0, 2): 55, (1, 2): 196, (0, 4): -21.3, (1, 4): 31.2, (2, 4): -18.2, (3, 5): -22.7}  # fmt: skip
+    stiffness = np.zeros((6, 6))
+    for (i, j), value in constants.items():
+        stiffness[i, j] = stiffness[j, i] = value
+    polar, azimuth = math.pi * 12 / 29, 2 * math.pi * 33 / 59
+    turn = rotation(azimuth, polar, 0.0).T
+    symbol = surface_symbol(rotated(stiffness, turn))
+    found = 2 / symbol.harmonics[2, 2, symbol.order].real
+    source = "Mowlavi & Kamrin (2021), Granular Matter 23, table of their code"
+    return relative("contact modulus", "monoclinic zirconia, GPa", found, 310.12638401904815, 1e-12, source)
+
+
 def _below() -> Iterator[Check]:
     """Stress by the integral over directions beside the closed form of an upright axis, cell by cell."""
     upright = TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
@@ -137,4 +154,5 @@ def grain_checks() -> Iterator[Check]:
     long, short = exact.axes
     yield relative(group, "long over short axis", ratio, long / short, 5e-4, _SOURCE)
     yield absolute(group, "angle of the long axis, °", math.degrees(angle), math.degrees(exact.angle), 0.5, _SOURCE)
+    yield _zirconia()
     yield from _below()
