@@ -85,8 +85,9 @@ def test_the_surface_carries_the_load_and_moves_as_the_coefficients_say(name):
             np.testing.assert_allclose(moved[component], expected, rtol=0, atol=1e-9 * kernel.max())
 
 
-@pytest.mark.parametrize("poisson", [0.0, 0.35])
-@pytest.mark.parametrize(("step", "first"), [(0.35, 0.1), (1.0, 0.0), (0.5, 0.0)], ids=["off", "centres", "edges"])
+@pytest.mark.parametrize(
+    ("poisson", "step", "first"), [(0.35, 0.35, 0.1), (0.0, 0.5, 0.0)], ids=["off", "centres and edges"]
+)
 def test_isotropy_is_the_closed_form(poisson, step, first):
     """Modes fall together there, and the stiffness is changed by 1e-9 of it: that is what is left.
 
@@ -105,7 +106,7 @@ def test_isotropy_is_the_closed_form(poisson, step, first):
     np.testing.assert_allclose(displacement, known[1], rtol=0, atol=2e-8 * np.abs(known[1]).max())
 
 
-@ALL
+@pytest.mark.parametrize("name", ["leaning"])
 def test_it_is_the_integral_along_the_real_axis(name):
     """Equation 4.4 by the midpoint rule, which needs points where the path has none to spare."""
     x, y, z, points = 0.21, -0.13, 0.4, 4096
