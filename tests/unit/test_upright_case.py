@@ -62,6 +62,8 @@ def test_a_case_is_solved_written_opened_and_reported(tmp_path):
     page = (tmp_path / "r.html").read_text()
     assert "E_h = 5400 MPa, E_v = 3800 MPa, G_hv = 1600 MPa, ν_hh = 0.35, ν_vh = 0.25" in page
     assert "E_h = 150 MPa, E_v = 300 MPa" in page
+    assert "Lekhnitskii" in page
+    assert "Turner, J. R. (1980)" in page
 
 
 def test_a_case_refuses_what_no_material_has_in_one_sentence():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from treadload.case import LifeCase
 from treadload.case.file import FilePart
 from treadload.contact import Contact
-from treadload.materials import HuetSayegh, Model2S2P1D, Orthotropic, Prony
+from treadload.materials import HuetSayegh, Model2S2P1D, Orthotropic, Prony, TransverselyIsotropic
 from treadload.pavement import BONDED, HALF_BONDED, Pavement
 from treadload.response import Response
 
@@ -60,6 +60,10 @@ CITATIONS = {
     "grain": "Barnett, D. M., Lothe, J. (1973). Synthesis of the sextic and the integral formalism for dislocations, "
     "Green's functions and surface waves in anisotropic elastic solids. Phys. Norv. 7, 13-19.",
     "grain below": "Willis, J. R. (1966). Hertzian contact of anisotropic bodies. J. Mech. Phys. Solids 14, 163-176.",
+    "upright": "Lekhnitskii, S. G. (1963). Theory of Elasticity of an Anisotropic Elastic Body. Holden-Day: loads on a "
+    "half-space that is the same in all horizontal directions.",
+    "upright contact": "Turner, J. R. (1980). Contact on a transversely isotropic half-space, or between two "
+    "transversely isotropic bodies. Int. J. Solids Struct. 16, 409-419.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
 }
 
@@ -79,6 +83,8 @@ def citations(contact: Contact | None, response: Response | None, road: Pavement
             used.append("flash")
         if isinstance(contact.tire.material, Orthotropic) or _has_grain(contact.road):
             used.append("grain")
+        if isinstance(contact.road.layers[0].material, TransverselyIsotropic):
+            used.append("upright contact")
         if isinstance(contact.tire.material, Prony):
             used += ["memory", "pivoting"]
     if response is not None:
@@ -96,8 +102,11 @@ def _of_the_road(road: Pavement | None) -> list[str]:
     """Keys of the methods that a road calls for."""
     if road is not None and _has_grain(road):
         return ["grain below"]
-    if road is None or (road.is_homogeneous and not road.is_viscoelastic):
+    if road is None:
         return []
+    upright = ["upright"] if any(isinstance(one.material, TransverselyIsotropic) for one in road.layers) else []
+    if road.is_homogeneous and not road.is_viscoelastic:
+        return upright
     bonds = [layer.bond for layer in road.layers[:-1]]
     materials = [layer.resolved for layer in road.layers]
     asked = {
@@ -110,7 +119,7 @@ def _of_the_road(road: Pavement | None) -> list[str]:
         "2s2p1d": any(isinstance(one, Model2S2P1D) for one in materials),
         "prony": any(isinstance(one, Prony) for one in materials),
     }
-    return [key for key, used in asked.items() if used]
+    return [*(key for key, used in asked.items() if used), *upright]
 
 
 def passes_citations() -> list[str]:
