@@ -60,8 +60,8 @@ CITATIONS = {
     "grain": "Barnett, D. M., Lothe, J. (1973). Synthesis of the sextic and the integral formalism for dislocations, "
     "Green's functions and surface waves in anisotropic elastic solids. Phys. Norv. 7, 13-19.",
     "grain below": "Willis, J. R. (1966). Hertzian contact of anisotropic bodies. J. Mech. Phys. Solids 14, 163-176.",
-    "upright": "Lekhnitskii, S. G. (1963). Theory of Elasticity of an Anisotropic Elastic Body. Holden-Day: loads on a "
-    "half-space that is the same in all horizontal directions.",
+    "upright": "Lekhnitskii, S. G. (1963). Theory of Elasticity of an Anisotropic Elastic Body. Holden-Day: loads on "
+    "a half-space that is the same in all horizontal directions.",
     "upright contact": "Turner, J. R. (1980). Contact on a transversely isotropic half-space, or between two "
     "transversely isotropic bodies. Int. J. Solids Struct. 16, 409-419.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
