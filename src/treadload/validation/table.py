@@ -25,6 +25,7 @@ from treadload.validation import (
     tires,
     upright,
     viscoelastic,
+    yielding,
 )
 from treadload.validation.check import Check
 
@@ -39,6 +40,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "viscoelastic": viscoelastic.cylinder_checks,
     "grain": grain.grain_checks,
     "upright": upright.upright_checks,
+    "yielding": yielding.yielding_checks,
     "histories": histories.history_checks,
     "stress": stress.stress_checks,
     "layers": layers.layer_checks,
