@@ -7,6 +7,7 @@ from tests.grain import STRAIGHT, TILTED, isotropic
 import treadload as tl
 from treadload.materials.kinds import upright
 from treadload.materials.orthotropic import rotation
+from treadload.study.sensitivity import _stiffer
 
 MIX = tl.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (0.35, 0.3, 0.25))
 
@@ -102,3 +103,14 @@ def test_it_says_what_it_is():
     assert str(STRAIGHT).startswith("orthotropic, E_1 = 3000 MPa, E_2 = 1500 MPa")
     assert str(TILTED).endswith("turned by yaw 40°, pitch 34°, roll 20°")
     assert eval(repr(STRAIGHT), {"Orthotropic": tl.Orthotropic}) == STRAIGHT
+
+
+def test_a_stiffer_one_keeps_its_shape():
+    for material in (TILTED, tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)):
+        np.testing.assert_allclose(material.stiffer(1.1).stiffness, 1.1 * material.stiffness, rtol=1e-12, atol=1e-3)
+        assert type(material.stiffer(1.1)) is type(material)
+    # A sensitivity multiplies the moduli of such layers, too, and does not take them for viscoelastic.
+    road = tl.Pavement.half_space(TILTED)
+    changed = _stiffer((road, None, None), 0)(1.0)[0].layers[0].material
+    assert changed.moduli[0] > TILTED.moduli[0]
+    assert changed.rotation == pytest.approx(TILTED.rotation)

@@ -6,7 +6,7 @@ Matrices are in Voigt's order xx, yy, zz, yz, xz, xy (11 22 33 23 13 12) of engi
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,6 +35,10 @@ class Anisotropic(ABC):
     def compliance(self) -> Array:
         """Its inverse, 1/Pa: engineering strain of stress."""
         return np.linalg.inv(self.stiffness)
+
+    @abstractmethod
+    def stiffer(self, factor: float) -> Anisotropic:
+        """The material with all its moduli multiplied by a factor, and the same ratios."""
 
     @property
     def upright(self) -> tuple[float, float]:
@@ -115,6 +119,12 @@ class TransverselyIsotropic(Anisotropic):
     def stiffness(self) -> Array:
         """(6, 6), Pa, in the order xx, yy, zz, yz, xz, xy of engineering shears."""
         return inverted(self._compliance(), "")
+
+    def stiffer(self, factor: float) -> TransverselyIsotropic:
+        """As in `Anisotropic`."""
+        return replace(
+            self, horizontal=factor * self.horizontal, vertical=factor * self.vertical, shear=factor * self.shear
+        )
 
     @property
     def shear_horizontal(self) -> float:

@@ -78,6 +78,12 @@ class Orthotropic(Anisotropic):
             roll=math.atan2(both[2, 1], both[2, 2]),
         )
 
+    def stiffer(self, factor: float) -> Orthotropic:
+        """As in `Anisotropic`."""
+        one, two, three = (factor * value for value in self.moduli)
+        g_12, g_13, g_23 = (factor * value for value in self.shear_moduli)
+        return replace(self, moduli=(one, two, three), shear_moduli=(g_12, g_13, g_23))
+
     @property
     def rotation(self) -> Array:
         """(3, 3): its columns are the axes 1, 2 and 3 in x, y and z."""

@@ -9,7 +9,7 @@ from scipy.interpolate import PchipInterpolator
 
 from treadload.damage.traffic import Season, Wander
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic, Solid
+from treadload.materials.kinds import AnyElastic, upright
 from treadload.pavement import Pavement
 
 NEVER = Wander.none()
@@ -24,10 +24,7 @@ def warmth_of(seasons: Sequence[Season], roads: Sequence[Pavement]) -> Array | N
     if any(isinstance(season.temperature, tuple) for season in seasons):
         return None
     materials = [[layer.resolved for layer in one.layers] for one in roads]
-    moduli = [
-        [one.modulus if isinstance(one, Elastic) else one.horizontal for one in row if isinstance(one, Solid)]
-        for row in materials
-    ]
+    moduli = [[upright(one)[0] for one in row if isinstance(one, AnyElastic)] for row in materials]
     if any(len(elastic) < len(row) for elastic, row in zip(moduli, materials, strict=True)):
         return None
     warmth: Array = np.log(moduli).mean(axis=1)

@@ -22,7 +22,8 @@ from treadload.damage.traffic import Climate, Season, Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic, Mix, Solid, TransverselyIsotropic
+from treadload.materials import Anisotropic, Elastic, Mix
+from treadload.materials.kinds import AnyElastic
 from treadload.pavement import Pavement
 from treadload.study.contacts import Contacts, Counter, Progress
 from treadload.study.passage import Passing, solve_passings
@@ -208,7 +209,7 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
         label = names[k] if names.count(names[k]) == 1 else f"{names[k]} ({k + 1})"
         if layer.thickness is not None:
             changes[f"thickness of {label}"] = _thicker(question, k)
-        if isinstance(layer.material, Solid | Mix):
+        if isinstance(layer.material, AnyElastic | Mix):
             changes[f"modulus of {label}"] = _stiffer(question, k)
         else:
             skipped.append(f"modulus of {label}: it is viscoelastic")
@@ -245,9 +246,8 @@ def _stiffer(question: Question, number: int) -> Change:
         if isinstance(material, Mix):
             rows = tuple(tuple(value * factor for value in row) for row in material.moduli)
             layers[number] = replace(layers[number], material=replace(material, moduli=rows))
-        elif isinstance(material, TransverselyIsotropic):
-            moduli = {name: factor * getattr(material, name) for name in ("horizontal", "vertical", "shear")}
-            layers[number] = replace(layers[number], material=replace(material, **moduli))
+        elif isinstance(material, Anisotropic):
+            layers[number] = replace(layers[number], material=material.stiffer(factor))
         else:
             assert isinstance(material, Elastic)
             layers[number] = replace(layers[number], material=replace(material, modulus=material.modulus * factor))
