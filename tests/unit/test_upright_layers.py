@@ -7,7 +7,9 @@ import pytest
 from scipy.linalg import expm
 
 import treadload as tl
-from treadload.contact.bodies.choose import road_surface
+from treadload.contact.bodies.anisotropic import AnisotropicHalfSpace
+from treadload.contact.bodies.body import Offsets, Waves
+from treadload.contact.bodies.choose import road_surface, surface_of
 from treadload.contact.bodies.upright import UprightHalfSpace
 from treadload.kernels.layers.images import fit_images, surface_compliance
 from treadload.kernels.layers.layered import Stack, transfer
@@ -229,10 +231,31 @@ def test_the_contact_modulus_and_the_four_numbers_of_the_surface(name):
     assert normal == pytest.approx(symbol[2, 2].real, rel=1e-12)
 
 
+@pytest.mark.parametrize("name", MATERIALS)
+@pytest.mark.parametrize("is_tire", [False, True])
+def test_the_body_is_that_of_any_anisotropy(name, is_tire):
+    """Another derivation: the symbol by averages over directions, coefficients by its harmonics."""
+    material = MATERIALS[name]
+    one = surface_of(material, is_tire=is_tire)
+    other = AnisotropicHalfSpace.of(material.stiffness, is_tire=is_tire)
+    assert isinstance(one, UprightHalfSpace)
+    for at in (Offsets(5, 6, 0.003, 0.004), Offsets(5, 6, 0.003, 0.004, -0.0021)):
+        for quantity in ("normal", "tangential", "coupling"):
+            found, expected = getattr(one, quantity)(at), getattr(other, quantity)(at)
+            np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13 * np.abs(expected).max())
+    np.testing.assert_allclose(one.across(np.ones(2)), other.across(np.ones(2)), rtol=1e-12)
+
+
+def test_elastic_layers_under_a_moving_wheel_are_those_at_rest():
+    layers, load = road((MIX, 0.1), (UNBOUND, 0.3), (SOIL,)), tl.UniformDisc(0.1, 7e5)
+    asked = {"depths": [0.1], "x": [0.0, 0.2], "y": [0.0]}
+    moving = tl.solve_response(load, layers, speed=20.0, **asked)
+    assert apart(moving, tl.solve_response(load, layers, **asked)) == 0
+    assert float(moving.dataset["dissipated_energy"].max()) == 0
+
+
 def test_isotropic_numbers_give_the_body_of_an_isotropic_half_space():
     material = tl.Elastic(5e9, 0.3)
-    from treadload.contact.bodies.body import Offsets, Waves
-
     at, waves = Offsets(6, 5, 0.003, 0.004, 0.0), Waves((6, 8), 0.003, 0.004)
     one, other = road_surface(road((nearly(material, 0),))), road_surface(road((material,)))
     for quantity in ("normal", "tangential", "coupling"):
