@@ -10,6 +10,7 @@ from treadload.contact.bodies.ahead import Ahead
 from treadload.contact.bodies.anisotropic import AnisotropicHalfSpace
 from treadload.contact.bodies.layers import layered_road
 from treadload.kernels.anisotropy.stiffness import rotated
+from treadload.kernels.anisotropy.symbol import surface_symbol
 from treadload.kernels.complementarity.coulomb import four
 from treadload.kernels.layers.layered import Stack
 
@@ -106,6 +107,17 @@ def test_an_isotropic_one_is_the_half_space():
     assert surface_of(STRAIGHT, is_tire=False).mirrored
     assert surface_of(STRAIGHT.rotated(yaw=np.pi / 2), is_tire=False).mirrored
     assert not surface_of(STRAIGHT.rotated(pitch=0.01), is_tire=False).mirrored
+    # Coupling over normal compliance, in the direction where it is largest, is that of the symbol.
+    values = surface_symbol(TILTED.stiffness)(np.pi / 480 * np.arange(480))
+    size = np.linalg.norm(values[:, :2, 2], axis=1) / values[:, 2, 2].real
+    rigid = Influence(SHAPE, DX, DY, pair(tl.Elastic(1e20, 0.3), TILTED))
+    assert rigid.dundurs == pytest.approx(size.max(), rel=2e-3)
+    turned = STRAIGHT.rotated(yaw=0.5)
+    assert Influence(SHAPE, DX, DY, pair(turned, turned)).dundurs == 0
+    # Tires and roads of half-spaces that differ couple as such, whatever stands for them.
+    one = AnisotropicHalfSpace.of(EQUAL.stiffness, is_tire=True).towards(np.ones(2), 0.4)
+    other = HalfSpaces.of(tl.Elastic(2.3e9, 0.3), None).towards(np.ones(2), 0.4)
+    np.testing.assert_allclose(one, other, rtol=0, atol=1e-13 * np.abs(other).max())
     like = Influence(SHAPE, DX, DY, pair(STRAIGHT, STRAIGHT))
     assert like.dundurs == pytest.approx(0, abs=1e-15)
 

@@ -11,7 +11,7 @@ from treadload.contact.bodies.body import Body, Offsets, Waves
 from treadload.errors import InputError
 from treadload.kernels.anisotropy.coefficients import Angular, coefficients
 from treadload.kernels.anisotropy.symbol import NotConvergedError, Symbol, surface_symbol
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, ComplexArray
 
 # Rows of the kernel's coefficients, see there.
 _XX, _YY, _ZZ, _XY, _XZ, _YZ, _ODD_XY, _ODD_XZ, _ODD_YZ = range(9)
@@ -92,6 +92,12 @@ class AnisotropicHalfSpace(Body):
         radial = (np.cos(angle) * values[:, 0, 2] + np.sin(angle) * values[:, 1, 2]).imag
         parts = [values[:, 2, 2].real.mean(), -self._side * radial[np.argmax(np.abs(radial))]]
         return np.asarray(np.multiply.outer(np.array(parts), np.ones_like(k)))
+
+    def towards(self, k: Array, angle: float) -> ComplexArray:
+        """As in `Body`."""
+        value = self.surface.symbol(np.array(angle))
+        x, y = (-value[axis, 2].real + 1j * self._side * value[axis, 2].imag for axis in (0, 1))
+        return np.asarray(np.multiply.outer(np.array([value[2, 2], x, y]), np.ones_like(k)))
 
     @property
     def _side(self) -> int:

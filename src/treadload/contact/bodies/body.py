@@ -22,6 +22,7 @@ a is odd under (x, y) → (-x, -y), e_x and e_y are even: loads work on each oth
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -152,6 +153,14 @@ class Body(ABC):
         The size, where the response lags behind; the mean over directions, where they differ.
         """
 
+    def towards(self, k: Array, angle: float) -> ComplexArray:
+        """The same to waves in a direction, rad from x: u_n by p, by q_x and by q_y (3, n), 1/Pa.
+
+        Asked where a grain is turned.
+        """
+        normal, coupling = self.across(k)
+        return np.array([normal, -1j * math.cos(angle) * coupling, -1j * math.sin(angle) * coupling])
+
     def check_shear(self) -> None:  # noqa: B027
         """Refuse shear on a surface that drifts under it without limit. Raises InputError."""
 
@@ -228,6 +237,10 @@ class Sum(Body):
     def across(self, k: Array) -> Array:
         """Added up."""
         return np.asarray(sum(part.across(k) for part in self.parts))
+
+    def towards(self, k: Array, angle: float) -> ComplexArray:
+        """Added up."""
+        return np.asarray(sum(part.towards(k, angle) for part in self.parts))
 
     def check_shear(self) -> None:
         """Refused by any of them."""

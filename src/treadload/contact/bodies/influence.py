@@ -16,7 +16,7 @@ from treadload.kernels.complementarity.coulomb import four
 from treadload.kernels.gridding.convolution import Convolution, Padding
 
 # Waves that a patch holds, at which the coupling of pressure and shear is looked at.
-_WAVES = 64
+_WAVES, _DIRECTIONS = 64, 48
 # Of like bodies whose couplings cancel, relative.
 _ROUND_OFF = 1e-12
 
@@ -60,12 +60,13 @@ class Influence:
 
         The size alone, where it differs with the direction of a turned grain.
         """
-        if not self.mirrored:
-            by_shear, _ = self._coupling(self.padding)
-            largest = float((np.linalg.norm(by_shear, axis=0) / np.abs(self.normal.spectrum)).max())
-            return largest if largest > _ROUND_OFF else 0.0
         longest = np.pi / np.hypot(self.shape[0] * self.dy, self.shape[1] * self.dx)
-        normal, coupling = self.pair.across(np.geomspace(longest, np.pi / min(self.dx, self.dy), _WAVES))
+        waves = np.geomspace(longest, np.pi / min(self.dx, self.dy), _WAVES)
+        if not self.mirrored:
+            parts = np.array([self.pair.towards(waves, np.pi * n / _DIRECTIONS) for n in range(_DIRECTIONS)])
+            largest = float((np.linalg.norm(parts[:, 1:], axis=1) / np.abs(parts[:, 0])).max())
+            return largest if largest > _ROUND_OFF else 0.0
+        normal, coupling = self.pair.across(waves)
         ratio = coupling / normal
         return float(ratio[np.argmax(np.abs(ratio))])
 
