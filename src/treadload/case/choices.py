@@ -13,6 +13,7 @@ from treadload.registry import BONDS, FRICTION, MANEUVERS, MATERIALS, PLASTICITY
 from treadload.units import Share
 
 TIRE_MATERIAL = Choice(MATERIALS, "material of a tire", only=(Elastic, Anisotropic, Prony, Surfaced))
+STONE = Choice(MATERIALS, "material of stones and mortar", only=(Elastic,))
 BOND = Choice(BONDS, "bond")
 PLASTIC = Choice(PLASTICITY)
 # A number, or the table of a law.

@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import model_validator
 
+from treadload.case.aggregates import AggregatesPart
 from treadload.case.choices import TIRE_MATERIAL
 from treadload.case.file import FilePart
 from treadload.case.loading import FootprintPart
@@ -60,9 +61,10 @@ class Case(FilePart):
     half-space. tire: its surface and what it is made of. pavement: the road. rolling: load, friction, forces.
     footprint: recorded contact stress in place of tire and rolling. response: where the road is read. damage: what it
     does to the surface. passes: how often it rolls over a road that yields.
+    aggregates: stones in the mortar of the top layer, in a window.
     """
 
-    own_tables: ClassVar = ("rolling", "footprint", "response", "damage", "passes")
+    own_tables: ClassVar = ("rolling", "footprint", "response", "damage", "passes", "aggregates")
     how_to_run: ClassVar = "the case of a wheel: use `treadload run {name}`, in Python Case"
 
     spacing: Length | None = None
@@ -75,6 +77,7 @@ class Case(FilePart):
     response: ResponsePart = ResponsePart()
     damage: DamagePart | None = None
     passes: PassesPart | None = None
+    aggregates: AggregatesPart | None = None
 
     @model_validator(mode="after")
     def _buildable(self) -> Case:
@@ -96,6 +99,8 @@ class Case(FilePart):
                 "[passes] need a layer that can yield: give one of the layers a plasticity, "
                 'such as { kind = "mohr-coulomb", cohesion = "100 kPa", friction_angle = "35 deg" }'
             )
+        if self.aggregates is not None:
+            self.aggregates.road(road)
         if self.damage is not None:
             depth = self.damage.depth
             if depth is not None and not same_depth(self.response.depths, depth).any():

@@ -56,6 +56,11 @@ CITATIONS = {
     "zone in which initial strains are uniform. J. Appl. Mech. 45, 302-306.",
     "passes": "Dang Van, K., Maitournam, M. H. (1993). Steady-state flow in classical elastoplasticity: applications "
     "to repeated rolling and sliding contact. J. Mech. Phys. Solids 41, 1691-1710.",
+    "inclusions": "Zhou, K., Keer, L. M., Wang, Q. J. (2011). Semi-analytic solution for multiple interacting "
+    "three-dimensional inhomogeneous inclusions of arbitrary shape in an infinite space. Int. J. Numer. Methods Eng. "
+    "87, 617-638.",
+    "equivalence": "Eshelby, J. D. (1957). The determination of the elastic field of an ellipsoidal inclusion, and "
+    "related problems. Proc. R. Soc. A 241, 376-396.",
     "miner": "Miner, M. A. (1945). Cumulative damage in fatigue. J. Appl. Mech. 12, A159-A164.",
     "grain": "Barnett, D. M., Lothe, J. (1973). Synthesis of the sextic and the integral formalism for dislocations, "
     "Green's functions and surface waves in anisotropic elastic solids. Phys. Norv. 7, 13-19.",
@@ -125,6 +130,11 @@ def _of_the_road(road: Pavement | None) -> list[str]:
 def passes_citations() -> list[str]:
     """References of the methods that passes over a road that yields use beside those of its response."""
     return [CITATIONS[key] for key in ("eigenstrain", "passes", "mixing")]
+
+
+def stones_citations() -> list[str]:
+    """References of the methods that stones in mortar use beside those of the response."""
+    return [CITATIONS[key] for key in ("equivalence", "inclusions", "eigenstrain")]
 
 
 # Of every case that is solved whole.

@@ -26,8 +26,8 @@ from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.pavement import Layer, LayerRow, Pavement, layer_rows, road_in_words
-from treadload.response import GridLoad, Passes, Response
-from treadload.results.cite import case_citations, citations, life_citations, passes_citations
+from treadload.response import GridLoad, Heterogeneous, Passes, Response
+from treadload.results.cite import case_citations, citations, life_citations, passes_citations, stones_citations
 from treadload.results.dataset import Fields
 from treadload.results.questions import Writer
 from treadload.results.roads import rows_of
@@ -102,6 +102,8 @@ def to_tree(
     used = used or citations(contact, _last(own, Response), road)
     if any(isinstance(part, Passes) for part in own):
         used = list(dict.fromkeys([*used, *passes_citations()]))
+    if any(isinstance(part, Heterogeneous) for part in own):
+        used = list(dict.fromkeys([*used, *stones_citations()]))
     root = {
         "title": title or (case.title if case is not None else ""),
         "case": case.to_toml() if case is not None else "",

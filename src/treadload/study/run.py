@@ -20,7 +20,15 @@ from treadload.footprint import Footprint
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
-from treadload.response import GridLoad, Passes, Response, roll_passes, solve_response
+from treadload.response import (
+    GridLoad,
+    Heterogeneous,
+    Passes,
+    Response,
+    compute_heterogeneous,
+    roll_passes,
+    solve_response,
+)
 from treadload.response.superposition import common_grid
 from treadload.results import Study, road_in_rows, to_tree
 from treadload.study.two_grids import COARSER, check_two_grids, with_error
@@ -59,6 +67,7 @@ class Result(Study):
     bowl: Response | None
     verdict: Verdict | None
     passes: Passes | None = None
+    heterogeneous: Heterogeneous | None = None
 
     @property
     def parts(self) -> Mapping[str, BaseResult]:
@@ -67,7 +76,7 @@ class Result(Study):
         parts = {
             "contact": load, "response": self.response, "slice_along": self.slice_along,
             "slice_across": self.slice_across, "bowl": self.bowl, "damage": self.verdict,
-            "passes": self.passes,
+            "passes": self.passes, "heterogeneous": self.heterogeneous,
         }  # fmt: skip
         return {name: part for name, part in parts.items() if part is not None}
 
@@ -79,7 +88,9 @@ class Result(Study):
         """One screen: contact, road, response, verdict."""
         parts = self.parts
         told = [parts["contact"].summary(), road_in_rows(self.road, self.case), self.response.summary()]
-        return "\n\n".join([*told, *(one.summary() for one in (self.verdict, self.passes) if one is not None)])
+        return "\n\n".join(
+            [*told, *(one.summary() for one in (self.verdict, self.passes, self.heterogeneous) if one is not None)]
+        )
 
     __repr__ = first_line
 
@@ -120,7 +131,8 @@ def read_loaded(load: Loaded) -> Result:
         # For whoever draws it: a line of points does not say where the load's centre is.
         bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
     passes = None if case.passes is None else passes_of(case, load)
-    return Result(case, road, load.contact, load.footprint, response, along, across, bowl, verdict, passes)
+    stones = None if case.aggregates is None else stones_of(case, load)
+    return Result(case, road, load.contact, load.footprint, response, along, across, bowl, verdict, passes, stones)
 
 
 def passes_of(case: Case, load: Loaded) -> Passes:
@@ -130,6 +142,17 @@ def passes_of(case: Case, load: Loaded) -> Passes:
     return roll_passes(
         load.wheels, load.road, passes=asked.count, speed=case.speed, spacing=asked.spacing, depth=asked.depth,
         layers=asked.layers, wander=asked.wander, progress=load.tell,
+    )  # fmt: skip
+
+
+def stones_of(case: Case, load: Loaded) -> Heterogeneous:
+    """The window with stones that a case asks for."""
+    asked = case.aggregates
+    assert asked is not None
+    window = asked.window
+    return compute_heterogeneous(
+        load.wheels, asked.road(load.road), asked.build(), window=(window.length, window.width), depth=window.depth,
+        at=(window.x, window.y), spacing=asked.spacing, bond_strength=asked.bond_strength, progress=load.tell,
     )  # fmt: skip
 
 

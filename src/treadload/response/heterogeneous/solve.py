@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -72,7 +72,7 @@ def compute_heterogeneous(
     groups = _groups(stones)
     road, matrix = _road(mortar)
     block = _block(groups, window, depth, spacing)
-    _check_layer(road, block.window)
+    _check_layer(road, block.window.depth)
     for name, value in zip("xy", at, strict=True):
         if isinstance(value, bool | str) or not math.isfinite(value):
             raise InputError(f"the window's middle must be finite numbers of metres, got {name} = {value!r}")
@@ -161,7 +161,7 @@ def _groups(stones: Any) -> list[Aggregates]:
 def _road(mortar: Any) -> tuple[Pavement, Elastic]:
     """The road that the mortar's stress comes from, and the mortar."""
     road = mortar if isinstance(mortar, Pavement) else None
-    material = road.layers[0].material if road is not None else mortar
+    material = road.layers[0].resolved if road is not None else mortar
     if not isinstance(material, Elastic):
         why = (
             "it relaxes, and stones take over the load as it does: give it as it is at the passage's frequency f, "
@@ -183,11 +183,23 @@ def _road(mortar: Any) -> tuple[Pavement, Elastic]:
     return road if road is not None else Pavement.half_space(material, "mortar"), material
 
 
-def _check_layer(road: Pavement, window: Window) -> None:
+def mortar_road(road: Pavement, mortar: Elastic | None, depth: float) -> Pavement:
+    """A road whose top layer is the mortar, its own material where that is None.
+
+    depth: of the window, m. Raises InputError where the top layer is no mortar, or thinner than the window.
+    """
+    if mortar is not None:
+        road = replace(road, layers=(replace(road.layers[0], material=mortar), *road.layers[1:]))
+    _road(road)
+    _check_layer(road, depth)
+    return road
+
+
+def _check_layer(road: Pavement, depth: float) -> None:
     top = float(road.interfaces[0]) if len(road.interfaces) else math.inf
-    if window.depth > top * (1 + _WHOLE):
+    if depth > top * (1 + _WHOLE):
         raise InputError(
-            f"the window is {window.depth * 1e3:g} mm deep and the mortar's layer {top * 1e3:g} mm: stones lie in "
+            f"the window is {depth * 1e3:g} mm deep and the mortar's layer {top * 1e3:g} mm: stones lie in "
             "the top layer alone; lessen the depth"
         )
 

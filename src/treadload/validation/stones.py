@@ -1,0 +1,74 @@
+"""Checks of eigenstrain and stones: Mindlin and Cheng's hot sphere, Eshelby's inclusions, Goodier's cavity."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.eigenstrain import operator
+from treadload.kernels.eigenstrain.inclusions import Equivalent, equivalent
+from treadload.kernels.eigenstrain.operator import Grid
+from treadload.validation.check import Check, relative
+
+_NU = 0.3
+_NORMAL = np.array([1.0, 1, 1, 0, 0, 0])
+# Of Eshelby's tensor of a sphere: change of volume, and of shape.
+_VOLUME, _SHAPE = (1 + _NU) / (3 * (1 - _NU)), 2 * (4 - 5 * _NU) / (15 * (1 - _NU))
+
+
+def _block(cells: int, beyond: int, above: float = 0.0) -> tuple[Grid, Array, Array]:
+    """Grid of a sphere of so many cells a radius and more beyond it; places along an axis; distances of cells."""
+    half = cells + beyond
+    at = np.arange(2 * half) - half + 0.5
+    grid = Grid(2 * half, 2 * half, 1.0, 1.0, above + np.arange(2 * half + 1.0))
+    return grid, at, np.sqrt(at[:, None, None] ** 2 + at[:, None] ** 2 + at**2)
+
+
+def _tension(cells: int, contrast: float, beyond: int) -> tuple[Equivalent, BoolArray, Array]:
+    """A sphere of another modulus in an endless body under a tension of 1; its cells; places along an axis."""
+    grid, at, distance = _block(cells, beyond)
+    inside = distance < cells
+    matrix = 1 / (1 - 2 * _NU), 1 / (1 + _NU)
+    apply = operator.cells(grid, 0.5 / (1 + _NU), _NU, averaged=True, surface=False)
+    stress = np.zeros((6, *grid.shape))
+    stress[0] = 1.0
+    count = int(inside.sum())
+    own = np.full(count, contrast * matrix[0]), np.full(count, contrast * matrix[1])
+    return equivalent(apply, stress, inside, own, matrix, grid.thickness), inside, at
+
+
+def stone_checks() -> Iterator[Check]:
+    """A hot sphere below the surface, spheres of cells in an endless body, the stress beside a cavity."""
+    group = "stones"
+    for cover, bound in ((2.0, 1e-3), (1.2, 5e-3)):
+        grid, at, distance = _block(8, 0, 8 * cover - 8)
+        inside = distance < 8
+        moved = operator.moved_by_cells(grid, _NU)(_NORMAL[:, None, None, None] * inside)[2, 0]
+        share = float(inside.sum()) * 3 / (4 * np.pi)
+        exact = -4 / 3 * (1 + _NU) * share * 8 * cover / (at**2 + at[:, None] ** 2 + (8 * cover) ** 2) ** 1.5
+        worst = np.unravel_index(int(np.abs(moved - exact).argmax()), moved.shape)
+        scale = exact.min()
+        yield relative(
+            group, f"hot sphere {cover:g} radii deep, 8 cells: rise of the surface, farthest off",
+            scale + (moved - exact)[worst], scale, bound, "Mindlin and Cheng (1950), J. Appl. Phys. 21, 931",
+        )  # fmt: skip
+    remote = np.array([1, -_NU, -_NU, 0, 0, 0])
+    mean = remote[:3].sum() / 3 * _NORMAL
+    for contrast, cells, bound in ((0.1, 8, 5e-3), (12.0, 8, 4.5e-2)):
+        found, inside, _ = _tension(cells, contrast, 1)
+        stress = found.stress[:, inside].mean(axis=1)
+        strain = (stress[0] - _NU * (stress[1] + stress[2])) / contrast
+        exact = mean / (1 + (contrast - 1) * _VOLUME) + (remote - mean) / (1 + (contrast - 1) * _SHAPE)
+        yield relative(
+            group, f"sphere of {contrast:g} times the modulus, {cells} cells a radius: mean strain", strain, exact[0],
+            bound, "Eshelby (1957), Proc. R. Soc. A 241, 376",
+        )  # fmt: skip
+    found, _, at = _tension(6, 0.0, 4)
+    beside, r = found.stress[0][9:11, :, 9:11].mean(axis=(0, 2)), np.sqrt(at**2 + 0.5)
+    exact = 1 + (4 - 5 * _NU) / (2 * (7 - 5 * _NU)) * (6 / r) ** 3 + 9 / (2 * (7 - 5 * _NU)) * (6 / r) ** 5
+    yield relative(
+        group, "cavity of 6 cells a radius: stress along the tension, second cell beside it", beside[17], exact[17],
+        3e-2, "Goodier (1933), J. Appl. Mech. 55, 39",
+    )  # fmt: skip
