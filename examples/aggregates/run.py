@@ -1,8 +1,8 @@
 """What do stones do to the tension that tears the mastic below the edge of a rib?
 
-The case in aggregates.toml looks at 36 mm of wearing course below the edge of a braking wheel's shoulder rib, stone
-by stone. Here the same window is filled anew from several seeds, to see what depends on where single stones stand,
-and once with a mortar that is half as stiff, as a few degrees make it: the stones carry more.
+The case in aggregates.toml looks at 36 mm of wearing course below the rear edge of a braking wheel's shoulder rib,
+stone by stone. Here the same window is filled anew from several seeds, to see what depends on where single stones
+stand, and once with a mortar that is half as stiff, as a few degrees make it: the stones carry more.
 
     python examples/aggregates/run.py [folder]
 """
@@ -54,7 +54,7 @@ def main(folder: Path, seeds: tuple[int, ...] = SEEDS, spacing: float = 1e-3, ce
     spread = np.std([table[name]["factor"] for name, seed, mortar in asked if mortar == 3e9])
     print(f"the factor differs by {spread:.2f} (standard deviation) from seed to seed")
     first = found[asked[0][0]]
-    save(first.plot.section(), folder / "stones.png")
+    save(first.plot.section(along="travel"), folder / "stones.png")
     tl.save_results(first, folder / "stones.nc")
     return table
 

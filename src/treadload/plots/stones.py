@@ -14,13 +14,25 @@ from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
-from treadload.plots.kit.plan import DEPTH_LABEL, MM, X_LABEL, Y_LABEL, Limits, colour_bar, edges, fields_of
+from treadload.plots.kit.plan import (
+    DEPTH_LABEL,
+    MM,
+    X_LABEL,
+    Y_LABEL,
+    Limits,
+    colour_bar,
+    edges,
+    empty_note,
+    fields_of,
+)
 from treadload.plots.kit.style import CASES, INK, headline, legend_below, open_axes, sequential, signed, styled
 from treadload.plots.profile import nearest
 
 _MEGA = 1e-6
 # Inches of a section; of the curves.
 _WIDE, _CURVES = 5.4, 3.6
+# Tension below this part of the scale is none.
+_NOTHING = 1e-3
 # Of the colour scale: the share of cells whose values lie on it.
 _SHOWN = 99.5
 
@@ -51,14 +63,20 @@ def stones_in_mortar(
     scale = Limits(0.0, max(high, 1e-9), bool(max(with_stones.max(), alone.max()) > high))
     aspect = float(np.ptp(data["depth"].to_numpy()) / np.ptp(data[name].to_numpy()))
     figure = new_figure(_WIDE + _CURVES + 1.2, 2 * _WIDE * min(aspect, 0.9) + 2.4)
-    axes = figure.subplot_mosaic([["with", "curves"], ["alone", "curves"]], width_ratios=[_WIDE, _CURVES])
+    axes: dict[str, Axes] = figure.subplot_mosaic(
+        [["with", "curves"], ["alone", "curves"]], width_ratios=[_WIDE, _CURVES]
+    )
     for key, values, title in (
         ("with", with_stones, "Largest tension with stones"),
         ("alone", alone, "Mortar alone"),
     ):
         mesh = _section(axes[key], cut, name, values, scale, outlined=key == "with")
         where = f"{other} = {signed(float(cut[other]) * MM)} mm"
-        headline(axes[key], title, f"section at {where}; highest {float(np.max(values)):.2g} MPa")
+        highest = float(np.max(values))
+        pulled = highest > _NOTHING * scale.high
+        if not pulled:
+            empty_note(axes[key], "no tension here")
+        headline(axes[key], title, f"section at {where}; {f'highest {highest:.2g} MPa' if pulled else 'compressed'}")
     colour_bar(mesh, axes["alone"], "MPa", scale)
     colour_bar(mesh, axes["with"], "MPa", scale)
     _curves(axes["curves"], data)
