@@ -28,6 +28,16 @@ def test_compaction_anisotropy(tmp_path, capsys):
     assert kept.life.years(bottom) == pytest.approx(grained[bottom], rel=1e-12)
 
 
+@pytest.mark.slow
+def test_its_life_runs_as_a_case_with_what_it_depends_on():
+    case = tl.LifeCase.from_toml(EXAMPLE / "compaction.toml").model_copy(update={"spacing": 24e-3})
+    result = tl.run_life(case)
+    found = result.sensitivity.dataset["elasticity"]
+    # A layer whose three moduli grow alike lasts longer; the contact feels none of it.
+    assert float(found.sel(input="modulus of asphalt")) > 1
+    assert float(found.sel(input="modulus of unbound")) > 1
+
+
 def test_the_case_has_its_grain():
     case = tl.LifeCase.from_toml(EXAMPLE / "compaction.toml")
     asphalt, stone, soil = (layer.material for layer in case.build_road().layers)

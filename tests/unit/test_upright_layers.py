@@ -1,5 +1,6 @@
 """Layers that are another along z: beside the matrix exponential, half-spaces and isotropic layers; in contact."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -14,6 +15,7 @@ from treadload.contact.bodies.upright import UprightHalfSpace
 from treadload.kernels.layers.images import fit_images, surface_compliance
 from treadload.kernels.layers.layered import Stack, transfer
 from treadload.pavement.stack import stack_of
+from treadload.response.several import Question, tensors_of_many
 from upright import MATERIALS, decays, nearly, plane_of, upright_of
 
 MIX, UNBOUND, WEAK, NEAR = MATERIALS.values()
@@ -160,6 +162,27 @@ def test_a_layer_split_by_a_millionth_responds_as_an_isotropic_one(kind):
     )
     # Round-off, and what quadratures leave.
     assert apart(equal, plain) < 1e-9
+
+
+def test_many_roads_under_many_loads_are_each_alone():
+    """As lives solve them: roads that share a top share its half-space, and only what is read is computed."""
+    soft, stiff = dataclasses.replace(MIX, vertical=3.0e9), road((MIX, 0.08), (UNBOUND, 0.3), (SOIL,))
+    roads = [
+        stiff,
+        road((soft, 0.08), (UNBOUND, 0.3), (SOIL,)),
+        road((MIX, 0.08), (WEAK, 0.2), (SOIL,)),
+        road((MIX,)),
+    ]
+    cells, depths = loads()["cells"], np.array([0.0, 0.03, 0.08])
+    questions = [Question([cells], one, depths) for one in roads]
+    needs = ("strain_xx", "strain_zz", "stress_xz")
+    found = tensors_of_many(questions, WHERE["x"], WHERE["y"], needs=needs)
+    for one, together in zip(roads, found, strict=True):
+        alone = tl.solve_response(cells, one, depths=depths, **WHERE).dataset
+        for name in needs:
+            exact = alone[name].to_numpy()
+            # What readings need, in single numbers.
+            np.testing.assert_allclose(together[name].to_numpy(), exact, rtol=0, atol=3e-6 * np.abs(exact).max())
 
 
 def test_gridded_and_axisymmetric_loads_meet_on_layers():
