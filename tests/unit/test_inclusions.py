@@ -6,6 +6,7 @@ import pytest
 from treadload.kernels.eigenstrain import operator
 from treadload.kernels.eigenstrain.inclusions import equivalent
 from treadload.kernels.eigenstrain.operator import Grid
+from treadload.kernels.tensors import principal_values
 
 _NU = 0.3
 _VOLUME, _SHEAR = (1 + _NU) / (3 * (1 - _NU)), 2 * (4 - 5 * _NU) / (15 * (1 - _NU))
@@ -91,6 +92,24 @@ def test_beside_a_cavity_stress_is_goodiers():
     exact = 1 + (4 - 5 * _NU) / (2 * (7 - 5 * _NU)) * (6 / r) ** 3 + 9 / (2 * (7 - 5 * _NU)) * (6 / r) ** 5
     second = slice(17, None)
     assert np.abs(stress[second] / exact[second] - 1).max() < 3e-2
+
+
+def test_a_stone_just_below_the_surface_is_as_another_program_found_it():
+    # A trial outside this package, stress of mastic 3 GPa and stone 60 GPa, radius 5 cells, a cover of one.
+    at = np.arange(16) - 7.5
+    grid = Grid(16, 16, 1.0, 1.0, np.arange(15.0))
+    inside = (grid.depths - 6)[:, None, None] ** 2 + at[:, None] ** 2 + at**2 < 25
+    mastic = _moduli(3.0, 0.35)
+    apply = operator.cells(grid, 0.5 * mastic[1], 0.35, averaged=True)
+    stress = np.zeros((6, *grid.shape))
+    stress[0] = 1.0
+    own = tuple(np.full(inside.sum(), one) for one in _moduli(60.0, 0.2))
+    found = equivalent(apply, stress, inside, own, mastic, grid.thickness)
+    # Its stone had other cells at the border: 1.81. The stone shields the surface above it: 0.57 to 0.60.
+    assert found.stress[0][inside].mean() == pytest.approx(1.81, rel=0.03)
+    assert principal_values(found.stress)[0][~inside].max() == pytest.approx(2.04, rel=0.01)
+    above = operator.cells(grid, 0.5 * mastic[1], 0.35, depths=np.array([0.0]))(found.eigenstrain)
+    assert 1 + above[0, 0, 7:9, 7:9].mean() == pytest.approx(0.57, abs=0.05)
 
 
 def test_stiff_and_soft_together_are_solved_and_satisfy_their_laws():
