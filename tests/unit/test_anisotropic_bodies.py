@@ -1,11 +1,13 @@
 """Anisotropic half-spaces as bodies of a contact: no parity along x and y is left, and the operators still hold."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from tests.grain import STRAIGHT, TILTED
 
 import treadload as tl
-from treadload.contact.bodies import HalfSpaces, Influence, Offsets, Sum, Waves, surface_of
+from treadload.contact.bodies import Body, HalfSpaces, Influence, Offsets, Sum, Waves, surface_of
 from treadload.contact.bodies.ahead import Ahead
 from treadload.contact.bodies.anisotropic import AnisotropicHalfSpace
 from treadload.contact.bodies.layers import layered_road
@@ -135,3 +137,40 @@ def test_a_tire_is_the_road_upside_down():
     np.testing.assert_allclose(turned["tangential"] * signs, tire.tangential(up), rtol=0, atol=size)
     np.testing.assert_allclose(turned["coupling"] * [[[-1]], [[1]]], tire.coupling(up), rtol=0, atol=size)
     np.testing.assert_allclose(turned["tilted"] * [[[-1]], [[-1]], [[1]]], tire.tilted(up), rtol=0, atol=size)
+
+
+@dataclass(frozen=True)
+class Springs(Body):
+    """Side by side, Pa/m: a body of somebody else's, written before there was a grain."""
+
+    stiffness: float
+
+    def normal(self, at):
+        assert at.first_y == 0
+        return np.outer(np.abs(at.y) < at.dy / 2, np.abs(at.x) < at.dx / 2) / self.stiffness
+
+    def tangential(self, at):
+        own = self.normal(at)
+        return np.array([own, own, 0 * own])
+
+    def coupling(self, at):
+        return np.zeros((2, at.ny, at.nx))
+
+    def compliance(self, waves):
+        return np.array([waves.k / self.stiffness] * 3 + [0 * waves.k])
+
+    def across(self, k):
+        return np.array([k / self.stiffness, 0 * k])
+
+
+def test_a_body_that_knows_no_grain_meets_one():
+    """It is asked for y ≥ 0 alone, and adds its own cell."""
+    road = surface_of(TILTED, is_tire=False)
+    both, alone = Sum.of(Springs(4e12), road), dense(road)
+    assert not both.mirrored
+    found = dense(both) - alone
+    np.testing.assert_allclose(found, np.eye(len(alone)) / 4e12, rtol=0, atol=1e-13 * np.abs(alone).max())
+    load = np.random.default_rng(5).normal(size=(3, *SHAPE))
+    moved = Influence(SHAPE, DX, DY, both).displacement(load[2], load[:2])
+    expected = ((alone + np.eye(len(alone)) / 4e12) @ load.ravel()).reshape(3, *SHAPE)
+    np.testing.assert_allclose(moved, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
