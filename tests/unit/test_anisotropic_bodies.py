@@ -11,6 +11,7 @@ from treadload.contact.bodies import Body, HalfSpaces, Influence, Offsets, Sum, 
 from treadload.contact.bodies.ahead import Ahead
 from treadload.contact.bodies.anisotropic import AnisotropicHalfSpace
 from treadload.contact.bodies.layers import layered_road
+from treadload.contact.solvers.normal import solve_normal
 from treadload.kernels.anisotropy.stiffness import rotated
 from treadload.kernels.anisotropy.symbol import surface_symbol
 from treadload.kernels.complementarity.coulomb import four
@@ -174,3 +175,25 @@ def test_a_body_that_knows_no_grain_meets_one():
     moved = Influence(SHAPE, DX, DY, both).displacement(load[2], load[:2])
     expected = ((alone + np.eye(len(alone)) / 4e12) @ load.ravel()).reshape(3, *SHAPE)
     np.testing.assert_allclose(moved, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+
+
+def test_both_ways_through_the_transforms_agree():
+    """A straight grain by parities, and the same as if it had none."""
+    folded = AnisotropicHalfSpace.of(STRAIGHT.stiffness, is_tire=False)
+    whole = AnisotropicHalfSpace.of(STRAIGHT.stiffness, is_tire=False)
+    whole.__dict__["mirrored"] = False
+    load = np.random.default_rng(6).normal(size=(3, *SHAPE))
+    one, other = (Influence(SHAPE, DX, DY, body) for body in (folded, whole))
+    expected = one.displacement(load[2], load[:2])
+    size = 1e-12 * np.abs(expected).max()
+    np.testing.assert_allclose(other.displacement(load[2], load[:2]), expected, rtol=0, atol=size)
+    for ahead in (0.004, DX):
+        near, full = Ahead(one, ahead), Ahead(other, ahead)
+        np.testing.assert_allclose(full(load[:2], load[2]), near(load[:2], load[2]), rtol=0, atol=size)
+        np.testing.assert_allclose(full.gap(load[:2]), near.gap(load[:2]), rtol=0, atol=size)
+    gap = np.add.outer(np.linspace(-1, 1, 40) ** 2, np.linspace(-1, 1, 36) ** 2) * 1e-3
+    pressed, again = (
+        solve_normal(Influence(gap.shape, DX, DY, body), gap, load=1e5, tolerance=1e-10).pressure
+        for body in (folded, whole)
+    )
+    np.testing.assert_allclose(again, pressed, rtol=0, atol=1e-7 * pressed.max())
