@@ -23,6 +23,7 @@ from treadload.contact import Maneuver as Maneuver
 from treadload.contact import Rolling as Rolling
 from treadload.contact import friction as friction
 from treadload.contact import solve_contact as solve_contact
+from treadload.contact import solve_indentation as solve_indentation
 from treadload.contact import solve_transient as solve_transient
 from treadload.damage import FatigueLine as FatigueLine
 from treadload.damage import Verdict as Verdict

@@ -116,6 +116,15 @@ def calibration():
     return tl.calibrate(TIRE, ["modulus"], rows, road=ROAD, tolerance=1e-6)
 
 
+def dented():
+    across = (np.arange(12) - 5.5) * 1e-3
+    ball = tl.Tire.from_height_map(
+        (across[None] ** 2 + across[:, None] ** 2) / 0.2, 1e-3, material=tl.Elastic(2e14, 0.3), name="a ball"
+    )
+    soft = tl.ElastoPlastic(tl.Elastic(1e9, 0.3), tl.materials.VonMises(1e7, hardening=1e7))
+    return tl.solve_indentation(ball, tl.Pavement.half_space(soft), [60.0, 0.0], layers=5)
+
+
 def passes():
     soft = tl.ElastoPlastic(tl.Elastic(6e8, 0.35), tl.materials.VonMises(4e5, kinematic=6e7))
     disc = tl.UniformDisc(0.1, 8e5)
@@ -162,6 +171,7 @@ MADE = {
     "Sobol": lambda: screened(tl.study.sobol, blocks=4, second_order=True),
     "Morris": lambda: screened(tl.study.morris, trajectories=3),
     "Passes": passes,
+    "Indentation": dented,
     "Heterogeneous": heterogeneous,
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
@@ -171,7 +181,7 @@ FIGURES = {
     "BondComparison": "lives", "Sensitivity": "inputs", "UniformComparison": "strains", "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
-    "Passes": "rut", "Heterogeneous": "section",
+    "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",
     "Sweep": lambda plot: plot.curve("worst_strain"), "Tornado": "tornado", "Sobol": "sobol", "Morris": "morris",
 }  # fmt: skip
 

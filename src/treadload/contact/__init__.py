@@ -1,6 +1,7 @@
 """Contact of tire and road: pressure, shear, stick and slip."""
 
 from treadload.contact.curve import CreepCurve, creep_curve
+from treadload.contact.indentation import Indentation, solve_indentation
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.contact.resistance import RollingResistance, rolling_resistance
 from treadload.contact.rolling_state import Rolling
@@ -13,6 +14,7 @@ __all__ = [
     "STRAIGHT",
     "Contact",
     "CreepCurve",
+    "Indentation",
     "Maneuver",
     "Rolling",
     "RollingResistance",
@@ -21,6 +23,7 @@ __all__ = [
     "creep_curve",
     "rolling_resistance",
     "solve_contact",
+    "solve_indentation",
     "solve_transient",
     "turn_on_the_spot",
 ]

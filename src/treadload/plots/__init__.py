@@ -8,6 +8,7 @@ from treadload.plots.curve import creep_curves
 from treadload.plots.energy import dissipated_energy
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.history import transient_history, turn_history
+from treadload.plots.indentation import indentation
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.files import png, save
@@ -23,6 +24,7 @@ from treadload.plots.others import (
     FieldsPlots,
     FootprintComparisonPlots,
     HeterogeneousPlots,
+    IndentationPlots,
     LifePlots,
     MorrisPlots,
     PassesPlots,
@@ -58,6 +60,7 @@ __all__ = [
     "FieldsPlots",
     "FootprintComparisonPlots",
     "HeterogeneousPlots",
+    "IndentationPlots",
     "LifePlots",
     "MorrisPlots",
     "PassesPlots",
@@ -89,6 +92,7 @@ __all__ = [
     "deflection_bowl",
     "dissipated_energy",
     "fatigue_line",
+    "indentation",
     "life_damage",
     "life_inputs",
     "life_shares",

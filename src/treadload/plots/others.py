@@ -14,6 +14,7 @@ from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.curve import creep_curves
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.history import transient_history, turn_history
+from treadload.plots.indentation import indentation
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.passes import plastic_strain, residual_stress, rut_profile
@@ -48,6 +49,15 @@ class LifePlots(_Plots):
     def shares(self, criterion: str | None = None) -> Figure:
         """Who does the damage, and when: classes of axles by seasons."""
         return life_shares(self._result, criterion)
+
+
+@offers("plot", "Indentation")
+class IndentationPlots(_Plots):
+    """Figures of a body pressed into a road that yields."""
+
+    def dent(self) -> Figure:
+        """Pressure and dent on a line through the middle, step by step."""
+        return indentation(self._result)
 
 
 @offers("plot", "Passes")

@@ -13,6 +13,7 @@ from treadload.plots import (
     FieldsPlots,
     FootprintComparisonPlots,
     HeterogeneousPlots,
+    IndentationPlots,
     LifePlots,
     MorrisPlots,
     PassesPlots,
@@ -36,6 +37,7 @@ HEADINGS = {
     "bond_comparison": "Road with and without its bond",
     "comparison": "Computed and measured footprint",
     "creep_curve": "Creep curve",
+    "indentation": "Indentation",
     "sensitivity": "What the life depends on",
     "transient": "Rolling from rest",
     "turn": "Turn on the spot",
@@ -114,6 +116,9 @@ def _pictures(other: Other) -> list[Picture]:
         case "creep_curve":
             caption = "Force over friction times load, and the share of the contact that slips, against creepage."
             return picture("Force against creepage", caption, CreepCurvePlots(data).forces, wide=True)
+        case "indentation":
+            caption = "Pressure under the body, and what the surface keeps of it, step by step."
+            return picture("Pressure and dent", caption, IndentationPlots(data).dent, wide=True)
         case "passes":
             plots_of_passes = PassesPlots(data)
             caption = "Displacement of the surface that passes leave, down; the same all along travel."

@@ -12,12 +12,11 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.eigenstrain.operator import Grid as Cells
+from treadload.kernels.eigenstrain.rows import graded_edges
 from treadload.kernels.plasticity.state import State
 from treadload.materials import ElastoPlastic
 from treadload.pavement import Pavement
 
-# Rows of one layer may grow by this factor from one to the next.
-_STEEPEST = 1.5
 # Of the operator, bytes; with its transforms a pass stays within twice that.
 _MOST = 1.5e9
 
@@ -119,17 +118,7 @@ def row_edges(among: tuple[Course, ...], cell: float, depth: float, count: int) 
     """
     top = among[0].top
     bottom = min(max(depth, top + cell), among[-1].bottom)
-    deep = bottom - top
-    first = min(cell, deep / 2)
-    count = max(2, min(count, math.ceil(deep / first - 1e-9)))
-    ratio = 1.0
-    if count * first < deep * (1 - 1e-9):
-        low, high = 1.0, _STEEPEST
-        for _ in range(60):
-            ratio = 0.5 * (low + high)
-            low, high = (ratio, high) if first * (ratio**count - 1) / (ratio - 1) < deep else (low, ratio)
-    steps = ratio ** np.arange(count)
-    edges = top + deep * np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
+    edges = graded_edges(top, bottom, cell, count)
     for inside in {z for one in among for z in (one.top, one.bottom) if top < z < bottom}:
         nearest = 1 + int(np.abs(edges[1:-1] - inside).argmin())
         if abs(edges[nearest] - inside) > 0.45 * min(np.diff(edges)[nearest - 1 : nearest + 1]):

@@ -1,0 +1,292 @@
+"""A body pressed into a road that yields, through a history of loads.
+
+The plastic strain d that a step adds is the only unknown: it moves the surface, whose contact gives the pressure. The
+stress of that, with that of d itself, goes into the return map,
+
+    contact(gap + u_z(d)) -> p,   trial = S p + K d + C d,   d = Return(trial; state before the step),
+
+a fixed point that contracts, since -K is a projection in the elastic energy; Anderson's mixing finds it. The contact
+is solved inside, to a tolerance far below that of the plastic strain.
+
+Sources: Jacq, Nélias, Lormand & Girodin (2002), J. Tribol. 124, 653-667, for the semi-analytical method; Frérot,
+Bonnet, Molinari & Anciaux (2019), Comput. Methods Appl. Mech. Eng. 351, 951-976, for driving it by strain.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.composing import BaseResult, Holds
+from treadload.contact.bodies.choose import Pair
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.rolling_state import Rolling
+from treadload.contact.solve import check_border, place
+from treadload.contact.solvers.normal import NormalSolution, solve_normal
+from treadload.describing import first_line
+from treadload.errors import ConvergenceError, InputError, positive
+from treadload.grid import Grid
+from treadload.kernels import fft
+from treadload.kernels.arrays import Array
+from treadload.kernels.eigenstrain.operator import Grid as Cells
+from treadload.kernels.eigenstrain.operator import cells, moved_by_cells
+from treadload.kernels.eigenstrain.rows import graded_edges
+from treadload.kernels.half_space.interior import fields_on_grid
+from treadload.kernels.mixing import Anderson
+from treadload.kernels.plasticity.state import State
+from treadload.materials import ElastoPlastic, PassesPowerLaw, Perzyna
+from treadload.pavement import Pavement
+from treadload.tire import Tire
+
+# Less memory takes more than twice as many rounds above ten times the load of first yield.
+_MEMORY, _MOST_ROUNDS = 15, 150
+# Of the contact inside: a looser one would stall the mixing.
+_INNER = 1e-7
+# Depth of the rows, in radii of the elastic contact under the largest load.
+_DEEP = 2.2
+# What a side of the box takes of the largest plastic strain, from where on the box is too small; and small strains.
+_REACHED, _SMALL = 0.02, 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Indentation(BaseResult, group="indentation"):
+    """A body pressed into a road that yields.
+
+    dataset: normal_load, approach, contact_area, peak_pressure and largest_plastic_strain by step; pressure and
+    residual_displacement_z, what the surface keeps if it were unloaded, over (step, y, x); equivalent_plastic_strain
+    over (step, depth, y, x). stats: rounds, seconds. warnings: sentences. tire, road, loads: the question.
+    """
+
+    holds: ClassVar[Holds] = Holds(
+        {
+            "step": "step", "depth": "depth", "y": "y", "x": "x",
+            "normal_load approach contact_area peak_pressure largest_plastic_strain": "step",
+            "pressure residual_displacement_z": "step y x",
+            "equivalent_plastic_strain": "step depth y x",
+        },
+        known="normal_load pressure residual_displacement_z",
+        texts="law",
+        sizes={"step": (1, np.inf)},
+    )  # fmt: skip
+
+    dataset: xr.Dataset
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    tire: Tire | None = None
+    road: Pavement | None = None
+    loads: tuple[float, ...] = ()
+
+    def summary(self) -> str:
+        """Load, approach, peak pressure, plastic strain and dent, step by step."""
+        data = self.dataset
+        lines = [f"indentation of a road, {data.attrs['law']}; {data.sizes['step']} step(s)"]
+        lines.append("load N     approach µm   peak MPa   area mm²   plastic strain %   dent µm")
+        for row in range(data.sizes["step"]):
+            one = data.isel(step=row)
+            lines.append(
+                f"{float(one['normal_load']):<10.4g} {float(one['approach']) * 1e6:>11.4g} "
+                f"{float(one['peak_pressure']) / 1e6:>10.4g} {float(one['contact_area']) * 1e6:>10.4g} "
+                f"{100 * float(one['largest_plastic_strain']):>18.3g} "
+                f"{float(one['residual_displacement_z'].max()) * 1e6:>9.4g}"
+            )
+        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+
+    __repr__ = first_line
+
+
+@dataclass(frozen=True, eq=False)
+class _Body:
+    """The road below the contact's cells: how pressure stresses it, what plastic strain does."""
+
+    grid: Grid
+    material: ElastoPlastic
+    edges: Array
+
+    @property
+    def cells(self) -> Cells:
+        return Cells(self.grid.nx, self.grid.ny, self.grid.dx, self.grid.dy, self.edges)
+
+    @cached_property
+    def own(self) -> Any:
+        """Stress of plastic strain."""
+        elastic = self.material.elastic
+        return cells(self.cells, elastic.shear_modulus, elastic.poisson, single=True)
+
+    @cached_property
+    def moved(self) -> Any:
+        """Displacement of the surface by plastic strain."""
+        return moved_by_cells(self.cells, self.material.elastic.poisson)
+
+    @cached_property
+    def _spectrum(self) -> Any:
+        """Of the stress of one loaded cell at all depths, (nz, 6, …)."""
+        grid, one = self.grid, np.zeros((3, 1, 1))
+        one[0] = 1.0
+        x, y = grid.dx * np.arange(1 - grid.nx, grid.nx), grid.dy * np.arange(1 - grid.ny, grid.ny)
+        poisson = self.material.elastic.poisson
+        stress = fields_on_grid(one, grid.dx, grid.dy, self.cells.depths, 1.0, poisson, x, y, moves=False)[0]
+        return fft.rfft2(stress, s=self._period)
+
+    @property
+    def _period(self) -> tuple[int, int]:
+        ny, nx = self.grid.shape
+        return int(fft.next_fast_len(3 * ny - 2)), int(fft.next_fast_len(3 * nx - 2, real=True))
+
+    def stress(self, pressure: Array) -> Array:
+        """Stress (6, nz, ny, nx), Pa, of a pressure (ny, nx), Pa."""
+        ny, nx = self.grid.shape
+        both = self._spectrum * fft.rfft2(pressure, s=self._period)
+        whole = fft.irfft2(both, s=self._period)[..., ny - 1 : 2 * ny - 1, nx - 1 : 2 * nx - 1]
+        stress: Array = np.moveaxis(whole, 1, 0)
+        return stress
+
+
+def solve_indentation(
+    tire: Tire,
+    road: Pavement,
+    loads: Sequence[float],
+    *,
+    spacing: float | None = None,
+    depth: float | None = None,
+    layers: int = 14,
+    tolerance: float = 1e-4,
+    progress: Callable[[str], None] | None = None,
+) -> Indentation:
+    """A body pressed into a road that yields, and lifted again: chippings, studs, plates, standing steel wheels.
+
+    tire: the body, of any tire's kind, elastic; a `Tire.from_height_map` of a stiff material for a rigid one. road: a
+    half-space of an ElastoPlastic whose law knows no time. loads: N, >= 0, one a step, in their order; 0 lifts it
+    off. spacing: of the cells, m, as in `solve_contact`. depth: of what may yield, m; left out, 2.2 times the radius
+    of the elastic contact under the largest load. layers: rows of cells in it. tolerance: of the plastic strain of a
+    step, relative. The contact has no friction, and feels the dent. A step is one jump: yielding that turns on the
+    way asks for more steps. Raises InputError, and ConvergenceError with the residual reached.
+    """
+    start = time.perf_counter()
+    tell = (lambda text: None) if progress is None else progress
+    material, steps = _checked(road, loads, depth, layers, tolerance)
+    pair = Pair.of(tire, road)
+    most = Rolling(normal_load=2 * max(steps), friction=1.0)
+    grid, gap = place(tire, most, pair.both, spacing)
+    influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest)
+    normal = solve_normal(influence, gap, load=max(steps), tolerance=1e-4)
+    if depth is None:
+        touched = normal.pressure > 0
+        radius = 0.5 * max(touched.any(axis=0).sum() * grid.dx, touched.any(axis=1).sum() * grid.dy)
+        depth = _DEEP * radius
+    body = _Body(grid, material, graded_edges(0.0, depth, 0.8 * grid.dx, layers))
+    tell(f"operators of {grid.nx} x {grid.ny} cells in {len(body.edges) - 1} rows")
+    law = material.return_map()
+    state, pressure = State.virgin((len(body.edges) - 1, *grid.shape)), normal.pressure
+    found: list[tuple[float, float, Array, State, Array]] = []
+    rounds = 0
+    for number, load in enumerate(steps, start=1):
+        tell(f"step {number} of {len(steps)}")
+
+        def press(change: Array, before: Array, load: float = load, near: Array = pressure) -> NormalSolution | None:
+            if not load:
+                return None
+            dented = gap + body.moved(before + change)[2, 0]
+            return solve_normal(influence, dented, load=load, start=near, tolerance=_INNER)
+
+        change, mixing = np.zeros_like(state.strain), Anderson(_MEMORY)
+        for _ in range(_MOST_ROUNDS):
+            rounds += 1
+            touching = press(change, state.strain)
+            stress = body.own(state.strain + change) + law.elastic(change)
+            if touching is not None:
+                stress = stress + body.stress(touching.pressure)
+            after = law(stress, state)
+            step = after.strain - state.strain
+            size, off = float(np.linalg.norm(step)), float(np.linalg.norm(step - change))
+            if off <= tolerance * size or np.abs(step - change).max() <= 1e-6 * _yield_strain(material):
+                break
+            change = mixing.next(change, step)
+        else:
+            raise ConvergenceError(
+                f"the plastic strain of step {number} ({load:g} N) did not settle in {_MOST_ROUNDS} rounds: it still "
+                f"changes by {off / size:.1e} of itself, above the tolerance of {tolerance:.1e}; take smaller steps",
+                off / size,
+            )
+        state = after
+        if touching is not None:
+            check_border(touching.pressure, grid)
+            pressure = touching.pressure
+        _check_sides(state, depth, number)
+        held = np.zeros(grid.shape) if touching is None else touching.pressure
+        level = 0.0 if touching is None else touching.approach
+        found.append((load, level, held, state, body.moved(state.strain)[2, 0]))
+    stats = {"seconds": time.perf_counter() - start, "rounds": rounds, "memory_mb": body.own.bytes / 1e6}
+    data = _dataset(grid, body, found, type(material.law).__name__)
+    largest = float(data["largest_plastic_strain"].max())
+    warnings = () if largest <= _SMALL else (
+        f"the plastic strain reaches {100 * largest:.1f} %, above {100 * _SMALL:g} %: strains are taken as small",
+    )  # fmt: skip
+    return Indentation(data, stats, warnings, tire, road, tuple(steps))
+
+
+def _yield_strain(material: ElastoPlastic) -> float:
+    law: Any = material.law
+    return float(law.strength / material.elastic.modulus)
+
+
+def _checked(
+    road: Pavement, loads: Sequence[float], depth: float | None, layers: int, tolerance: float
+) -> tuple[ElastoPlastic, list[float]]:
+    material = road.layers[0].material
+    if not road.is_homogeneous or not isinstance(material, ElastoPlastic):
+        raise InputError(
+            "an indentation needs a half-space that yields: Pavement.half_space(ElastoPlastic(elastic, law))"
+        )
+    if isinstance(material.law, Perzyna | PassesPowerLaw):
+        raise InputError(
+            f"{type(material.law).__name__} follows time or passes, and a step of an indentation has neither; give "
+            "VonMises, MohrCoulomb or DruckerPrager"
+        )
+    steps = [float(one) for one in np.atleast_1d(np.asarray(loads, dtype=float))]
+    if not steps or not np.isfinite(steps).all() or min(steps) < 0 or max(steps) <= 0:
+        raise InputError(f"loads must be numbers >= 0 N with one above, got {list(loads)}; 0 lifts the body off")
+    if depth is not None:
+        positive("depth", depth, "metres", "leave it out for the default")
+    if isinstance(layers, bool) or not isinstance(layers, int) or not 2 <= layers <= 64:
+        raise InputError(f"layers must be a whole number in [2, 64], got {layers!r}; 14 is the default")
+    if not 1e-6 <= tolerance <= 0.1:
+        raise InputError(f"tolerance must lie in [1e-6, 0.1], got {tolerance:g}; 1e-4 is the default")
+    return material, steps
+
+
+def _check_sides(state: State, depth: float, number: int) -> None:
+    """Refuse a box that what yields has reached."""
+    p = state.hardening
+    largest = float(p.max())
+    sides = {"depth": p[-1], "length": p[:, :, [0, -1]], "width": p[:, [0, -1]]}
+    for name, side in sides.items():
+        if largest > 0 and float(side.max()) > _REACHED * largest:
+            remedy = f"raise depth, now {depth:.3g} m" if name == "depth" else "give the body a larger height map"
+            raise InputError(
+                f"in step {number} the plastic zone reaches the {name} of the box, where it takes "
+                f"{100 * float(side.max()) / largest:.0f} % of the largest plastic strain; {remedy}"
+            )
+
+
+def _dataset(grid: Grid, body: _Body, found: Sequence[tuple[Any, ...]], law: str) -> xr.Dataset:
+    loads, levels, pressures, states, moved = zip(*found, strict=True)
+    pressure, hardening = np.array(pressures), np.array([one.hardening for one in states])
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+        "normal_load": (("step",), np.array(loads)),
+        "approach": (("step",), np.array(levels)),
+        "contact_area": (("step",), (pressure > 0).sum(axis=(1, 2)) * grid.cell_area),
+        "peak_pressure": (("step",), pressure.max(axis=(1, 2))),
+        "largest_plastic_strain": (("step",), hardening.max(axis=(1, 2, 3))),
+        "pressure": (("step", "y", "x"), pressure),
+        "residual_displacement_z": (("step", "y", "x"), np.array(moved)),
+        "equivalent_plastic_strain": (("step", "depth", "y", "x"), hardening),
+    }
+    places = {"step": np.arange(1, len(loads) + 1), "depth": body.cells.depths, "y": grid.y, "x": grid.x}
+    return variables.dataset(fields, places, law=f"yields by {law}", dx=grid.dx, dy=grid.dy)

@@ -1,0 +1,98 @@
+"""A sphere pressed into a half-space that yields: beside Kogut and Etsion, and what is refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+import treadload as tl
+from treadload.materials import MohrCoulomb, Perzyna, VonMises
+
+MODULUS, YIELD, POISSON, RADIUS = 1000.0, 2.0, 0.3, 100.0
+# Kogut & Etsion (2002), J. Appl. Mech. 69, 657-662: first yield of a sphere pressed by a flat.
+PEAK = (0.454 + 0.41 * POISSON) * 2.8 * YIELD
+DEPTH = (math.pi * PEAK / (2 * MODULUS / (1 - POISSON**2))) ** 2 * RADIUS
+LOAD = 2 / 3 * PEAK * math.pi * DEPTH * RADIUS
+SOFT = tl.Elastic(MODULUS, POISSON)
+ROAD = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, VonMises(YIELD, hardening=MODULUS / 1000)))
+VISCOUS = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, Perzyna(MohrCoulomb(1, 0.5), 1.0)))
+
+
+def pressed(multiples, n=32, layers=14, reach=1.35, road=ROAD, **more):
+    """Under multiples of the load of first yield, on cells that hold the elastic contact `reach` times."""
+    radius = math.sqrt(DEPTH * RADIUS) * max(multiples) ** (1 / 3)
+    dx = 2 * reach * radius / n
+    across = (np.arange(n) - (n - 1) / 2) * dx
+    gap = (across[None] ** 2 + across[:, None] ** 2) / (2 * RADIUS)
+    ball = tl.Tire.from_height_map(gap, dx, material=tl.Elastic(MODULUS * 1e6, 0.3))
+    more = {"depth": 2.0 * radius, "layers": layers} | more
+    return tl.solve_indentation(ball, road, [one * LOAD for one in multiples], **more)
+
+
+def kogut_etsion(depth):
+    """Load over that of first yield at a depth over that of first yield."""
+    return 1.03 * depth**1.425 if depth <= 6 else 1.40 * depth**1.263
+
+
+def test_nothing_yields_below_the_load_of_first_yield_and_something_above():
+    # p0 of Hertz goes with the cube root of the load: 1.60 and 1.65 Y.
+    below, above = (pressed([(peak * YIELD / PEAK) ** 3], n=24, layers=10) for peak in (1.60, 1.66))
+    assert not below.dataset.largest_plastic_strain.any()
+    assert float(above.dataset.largest_plastic_strain[0]) > 0
+
+
+def test_a_rigid_sphere_beside_kogut_and_etsion():
+    done = pressed([1.5, 3.0, 5.0, 0.0], n=24, layers=10).dataset
+    depth = done.approach.to_numpy()[:3] / DEPTH
+    # Theirs are fits of finite elements, good to 2 or 3 %.
+    for load, found in zip((1.5, 3.0, 5.0), depth, strict=True):
+        assert kogut_etsion(found) == pytest.approx(load, rel=0.04)
+    # Lifted, the dent stays, and unloading was elastic.
+    assert float(done.pressure[3].max()) == 0
+    assert float(done.largest_plastic_strain[3]) == pytest.approx(float(done.largest_plastic_strain[2]), rel=1e-6)
+    dent = float(done.residual_displacement_z[3].max())
+    assert 0.1 < dent / float(done.approach[2]) < 0.5
+    # Equilibrium: the pressure carries the load.
+    carried = done.pressure.sum(("y", "x")).to_numpy() * done.attrs["dx"] * done.attrs["dy"]
+    np.testing.assert_allclose(carried, done.normal_load, rtol=1e-6, atol=1e-12)
+
+
+@pytest.mark.slow
+def test_a_rigid_sphere_up_to_twelve_times_the_depth_of_first_yield():
+    # Just past the jump of 1.7 % between their two formulas, at a depth of 6, the second one is 5 % away.
+    loads = (1.5, 3.0, 5.0, 8.0, 20.0, 31.0)
+    done = pressed(loads, n=36, reach=1.9, depth=None).dataset
+    depth = done.approach.to_numpy() / DEPTH
+    assert depth[-1] > 11.5
+    errors = [kogut_etsion(one) / load - 1 for one, load in zip(depth, loads, strict=True)]
+    assert np.abs(errors).max() < 0.04
+
+
+@pytest.mark.slow
+def test_finer_cells_change_the_depth_by_little():
+    coarse, fine = (float(pressed([3.0], n=n, layers=rows).dataset.approach[0]) for n, rows in ((32, 14), (48, 18)))
+    assert coarse == pytest.approx(fine, rel=0.003)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"multiples": [-1.0]}, "loads must be numbers >= 0 N with one above"),
+        ({"multiples": [0.0]}, "loads must be numbers >= 0 N with one above"),
+        ({"multiples": [5.0], "depth": 0.6}, "plastic zone reaches the depth of the box"),
+        ({"multiples": [3.0], "layers": 1}, r"layers must be a whole number in \[2, 64\]"),
+        ({"multiples": [3.0], "tolerance": 1.0}, r"tolerance must lie in \[1e-6, 0.1\]"),
+        ({"multiples": [3.0], "road": tl.Pavement.half_space(SOFT)}, "needs a half-space that yields"),
+        ({"multiples": [3.0], "road": VISCOUS}, "Perzyna follows time or passes"),
+    ],
+)
+def test_what_cannot_be_pressed_is_refused_in_a_sentence(change, words):
+    asked = {"n": 16, "layers": 5} | change
+    if max(asked["multiples"]) <= 0:
+        ball = tl.Tire.from_height_map(np.ones((9, 9)), 1.0, material=tl.Elastic(1e9, 0.3))
+        with pytest.raises(tl.InputError, match=words):
+            tl.solve_indentation(ball, ROAD, asked["multiples"])
+        return
+    with pytest.raises(tl.InputError, match=words) as caught:
+        pressed(**asked)
+    assert len(str(caught.value).splitlines()) == 1
