@@ -82,6 +82,7 @@ def test_bonds_of_a_sphere_have_its_area_and_the_stress_across_its_surface():
     np.testing.assert_allclose(squeezed.pull, found.shear)
 
 
+@pytest.mark.slow
 def test_a_scan_is_as_good_as_centres_and_voids_stand_beside_stones(one):
     numbers = one.dataset.stone.to_numpy()
     scan = tl.compute_heterogeneous(EDGE, MORTAR, tl.Aggregates.from_voxels(numbers, 1e-3, STONE))
@@ -100,6 +101,7 @@ def test_a_scan_is_as_good_as_centres_and_voids_stand_beside_stones(one):
     assert any("fewer than 4" in text for text in both.warnings)
 
 
+@pytest.mark.slow
 def test_layers_that_are_one_are_the_half_space(one):
     base = tl.Elastic(3e9 * (1 + 1e-9), 0.35)
     road = tl.Pavement((tl.Layer(MORTAR, 30e-3), tl.Layer(base)))
@@ -108,6 +110,7 @@ def test_layers_that_are_one_are_the_half_space(one):
     assert np.abs(found.dataset.stress_xx - one.dataset.stress_xx).max() < 1e-5 * size
 
 
+@pytest.mark.slow
 def test_a_window_is_written_and_opened_again(one, tmp_path):
     tl.save_results(one, tmp_path / "window.nc")
     back = tl.open_results(tmp_path / "window.nc").heterogeneous

@@ -83,6 +83,7 @@ def test_iterations_do_not_grow_with_the_grid(cells, contrast):
     assert found.method == "conjugate gradients"
 
 
+@pytest.mark.slow
 def test_beside_a_cavity_stress_is_goodiers():
     found, inside, _, at = _sphere(6, 0.0, beyond=4)
     assert np.abs(found.stress[:, inside]).max() < 1e-4
