@@ -1,0 +1,94 @@
+"""A rigid sphere pressed into a half-space that yields, beside tamaas: 1.5, 3 and 5 times the load of first yield.
+
+tamaas solves contact and plasticity in turn (EPIC, accelerated, to 1e-4, DF-SANE inside from 1e-2 to 1e-5) on even
+cells of a periodic volume; ours solves one fixed point, to 1e-4, on a half-space, with graded rows, five for eight of
+theirs. Each step starts from nothing; one thread, process time, ours with and without its operators, which all steps
+of a history share. Peak pressures over the yield stress stand beside. tamaas is no part of the package: pip install
+tamaas==2.9.0.
+
+    python benchmarks/indentation.py            python benchmarks/indentation.py 64 32
+"""
+
+import math
+import os
+import sys
+
+for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ[variable] = "1"
+
+import time  # noqa: E402
+
+import numpy as np  # noqa: E402
+
+import treadload as tl  # noqa: E402
+from treadload.materials import VonMises  # noqa: E402
+
+MODULUS, YIELD, POISSON, RADIUS, HARDENING = 1000.0, 2.0, 0.3, 100.0, 1.0
+PEAK = (0.454 + 0.41 * POISSON) * 2.8 * YIELD
+DEPTH = (math.pi * PEAK / (2 * MODULUS / (1 - POISSON**2))) ** 2 * RADIUS
+LOAD = 2 / 3 * PEAK * math.pi * DEPTH * RADIUS
+# Halves of the window over the radius of the elastic contact: tamaas is periodic and needs a wider one.
+OURS, THEIRS, DEEP = 1.35, 1.8, 2.0
+
+
+def ours(multiple: float, n: int, layers: int) -> tuple[float, float, float]:
+    """Seconds, those without the operators, and peak pressure over the yield stress."""
+    radius = math.sqrt(DEPTH * RADIUS) * multiple ** (1 / 3)
+    n = max(16, round(n * OURS / THEIRS))
+    dx = 2 * OURS * radius / n
+    across = (np.arange(n) - (n - 1) / 2) * dx
+    gap = (across[None] ** 2 + across[:, None] ** 2) / (2 * RADIUS)
+    ball = tl.Tire.from_height_map(gap, dx, material=tl.Elastic(MODULUS * 1e6, 0.3))
+    law = VonMises(YIELD, hardening=HARDENING)
+    road = tl.Pavement.half_space(tl.ElastoPlastic(tl.Elastic(MODULUS, POISSON), law))
+    began = time.process_time()
+    done = tl.solve_indentation(ball, road, [multiple * LOAD], depth=DEEP * radius, layers=layers)
+    whole = time.process_time() - began
+    # A load far below first yield takes the operators and a round.
+    began = time.process_time()
+    tl.solve_indentation(ball, road, [1e-3 * multiple * LOAD], depth=DEEP * radius, layers=layers)
+    return whole, whole - (time.process_time() - began), float(done.dataset.peak_pressure[0]) / YIELD
+
+
+def theirs(multiple: float, n: int, layers: int) -> tuple[float, float]:
+    """The same of tamaas."""
+    import tamaas as tm
+    from tamaas.nonlinear_solvers import DFSANESolver, ToleranceManager
+
+    tm.set_log_level(tm.LogLevel.error)
+    radius = math.sqrt(DEPTH * RADIUS) * multiple ** (1 / 3)
+    side = 2 * THEIRS * radius
+    across = (np.arange(n) - (n - 1) / 2) * side / n
+    surface = -(across[None] ** 2 + across[:, None] ** 2) / (2 * RADIUS)
+    began = time.process_time()
+    model = tm.ModelFactory.createModel(tm.model_type.volume_2d, [DEEP * radius, side, side], [layers, n, n])
+    model.E, model.nu = MODULUS, POISSON
+    material = tm.materials.IsotropicHardening(model, sigma_y=YIELD, hardening=HARDENING)
+    residual = tm.Residual(model, material)
+    plastic = ToleranceManager(1e-2, 1e-5, 1 / 3)(DFSANESolver)(residual)
+    contact = tm.PolonskyKeerRey(model, surface, 1e-8)
+    tm.EPICSolver(contact, plastic, 1e-4, relaxation=0.3).acceleratedSolve(multiple * LOAD / side**2)
+    traction = np.array(model.traction)
+    return time.process_time() - began, float(traction[..., 2].max()) / YIELD
+
+
+def main(n: int = 32, layers: int = 16) -> None:
+    print(f"tamaas on {n} x {n} x {layers} cells; ours on cells of that width, {round(5 * layers / 8)} graded rows")
+    print(f"{'P/Pc':>5} {'ours s':>8} {'bare s':>7} {'tamaas s':>9} {'ratio':>6} {'bare':>6} {'peak/Y ours':>12} "
+          f"{'tamaas':>8} {'apart %':>8}")  # fmt: skip
+    for multiple in (1.5, 3.0, 5.0):
+        own, bare, peak = ours(multiple, n, round(5 * layers / 8))
+        try:
+            other, value = theirs(multiple, n, layers)
+        except ImportError:
+            print(f"{multiple:5.1f} {own:8.2f} {bare:7.2f}   tamaas is not installed; peak/Y {peak:.4f}")
+            continue
+        print(
+            f"{multiple:5.1f} {own:8.2f} {bare:7.2f} {other:9.2f} {other / own:6.1f} {other / bare:6.1f} "
+            f"{peak:12.4f} {value:8.4f} {100 * (peak / value - 1):8.2f}",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main(*(int(one) for one in sys.argv[1:3]))
