@@ -193,6 +193,8 @@ def test_contact_and_response_take_the_elastic_part():
     disc = tl.UniformDisc(0.1, 7e5)
     one, other = (tl.solve_response(disc, road, depths=[0.02], x=[0.0], y=[0.0]) for road in (plain, yielding))
     assert float(one.dataset.stress_zz[0, 0, 0]) == float(other.dataset.stress_zz[0, 0, 0])
+    assert "layer 1 can yield, and this is the response of its elastic part" in other.summary()
+    assert "can yield" not in one.summary()
     assert tl.Pavement([tl.Layer(tl.ElastoPlastic(ASPHALT, law), 0.05), tl.Layer(ASPHALT)]).is_homogeneous
 
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from treadload.kernels.arrays import Array
+from treadload.materials import ElastoPlastic
 from treadload.materials.kinds import limit_of, upright
 from treadload.pavement import Pavement
 from treadload.plausible import doubt
@@ -24,6 +25,8 @@ def road_doubts(road: Pavement) -> tuple[str, ...]:
         material = layer.resolved
         modulus, poisson = upright(limit_of(material, "glassy"))
         who = f"layer {number + 1}" + (f" ({layer.name})" if layer.name else "")
+        if isinstance(layer.material, ElastoPlastic):
+            said += (f"{who} can yield, and this is the response of its elastic part; roll_passes follows the rest",)
         said += doubt("modulus of the layer", modulus, who) + doubt("Poisson's ratio", poisson, who)
         if layer.thickness is not None:
             kind = _position(number, len(road.layers), modulus)
