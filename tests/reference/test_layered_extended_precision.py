@@ -92,7 +92,9 @@ def random_stack(number):
 STRUCTURES |= {f"random {number}": random_stack(number) for number in range(16)}
 
 
-@pytest.mark.parametrize("name", STRUCTURES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(one, marks=[pytest.mark.slow] * (one == "200 layers")) for one in STRUCTURES]
+)
 def test_against_extended_precision(name):
     stack = STRUCTURES[name]
     total = float(stack.interfaces[-1])

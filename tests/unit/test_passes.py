@@ -11,7 +11,7 @@ from treadload.materials import MohrCoulomb, PassesPowerLaw, Perzyna, VonMises
 from treadload.response.passes.box import Box, courses, row_edges
 from treadload.response.passes.counts import told_counts
 from treadload.response.passes.surface import surface_profile
-from treadload.response.passes.verdict import judged
+from treadload.response.passes.verdict import in_words, judged, still_falls
 
 SOFT = tl.Elastic(600e6, 0.35)
 YIELDING = tl.ElastoPlastic(SOFT, VonMises(0.4e6, kinematic=60e6))
@@ -31,7 +31,7 @@ def test_a_load_below_first_yield_leaves_nothing():
     assert not weak.dataset.equivalent_plastic_strain.any()
     assert not weak.dataset.residual_displacement_z.any()
     assert weak.dataset.attrs["elastic_load_factor"] > 1
-    assert "Verdict: elastic" in weak.summary()
+    assert "Verdict after 5 pass(es): elastic" in weak.summary()
 
 
 def test_first_yield_is_where_the_elastic_road_says(yielded):
@@ -190,6 +190,20 @@ def test_a_road_that_does_not_come_to_rest_says_so_with_the_load_that_would():
 )
 def test_the_criterion_of_the_verdict(added, left, verdict):
     assert judged(added, left, 1e-3) == verdict
+
+
+def test_a_headline_says_that_passes_still_fall():
+    """Four passes of a road on its way to rest are no verdict that it ratchets; a steady one is."""
+    assert in_words("ratchetting", still_falls([4.0, 2.0, 1.0])) == (
+        "ratchetting so far, not yet at rest: the last pass adds 50 % less than the one before"
+    )
+    assert in_words("ratchetting", still_falls([1.0, 1.0])) == "ratchetting"
+    hardens = tl.ElastoPlastic(SOFT, VonMises(0.2e6, hardening=SOFT.modulus / 5))
+    done = tl.roll_passes(DISC, tl.Pavement.half_space(hardens), passes=2, spacing=0.04, layers=5)
+    assert done.summary().startswith(
+        "Verdict after 2 pass(es): ratchetting so far, not yet at rest: the last pass adds "
+    )
+    assert any("more passes may end in shakedown" in text for text in done.warnings)
 
 
 @pytest.mark.parametrize(

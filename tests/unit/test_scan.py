@@ -142,6 +142,7 @@ def test_units_that_cannot_be(tmp_path):
     assert any("nominal" in text for text in doubted.warnings)
 
 
+@pytest.mark.slow
 def test_rotation_brings_the_tread_ahead_down(tmp_path):
     vertices, faces = tire_mesh(around=720, across=30)
     theta = np.arctan2(vertices[:, 0], vertices[:, 2])
@@ -198,6 +199,7 @@ def holed(tmp_path, where, **options):
     return Tire.from_scan(path, **options)
 
 
+@pytest.mark.slow
 def test_holes_are_filled_or_refused(tmp_path):
     def large(x, y, z):
         return (np.abs(x) < 0.05) & (np.abs(y) < 0.02) & (z > 0.4)

@@ -13,6 +13,7 @@ from treadload.errors import InputError, nearest
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import DEPTH_LABEL, MM, Y_LABEL, colour_bar, fields_of, limits, mark_peak, peak_of
 from treadload.plots.kit.style import CASES, INK, MUTED, headline, measure, sequential, styled
+from treadload.response.passes.verdict import in_words
 
 # Ruts below so many mm are given in µm.
 _FINE = 0.1
@@ -45,7 +46,7 @@ def rut_profile(passes: Source, *, ax: Axes | None = None) -> Figure:
     ax.grid(True)
     ax.legend(loc="lower right")
     deepest = float(data["rut_depth"][-1]) * MM * factor
-    verdict = data.attrs.get("verdict", "")
+    verdict = in_words(data.attrs.get("verdict", ""), data.attrs.get("falls"))
     headline(ax, "Rut across travel", f"{measure(deepest)} {unit} after {numbers[-1]:g} passes; {verdict}")
     return figure
 

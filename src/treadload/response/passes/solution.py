@@ -14,6 +14,7 @@ from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS
 from treadload.response.loads import PlacedLoad
+from treadload.response.passes.verdict import in_words
 
 _TENSORS = " ".join(f"{name}_{c}" for name in ("plastic_strain", "residual_stress") for c in COMPONENTS)
 
@@ -55,11 +56,16 @@ class Passes(BaseResult, group="passes"):
         """Elastic, shakedown, cyclic or ratchetting."""
         return str(self.dataset.attrs["verdict"])
 
+    @property
+    def in_words(self) -> str:
+        """The verdict as headlines tell it, with what more passes may change."""
+        return in_words(self.verdict, self.dataset.attrs.get("falls"))
+
     def summary(self) -> str:
         """The verdict, the rut and where it yields most, by pass."""
         data, attrs = self.dataset, self.dataset.attrs
         numbers = data["pass"].to_numpy()
-        lines = [f"Verdict: {self.verdict} after {numbers[-1]:g} pass(es); {attrs['law']}"]
+        lines = [f"Verdict after {numbers[-1]:g} pass(es): {self.in_words}; {attrs['law']}"]
         for name, words in (
             ("elastic_load_factor", "first yields at"),
             ("shakedown_load_factor", "shakes down up to"),

@@ -125,6 +125,7 @@ def _run(question: Asked, track: Track, passes: int, tolerance: float) -> tuple[
     attrs["verdict"] = verdict or judged(added_by, left_by, track.yield_strain)
     falls = still_falls(added_by)
     if attrs["verdict"] in ("cyclic", "ratchetting") and falls is not None and len(question.offsets) == 1:
+        attrs["falls"] = falls
         warnings += (
             f"the plastic strain that a pass adds still falls, by {100 * falls:.0f} % in the last: more passes may "
             f"end in shakedown; the verdict is that of pass {records[-1].number:g}",

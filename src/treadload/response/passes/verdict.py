@@ -48,6 +48,13 @@ def still_falls(added: Sequence[float]) -> float | None:
     return 1 - added[-1] / added[-2]
 
 
+def in_words(verdict: str, falls: float | None) -> str:
+    """A verdict as a headline tells it: passes that fall have not yet decided it. falls: see `still_falls`."""
+    if falls is None:
+        return verdict
+    return f"{verdict} so far, not yet at rest: the last pass adds {100 * falls:.0f} % less than the one before"
+
+
 def elastic_factor(road: Track, stress: Array) -> float:
     """Part of a load, of stress (6, nz, ny, nx), Pa, at which the first point yields; infinite where none does."""
     # Yield functions of virgin materials are a part that grows with the load, less the strength.
