@@ -280,7 +280,7 @@ def hot(tmp_path):
 @pytest.mark.slow
 def test_a_case_runs_its_passes_and_reports_them(hot, tmp_path, monkeypatch):
     result = tl.run_case(hot)
-    assert "Verdict: " in result.summary()
+    assert "Verdict after 2 pass(es): " in result.summary()
     assert result.passes.dataset.sizes["pass"] == 2
     opened = tl.open_results(tl.save_results(result, tmp_path / "r.nc"))
     assert opened.passes.summary() == result.passes.summary()

@@ -27,7 +27,8 @@ class Passes(BaseResult, group="passes"):
     all along travel; residual_displacement_z (m, down positive) over (pass, across), wider than y; by pass rut_depth
     and heave (m), plastic_increment and plastic_left, and wheel_offset (m). attrs: verdict and criterion;
     elastic_load_factor, the part of the load at which the road first yields; shakedown_load_factor where it was
-    sought. stats: rounds, seconds, box. warnings: sentences. loads, road, speed: the question.
+    sought; falls, where the last pass adds less than the one before, by how much of it. stats: rounds, seconds, box.
+    warnings: sentences. loads, road, speed: the question.
     """
 
     holds: ClassVar[Holds] = Holds(
@@ -40,7 +41,7 @@ class Passes(BaseResult, group="passes"):
         known="equivalent_plastic_strain residual_displacement_z rut_depth",
         numbers="yield_strain",
         texts="verdict criterion law",
-        maybe_numbers="shakedown_load_factor elastic_load_factor",
+        maybe_numbers="shakedown_load_factor elastic_load_factor falls",
         sizes={"pass": (1, np.inf), "depth": (1, np.inf)},
     )  # fmt: skip
 
