@@ -29,7 +29,7 @@ material = { kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }
 depths = ["20 mm"]
 """
 TIRE = """
-spacing = "9 mm"
+spacing = "3 mm"
 [tire]
 profile = "315/80R22.5"
 inflation_pressure = "8.2 bar"
