@@ -205,7 +205,7 @@ def solve_indentation(
             after = law(stress, state)
             step = after.strain - state.strain
             size, off = float(np.linalg.norm(step)), float(np.linalg.norm(step - change))
-            if off <= tolerance * size or np.abs(step - change).max() <= 1e-6 * _yield_strain(material):
+            if off <= tolerance * size or np.abs(step - change).max() <= 1e-6 * material.yield_strain:
                 break
             change = mixing.next(change, step)
         else:
@@ -229,11 +229,6 @@ def solve_indentation(
         f"the plastic strain reaches {100 * largest:.1f} %, above {100 * _SMALL:g} %: strains are taken as small",
     )  # fmt: skip
     return Indentation(data, stats, warnings, tire, road, tuple(steps))
-
-
-def _yield_strain(material: ElastoPlastic) -> float:
-    law: Any = material.law
-    return float(law.strength / material.elastic.modulus)
 
 
 def _checked(

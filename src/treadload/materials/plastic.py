@@ -287,11 +287,20 @@ class ElastoPlastic:
                 f"poisson is {self.elastic.poisson:g}: what yields needs a bulk modulus; give at most 0.49"
             )
 
+    @property
+    def yield_strain(self) -> float:
+        """Strength over modulus. Raises InputError for a law of passes, which has none."""
+        return self._followed.strength / self.elastic.modulus
+
     def return_map(self) -> ReturnMap:
         """The law at the elastic moduli. Raises InputError for a law of passes, which has none."""
+        return self._followed.return_map(self.elastic)
+
+    @property
+    def _followed(self) -> PlasticLaw:
         if isinstance(self.law, PassesPowerLaw):
             raise InputError("a law of passes is not followed step by step; roll_passes evaluates it as a whole")
-        return self.law.return_map(self.elastic)
+        return self.law
 
     def __str__(self) -> str:
         return f"{self.elastic}, yields by {type(self.law).__name__}"

@@ -64,6 +64,11 @@ class Grid:
         """Layers, rows, columns."""
         return len(self.edges) - 1, self.ny, self.nx
 
+    @property
+    def bytes(self) -> int:
+        """Of the operator of these cells in double precision."""
+        return 8 * (6 * (len(self.edges) - 1)) ** 2 * (self.nx + 1) * (self.ny + 1)
+
 
 @dataclass(frozen=True, eq=False)
 class Operator:

@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -186,44 +187,16 @@ def _real(weights: Any, values: list[Any]) -> Any:
 
 # What waves e^{-kz} of a direction (c, s) become over a rectangle, times 2π: those of c² and s², 1, c s, i s and i c,
 # i c² s and i c s², then of -i c/k and -i s/k, c²/k and s²/k, and c s/k.
-def _turn_x(f: Any) -> Any:
-    return f.turn_x
-
-
-def _turn_y(f: Any) -> Any:
-    return f.turn_y
-
-
-def _turn(f: Any) -> Any:
-    return f.turn
-
-
-def _log_r(f: Any) -> Any:
-    return f.log_r
-
-
-def _log_x(f: Any) -> Any:
-    return f.log_x
-
-
-def _log_y(f: Any) -> Any:
-    return f.log_y
-
-
-def _slope_x(f: Any) -> Any:
-    return f.slope_x
-
-
-def _slope_y(f: Any) -> Any:
-    return f.slope_y
-
-
-def _tilt_x(f: Any) -> Any:
-    return f.tilt_x
-
-
-def _tilt_y(f: Any) -> Any:
-    return f.tilt_y
+_turn_x = attrgetter("turn_x")
+_turn_y = attrgetter("turn_y")
+_turn = attrgetter("turn")
+_log_r = attrgetter("log_r")
+_log_x = attrgetter("log_x")
+_log_y = attrgetter("log_y")
+_slope_x = attrgetter("slope_x")
+_slope_y = attrgetter("slope_y")
+_tilt_x = attrgetter("tilt_x")
+_tilt_y = attrgetter("tilt_y")
 
 
 def _flat_x(f: Any) -> Any:

@@ -89,8 +89,7 @@ def compute_heterogeneous(
     alone = np.stack([response.dataset[f"stress_{name}"].to_numpy() for name in COMPONENTS])
 
     tell("cells of eigenstrain")
-    size = 8 * (6 * grid.shape[0]) ** 2 * (grid.nx + 1) * (grid.ny + 1)
-    apply = operator.cells(grid, matrix.shear_modulus, matrix.poisson, averaged=True, single=size > _DOUBLE)
+    apply = operator.cells(grid, matrix.shear_modulus, matrix.poisson, averaged=True, single=grid.bytes > _DOUBLE)
     inside = numbers > 0
     own = [_moduli(groups[k].material) for k in group[numbers[inside] - 1]]
     stiffness = np.array([one[0] for one in own]), np.array([one[1] for one in own])

@@ -103,7 +103,7 @@ class Box:
     def check_size(self) -> None:
         """Raise InputError where the operator of these cells would not fit into memory."""
         rows = len(self.depths)
-        size = 8.0 * (self.nx + 1) * (self.ny + 1) * (6 * rows) ** 2
+        size = self.cells.bytes
         if size > _MOST:
             raise InputError(
                 f"a box of {self.nx} x {self.ny} cells in {rows} rows of depth needs {size / 1e9:.1f} GB, above "

@@ -44,12 +44,11 @@ class NoSteadyPassError(RuntimeError):
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Rows of a box that are of one material. rows: of the box. law: its return map. strength: Pa."""
+    """Rows of a box that are of one material. rows: of the box. law: its return map."""
 
     rows: slice
     material: ElastoPlastic
     law: ReturnMap
-    strength: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +77,7 @@ class Track:
             if row == len(layers) or layers[row] != layers[first]:
                 material = layers[first]
                 if material is not None and not isinstance(material.law, PassesPowerLaw):
-                    parts.append(Part(slice(first, row), material, material.return_map(), material.law.strength))
+                    parts.append(Part(slice(first, row), material, material.return_map()))
                 first = row
         cells = box.cells
         bars = track(cells, 1.0, poisson, single=True)
@@ -87,7 +86,7 @@ class Track:
     @cached_property
     def yield_strain(self) -> float:
         """Smallest strain at yield of the materials: of strength over modulus."""
-        return min(one.strength / one.material.elastic.modulus for one in self.parts)
+        return min(one.material.yield_strain for one in self.parts)
 
     def residual(self, strain: Array) -> Array:
         """Stress (6, nz, ny), Pa, of plastic strain (6, nz, ny) that no longer varies along travel."""

@@ -150,7 +150,7 @@ def _nothing(question: Asked, passes: int) -> tuple[Box, list[Record], Told]:
         if one is None:
             continue
         most = max(most, 1 + float(over_strength(one, stress[:, row]).max()))
-        yield_strain = min(yield_strain, one.law.strength / one.elastic.modulus)
+        yield_strain = min(yield_strain, one.yield_strain)
     records = [Record(n, zeros, zeros[0], zeros, 0.0, 0.0, 0.0, 0) for n in sorted({1, passes})]
     attrs = {
         "verdict": "elastic",
