@@ -6,9 +6,10 @@ import xarray as xr
 
 import treadload as tl
 from treadload.damage import Criterion, FatigueLine, InterfaceStrength, ShearFatigue
+from treadload.damage.climate import Climate
 from treadload.damage.fields import tension_behind
 from treadload.damage.quantity import STRESS
-from treadload.damage.traffic import AxleClass, Climate, Traffic, Wander
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.study import wheels

@@ -22,6 +22,7 @@ from treadload.damage import (
     assess_bonds,
     miner,
 )
+from treadload.damage.climate import Climate, Season
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
 from treadload.damage.interface import interface_fields
 from treadload.damage.laws.american import (
@@ -38,7 +39,7 @@ from treadload.damage.laws.equivalence import AGGRESSIVENESS, GROUP_FACTORS, agg
 from treadload.damage.laws.french import RISK, platform_factor, thickness_scatter
 from treadload.damage.laws.of_layer import OnLayer
 from treadload.damage.reading import _around
-from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from treadload.contact.maneuver import Maneuver
 from treadload.damage import Criterion, FatigueLine, InterfaceStrength, ShearFatigue
+from treadload.damage.climate import Climate
 from treadload.damage.miner import passes_in_two_phases
-from treadload.damage.traffic import AxleClass, Climate, Traffic, Wander
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import FRICTIONLESS, Bond, Layer, Pavement

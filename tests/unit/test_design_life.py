@@ -18,9 +18,10 @@ from treadload.damage import (
     ShearFatigue,
     miner,
 )
+from treadload.damage.climate import Climate, Season
 from treadload.damage.criterion import Criterion
 from treadload.damage.quantity import in_tension
-from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement

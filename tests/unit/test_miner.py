@@ -10,9 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadload.damage import FatigueLine, FrenchBituminous, FrenchSubgrade
+from treadload.damage.climate import Climate, Season
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
-from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement

@@ -10,7 +10,8 @@ from scipy.interpolate import PchipInterpolator
 
 import treadload as tl
 from treadload.damage import Criterion, FatigueLine, miner
-from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.damage.climate import Climate, Season
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement

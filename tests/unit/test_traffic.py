@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from treadload.contact.maneuver import GRAVITY, Maneuver
-from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.damage.climate import Climate, Season
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.errors import InputError
 
 TRUCK = AxleClass("truck", 1.0, 32.5e3, 820e3)

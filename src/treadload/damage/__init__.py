@@ -1,5 +1,6 @@
 """What repeated load does to the road."""
 
+from treadload.damage.climate import Climate, Season
 from treadload.damage.cracks import crack_rose, envelope
 from treadload.damage.criterion import Criterion
 from treadload.damage.fields import compute_quantities, known_quantities, peak, tension_behind
@@ -36,7 +37,7 @@ from treadload.damage.quantities import (
     VonMisesStrain,
 )
 from treadload.damage.quantity import Quantity
-from treadload.damage.traffic import AxleClass, Climate, Season, Traffic, Wander
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.damage.verdict import Verdict, assess
 
 __all__ = [

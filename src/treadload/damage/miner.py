@@ -13,11 +13,12 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
+from treadload.damage.climate import Climate
 from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw, warnings_of
-from treadload.damage.traffic import Climate, Traffic, Wander
+from treadload.damage.traffic import Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array

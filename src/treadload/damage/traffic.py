@@ -1,4 +1,4 @@
-"""Traffic, wander and climate: how often which wheel passes where, and on how warm a road."""
+"""Traffic and wander: how often which wheel passes where."""
 
 from __future__ import annotations
 
@@ -13,14 +13,13 @@ from scipy.special import ndtr
 from treadload.contact.friction.laws import FrictionLaw
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.damage.laws.equivalence import NO_GROWTH, growth_factor
+from treadload.damage.shares import check_shares
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.tire import Tire
-from treadload.units import Celsius, Length, Share
+from treadload.units import Length, Share
 
-# Shares that come from a table with few digits.
-_ROUND_OFF = 1e-6
 # Wander is cut where 6e-7 of the wheels are left, and the rest scaled to one.
 _SIGMAS = 5.0
 
@@ -93,7 +92,7 @@ class Wander:
                 raise InputError("wander is either normal or measured: give a deviation or offsets, not both")
             if not (np.diff(self.offsets) > 0).all():
                 raise InputError(f"the offsets of wander must increase, got {list(self.offsets)} m")
-            _check_shares("wander", self.shares)
+            check_shares("wander", self.shares)
 
     @classmethod
     def none(cls) -> Wander:
@@ -182,7 +181,7 @@ class Traffic:
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
             raise InputError(f"two classes of axles have the name {twice!r}; give them different names")
-        _check_shares("traffic", [row.share for row in self.classes])
+        check_shares("traffic", [row.share for row in self.classes])
         if not (math.isfinite(self.passes_per_year) and self.passes_per_year >= 0):
             raise InputError(f"passes_per_year must be >= 0, got {self.passes_per_year}")
         if self.years is not None:
@@ -212,59 +211,3 @@ class Traffic:
         return 2 * ratio / (linear + math.sqrt(square)) if square >= 0 else math.inf
 
     __repr__ = as_call
-
-
-@dataclass(frozen=True)
-class Season:
-    """A part of the year with its temperatures.
-
-    name: for tables. share: of the passes, in [0, 1]. temperature: °C, of all layers or one for each, surface
-    first.
-    """
-
-    name: str
-    share: Share
-    temperature: Celsius | tuple[Celsius, ...]
-
-    def __post_init__(self) -> None:
-        if not 0 <= self.share <= 1:
-            raise InputError(f"the share of {self.name!r} must lie in [0, 1], got {self.share}; a month is 1/12")
-        if isinstance(self.temperature, Sequence):
-            object.__setattr__(self, "temperature", tuple(float(t) for t in self.temperature))
-        if not np.isfinite(self.temperature).all():
-            raise InputError(f"the temperature of {self.name!r} must be finite, got {self.temperature} °C")
-
-
-@dataclass(frozen=True)
-class Climate:
-    """The temperatures of the road over the passes. seasons: whose shares sum to 1. Raises InputError."""
-
-    seasons: tuple[Season, ...]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "seasons", tuple(self.seasons))
-        if not self.seasons:
-            raise InputError("a climate needs at least one season, got none")
-        _check_shares("climate", [season.share for season in self.seasons])
-
-    @classmethod
-    def constant(cls, temperature: float) -> Climate:
-        """One temperature, °C, all year round, such as the equivalent one of a design method."""
-        return cls((Season("all year", 1.0, temperature),))
-
-    @classmethod
-    def equal_parts(cls, temperatures: Sequence[float], names: Sequence[str] = ()) -> Climate:
-        """Seasons of equal share, such as twelve months, with their temperatures, °C."""
-        if names and len(names) != len(temperatures):
-            raise InputError(f"there are {len(temperatures)} temperatures but {len(names)} names")
-        count = len(temperatures)
-        labels = names or [f"{k + 1} of {count}" for k in range(count)]
-        return cls(tuple(Season(n, 1 / count, t) for n, t in zip(labels, temperatures, strict=True)))
-
-
-def _check_shares(what: str, shares: Sequence[float]) -> None:
-    if not all(0 <= share <= 1 for share in shares):
-        raise InputError(f"the shares of a {what} must lie in [0, 1], got {list(shares)}")
-    total = math.fsum(shares)
-    if abs(total - 1) > _ROUND_OFF:
-        raise InputError(f"the shares of a {what} must sum to 1, got {total:.6g}; give fractions, not per cent")

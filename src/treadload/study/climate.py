@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from treadload.damage.traffic import Season, Wander
+from treadload.damage.climate import Season
+from treadload.damage.traffic import Wander
 from treadload.kernels.arrays import Array
 from treadload.materials.kinds import AnyElastic, upright
 from treadload.pavement import Pavement

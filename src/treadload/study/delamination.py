@@ -15,10 +15,11 @@ from numpy.typing import ArrayLike
 from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.contact.solve import DEFAULT_SPACING
+from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion, interface_number
 from treadload.damage.interface import delaminate, interface_fields, interface_in_words
 from treadload.damage.miner import Life, passes_in_two_phases
-from treadload.damage.traffic import Climate, Traffic
+from treadload.damage.traffic import Traffic
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.pavement import BONDED, FRICTIONLESS, BondLaw, Pavement

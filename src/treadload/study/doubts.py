@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from treadload.contact.friction.laws import law_of
-from treadload.damage.traffic import Climate, Traffic
+from treadload.damage.climate import Climate
+from treadload.damage.traffic import Traffic
 from treadload.plausible import doubt, load_doubt
 from treadload.tire import Tire
 

@@ -9,9 +9,10 @@ from dataclasses import replace
 
 from treadload import variables
 from treadload.contact.solve import DEFAULT_SPACING
+from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import Life, miner
-from treadload.damage.traffic import Climate, Traffic
+from treadload.damage.traffic import Traffic
 from treadload.pavement import Pavement, lift_below
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.doubts import traffic_doubts

@@ -11,9 +11,10 @@ import numpy as np
 import xarray as xr
 
 from treadload.contact.solve import DEFAULT_SPACING
+from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import wander_of
-from treadload.damage.traffic import Climate, Traffic
+from treadload.damage.traffic import Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from treadload.damage.climate import Season
 from treadload.damage.criterion import Criterion
-from treadload.damage.traffic import Season
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement

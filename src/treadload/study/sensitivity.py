@@ -16,9 +16,10 @@ from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
+from treadload.damage.climate import Climate, Season
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import Life, damage_of, wander_of
-from treadload.damage.traffic import Climate, Season, Traffic, Wander
+from treadload.damage.traffic import Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
