@@ -7,7 +7,7 @@ from tests.grain import STRAIGHT, TILTED, isotropic
 import treadload as tl
 from treadload.materials.kinds import upright
 from treadload.materials.orthotropic import rotation
-from treadload.study.sensitivity import _stiffer
+from treadload.study.altered import stiffer
 
 MIX = tl.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (0.35, 0.3, 0.25))
 
@@ -111,6 +111,6 @@ def test_a_stiffer_one_keeps_its_shape():
         assert type(material.stiffer(1.1)) is type(material)
     # A sensitivity multiplies the moduli of such layers, too, and does not take them for viscoelastic.
     road = tl.Pavement.half_space(TILTED)
-    changed = _stiffer((road, None, None), 0)(1.0)[0].layers[0].material
+    changed = stiffer(road, 0, 1.05).layers[0].material
     assert changed.moduli[0] > TILTED.moduli[0]
     assert changed.rotation == pytest.approx(TILTED.rotation)

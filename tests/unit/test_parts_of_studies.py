@@ -17,11 +17,12 @@ from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import GridLoad
 from treadload.response.doubts import overlapping
+from treadload.study.altered import most
 from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.study.groups import _harm, _one_axle, in_words
 from treadload.study.passage import _along, _between, _rows, _stride, _turns
 from treadload.study.run import map_grid, slice_depths
-from treadload.study.sensitivity import _growth, _most, _without_solves
+from treadload.study.sensitivity import _growth, _without_solves
 from treadload.study.wheels import across, wheels_of
 
 DX, DY = 0.01, 0.012
@@ -291,9 +292,9 @@ def test_growth_of_traffic_shortens_what_an_input_gives():
 
 def test_the_pairs_that_do_most():
     shares = np.array([[0.1, 0.5], [0.3, 0.1]])
-    assert _most(shares, 0.5) == ([(0, 1)], pytest.approx(0.5))
-    assert _most(shares, 0.51) == ([(0, 1), (1, 0)], pytest.approx(0.8))
-    pairs, covered = _most(shares, 1.0)
+    assert most(shares, 0.5) == ([(0, 1)], pytest.approx(0.5))
+    assert most(shares, 0.51) == ([(0, 1), (1, 0)], pytest.approx(0.8))
+    pairs, covered = most(shares, 1.0)
     assert sorted(pairs) == [(0, 0), (0, 1), (1, 0), (1, 1)]
     assert covered == pytest.approx(1.0)
 

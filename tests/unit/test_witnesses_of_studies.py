@@ -19,13 +19,13 @@ from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import FRICTIONLESS, Layer, Pavement
 from treadload.study import life_sensitivity, plan, plan_case
+from treadload.study.altered import Solver
 from treadload.study.contacts import Contacts
 from treadload.study.delamination import AFTER, BEFORE, PARTING, BondComparison
 from treadload.study.doubts import traffic_doubts
 from treadload.study.life import solve_life
 from treadload.study.passages import solve_passages
 from treadload.study.plan import _seconds
-from treadload.study.sensitivity import _Solver
 from treadload.study.uniform import COMPUTED, DISC, RECTANGLE, compare_uniform
 from treadload.study.wheels import across
 from treadload.tire import Tire, TreadProfile
@@ -132,7 +132,7 @@ def test_damage_of_a_changed_question_is_that_of_its_life():
     pair = replace(ONE, wheels=((0.0, 0.0), (1.4, 0.0)))
     traffic = Traffic((pair,), 1e5)
     life = solve_life(TIRE, TWO, traffic, CLIMATE, (BASE,), **COARSE)
-    solver = _Solver(BASE, [(0, 0)], Contacts(TIRE, 20e-3), None)
+    solver = Solver(BASE, [(0, 0)], Contacts(TIRE, 20e-3), None)
     with ThreadPoolExecutor(1) as pool:
         (found, doubled) = solver.damages([(TWO, traffic, CLIMATE), (TWO, Traffic((pair,), 2e5), CLIMATE)], pool)
     assert found == pytest.approx(float(life.dataset["damage_per_year"].max()), rel=1e-9)

@@ -4,38 +4,32 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
-import numpy as np
 import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.climate import Climate, Season
-from treadload.damage.criterion import Criterion
 from treadload.damage.miner import Life, damage_of, wander_of
 from treadload.damage.traffic import Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.materials import Anisotropic, Elastic, Mix
+from treadload.materials import Mix
 from treadload.materials.kinds import AnyElastic
 from treadload.pavement import Pavement
-from treadload.study.contacts import Contacts, Counter, Progress
-from treadload.study.passage import Passing, solve_passings
-from treadload.study.seasons import layer_temperatures, warmed
-from treadload.study.wheels import Wheels, across, states_of, wheels_of
+from treadload.study.altered import Question, Solver, in_seasons, most, names_of, stiffer, thicker, warmer
+from treadload.study.contacts import Contacts, Progress
 from treadload.tire import Tire
 
 TEMPERATURE = "temperature (per °C)"
 _STEP, _DEGREES = 0.05, 1.0
 
-Question = tuple[Pavement, Traffic, Climate]
 Change = Callable[[float], Question]
 
 
@@ -105,7 +99,7 @@ def life_sensitivity(
     passes = float(data["life_passes"])
     if not math.isfinite(passes):
         raise InputError("no criterion ever fails, so no input shortens the life; give more passes")
-    pairs, covered = _most(data["damage_share"].to_numpy(), coverage)
+    pairs, covered = most(data["damage_share"].to_numpy(), coverage)
     growth = _growth(life.traffic, passes)
     question = (road, life.traffic, life.climate)
     elasticity = _without_solves(life, number, growth)
@@ -115,12 +109,12 @@ def life_sensitivity(
         try:
             both = [(name, sign, change(sign)) for sign in (-1.0, 1.0)]
             for _, _, (one, _, climate) in both:
-                _warm(one, climate, criterion, pairs)
+                in_seasons(one, climate, criterion, pairs)
         except InputError as error:
             skipped.append(f"{name}: {error}")
             continue
         asked += both
-    solver = _Solver(criterion, pairs, contacts or Contacts(tire, spacing), progress)
+    solver = Solver(criterion, pairs, contacts or Contacts(tire, spacing), progress)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
         damage = solver.damages([question for _, _, question in asked], pool)
     for (name, _, _), less, more in zip(asked[::2], damage[::2], damage[1::2], strict=True):
@@ -136,15 +130,6 @@ def life_sensitivity(
         responses=solver.responses,
     )
     return Sensitivity(dataset, criterion.name, covered, solver.solved, solver.responses, tuple(skipped))
-
-
-def _most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
-    """Pairs (class, season) that do most, down to those that make the coverage full, and what they cover."""
-    order = np.argsort(shares, axis=None)[::-1]
-    cover = np.cumsum(shares.ravel()[order])
-    count = min(int(np.searchsorted(cover, coverage * (1 - 1e-9))) + 1, len(order))
-    rows, columns = np.unravel_index(order[:count], shares.shape)
-    return list(zip(rows.tolist(), columns.tolist(), strict=True)), float(cover[count - 1])
 
 
 def _growth(traffic: Traffic, passes: float) -> float:
@@ -205,17 +190,15 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
             return road, replace(traffic, classes=rows), climate
 
         changes["friction"] = rougher
-    names = [layer.name or f"layer {k}" for k, layer in enumerate(road.layers, start=1)]
-    for k, layer in enumerate(road.layers):
-        label = names[k] if names.count(names[k]) == 1 else f"{names[k]} ({k + 1})"
+    for k, (label, layer) in enumerate(zip(names_of(road), road.layers, strict=True)):
         if layer.thickness is not None:
-            changes[f"thickness of {label}"] = _thicker(question, k)
+            changes[f"thickness of {label}"] = _on_road(question, thicker, k)
         if isinstance(layer.material, AnyElastic | Mix):
-            changes[f"modulus of {label}"] = _stiffer(question, k)
+            changes[f"modulus of {label}"] = _on_road(question, stiffer, k)
         else:
             skipped.append(f"modulus of {label}: it is viscoelastic")
     if any(layer.depends_on_temperature for layer in road.layers):
-        changes[TEMPERATURE] = lambda sign: (road, traffic, _warmer(climate, sign * _DEGREES))
+        changes[TEMPERATURE] = lambda sign: (road, traffic, warmer(climate, sign * _DEGREES))
     return changes, skipped
 
 
@@ -225,102 +208,6 @@ def _coefficient(friction: Any) -> float | None:
     return float(friction) if isinstance(friction, int | float) else None
 
 
-def _thicker(question: Question, number: int) -> Change:
+def _on_road(question: Question, changed: Callable[[Pavement, int, float], Pavement], number: int) -> Change:
     road, traffic, climate = question
-
-    def change(sign: float) -> Question:
-        layers = list(road.layers)
-        thickness = layers[number].thickness
-        assert thickness is not None
-        layers[number] = replace(layers[number], thickness=thickness * (1 + sign * _STEP))
-        return Pavement(layers, rigid_base=road.rigid_base), traffic, climate
-
-    return change
-
-
-def _stiffer(question: Question, number: int) -> Change:
-    road, traffic, climate = question
-
-    def change(sign: float) -> Question:
-        layers, factor = list(road.layers), 1 + sign * _STEP
-        material = layers[number].material
-        if isinstance(material, Mix):
-            rows = tuple(tuple(value * factor for value in row) for row in material.moduli)
-            layers[number] = replace(layers[number], material=replace(material, moduli=rows))
-        elif isinstance(material, Anisotropic):
-            layers[number] = replace(layers[number], material=material.stiffer(factor))
-        else:
-            assert isinstance(material, Elastic)
-            layers[number] = replace(layers[number], material=replace(material, modulus=material.modulus * factor))
-        return Pavement(layers, rigid_base=road.rigid_base), traffic, climate
-
-    return change
-
-
-def _warmer(climate: Climate, degrees: float) -> Climate:
-    def shifted(season: Season) -> Season:
-        now = season.temperature
-        warm = tuple(t + degrees for t in now) if isinstance(now, tuple) else now + degrees
-        return replace(season, temperature=warm)
-
-    return Climate(tuple(shifted(season) for season in climate.seasons))
-
-
-def _warm(road: Pavement, climate: Climate, criterion: Criterion, pairs: Sequence[tuple[int, int]]) -> dict[int, Any]:
-    """The road and the criterion in the seasons of the pairs."""
-    return {s: warmed(road, (criterion,), climate.seasons[s]) for s in dict.fromkeys(s for _, s in pairs)}
-
-
-class _Solver:
-    """Damage of the pairs under changed questions, with contacts and roads shared between them.
-
-    solved, responses: how many contacts and responses it took.
-    """
-
-    def __init__(
-        self, criterion: Criterion, pairs: list[tuple[int, int]], contacts: Contacts, progress: Progress | None
-    ) -> None:
-        self.tire, self.criterion, self.pairs, self.contacts = contacts.tire, criterion, pairs, contacts
-        self.progress = progress
-        self.solved = self.responses = 0
-
-    def damages(self, questions: Sequence[Question], pool: ThreadPoolExecutor) -> list[float]:
-        """The largest damage of a year across the wheel path in each question."""
-        rows = list(dict.fromkeys(row for row, _ in self.pairs))
-        classes = [[traffic.classes[row] for row in rows] for _, traffic, _ in questions]
-        states = [one for several in classes for row in several for one in states_of(row, self.tire)]
-        missing = len(self.contacts.missing(states))
-        self.solved, self.responses = missing, len(questions) * len(self.pairs)
-        count = Counter(missing + self.responses, self.progress)
-        road, _, climate = questions[0]
-        first = warmed(road, (self.criterion,), climate.seasons[self.pairs[0][1]])
-        self.contacts.solve(states, first.road, pool, count)
-        known = self.contacts.known
-        stand: dict[Any, Wheels] = {}
-        tasks = []
-        for (road, _, climate), several in zip(questions, classes, strict=True):
-            warm_roads = _warm(road, climate, self.criterion, self.pairs)
-            by_class = [[known[one] for one in states_of(row, self.tire)] for row in several]
-            y = across([own[0] for own in by_class], several)
-            wheels = {}
-            for row, own, one in zip(rows, by_class, several, strict=True):
-                key = (row, *map(id, own), float(y[0]))
-                if key not in stand:
-                    stand[key] = wheels_of(own, one, y)
-                wheels[row] = stand[key]
-            turns = 2 * max(len(one.x) for one in wheels.values()) - 1
-            tasks += [Passing(wheels[row], warm_roads[season], y, turns) for row, season in self.pairs]
-        read = iter(zip(tasks, solve_passings(tasks, pool, count), strict=True))
-        return [self._damage(question, [next(read) for _ in self.pairs]) for question in questions]
-
-    def _damage(self, question: Question, solved: Sequence[tuple[Passing, Array]]) -> float:
-        road, traffic, climate = question
-        task = solved[0][0]
-        values = np.zeros((1, len(traffic.classes), len(climate.seasons), task.turns, len(task.y)))
-        for (row, season), (_, found) in zip(self.pairs, solved, strict=True):
-            values[0, row, season] = found[0, : task.turns]
-        warmth = layer_temperatures(road, (self.criterion,), climate.seasons)[0]
-        laws = [self.criterion.law_at(float(t)) for t in warmth]
-        damage = damage_of(values, [laws], traffic, climate)
-        spread = wander_of(laws[0], traffic).spread(damage, float(task.y[1] - task.y[0]))
-        return float(spread.sum(axis=(0, 1, 2)).max())
+    return lambda sign: (changed(road, number, 1 + sign * _STEP), traffic, climate)

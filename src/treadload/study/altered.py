@@ -1,0 +1,136 @@
+"""A life asked again with other inputs: thicker, stiffer, warmer roads, and what they share as they are solved."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from treadload.damage.climate import Climate, Season
+from treadload.damage.criterion import Criterion
+from treadload.damage.miner import damage_of, wander_of
+from treadload.damage.traffic import Traffic
+from treadload.kernels.arrays import Array
+from treadload.materials import Anisotropic, Elastic, Mix
+from treadload.pavement import Pavement
+from treadload.study.contacts import Contacts, Counter, Progress
+from treadload.study.passage import Passing, solve_passings
+from treadload.study.seasons import layer_temperatures, warmed
+from treadload.study.wheels import Wheels, across, states_of, wheels_of
+
+Question = tuple[Pavement, Traffic, Climate]
+
+
+def thicker(road: Pavement, number: int, factor: float) -> Pavement:
+    """The road with the thickness of a layer, from 0 at the surface, times a factor."""
+    layers = list(road.layers)
+    thickness = layers[number].thickness
+    assert thickness is not None
+    layers[number] = replace(layers[number], thickness=thickness * factor)
+    return Pavement(layers, rigid_base=road.rigid_base)
+
+
+def stiffer(road: Pavement, number: int, factor: float) -> Pavement:
+    """The road with the modulus of an elastic layer, from 0 at the surface, times a factor; at all temperatures."""
+    layers = list(road.layers)
+    material = layers[number].material
+    if isinstance(material, Mix):
+        rows = tuple(tuple(value * factor for value in row) for row in material.moduli)
+        layers[number] = replace(layers[number], material=replace(material, moduli=rows))
+    elif isinstance(material, Anisotropic):
+        layers[number] = replace(layers[number], material=material.stiffer(factor))
+    else:
+        assert isinstance(material, Elastic)
+        layers[number] = replace(layers[number], material=replace(material, modulus=material.modulus * factor))
+    return Pavement(layers, rigid_base=road.rigid_base)
+
+
+def warmer(climate: Climate, degrees: float) -> Climate:
+    """The climate with all its seasons warmer by so many degrees."""
+
+    def shifted(season: Season) -> Season:
+        now = season.temperature
+        warm = tuple(t + degrees for t in now) if isinstance(now, tuple) else now + degrees
+        return replace(season, temperature=warm)
+
+    return Climate(tuple(shifted(season) for season in climate.seasons))
+
+
+def names_of(road: Pavement) -> list[str]:
+    """What tables call the layers: their names, with their numbers where several have one."""
+    names = [layer.name or f"layer {k}" for k, layer in enumerate(road.layers, start=1)]
+    return [name if names.count(name) == 1 else f"{name} ({k})" for k, name in enumerate(names, start=1)]
+
+
+def most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
+    """Pairs (class, season) that do most, down to those that make the coverage full, and what they cover."""
+    order = np.argsort(shares, axis=None)[::-1]
+    cover = np.cumsum(shares.ravel()[order])
+    count = min(int(np.searchsorted(cover, coverage * (1 - 1e-9))) + 1, len(order))
+    rows, columns = np.unravel_index(order[:count], shares.shape)
+    return list(zip(rows.tolist(), columns.tolist(), strict=True)), float(cover[count - 1])
+
+
+def in_seasons(
+    road: Pavement, climate: Climate, criterion: Criterion, pairs: Sequence[tuple[int, int]]
+) -> dict[int, Any]:
+    """The road and the criterion in the seasons of the pairs."""
+    return {s: warmed(road, (criterion,), climate.seasons[s]) for s in dict.fromkeys(s for _, s in pairs)}
+
+
+class Solver:
+    """Damage of the pairs under changed questions, with contacts and roads shared between them.
+
+    solved, responses: how many contacts and responses it took.
+    """
+
+    def __init__(
+        self, criterion: Criterion, pairs: list[tuple[int, int]], contacts: Contacts, progress: Progress | None
+    ) -> None:
+        self.tire, self.criterion, self.pairs, self.contacts = contacts.tire, criterion, pairs, contacts
+        self.progress = progress
+        self.solved = self.responses = 0
+
+    def damages(self, questions: Sequence[Question], pool: ThreadPoolExecutor) -> list[float]:
+        """The largest damage of a year across the wheel path in each question."""
+        rows = list(dict.fromkeys(row for row, _ in self.pairs))
+        classes = [[traffic.classes[row] for row in rows] for _, traffic, _ in questions]
+        states = [one for several in classes for row in several for one in states_of(row, self.tire)]
+        missing = len(self.contacts.missing(states))
+        self.solved, self.responses = missing, len(questions) * len(self.pairs)
+        count = Counter(missing + self.responses, self.progress)
+        road, _, climate = questions[0]
+        first = warmed(road, (self.criterion,), climate.seasons[self.pairs[0][1]])
+        self.contacts.solve(states, first.road, pool, count)
+        known = self.contacts.known
+        stand: dict[Any, Wheels] = {}
+        tasks = []
+        for (road, _, climate), several in zip(questions, classes, strict=True):
+            warm_roads = in_seasons(road, climate, self.criterion, self.pairs)
+            by_class = [[known[one] for one in states_of(row, self.tire)] for row in several]
+            y = across([own[0] for own in by_class], several)
+            wheels = {}
+            for row, own, one in zip(rows, by_class, several, strict=True):
+                key = (row, *map(id, own), float(y[0]))
+                if key not in stand:
+                    stand[key] = wheels_of(own, one, y)
+                wheels[row] = stand[key]
+            turns = 2 * max(len(one.x) for one in wheels.values()) - 1
+            tasks += [Passing(wheels[row], warm_roads[season], y, turns) for row, season in self.pairs]
+        read = iter(zip(tasks, solve_passings(tasks, pool, count), strict=True))
+        return [self._damage(question, [next(read) for _ in self.pairs]) for question in questions]
+
+    def _damage(self, question: Question, solved: Sequence[tuple[Passing, Array]]) -> float:
+        road, traffic, climate = question
+        task = solved[0][0]
+        values = np.zeros((1, len(traffic.classes), len(climate.seasons), task.turns, len(task.y)))
+        for (row, season), (_, found) in zip(self.pairs, solved, strict=True):
+            values[0, row, season] = found[0, : task.turns]
+        warmth = layer_temperatures(road, (self.criterion,), climate.seasons)[0]
+        laws = [self.criterion.law_at(float(t)) for t in warmth]
+        damage = damage_of(values, [laws], traffic, climate)
+        spread = wander_of(laws[0], traffic).spread(damage, float(task.y[1] - task.y[0]))
+        return float(spread.sum(axis=(0, 1, 2)).max())
