@@ -14,10 +14,11 @@ from treadload.kernels.arrays import Array
 # Both stages of the singly diagonal method of order 2 that is L-stable (Alexander, 1977, SIAM J. Numer. Anal. 14).
 _GAMMA = 1 - math.sqrt(0.5)
 # Newton's steps on one surface temperature, and its accuracy, K.
-_STEPS, _CLOSE = 50, 1e-8
+_STEPS, _CLOSE = 50, 1e-7
 
-Flux = Callable[[float, float], tuple[float, float]]
-"""Heat flux into the surface, W/m², and its slope over the surface temperature, at a time, s, and a temperature."""
+Flux = Callable[[float], Callable[[float], tuple[float, float]]]
+"""Of a time, s: a function of the surface temperature, °C, that gives the heat flux into the surface, W/m², and its
+slope over that temperature."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +52,12 @@ def graded(
     first: thickness of the cells at the surface, m. growth: from one cell to the next, >= 1.
     """
     ends = np.append(bottoms, max(depth, 1.5 * bottoms[-1] if len(bottoms) else depth))
-    parts, numbers, at, size = [], [], 0.0, first
+    parts: list[Array] = []
+    numbers: list[int] = []
+    at, size = 0.0, first
     for number, end in enumerate(ends):
-        room, sizes, next_size = end - at, [], size
+        sizes: list[float] = []
+        room, next_size = end - at, size
         while sum(sizes) < room:
             sizes.append(next_size)
             next_size *= growth
@@ -68,12 +72,18 @@ def graded(
 
 
 def conducted(
-    cells: Cells, start: Array, step: float, count: int, *, flux: Flux | None = None, surface: Flux | None = None
+    cells: Cells,
+    start: Array,
+    step: float,
+    count: int,
+    *,
+    flux: Flux | None = None,
+    surface: Callable[[float], float] | None = None,
 ) -> Array:
     """Temperatures (count + 1, n + 1) of the surface and of the cells at times 0, step, 2 step, ...
 
-    start: (n,), of the cells at the time 0. flux: into the surface; or surface: a function of time that gives the
-    temperature that the surface is held at, first of its pair. No heat passes the bottom. Of second order in both.
+    start: (n,), of the cells at the time 0. flux: into the surface; or surface: the temperature that it is held at,
+    of time, s. No heat passes the bottom. Of second order in both.
     Raises ConvergenceError where the flux has no temperature that balances it.
     """
     n = len(cells.thickness)
@@ -95,34 +105,28 @@ def conducted(
     warmth = float(pushed[0]) + skin
     result = np.empty((count + 1, n + 1))
     now = np.array(start, dtype=float)
-    on_top = float(now[0])
+
+    def balanced(at: float, below: float, resistance: float, guess: float) -> tuple[float, float]:
+        """Temperature of the surface and the flux into it, `resistance` above what is `below` warm."""
+        if surface is not None:
+            top = surface(at)
+            return top, (top - below) / resistance
+        assert flux is not None
+        balance, top = flux(at), guess
+        for _ in range(_STEPS):
+            into, slope = balance(top)
+            change = (below + resistance * into - top) / (1 - resistance * slope)
+            top += change
+            if abs(change) < _CLOSE:
+                return top, (top - below) / resistance
+        raise ConvergenceError(f"the surface temperature found no balance at {at:g} s, last {top:g} °C")
 
     def stage(before: Array, at: float, guess: float) -> tuple[Array, float]:
         still = carried @ before
-        if surface is not None:
-            top = surface(at, guess)[0]
-            return still + pushed * ((top - float(still[0])) / warmth), top
-        assert flux is not None
-        top = guess
-        for _ in range(_STEPS):
-            into, slope = flux(at, top)
-            # The surface is as warm as the first cell and what the flux through the skin adds.
-            change = (float(still[0]) + warmth * into - top) / (1 - warmth * slope)
-            top += change
-            if abs(change) < _CLOSE:
-                return still + pushed * flux(at, top)[0], top
-        raise ConvergenceError(f"the surface temperature found no balance at {at:g} s, last {top:g} °C")
+        top, into = balanced(at, float(still[0]), warmth, guess)
+        return still + pushed * into, top
 
-    if surface is not None:
-        on_top = surface(0.0, on_top)[0]
-    else:
-        assert flux is not None
-        for _ in range(_STEPS):
-            into, slope = flux(0.0, on_top)
-            change = (float(now[0]) + skin * into - on_top) / (1 - skin * slope)
-            on_top += change
-            if abs(change) < _CLOSE:
-                break
+    on_top, _ = balanced(0.0, float(now[0]), skin, float(now[0]))
     result[0, 0], result[0, 1:] = on_top, now
     ratio = (1 - _GAMMA) / _GAMMA
     for number in range(count):

@@ -3,10 +3,12 @@
 from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift_below
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded
 from treadload.pavement.catalogue import Structure
+from treadload.pavement.heating import Heat, RoadTemperatures, bells, road_temperatures
 from treadload.pavement.layer import Layer
 from treadload.pavement.rows import LayerRow, layer_rows, road_in_words
 from treadload.pavement.structure import Pavement
 from treadload.pavement.temperature import TemperatureProfile
+from treadload.pavement.weather import Weather, read_weather
 
 __all__ = [
     "BONDED",
@@ -15,14 +17,20 @@ __all__ = [
     "Bond",
     "BondLaw",
     "HalfBonded",
+    "Heat",
     "Layer",
     "LayerRow",
     "Pavement",
+    "RoadTemperatures",
     "Structure",
     "TemperatureProfile",
+    "Weather",
+    "bells",
     "bituminous_thickness",
     "is_bituminous",
     "layer_rows",
     "lift_below",
+    "read_weather",
     "road_in_words",
+    "road_temperatures",
 ]
