@@ -144,22 +144,31 @@ def miner(
     laws = [[c.law_at(float(t)) for t in row] for c, row in zip(criteria, layer_temperatures, strict=True)]
     damage = damage_of(values, laws, traffic, climate)
     spacing = float(at[1] - at[0])
-    wandering = traffic.wander.spread(damage, spacing)
+    still = damage.sum(axis=(1, 2))
+    wandering = traffic.wander.spread(still, spacing)
     margin = (wandering.shape[-1] - len(at)) // 2
     wide = at[0] + spacing * (np.arange(wandering.shape[-1]) - margin)
-    still = np.pad(damage, [(0, 0)] * 3 + [(margin, margin)])
+    still = np.pad(still, [(0, 0), (margin, margin)])
     wanders = [wander_of(row[0], traffic) for row in laws]
-    spread = np.where([[[[wander != traffic.wander]]] for wander in wanders], still, wandering)
-    yearly = spread.sum(axis=(1, 2))
+    yearly = np.where([[wander != traffic.wander] for wander in wanders], still, wandering)
     worst = yearly.argmax(axis=-1)
     peak = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
-    shares = np.stack([_over(part[..., column], top) for part, column, top in zip(spread, worst, peak, strict=True)])
+    # Where the spread damage of a criterion is worst, in its columns.
+    columns = [
+        int(column) - (0 if wander == traffic.wander else margin)
+        for column, wander in zip(worst, wanders, strict=True)
+    ]
+    here = [
+        _over(wander.spread_at(part, spacing, column), top)
+        for wander, part, column, top in zip(wanders, damage, columns, peak, strict=True)
+    ]
+    shares = np.stack(here)
     with np.errstate(divide="ignore", invalid="ignore"):
         passes = np.where(peak > 0, traffic.passes_per_year / peak, math.inf)
     names = [criterion.name for criterion in criteria]
 
     def years_of(part: Array) -> list[float]:
-        return [_years_to(traffic, float(top)) for top in part.sum(axis=(1, 2)).max(axis=-1)]
+        return [_years_to(traffic, float(top)) for top in part.max(axis=-1)]
 
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
         "damage_per_year": (("criterion", "y"), yearly),
@@ -182,7 +191,7 @@ def miner(
         growth = growth_factor(traffic.years, traffic.growth, traffic.kind)
         fields["design_damage"] = (("criterion",), peak * growth)
     if cracks is not None:
-        fields |= _cracks(damage, cracks, wanders, spacing, (worst, margin), peak)
+        fields |= _cracks(damage, cracks, wanders, spacing, columns, peak)
         coordinates["orientation"] = list(ORIENTATIONS)
     doubts = [
         "; ".join(filter(None, (row[0].doubt, one.quantity.doubt))) for row, one in zip(laws, criteria, strict=True)
@@ -267,24 +276,21 @@ def _cracks(
     cracks: tuple[Array, Array],
     wanders: Sequence[Wander],
     spacing: float,
-    place: tuple[Array, int],
+    columns: Sequence[int],
     peak: Array,
 ) -> dict[str, tuple[tuple[str, ...], Any]]:
     """The first crack of every criterion, and the shares of orientations in the damage at its worst place.
 
-    place: column of the worst y of each criterion, and how many of them lie before the first of damage.
+    columns: of the damage after wander at each criterion's worst y, as `Wander.spread_at` counts them.
     """
-    worst, margin = place
     angle, dip = (np.asarray(part, dtype=float) for part in cracks)
     codes = orientation(angle, dip, OBLIQUE_TOLERANCE)
     shares = np.zeros((len(damage), len(ORIENTATIONS)))
     first = np.empty((2, len(damage)))
-    for k, (one, column, top) in enumerate(zip(damage, worst, peak, strict=True)):
+    for k, (one, column, top) in enumerate(zip(damage, columns, peak, strict=True)):
         for code in range(len(ORIENTATIONS)):
             part = np.where(codes[k] == code, one, 0.0).sum(axis=(0, 1))
-            spread = wanders[k].spread(part, spacing)
-            at = column - margin + (len(spread) - len(part)) // 2
-            shares[k, code] = _over(spread[at] if 0 <= at < len(spread) else 0.0, top)
+            shares[k, code] = _over(float(wanders[k].spread_at(part, spacing, column)), top)
         most = np.unravel_index(int(one.argmax()), one.shape)
         first[:, k] = angle[k][most], dip[k][most]
     return {

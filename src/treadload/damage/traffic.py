@@ -17,6 +17,7 @@ from treadload.damage.shares import check_shares
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
+from treadload.kernels.fft import irfft, next_fast_len, rfft
 from treadload.tire import Tire
 from treadload.units import Length, Share
 
@@ -145,11 +146,21 @@ class Wander:
         on both sides: the sum over y does not change.
         """
         weights = self.weights(spacing)
-        ny, wide = damage.shape[-1], len(weights) - 1
-        result = np.zeros((*damage.shape[:-1], ny + wide))
-        for shift, weight in enumerate(weights):
-            result[..., shift : shift + ny] += weight * damage
-        return result
+        if len(weights) == 1:
+            return damage
+        wide = damage.shape[-1] + len(weights) - 1
+        n = next_fast_len(wide, real=True)
+        # Round-off of the transforms leaves a little, or less than nothing, where there is none.
+        spread: Array = np.maximum(irfft(rfft(damage, n) * rfft(weights, n), n)[..., :wide], 0.0)
+        return spread
+
+    def spread_at(self, damage: Array, spacing: float, column: int) -> Array:
+        """One column of `spread`, (...); zero before the first and behind the last."""
+        weights = self.weights(spacing)
+        first, last = max(0, column - len(weights) + 1), min(column, damage.shape[-1] - 1)
+        reached = np.arange(first, last + 1)
+        here: Array = damage[..., reached] @ weights[column - reached]
+        return here
 
     def __str__(self) -> str:
         if self.offsets:

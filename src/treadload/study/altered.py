@@ -131,6 +131,5 @@ class Solver:
             values[0, row, season] = found[0, : task.turns]
         warmth = layer_temperatures(road, (self.criterion,), climate.seasons)[0]
         laws = [self.criterion.law_at(float(t)) for t in warmth]
-        damage = damage_of(values, [laws], traffic, climate)
-        spread = wander_of(laws[0], traffic).spread(damage, float(task.y[1] - task.y[0]))
-        return float(spread.sum(axis=(0, 1, 2)).max())
+        damage = damage_of(values, [laws], traffic, climate).sum(axis=(0, 1, 2))
+        return float(wander_of(laws[0], traffic).spread(damage, float(task.y[1] - task.y[0])).max())

@@ -149,8 +149,8 @@ def _without_solves(life: Life, number: int, growth: float) -> dict[str, float]:
     laws = life.laws[number]
 
     def peak(values: Array, wander: Wander) -> float:
-        damage = damage_of(values, [laws], traffic, climate)
-        return float(wander.spread(damage, float(y[1] - y[0])).sum(axis=(0, 1, 2)).max())
+        damage = damage_of(values, [laws], traffic, climate).sum(axis=(0, 1, 2))
+        return float(wander.spread(damage, float(y[1] - y[0])).max())
 
     apart = math.log((1 + _STEP) / (1 - _STEP))
     own = wander_of(laws[0], traffic)
