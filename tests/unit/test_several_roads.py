@@ -15,7 +15,7 @@ from treadload.response import GridLoad, UniformDisc, several, solve_response
 from treadload.response import layered as layered_module
 from treadload.response.several import Question, tensors_of_many
 from treadload.study.contacts import Contacts, Counter
-from treadload.study.passage import Passing, batches, passage, passages
+from treadload.study.passage import Passing, batches, passages
 from treadload.study.seasons import Warm
 from treadload.study.wheels import Wheels, state
 from treadload.tire import Tire, TreadProfile
@@ -146,7 +146,7 @@ def test_passages_together_are_those_alone(tasks):
         together = passages([tasks[number] for number in members])
         for number, found in zip(members, together, strict=True):
             task = tasks[number]
-            alone = passage(task.wheels, task.warm, task.y, task.turns)
+            (alone,) = passages([task])
             size = np.abs(alone[:, :3]).max(axis=(1, 2), keepdims=True)
             # Single numbers, added up in another order.
             np.testing.assert_allclose(found[:, :3] / size, alone[:, :3] / size, rtol=0, atol=1e-6)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -10,34 +12,42 @@ from treadload.damage.laws.equivalence import GROUP_FACTORS
 from treadload.damage.miner import Life
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
-from treadload.study.passage import passage
+from treadload.study.contacts import Counter
+from treadload.study.passage import Passing, solve_passings
 from treadload.study.passages import Passages
 from treadload.study.seasons import warmed
 from treadload.study.wheels import Wheels
 
 
-def group_factors(road: Pavement, life: Life, passages: Passages) -> tuple[Array, Array]:
+def group_factors(
+    road: Pavement, life: Life, passages: Passages, workers: int | None = None
+) -> tuple[Array, Array]:
     """K of every criterion and class, and the number of axles of every class.
 
     K = D(group) / (axles × D(one of its axles alone)), by the sum that the life takes, both at their own worst place,
     in the season in which the class does most of the damage. NaN for single axles and where there is no damage.
-    life: by the readings of the passages. Returns K (criterion, axle_class) and axles (axle_class).
-    One response is solved for each class with several axles.
+    life: by the readings of the passages. workers: threads; all cores if left out.
+    One response is solved for each class with several axles. Returns K (criterion, axle_class) and axles
+    (axle_class).
     """
     readings = life.readings.to_numpy()
     y = life.readings["y"].to_numpy()
     shares = life.dataset["damage_share"].to_numpy()
     factors = np.full(shares.shape[:2], np.nan)
     axles = np.array([len(one.x) for one in passages.wheels])
-    for number, wheels in enumerate(passages.wheels):
-        if axles[number] == 1:
-            continue
-        season = int(shares[:, number].sum(axis=0).argmax())
-        warm = warmed(road, life.criteria, life.climate.seasons[season])
-        alone = passage(_one_axle(wheels), warm, y, 1)[:, :1]
+    several = [int(number) for number in np.flatnonzero(axles > 1)]
+    seasons = [int(shares[:, number].sum(axis=0).argmax()) for number in several]
+    warm = {season: warmed(road, life.criteria, life.climate.seasons[season]) for season in seasons}
+    tasks = [
+        Passing(_one_axle(passages.wheels[number]), warm[season], y, 1)
+        for number, season in zip(several, seasons, strict=True)
+    ]
+    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+        solved = solve_passings(tasks, pool, Counter(len(tasks), None))
+    for number, season, alone in zip(several, seasons, solved, strict=True):
         group = readings[:, number, season]
         for k, law in enumerate(row[season] for row in life.laws):
-            together, single = (_harm(law.allowable_passes(values)).max() for values in (group[k], alone[k]))
+            together, single = (_harm(law.allowable_passes(values)).max() for values in (group[k], alone[k, :1]))
             if single > 0:
                 factors[k, number] = together / (axles[number] * single)
     return factors, axles

@@ -57,7 +57,7 @@ def solve_life(
     )
     depths = ("criterion", [criterion.depth(road) for criterion in criteria], variables.attributes("read_depth"))
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))
-    factors, axles = group_factors(road, life, passages)
+    factors, axles = group_factors(road, life, passages, workers)
     names = (tuple(row.name for row in traffic.classes), tuple(criterion.name for criterion in criteria))
     about = {"groups": json.dumps(in_words(*names, factors, axles), ensure_ascii=False)}
     fields = {"group_factor": (("criterion", "axle_class"), factors), "axles": (("axle_class",), axles)}

@@ -48,7 +48,7 @@ class Passing:
 
 
 def solve_passings(tasks: Sequence[Passing], pool: Executor, count: Counter) -> list[Array]:
-    """Peaks, valleys and cracks, see `passage`, for each task, those that share much together."""
+    """Peaks, valleys and cracks, see `passages`, for each task, those that share much together."""
     solved: dict[int, Array] = {}
 
     def solve(members: list[int]) -> None:
@@ -80,13 +80,11 @@ def batches(tasks: Sequence[Passing]) -> list[list[int]]:
     return parts
 
 
-def passage(wheels: Wheels, warm: Warm, y: Array, turns: int) -> Array:
-    """(criterion, turns + 2, y): peaks and valleys, see `Passages`, then the angle and the dip of the crack."""
-    return passages([Passing(wheels, warm, y, turns)])[0]
-
-
 def passages(tasks: Sequence[Passing]) -> list[Array]:
-    """As `passage`, for each of some tasks that stand on the same cells at the same speed, see `batches`."""
+    """(criterion, turns + 2, y): peaks and valleys, see `Passages`, then the angle and the dip of the crack.
+
+    For each of some tasks that stand on the same cells at the same speed, see `batches`.
+    """
     y, wheels = tasks[0].y, tasks[0].wheels
     results: list[Array] = [np.empty((len(task.warm.criteria), task.turns + 2, len(y))) for task in tasks]
     planes: dict[_Plane, dict[int, list[int]]] = {}
