@@ -19,9 +19,7 @@ from treadload.study.seasons import warmed
 from treadload.study.wheels import Wheels
 
 
-def group_factors(
-    road: Pavement, life: Life, passages: Passages, workers: int | None = None
-) -> tuple[Array, Array]:
+def group_factors(road: Pavement, life: Life, passages: Passages, workers: int | None = None) -> tuple[Array, Array]:
     """K of every criterion and class, and the number of axles of every class.
 
     K = D(group) / (axles × D(one of its axles alone)), by the sum that the life takes, both at their own worst place,
