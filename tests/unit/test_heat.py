@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from treadload.errors import ConvergenceError
 from treadload.kernels.heat import Cells, conducted, graded, read_at
 
 DAY = 86400.0
@@ -89,10 +88,10 @@ def test_no_heat_is_lost_where_none_passes_the_surface():
     assert np.ptp(found[-1]) < np.ptp(start) / 10
 
 
-def test_a_balance_that_cannot_be_met_is_refused():
+def test_a_balance_that_cannot_be_met_leaves_no_number():
     # A flux that always drives away from where the surface is, whatever it is.
     def wild(top: float) -> tuple[float, float]:
         return (1e4 if top < 5 else -1e4), 0.0
 
-    with pytest.raises(ConvergenceError, match="no balance"):
-        conducted(_even(10), np.zeros(10), 60.0, 5, flux=lambda t: wild)
+    found = conducted(_even(10), np.zeros(10), 60.0, 5, flux=lambda t: wild)
+    assert np.isnan(found[1:]).all()

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.errors import ConvergenceError
 from treadload.kernels.arrays import Array
 
 # Both stages of the singly diagonal method of order 2 that is L-stable (Alexander, 1977, SIAM J. Numer. Anal. 14).
@@ -84,7 +83,7 @@ def conducted(
 
     start: (n,), of the cells at the time 0. flux: into the surface; or surface: the temperature that it is held at,
     of time, s. No heat passes the bottom. Of second order in both.
-    Raises ConvergenceError where the flux has no temperature that balances it.
+    NaN from where the flux has no temperature that balances it.
     """
     n = len(cells.thickness)
     between = 1 / (
@@ -119,7 +118,7 @@ def conducted(
             top += change
             if abs(change) < _CLOSE:
                 return top, (top - below) / resistance
-        raise ConvergenceError(f"the surface temperature found no balance at {at:g} s, last {top:g} °C")
+        return math.nan, math.nan
 
     def stage(before: Array, at: float, guess: float) -> tuple[Array, float]:
         still = carried @ before

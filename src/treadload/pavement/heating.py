@@ -10,7 +10,7 @@ from datetime import datetime, timedelta
 import numpy as np
 from numpy.typing import ArrayLike
 
-from treadload.errors import InputError, positive
+from treadload.errors import ConvergenceError, InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.kernels.heat import conducted, graded, read_at
 from treadload.materials import HydraulicMix
@@ -141,6 +141,8 @@ def road_temperatures(
         mean, method = float(weather.air_temperature.mean()), "heat conduction below a balance at the surface"
     first = run(np.full(len(cells.thickness), mean))
     found = run(first[-1, 1:])
+    if not np.isfinite(found).all():
+        raise ConvergenceError("the surface found no temperature that balances what it takes up and gives off")
     asked = np.unique(np.append(np.asarray(depths, dtype=float), 0.0))
     return RoadTemperatures(
         weather.start,
