@@ -1,0 +1,134 @@
+"""Stress intensity of a crack whose faces touch and rub: neither do they pass through each other, nor slip freely.
+
+On the faces stand a pressure, where they touch, and a shear that the pressure times a coefficient of friction bounds.
+Both are bounded tractions f that keep a displacement at zero: displacement = G (σ - f), f at a bound where it is not.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from treadload.kernels.arrays import Array
+from treadload.kernels.fracture.crack import CrackFaces
+
+# Active sets settle in about five steps; rows that do not are finished by one change at a time.
+_STEPS = 40
+# Pressure and shear of the faces alternate where the path bends or leans; a turn makes the rest ten times smaller.
+_TURNS, _SETTLED = 100, 1e-5
+# Rows whose sets are sought together, some 100 MB.
+_TOGETHER = 20_000
+
+
+def stress_intensity(faces: CrackFaces, traction: Array, friction: float) -> Array:
+    """K (..., 3), Pa √m, of modes I, II and III as the faces allow.
+
+    traction: (..., 3, n), Pa, normal, along the path and out of the plane, that the uncracked body has at the points.
+    friction: of the faces. Shear starts from rest in every state: the faces remember no earlier slip. Its bound is
+    shared between the modes as the shear of the uncracked body is. Raises ArithmeticError.
+    """
+    shape, n = traction.shape[:-2], len(faces.z)
+    normal, shear, lateral = np.moveaxis(traction.reshape(-1, 3, n), 1, 0)
+    opening, across = faces.opening[:n, :n], faces.opening[:n, n:]
+    sliding, along = faces.opening[n:, n:], faces.opening[n:, :n]
+    coupled = bool(np.abs(across).max() > 1e-9 * np.abs(opening).max())
+    size = np.hypot(shear, lateral)
+    part = np.divide(np.abs(shear), size, out=np.full_like(shear, np.sqrt(0.5)), where=size > 0)
+    rest = np.sqrt(1 - part**2)
+    pressure, rubbing = np.zeros_like(normal), np.zeros_like(shear)
+    left = np.arange(len(normal))
+    for _ in range(_TURNS):
+        # Displacement that shear makes counts as normal traction that would make it, and the other way round.
+        own, beside = normal[left], shear[left]
+        push = own + np.linalg.solve(opening, across @ (beside - rubbing[left]).T).T if coupled else own
+        found = -bounded(opening, push, np.full_like(push, -np.inf), np.zeros_like(push))
+        limit = friction * found * part[left]
+        drive = beside + np.linalg.solve(sliding, along @ (own + found).T).T if coupled else beside
+        held = bounded(sliding, drive, -limit, limit)
+        change = np.maximum(np.abs(found - pressure[left]), np.abs(held - rubbing[left])).max(axis=1)
+        pressure[left], rubbing[left] = found, held
+        if not coupled:
+            break
+        left = left[change > _SETTLED * np.maximum(np.abs(own), np.abs(beside)).max(axis=1)]
+        if not len(left):
+            break
+    else:
+        raise ArithmeticError(
+            f"the pressure and the shear on a crack's faces still change by {change.max():.2g} Pa after {_TURNS} "
+            "turns; take a straight path, or less friction between its faces"
+        )
+    limit = friction * pressure * rest
+    held = bounded(faces.tearing, lateral, -limit, limit)
+    plane = np.concatenate([normal + pressure, shear - rubbing], axis=1) @ faces.plane.T
+    # Where the faces touch up to the tip nothing opens there but what round-off leaves.
+    first = np.where(pressure[:, -1] > 0, 0.0, np.maximum(plane[:, 0], 0.0))
+    modes = np.stack([first, plane[:, 1], (lateral - held) @ faces.antiplane], axis=1)
+    return modes.reshape(*shape, 3)
+
+
+def bounded(compliance: Array, traction: Array, low: Array, high: Array) -> Array:
+    """Tractions f (m, n) within low and high: u = G (σ - f) is zero inside, >= 0 at high, <= 0 at low.
+
+    compliance: G (n, n), of positive principal minors. traction: σ (m, n). low <= high, which may be infinite.
+    Method: primal-dual active sets (Hintermüller, Ito and Kunisch 2002), row by row of σ.
+    Raises ArithmeticError.
+    """
+    found = np.clip(traction, low, high)
+    scale = np.abs(traction).max(axis=1, initial=0.0)
+    # Most rows hold everywhere or nowhere.
+    free = (traction <= high) & (traction >= low)
+    apart = ((traction @ compliance.T) >= 0).all(axis=1) & (not high.any() and not np.isfinite(low).any())
+    found[apart] = 0.0
+    rows = np.flatnonzero(~free.all(axis=1) & ~apart & (scale > 0))
+    for start in range(0, len(rows), _TOGETHER):
+        own = rows[start : start + _TOGETHER]
+        found[own] = _active(compliance, traction[own], low[own], high[own], scale[own])
+    return found
+
+
+def _active(compliance: Array, traction: Array, low: Array, high: Array, scale: Array) -> Array:
+    n = len(compliance)
+    pace = 1 / np.diag(compliance).mean()
+    moved = traction @ compliance.T
+    force = np.clip(traction, low, high)
+    upper, lower = traction > high, traction < low
+    left = np.arange(len(traction))
+    for _ in range(_STEPS):
+        above, below = upper[left], lower[left]
+        bound = np.where(above, high[left], np.where(below, low[left], 0.0))
+        held = ~(above | below)
+        # Of what is held the displacement is zero, of the rest the force is known.
+        matrix = np.where(held[:, :, None], compliance, np.eye(n))
+        right = np.where(held, moved[left], bound)
+        own = np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+        slip = np.where(held, 0.0, moved[left] - own @ compliance.T)
+        trial = own + pace * slip
+        edge = 1e-12 * scale[left, None]
+        new_upper, new_lower = trial > high[left] + edge, trial < low[left] - edge
+        # At a bound with no displacement either set will do: keep that in which it is.
+        new_upper |= above & (trial >= high[left] - edge)
+        new_lower |= below & (trial <= low[left] + edge) & ~new_upper
+        force[left] = own
+        done = (new_upper == above).all(axis=1) & (new_lower == below).all(axis=1)
+        upper[left], lower[left] = new_upper, new_lower
+        left = left[~done]
+        if not len(left):
+            return np.clip(force, low, high)
+    for row in left:
+        force[row] = _one_by_one(compliance, traction[row], low[row], high[row], float(scale[row]))
+    return np.clip(force, low, high)
+
+
+def _one_by_one(compliance: Array, traction: Array, low: Array, high: Array, scale: float) -> Array:
+    """One row by projected Gauss-Seidel sweeps, which cannot cycle."""
+    force = np.clip(traction, low, high)
+    diagonal = np.diag(compliance)
+    for _ in range(20_000):
+        before = force.copy()
+        for k in range(len(force)):
+            slip = compliance[k] @ (traction - force)
+            force[k] = np.clip(force[k] + slip / diagonal[k], low[k], high[k])
+        if np.abs(force - before).max() <= 1e-9 * scale:
+            return force
+    raise ArithmeticError(
+        f"the pressure on a crack's faces did not settle under a traction of {scale:.3g} Pa; report this case"
+    )
