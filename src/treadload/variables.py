@@ -163,6 +163,26 @@ _UNIFORM = {
     "uniform_area": ("m^2", "area of each uniform load"),
 }
 
+_RELIABILITY = {
+    "risk": ("1", "probability of failure"),
+    "year": ("1", "years from the opening"),
+    "years_at_risk": ("1", "years until a criterion has failed with a probability, by draws"),
+    "years_at_risk_first_order": ("1", "the same to the first order"),
+    "risk_factor": ("1", "strain allowed at a risk over that allowed at even odds, k_r, by draws"),
+    "failure_probability": ("1", "probability that a criterion has failed by a year, by draws"),
+    "failure_probability_first_order": ("1", "the same to the first order"),
+    "importance": ("1", "share of an input in the scatter at the smallest risk, α² of the first order"),
+    "road_years_at_risk": ("1", "years until any criterion has failed with a probability, by draws"),
+    "road_failure_probability": ("1", "probability that any criterion has failed by a year, by draws"),
+    "thickness_slope": ("1/m", "decades that the strain loses per length of thickness"),
+    "fatigue_scatter": ("1", "standard deviation of log₁₀ of the passes that a law allows, SN"),
+    "law_risk": ("1", "probability of failure that a law has in it"),
+    "law_risk_factor": ("1", "k_r that a law has in it"),
+    "law_years": ("1", "years by the law as it is"),
+    "surface_error": ("1", "relative error of the strain's surface by cross-validation"),
+    "coverage": ("1", "share of a criterion's damage in the classes and seasons that were solved again"),
+}
+
 _CALIBRATION = {
     "start_value": ("1", "number that the search began with, in its SI unit"),
     "fitted_value": ("1", "number that fits the data best, in its SI unit"),
@@ -337,6 +357,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_QUANTITIES,
     **_CALIBRATION,
     **_LIFE,
+    **_RELIABILITY,
     **_INTERFACES,
     **_PASSES,
     **_UNIFORM,
@@ -349,9 +370,9 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
-    "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "input", "other", "load",
-    "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth", "point", "y", "across",
-    "x", "component", "orientation",
+    "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "input", "risk", "year",
+    "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth", "point",
+    "y", "across", "x", "component", "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
 

@@ -17,9 +17,13 @@ from treadload.composing import BaseResult, dataset_of, result_classes
 from treadload.damage import Climate, Traffic, Wander
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
+from treadload.damage.scatter import Scatter
 from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
+from treadload.study.reliability.inputs import inputs_of
+from treadload.study.reliability.propagation import Quadratic
+from treadload.study.reliability.solve import told
 from treadload.study.screening import asked
 from treadload.study.sweeps.design import product
 from treadload.study.two_grids import with_error
@@ -82,6 +86,16 @@ def sensitivity():
         {"criterion": "top", "coverage": 0.9, "contacts": 3, "responses": 4},
     )
     return tl.study.Sensitivity(data, "top", 0.9, 3, 4, ("friction: it has none",))
+
+
+def reliability():
+    inputs = inputs_of(ROAD, Scatter(thickness=5e-3, traffic=0.15))[0]
+    flat = Quadratic(np.log(0.02), np.array([0.8, 0.15, 0.7, 0.1]), np.zeros((4, 4)))
+    scatter = Scatter(thickness=5e-3, traffic=0.15)
+    data = told(life(), [0], inputs, scatter, [0.3], [flat], np.array([5.0]), (0.05, 0.5), 1000, 1)
+    data = data.assign(surface_error=("criterion", [0.01]), coverage=("criterion", [0.6]))
+    stats = {"contacts": 0, "responses": 5, "points": 5, "draws": 1000, "seed": 1, "seconds": 0.1}
+    return tl.study.Reliability(data, scatter, stats, ("base: its law has no SN",))
 
 
 def footprint():
@@ -160,6 +174,7 @@ MADE = {
     ),
     "BondComparison": bond_comparison,
     "Sensitivity": sensitivity,
+    "Reliability": reliability,
     "UniformComparison": lambda: tl.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
     "RollingResistance": viscoelastic_tire,
     "Footprint": footprint,
@@ -178,7 +193,8 @@ MADE = {
 FIGURES = {
     "Contact": "pressure", "Response": "strain_directions", "Verdict": "passes", "BondVerdict": "utilisation",
     "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
-    "BondComparison": "lives", "Sensitivity": "inputs", "UniformComparison": "strains", "RollingResistance": "losses",
+    "BondComparison": "lives", "Sensitivity": "inputs", "Reliability": "years", "UniformComparison": "strains",
+    "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",

@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from treadload.case.criteria import Criterion
 from treadload.case.file import FilePart
+from treadload.case.reliability import ReliabilityPart
 from treadload.case.road import PavementPart, RoadPart
 from treadload.case.tire import TirePart
 from treadload.case.traffic import ClimatePart, TrafficPart
@@ -37,7 +38,7 @@ class LifeCase(FilePart):
     classes of axles that bring none. pavement: the road. traffic: what passes. climate: how warm the road is over the
     year. criteria: what ends its life. spacing: of the contact's cells, 3 mm if left
     out: surface lives move by less than 5 % on finer ones, and by half on cells of 6 mm. tolerance: of
-    readings interpolated over the climate.
+    readings interpolated over the climate. reliability: what scatters; left out, no probabilities.
     """
 
     own_tables: ClassVar = ("traffic", "climate", "criteria")
@@ -50,6 +51,7 @@ class LifeCase(FilePart):
     traffic: TrafficPart
     climate: ClimatePart
     criteria: tuple[Criterion, ...]
+    reliability: ReliabilityPart | None = None
 
     @model_validator(mode="after")
     def _buildable(self) -> LifeCase:

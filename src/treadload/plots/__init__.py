@@ -28,6 +28,7 @@ from treadload.plots.others import (
     LifePlots,
     MorrisPlots,
     PassesPlots,
+    ReliabilityPlots,
     RollingResistancePlots,
     SensitivityPlots,
     SobolPlots,
@@ -40,6 +41,7 @@ from treadload.plots.others import (
 )
 from treadload.plots.passes import plastic_strain, residual_stress, rut_profile, shakedown_map
 from treadload.plots.plain import losses, plain_map
+from treadload.plots.reliability import reliability_inputs, reliability_years
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.stones import stones_in_mortar
@@ -64,6 +66,7 @@ __all__ = [
     "LifePlots",
     "MorrisPlots",
     "PassesPlots",
+    "ReliabilityPlots",
     "ResponsePlots",
     "RollingResistancePlots",
     "SensitivityPlots",
@@ -106,6 +109,8 @@ __all__ = [
     "plain_map",
     "plastic_strain",
     "png",
+    "reliability_inputs",
+    "reliability_years",
     "residual_stress",
     "rib_shares",
     "rut_profile",

@@ -19,6 +19,7 @@ from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.passes import plastic_strain, residual_stress, rut_profile
 from treadload.plots.plain import losses, plain_map
+from treadload.plots.reliability import reliability_inputs, reliability_years
 from treadload.plots.stones import stones_in_mortar
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
@@ -95,6 +96,19 @@ class SensitivityPlots(_Plots):
     def inputs(self, *, ax: Axes | None = None, most: int = 10) -> Figure:
         """Change of the life as each input grows by 5 %."""
         return life_inputs(self._result, ax=ax, most=most)
+
+
+@offers("plot", "Reliability")
+class ReliabilityPlots(_Plots):
+    """Figures of a reliability."""
+
+    def years(self, *, ax: Axes | None = None) -> Figure:
+        """Probability of failure against years, by criterion."""
+        return reliability_years(self._result, ax=ax)
+
+    def inputs(self, *, ax: Axes | None = None) -> Figure:
+        """What the scatter of each criterion is made of."""
+        return reliability_inputs(self._result, ax=ax)
 
 
 @offers("plot", "BondVerdict")

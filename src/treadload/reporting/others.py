@@ -17,6 +17,7 @@ from treadload.plots import (
     LifePlots,
     MorrisPlots,
     PassesPlots,
+    ReliabilityPlots,
     RollingResistancePlots,
     SensitivityPlots,
     SobolPlots,
@@ -39,6 +40,7 @@ HEADINGS = {
     "creep_curve": "Creep curve",
     "indentation": "Indentation",
     "sensitivity": "What the life depends on",
+    "reliability": "Years with a probability",
     "transient": "Rolling from rest",
     "turn": "Turn on the spot",
     "tire_card": "Tire card",
@@ -134,6 +136,12 @@ def _pictures(other: Other) -> list[Picture]:
         case "sensitivity":
             caption = "Change of the governing life as each input grows by 5 %, temperature by 1 °C."
             return picture("What the life depends on", caption, SensitivityPlots(data).inputs)
+        case "reliability":
+            plots_of_reliability = ReliabilityPlots(data)
+            caption = "Probability that a criterion has failed by a year; dotted: the first of them."
+            drawn = picture("When the road fails", caption, plots_of_reliability.years, wide=True)
+            caption = "Share of each input in the scatter of a criterion's years at the smallest risk."
+            return drawn + picture("What the years scatter by", caption, plots_of_reliability.inputs, wide=True)
         case "heterogeneous":
             caption = (
                 "Largest tension in a section with stones, which are outlined, and of the mortar alone; right: the "

@@ -5,6 +5,7 @@ from treadload.study.delamination import BondComparison, compare_bonds, solve_in
 from treadload.study.life import solve_life
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.plan import plan_case, plan_life
+from treadload.study.reliability import Reliability, life_reliability
 from treadload.study.run import Result, run_case
 from treadload.study.run_calibration import CalibrationResult, plan_calibration, run_calibration
 from treadload.study.run_life import LifeResult, run_life
@@ -23,6 +24,7 @@ __all__ = [
     "LifeResult",
     "Morris",
     "Passages",
+    "Reliability",
     "Result",
     "Sensitivity",
     "Sobol",
@@ -34,6 +36,7 @@ __all__ = [
     "calibrate",
     "compare_bonds",
     "compare_uniform",
+    "life_reliability",
     "life_sensitivity",
     "morris",
     "open_sweep",

@@ -17,6 +17,7 @@ from treadload.pavement import Pavement
 from treadload.results import Study, to_tree
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.life import solve_life
+from treadload.study.reliability import Reliability, life_reliability
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 
 
@@ -25,18 +26,20 @@ class LifeResult(Study):
     """What a design case gave.
 
     road: whose materials wait for their temperature. sensitivity: None if it was not asked for, or no criterion
-    ever fails.
+    ever fails. reliability: None where the case has no [reliability], or no criterion ever fails.
     """
 
     case: LifeCase
     road: Pavement
     life: Life
     sensitivity: Sensitivity | None
+    reliability: Reliability | None = None
 
     @property
     def parts(self) -> Mapping[str, BaseResult]:
         """Its results by their names in a tree."""
-        return {"life": self.life} | ({} if self.sensitivity is None else {"sensitivity": self.sensitivity})
+        parts = {"life": self.life, "sensitivity": self.sensitivity, "reliability": self.reliability}
+        return {name: part for name, part in parts.items() if part is not None}
 
     def to_tree(self) -> xr.DataTree:
         """The life in one tree with provenance, ready to be saved; the road in the season that does most damage."""
@@ -47,7 +50,7 @@ class LifeResult(Study):
 
     def summary(self) -> str:
         """One screen: life by criterion, the governing one, what it depends on, how much was solved."""
-        return "\n\n".join(str(part) for part in (self.life, self.sensitivity) if part is not None)
+        return "\n\n".join(str(part) for part in self.parts.values())
 
     __repr__ = first_line
 
@@ -55,7 +58,7 @@ class LifeResult(Study):
 def run_life(
     case: LifeCase, *, sensitivity: bool = True, workers: int | None = None, progress: Progress | None = None
 ) -> LifeResult:
-    """The life of the road of a case, and its sensitivities.
+    """The life of the road of a case, its sensitivities, and its reliability where the case asks for it.
 
     sensitivity: False to leave them out. workers: threads; all cores if left out. progress: called after every solve.
     Raises the errors of reading, contact and response.
@@ -72,5 +75,8 @@ def run_life(
         tolerance=case.tolerance,
         **shared,
     )
-    asked = sensitivity and np.isfinite(life.years(life.governing))
-    return LifeResult(case, road, life, life_sensitivity(tire, road, life, **shared) if asked else None)
+    ends = np.isfinite(life.years(life.governing))
+    depends = life_sensitivity(tire, road, life, **shared) if sensitivity and ends else None
+    part = case.reliability
+    scatters = None if part is None or not ends else life_reliability(tire, road, life, **part.asked(), **shared)
+    return LifeResult(case, road, life, depends, scatters)
