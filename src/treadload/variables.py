@@ -128,6 +128,7 @@ _QUANTITIES = {
     "distortion_energy": ("J/m^3", "distortion energy per unit volume"),
     "vertical_shear_strain": ("1", "largest engineering shear strain between the vertical and the horizontal"),
     "horizontal_tension": ("Pa", "largest principal stress in the horizontal plane, tension positive"),
+    "principal_tension": ("Pa", "largest principal stress in space, tension positive"),
     "tension_behind": ("Pa", "largest horizontal tension of the surface behind the load"),
     "tension_behind_x": ("m", "position along travel of the largest horizontal tension behind the load"),
     **{f"residual_stress_{c}": ("Pa", f"stress component {c} left by earlier passes") for c in _TENSOR},
@@ -210,6 +211,10 @@ _LIFE = {
     "life_years_with_wander": ("1", "years until the damage is 1 with wheels that wander, whatever the law includes"),
     "life_passes": ("1", "passes until the damage at the worst place is 1"),
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
+    "design_utilisation": (
+        "1",
+        "largest reading over what the law allows for the design life, or a year",
+    ),
     "design_damage": ("1", "Miner's damage at the worst place at the end of the design life; 1 is failure"),
     "group_factor": ("1", "damage by one axle of a group over that by the same axle alone, K"),
     "axles": ("1", "number of axles of a class, one behind the other"),

@@ -17,7 +17,7 @@ angles = arrays(float, 3, elements=st.floats(-np.pi, np.pi))
 # Criteria of the horizontal and the vertical know the vertical, and only that.
 VERTICAL = ("vertical_shear_strain", "horizontal_tension", "in_plane_extension", "vertical_compression")
 # What a pressure from all sides leaves.
-NORMAL = ("mean_stress", "horizontal_tension", "vertical_compression")
+NORMAL = ("mean_stress", "horizontal_tension", "principal_tension", "vertical_compression")
 DEGREE = {"distortion_energy": 2}
 MODULUS, POISSON = 5.4e9, 0.35
 

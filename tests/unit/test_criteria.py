@@ -39,6 +39,7 @@ def test_all_that_the_response_has_fields_for():
         "octahedral_shear_stress",
         "mean_stress",
         "horizontal_tension",
+        "principal_tension",
         "vertical_compression",
     }
 

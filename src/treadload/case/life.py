@@ -71,10 +71,10 @@ class LifeCase(FilePart):
             )
         for season in climate.seasons:
             warm = season.temperature
-            road.at_temperature(warm)
+            warmed = road.at_temperature(warm)
             for criterion in self.build_criteria():
                 number = criterion.number(road)
-                criterion.depth(road)
+                criterion.depth(warmed)
                 criterion.law_at(warm[number] if isinstance(warm, tuple) else warm)
         return self
 

@@ -30,6 +30,8 @@ for _command in (
     tires.scan,
     tires.card,
     program.catalogue,
+    program.criteria,
+    program.criteria,
     program.demo,
     program.validate,
 ):

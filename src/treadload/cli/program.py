@@ -1,4 +1,4 @@
-"""`treadload catalogue`, `demo` and `validate`: what the program brings, shows and proves."""
+"""`treadload catalogue`, `criteria`, `demo` and `validate`: what the program brings, shows and proves."""
 
 from __future__ import annotations
 
@@ -41,6 +41,29 @@ def catalogue(
         shell.out.print(_kinds())
     for text, number in notes.items():
         shell.out.print(f"[{number}] {text}", markup=False)
+
+
+def criteria(
+    name: Annotated[str, typer.Argument(help="One quantity or law, in full.", show_default=False)] = "",
+) -> None:
+    """What a criterion can read and by which laws: source, unit, what it asks for, what calibrates it."""
+    import treadload.case  # noqa: F401  its rooms register what they have
+    from treadload.damage import laws_listed, listed, quantities_listed
+
+    if name:
+        return shell.out.print(str(listed(name)), markup=False)
+    parts = (
+        ('what a criterion can read: reads = "…"', quantities_listed()),
+        ('by which laws: law = "…"; numbers in brackets may be left out, or are the layer\'s own', laws_listed()),
+    )
+    heads = ("unit", "what it is and asks for", "source", "calibrated")
+    for title, rows in parts:
+        table = Table(shell.names(), *heads, title=title, title_justify="left", show_lines=True)
+        for one in rows:
+            called = f"{one.name} ({one.package})" if one.package else one.name
+            told = f"{one.words}. Asks for: {one.asks}" + (f". Damage 1: {one.ends}" if one.ends else "")
+            table.add_row(*map(Text, (called, one.unit or "–", told, one.source, one.calibrated)))
+        shell.out.print(table)
 
 
 def _kinds() -> Table:

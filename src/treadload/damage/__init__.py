@@ -18,7 +18,9 @@ from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.laws.equivalence import AGGRESSIVENESS, aggressiveness, equivalent_axles
 from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine, PowerLaw, PowerLine
 from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.damage.laws.limit import Limit
 from treadload.damage.laws.of_layer import OnLayer
+from treadload.damage.listing import laws_listed, listed, quantities_listed
 from treadload.damage.miner import Life, miner
 from treadload.damage.quantities import (
     BottomExtension,
@@ -30,6 +32,7 @@ from treadload.damage.quantities import (
     MazarsStrain,
     MeanStress,
     OctahedralShear,
+    PrincipalTension,
     SubgradeCompression,
     SurfaceExtension,
     VerticalCompression,
@@ -37,6 +40,7 @@ from treadload.damage.quantities import (
     VonMisesStrain,
 )
 from treadload.damage.quantity import Quantity
+from treadload.damage.ratios import EnergyDemand, OctahedralRatio
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.damage.verdict import Verdict, assess
 
@@ -55,6 +59,7 @@ __all__ = [
     "Criterion",
     "DissipatedEnergy",
     "DistortionEnergy",
+    "EnergyDemand",
     "EnergyRatio",
     "Extension",
     "FatigueLaw",
@@ -65,15 +70,18 @@ __all__ = [
     "HorizontalTension",
     "InterfaceStrength",
     "Life",
+    "Limit",
     "MazarsOnset",
     "MazarsStrain",
     "MeanStress",
     "MepdgBottomUp",
     "MepdgTopDown",
+    "OctahedralRatio",
     "OctahedralShear",
     "OnLayer",
     "PowerLaw",
     "PowerLine",
+    "PrincipalTension",
     "Quantity",
     "Season",
     "ShearFatigue",
@@ -97,8 +105,11 @@ __all__ = [
     "equivalent_axles",
     "interface_fields",
     "known_quantities",
+    "laws_listed",
+    "listed",
     "miner",
     "peak",
+    "quantities_listed",
     "residual_after",
     "tension_behind",
     "thermal_stress",

@@ -127,6 +127,8 @@ class Criterion:
     def depth(self, road: Pavement) -> float:
         """Depth at which it reads, m. Raises InputError for the bottom of a layer that has none."""
         number, where = self.number(road), self.quantity.where
+        if why := self.quantity.impossible_on(road):
+            raise InputError(f"the criterion {self.name!r} reads the {self.quantity}, but {why}")
         if where.only and where.layer is not None and number != where.layer % len(road.layers):
             raise InputError(
                 f"the criterion {self.name!r} reads layer {self.layer}, but its law, "

@@ -33,8 +33,10 @@ class Life(BaseResult, group="life"):
 
     dataset: damage_per_year (criterion, y), of the first year, with wander unless the criterion's law includes it;
     damage_share (criterion, axle_class, season) of it at the worst y; life_years, life_passes, worst_y,
-    largest_reading (criterion); where the traffic wanders, life_years_without_wander and life_years_with_wander,
-    whichever the law takes; with a design life design_damage; with cracks first_crack_angle, first_crack_dip
+    largest_reading (criterion) and its design_utilisation, over what the law allows for all passes of the design
+    life, or of the first year without one; where the traffic wanders, life_years_without_wander and
+    life_years_with_wander, whichever the law takes; with a design life design_damage; with cracks
+    first_crack_angle, first_crack_dip
     (criterion), of the class and season that do most, and orientation_damage (criterion, orientation). criteria,
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
     season. stats: solves and errors behind the readings. warnings: sentences for the user.
@@ -75,16 +77,24 @@ class Life(BaseResult, group="life"):
             f"life under {self.traffic.passes_per_year:.4g} passes in the first year, growth "
             f"{100 * self.traffic.growth:g} % per year, {self.traffic.wander}, {len(self.climate.seasons)} season(s)"
         ]
+        years = self.traffic.years
+        allowed = "the passes of a year" if years is None else f"the passes of {years:g} years"
         for criterion in self.criteria:
             row = data.sel(criterion=criterion.name)
             law = criterion.law_at(15.0)
             share = row["damage_share"].to_numpy()
             worst = np.unravel_index(int(np.argmax(share)), share.shape)
+            by = (
+                f"most by {data['axle_class'].to_numpy()[worst[0]]}, {data['season'].to_numpy()[worst[1]]} "
+                f"({100 * share[worst]:.0f} %)"
+            )
+            used = ""
+            if "design_utilisation" in row:
+                used = f", {float(row['design_utilisation']):.2g} of what is allowed for {allowed}"
             lines.append(
                 f"  {criterion.name}: {_years(float(row['life_years']))}, {float(row['life_passes']):.3g} passes; "
                 f"largest {criterion.quantity} {criterion.quantity.in_words(float(row['largest_reading']))} at "
-                f"y = {float(row['worst_y']) * 1e3:z.0f} mm; most by {data['axle_class'].to_numpy()[worst[0]]}, "
-                f"{data['season'].to_numpy()[worst[1]]} ({100 * share[worst]:.0f} %); "
+                f"y = {float(row['worst_y']) * 1e3:z.0f} mm{used}; {by if share[worst] > 0 else 'no damage'}; "
                 f"damage 1 means {law.end_of_life}"
             )
         lines += [f"  {text}" for text in json.loads(data.attrs.get("groups", "[]"))]
@@ -151,7 +161,7 @@ def miner(
     still = np.pad(still, [(0, 0), (margin, margin)])
     wanders = [wander_of(row[0], traffic) for row in laws]
     yearly = np.where([[wander != traffic.wander] for wander in wanders], still, wandering)
-    worst = yearly.argmax(axis=-1)
+    worst = np.array([_worst(one, read, margin) for one, read in zip(yearly, values, strict=True)])
     peak = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
     # Where the spread damage of a criterion is worst, in its columns.
     columns = [
@@ -177,6 +187,10 @@ def miner(
         "life_passes": (("criterion",), passes),
         "worst_y": (("criterion",), wide[worst]),
         "largest_reading": (("criterion",), values.max(axis=(1, 2, 3, 4))),
+        "design_utilisation": (
+            ("criterion",),
+            [_utilisation(row, read, traffic) for row, read in zip(laws, values, strict=True)],
+        ),
     }
     coordinates = {
         "criterion": names,
@@ -230,6 +244,24 @@ def miner(
     return Life(
         dataset, tuple(criteria), traffic, climate, kept, tuple(map(tuple, laws)), warnings=tuple(dict.fromkeys(said))
     )
+
+
+def _worst(yearly: Array, readings: Array, margin: int) -> int:
+    """Column of the largest damage; where none is done that of the largest reading, margin columns further."""
+    if yearly.max() > 0:
+        return int(yearly.argmax())
+    return margin + int(readings.max(axis=(0, 1, 2)).argmax())
+
+
+def _utilisation(laws: Sequence[FatigueLaw], readings: Array, traffic: Traffic) -> float:
+    """Largest reading (axle_class, season, turn, y) over what its law allows for the passes of the design life.
+
+    Of the first year where there is no design life.
+    """
+    years = traffic.years
+    passes = traffic.passes_per_year * (1.0 if years is None else growth_factor(years, traffic.growth, traffic.kind))
+    largest = readings.max(axis=(0, 2, 3))
+    return float(max(value / law.allowable_strain(passes) for value, law in zip(largest, laws, strict=True)))
 
 
 def wander_of(law: FatigueLaw, traffic: Traffic) -> Wander:

@@ -26,6 +26,7 @@ from treadload.damage.quantity import (
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
 from treadload.registry import QUANTITIES
 from treadload.units import Strain
 
@@ -56,6 +57,7 @@ class Extension(Quantity):
     words = "extension strain"
     shown = "microstrain"
     source = "the paper of this method"
+    calibrated = "fatigue lines and their shifts to the road are measured for it; near the surface no law is"
     extends = True
     needs_tension = True
 
@@ -120,6 +122,7 @@ class SurfaceExtension(Extension):
     """Largest extension of the surface of the road. strain: "in-plane" or "principal"."""
 
     words = "extension strain at the surface"
+    calibrated = "MEPDG's top-down cracking was fitted to it at points under uniform discs, from memory"
     where = SURFACE
     name = "surface_extension"
 
@@ -130,6 +133,7 @@ class BottomExtension(Extension):
     """Largest extension at the bottom of the asphalt. strain: "in-plane" or "principal"."""
 
     words = "extension strain at the bottom of the asphalt"
+    calibrated = "the French method, MEPDG, the Asphalt Institute and Shell are fitted to it"
     where = BOTTOM
     name = "bottom_extension"
     bounded = True
@@ -144,6 +148,7 @@ class VerticalCompression(Quantity):
     words = "vertical compression"
     shown = "microstrain"
     source = "laws of rutting"
+    calibrated = "laws of the subgrade are fitted to it on top of the soil, nowhere else"
     needs = ("strain_zz",)
     harm = "ruts, no crack"
 
@@ -159,6 +164,7 @@ class SubgradeCompression(VerticalCompression):
 
     name = "subgrade_compression"
     words = "vertical strain on the subgrade"
+    calibrated = "the French method and the Asphalt Institute are fitted to it"
     where = SUBGRADE
     bounded = True
 
@@ -172,6 +178,7 @@ class HorizontalTension(Quantity):
     words = "tensile stress"
     unit, shown = "Pa", "MPa"
     source = "Tamagny at the surface; Roque's input; laws of layers bound by cement"
+    calibrated = "the French law of hydraulic layers is fitted to it at their bottom; at the surface nothing is"
     needs = _in_the_plane(STRESS)
 
     def of(self, stress: Array, strain: Array) -> Array:
@@ -183,6 +190,27 @@ class HorizontalTension(Quantity):
         return _along(tensors.in_plane_principal(stress)[1])
 
 
+@QUANTITIES.register("principal_tension")
+@dataclass(frozen=True)
+class PrincipalTension(Quantity):
+    """Largest principal stress in space; a crack opens across it."""
+
+    name = "principal_tension"
+    words = "principal tension"
+    unit, shown = "Pa", "MPa"
+    source = "strength theories of the largest tension (Rankine)"
+    calibrated = "by the tensile strength of the mix, as a limit of one load; not for repeated ones"
+    needs = STRESS
+
+    def of(self, stress: Array, strain: Array) -> Array:
+        """σ₁."""
+        return np.asarray(tensors.principal_values(stress)[0])
+
+    def normal(self, stress: Array, strain: Array) -> Array:
+        """Its direction."""
+        return tensors.principal(stress)[1]
+
+
 @QUANTITIES.register("mazars_strain")
 @dataclass(frozen=True)
 class MazarsStrain(Quantity):
@@ -192,6 +220,7 @@ class MazarsStrain(Quantity):
     words = "Mazars equivalent strain"
     shown = "microstrain"
     source = "Mazars (1986), Eng. Fract. Mech. 25"
+    calibrated = "for concrete; for asphalt neither the onset nor a law of passes was found in a source"
     needs = STRAIN
     needs_tension = True
 
@@ -241,6 +270,7 @@ class VonMisesStrain(Quantity):
     words = "von Mises equivalent strain"
     shown = "microstrain"
     source = "Sousa; the strain of a four-point beam test stands for (1 + ν) times itself"
+    calibrated = "by beam tests through that factor; not on roads"
     needs = STRAIN
 
     def of(self, stress: Array, strain: Array) -> Array:
@@ -257,6 +287,7 @@ class OctahedralShear(Quantity):
     words = "octahedral shear stress"
     unit, shown = "Pa", "MPa"
     source = "Lytton, with mean_stress"
+    calibrated = "read together with the mean stress it is, see octahedral_shear_ratio; alone it is not"
     needs = STRESS
 
     def of(self, stress: Array, strain: Array) -> Array:
@@ -273,6 +304,7 @@ class MeanStress(Quantity):
     words = "mean stress"
     unit, shown = "Pa", "MPa"
     source = "Lytton, with octahedral_shear_stress"
+    calibrated = "not by itself: a confining stress, part of a strength"
     needs = STRESS
 
     def of(self, stress: Array, strain: Array) -> Array:
@@ -289,6 +321,7 @@ class DistortionEnergy(Quantity):
     words = "distortion energy"
     unit, shown = "J/m^3", "J/m³"
     source = "Kunst"
+    calibrated = "not calibrated: it ranks places, loads and mixes"
 
     def of(self, stress: Array, strain: Array) -> Array:
         """½ s:e of the deviators."""
@@ -304,6 +337,7 @@ class VerticalShear(Quantity):
     words = "vertical shear strain"
     shown = "microstrain"
     source = "Yoo"
+    calibrated = "not calibrated: it ranks tires and depths near their edges"
     needs = STRAIN
 
     def of(self, stress: Array, strain: Array) -> Array:
@@ -320,8 +354,15 @@ class DissipatedEnergy(Quantity):
     words = "dissipated energy"
     unit, shown = "J/m^3", "J/m³"
     source = "responses of moving wheels"
+    calibrated = "laboratories relate its sum to failure, W = A N^z, mix by mix, from memory; no number here"
     needs = ("dissipated_energy",)
     remedy = "solve a moving wheel on a viscoelastic road"
+
+    def impossible_on(self, road: Pavement) -> str:
+        """An elastic road gives all energy back; one that waits for its temperature says nothing yet."""
+        if any(layer.depends_on_temperature for layer in road.layers) or road.is_viscoelastic:
+            return ""
+        return "the road is elastic and gives all energy back; give a layer a viscoelastic material"
 
     def of(self, stress: Array, strain: Array) -> Array:
         """Not given by the stress and strain of an instant: raises InputError."""

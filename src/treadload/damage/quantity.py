@@ -31,6 +31,7 @@ from treadload import variables
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.pavement import Pavement
 from treadload.registry import QUANTITIES
 from treadload.response.fields import COMPONENTS
 from treadload.units import quantity
@@ -47,6 +48,7 @@ _TENSION = 1e-9
 # Unit in which people read a quantity, and the factor to it from SI.
 _SHOWN: Mapping[str, float] = MappingProxyType({"microstrain": 1e6, "MPa": 1e-6, "kPa": 1e-3, "mm": 1e3})
 _NO_CRACK = "no crack direction"
+UNCALIBRATED = "not calibrated here: a power law of it, or a limit, takes the user's numbers"
 
 
 @dataclass(frozen=True)
@@ -84,8 +86,9 @@ class Quantity(ABC):
 
     name: the word for it in cases and files. words: in sentences, "reads the ...". unit: SI, "1" of strains. shown:
     the unit in which people read it, "microstrain", "MPa" or "" for the SI unit. source: the law or author that uses
-    it. where: in a road it is read. harm: what a report says where no crack opens. needs: variables of a response;
-    remedy: what to do without them. bounded: False if it has no bound under the edge of a rib, so that a mean over a
+    it. calibrated: what ties its readings to cracks or ruts of roads, and what does not. where: in a road it is read.
+    harm: what a report says where no crack opens. needs: variables of a response; remedy: what to do without them.
+    bounded: False if it has no bound under the edge of a rib, so that a mean over a
     length of road is read near the surface. extends: True for an extension, which `assess` can judge; strain: whether
     it is one in space or in the horizontal plane. needs_tension: True if it does harm only where a principal stress
     is tensile. between_layers: True if it says when the bond of an interface fails.
@@ -96,6 +99,7 @@ class Quantity(ABC):
     unit: str = "1"
     shown: str = ""
     source: str = ""
+    calibrated: str = UNCALIBRATED
     where: Where = ANYWHERE
     needs: tuple[str, ...] = (*STRESS, *STRAIN)
     remedy: str = "give a response as solve_response returns it"
@@ -125,6 +129,10 @@ class Quantity(ABC):
     @property
     def lacks(self) -> str:
         """What must be given before it can be read from a response, in words; empty if nothing."""
+        return ""
+
+    def impossible_on(self, road: Pavement) -> str:
+        """Why no response of a road gives it, in words; empty if one does."""
         return ""
 
     def at(self, temperature: float) -> Self:

@@ -132,7 +132,7 @@ _LIFE = _Group(
     {
         **_fields("damage_per_year", ("criterion", "y"), "all"),
         **_fields("damage_share", ("criterion", "axle_class", "season"), "all"),
-        **_fields("worst_y largest_reading design_damage", ("criterion",), "all"),
+        **_fields("worst_y largest_reading design_damage design_utilisation", ("criterion",), "all"),
         **_fields("life_years life_passes", ("criterion",), positive=True),
         **_fields("first_crack_angle first_crack_dip read_depth", ("criterion",)),
         **_fields("orientation_damage", ("criterion", "orientation"), "all"),

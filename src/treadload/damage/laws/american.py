@@ -89,6 +89,7 @@ class MepdgBottomUp(_Mepdg):
 
     reads = BOTTOM_EXTENSION
     end_of_life: ClassVar[str] = "half of the lane's area is cracked, see `bottom_up_cracking`"
+    calibrated: ClassVar[str] = "by LTPP sections of the United States, from memory; locally by `calibration`"
 
     @property
     def thickness_factor(self) -> float:
@@ -112,6 +113,7 @@ class MepdgTopDown(_Mepdg):
 
     reads = SURFACE_EXTENSION
     end_of_life: ClassVar[str] = "a metre of crack along each metre of lane, see `top_down_cracking`"
+    calibrated: ClassVar[str] = "by LTPP sections for strain at points under uniform discs, from memory"
 
     @property
     def thickness_factor(self) -> float:
@@ -139,6 +141,7 @@ class AsphaltInstitute(_Regression):
     reads = BOTTOM_EXTENSION
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1; exponents in CRREL Special Report 96-21"
     end_of_life: ClassVar[str] = "a fifth of the lane is cracked by fatigue"
+    calibrated: ClassVar[str] = "by sections of the AASHO road test, from memory"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -181,6 +184,7 @@ class AsphaltInstituteSubgrade(PowerLaw):
     reads = SUBGRADE_COMPRESSION
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1"
     end_of_life: ClassVar[str] = "a rut of 12.7 mm"
+    calibrated: ClassVar[str] = "by the AASHO road test and roads of California, from memory"
 
     @property
     def doubt(self) -> str:
@@ -212,6 +216,7 @@ class ShellFatigue(_Regression):
     reads = BOTTOM_EXTENSION
     source: ClassVar[str] = "Shell Pavement Design Manual (1978), in the form that textbooks give"
     end_of_life: ClassVar[str] = "fatigue of the asphalt; how much of it cracks was found in no source"
+    calibrated: ClassVar[str] = "by beam tests of Shell, from memory"
 
     @property
     def doubt(self) -> str:

@@ -203,6 +203,7 @@ class BondUtilisation(Quantity):
     name = "utilisation"
     words = "utilisation of the bond"
     source = "Coulomb's strength of the bond, or another"
+    calibrated = "by shear tests of the bond (Leutner); not on roads"
     where = INTERFACE
     needs = ("stress_zz", "stress_xz", "stress_yz")
     bounded = True
@@ -270,6 +271,7 @@ class ShearFatigue(PowerLaw):
 
     source: ClassVar[str] = "a power law of the bond's utilisation with the user's numbers"
     end_of_life: ClassVar[str] = "the bond fails"
+    calibrated: ClassVar[str] = "by the user's cyclic shear tests; no slope is given here"
 
     def __post_init__(self) -> None:
         if not -1 < self.slope < 0:

@@ -16,6 +16,7 @@ from treadload.registry import CRITERIA
 from treadload.units import Number, Strain
 
 _MILLION = 1e6
+USERS = "by the user's numbers: whatever shift from the test to the road they hold"
 # No road material bears a million passes at one per cent: such a number is microstrain without its unit.
 _LARGEST = 0.01
 # Passes that laboratories and test roads have seen, and to which designs extrapolate them: a rule of this
@@ -83,6 +84,8 @@ class PowerLaw(ABC):
     source: ClassVar[str]
     end_of_life: ClassVar[str]
     includes_wander: ClassVar[bool] = False
+    # What ties it to roads, for `treadload criteria`.
+    calibrated: ClassVar[str] = USERS
 
     @property
     @abstractmethod

@@ -22,6 +22,7 @@ _SOURCE = (
     "a secondary source"
 )
 _FAILS = "the layer has failed structurally with the probability given by the law's risk"
+_BY_ROADS = "by French roads through k_c, for readings under uniform discs of 0.662 MPa at an equivalent temperature"
 # Strain lost per length of missing thickness, decades of strain per m: 0.02 per cm.
 _PER_THICKNESS = 2.0
 # Sh of treated layers, m.
@@ -64,6 +65,7 @@ class FrenchBituminous(PowerLaw):
     reads = BOTTOM_EXTENSION
     source: ClassVar[str] = _SOURCE
     end_of_life: ClassVar[str] = _FAILS
+    calibrated: ClassVar[str] = _BY_ROADS
     includes_wander: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
@@ -157,6 +159,7 @@ class FrenchHydraulic(PowerLaw):
     reads = TENSION
     source: ClassVar[str] = _SOURCE
     end_of_life: ClassVar[str] = _FAILS
+    calibrated: ClassVar[str] = _BY_ROADS
     includes_wander: ClassVar[bool] = True
 
     @classmethod
@@ -226,6 +229,7 @@ class FrenchSubgrade(PowerLaw):
     reads = SUBGRADE_COMPRESSION
     source: ClassVar[str] = _SOURCE
     end_of_life: ClassVar[str] = "the rut that the method accepts; the source gives no depth"
+    calibrated: ClassVar[str] = "by French roads, for the strain under uniform discs"
     includes_wander: ClassVar[bool] = True
 
     def __post_init__(self) -> None:

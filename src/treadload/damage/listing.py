@@ -1,0 +1,122 @@
+"""What a criterion can read, and by which laws: each with its source, unit, needs, and what calibrates it."""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import dataclass
+from typing import Any, get_args
+
+from treadload.damage.laws.fatigue import USERS
+from treadload.damage.laws.of_layer import OnLayer
+from treadload.damage.quantity import UNCALIBRATED, Quantity
+from treadload.errors import InputError, nearest
+from treadload.read import made_by, parameters
+from treadload.registry import CRITERIA, QUANTITIES, Registry
+from treadload.units import Unit
+
+_FIELDS = (("stress", "stress"), ("strain", "strain"), ("dissipated", "energy of a passage over a viscoelastic road"))
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A quantity or a law by its word in a case.
+
+    words: what it is. unit: of a reading, as people read it. asks: numbers that must be given, in brackets those that
+    may be left out, and which fields of a response are read. source: who proposed it, or where its numbers stand.
+    calibrated: what ties it to roads, and what does not. ends: what a damage of 1 means, of laws. package: that
+    brings it, "" for ours.
+    """
+
+    name: str
+    words: str
+    unit: str
+    asks: str
+    source: str
+    calibrated: str
+    ends: str = ""
+    package: str = ""
+
+    def __str__(self) -> str:
+        rows = {
+            "what it is": self.words, "unit": self.unit or "–", "asks for": self.asks, "source": self.source,
+            "calibrated": self.calibrated, "a damage of 1 means": self.ends, "package": self.package,
+        }  # fmt: skip
+        return "\n".join([self.name, *(f"  {name}: {text}" for name, text in rows.items() if text)])
+
+
+def quantities_listed() -> tuple[Listed, ...]:
+    """What a criterion can read. Raises InputError for a package that cannot be loaded."""
+    return tuple(_quantity(name, package) for name, package in QUANTITIES.packages().items())
+
+
+def laws_listed() -> tuple[Listed, ...]:
+    """The laws of criteria. Raises InputError for a package that cannot be loaded."""
+    return tuple(_law(name, package) for name, package in CRITERIA.packages().items())
+
+
+def listed(name: str) -> Listed:
+    """A quantity or a law by its word. Raises InputError for a word that is neither."""
+    for registry, describe in ((QUANTITIES, _quantity), (CRITERIA, _law)):
+        packages = registry.packages()
+        if name in packages:
+            return describe(name, packages[name])
+    raise InputError(f"no quantity and no law {name!r}; {nearest(name, (*QUANTITIES.names(), *CRITERIA.names()))}")
+
+
+def _quantity(name: str, package: str) -> Listed:
+    target = QUANTITIES.find(name).target
+    asks_more = any(default is ... for _, default in parameters(target).values())
+    # What needs its numbers first tells what all of its kind have.
+    kind: Any = made_by(target)[0] if asks_more else target()
+    needs = kind.needs if isinstance(kind.needs, tuple) else ()
+    fields = " and ".join(words for start, words in _FIELDS if any(one.startswith(start) for one in needs))
+    asked = "; ".join(filter(None, (_numbers(QUANTITIES, name), fields)))
+    return Listed(name, _first(target), _unit(kind), asked, kind.source, kind.calibrated or UNCALIBRATED, "", package)
+
+
+def _law(name: str, package: str) -> Listed:
+    target = CRITERIA.find(name).target
+    kinds = [one for one in made_by(target) if inspect.isclass(one)]
+    kind: Any = kinds[0] if kinds else target
+    reads = getattr(kind, "reads", None)
+    known = isinstance(reads, Quantity)
+    told = f"reads the {reads}" if known else "reads any quantity"
+    if known and "reads" in parameters(target, (OnLayer,)):
+        told += ", or another of its kind"
+    asked = "; ".join(filter(None, (told, _numbers(CRITERIA, name))))
+    source, ends = (_text(kind, key) for key in ("source", "end_of_life"))
+    unit = _unit(reads) if known else "any"
+    return Listed(name, _first(target), unit, asked, source, _text(kind, "calibrated") or USERS, ends, package)
+
+
+def _numbers(registry: Registry, name: str) -> str:
+    """Its numbers with their units; those in brackets may be left out."""
+    told = []
+    taken = parameters(registry.find(name).target, (OnLayer,))
+    for key, (hint, default) in taken.items():
+        if key in ("reads", "doubt"):
+            continue
+        units = [mark.si for mark in _marks(hint) if isinstance(mark, Unit)]
+        text = f"{key} ({units[0]})" if units and units[0] else key
+        told.append(text if default is ... else f"[{text}]")
+    return ", ".join(told)
+
+
+def _marks(hint: Any) -> list[Any]:
+    """All that stands in an annotation, at any depth."""
+    return [mark for one in get_args(hint) for mark in (one, *_marks(one))]
+
+
+def _first(target: Any) -> str:
+    """The line of purpose of a class or a function."""
+    return (inspect.getdoc(target) or "").split("\n")[0].rstrip(".")
+
+
+def _unit(quantity: Any) -> str:
+    return str(quantity.shown or ("" if quantity.unit == "1" else quantity.unit))
+
+
+def _text(kind: Any, name: str) -> str:
+    """A text that all of a kind have; empty where it is another thing or missing."""
+    text = getattr(kind, name, "")
+    return text if isinstance(text, str) else ""
