@@ -6,9 +6,11 @@ moduli, strains and allowable strains a second program prints. Its risk and Pois
 """
 
 import json
+import math
 from pathlib import Path
 
 import pytest
+from scipy.special import ndtri
 
 import treadload as tl
 from treadload.catalogue import mixes
@@ -96,6 +98,10 @@ def test_allowable_strains_of_the_run_of_a_second_program():
 
     # The program's quantile of 25 % is 0.674, rounded: 9e-5 of the strain.
     assert allowed(tl.pavement.bituminous_thickness(road, 1)) == pytest.approx(205.668, rel=1e-4)
+    # With that quantile in the place of ours every printed digit is met: half a unit of the last.
+    law = tl.damage.FrenchBituminous(90e-6, -0.2, 0.3, 0.16, 0.25, 1.3, ratio, mixes["GNT3"].modulus)
+    rounded = 10 ** (-0.2 * (0.674 + ndtri(0.25)) * math.hypot(0.3, 2 * law.spread / 0.2))
+    assert 1e6 * law.allowable_strain(AXLES) * rounded == pytest.approx(205.668, abs=5e-4)
     assert allowed(0.10) == pytest.approx(210.45, abs=0.005)
 
 

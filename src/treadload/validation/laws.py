@@ -6,7 +6,10 @@ hold the code to its formulas, and are not independent evidence.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
+
+from scipy.special import ndtri
 
 from treadload.damage import (
     Criterion,
@@ -101,6 +104,12 @@ def _printed_designs() -> Iterator[Check]:
     # Its quantile of 25 % is rounded to 0.674.
     computed = 1e6 * law.allowable_strain(axles)
     yield relative(group, "hot country: allowable ε_t, microstrain", computed, 205.668, 1e-4, source)
+    # With its quantile in the place of ours.
+    rounded = 10 ** (
+        law.slope * (0.674 + float(ndtri(law.risk))) * math.hypot(law.scatter, 2 * law.spread / law.slope)
+    )
+    where = "hot country: allowable ε_t by its quantile 0.674, microstrain"
+    yield absolute(group, where, computed * rounded, 205.668, 5e-4, source)
     computed = 1e6 * FrenchSubgrade(slope=-1 / 4.5).allowable_strain(axles)
     yield absolute(group, "hot country: allowable ε_z, microstrain", computed, 511.50, 0.005, source)
 
