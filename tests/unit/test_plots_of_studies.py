@@ -193,7 +193,7 @@ def test_quantities_are_shown_in_the_units_of_people():
     assert told("pavement.layers.1.material.modulus", 9e9, "Pa") == "modulus of layer 2: 9000 MPa"
     assert told("rolling.speed", 20.0, "m/s") == "speed: 72 km/h"
     assert told("pavement.temperature", -5.0, "degC") == "temperature: \u22125 °C"
-    assert told("max_principal_strain_1", 1.2e-4, "1") == "largest principal strain 1: 120 microstrain"
+    assert told("max_principal_strain_1", 1.2e-4, "1") == "largest principal strain: 120 microstrain"
     assert told("slip_fraction", 0.25, "1") == "slip fraction: 25 %"
     assert told("friction", 0.7, "1") == "friction: 0.7"
     assert shown(xr.DataArray([1e6], attrs={"units": "1"}), "worst_passes").logarithmic

@@ -79,7 +79,7 @@ def numbers(field: xr.DataArray) -> Array:
 
 
 def _words(name: str) -> str:
-    """A key or a name in words: "thickness of layer 1", "largest principal strain 1"."""
+    """A key or a name in words: "thickness of layer 1", "largest principal strain"."""
     parts = name.split(".")
     if len(parts) > 2 and parts[-2].isdigit():
         of = parts[-3].rstrip("s").replace("classe", "class")
@@ -87,7 +87,9 @@ def _words(name: str) -> str:
     if len(parts) > 3 and parts[-3].isdigit():
         of = parts[-4].rstrip("s").replace("classe", "class")
         return f"{parts[-1].replace('_', ' ')} of {of} {int(parts[-3]) + 1}"
-    words = parts[-1].replace("_", " ")
+    words = parts[-1].replace("_", " ").replace("in plane", "in-plane")
+    # The first of the principal ones is the largest.
+    words = words.removesuffix(" 1") if words.startswith("max ") else words
     for short, whole in (("max ", "largest "), ("min ", "smallest ")):
         words = whole + words.removeprefix(short) if words.startswith(short) else words
     return words
