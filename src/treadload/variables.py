@@ -147,6 +147,8 @@ _PASSES = {
     "plastic_increment": ("1", "largest equivalent plastic strain that a pass adds"),
     "plastic_left": ("1", "largest change of plastic strain that a pass leaves"),
     "wheel_offset": ("m", "place of the wheel to the right of its line in a pass"),
+    "contact_length": ("m", "length of the contact along travel"),
+    "contact_width": ("m", "width of the contact across travel"),
     "contact_area": ("m^2", "area of the cells in contact"),
     "peak_pressure": ("Pa", "largest contact pressure of a cell"),
     "largest_plastic_strain": ("1", "largest accumulated equivalent plastic strain"),

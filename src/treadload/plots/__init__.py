@@ -39,7 +39,7 @@ from treadload.plots.others import (
     TurnPlots,
     UniformPlots,
 )
-from treadload.plots.passes import plastic_strain, residual_stress, rut_profile, shakedown_map
+from treadload.plots.passes import drum_contact, plastic_strain, residual_stress, rut_profile, shakedown_map
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.reliability import reliability_inputs, reliability_years
 from treadload.plots.roads import compare_roads, compare_temperatures
@@ -94,6 +94,7 @@ __all__ = [
     "creep_curves",
     "deflection_bowl",
     "dissipated_energy",
+    "drum_contact",
     "fatigue_line",
     "indentation",
     "life_damage",

@@ -17,7 +17,7 @@ from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
-from treadload.plots.passes import plastic_strain, residual_stress, rut_profile
+from treadload.plots.passes import drum_contact, plastic_strain, residual_stress, rut_profile
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.reliability import reliability_inputs, reliability_years
 from treadload.plots.stones import stones_in_mortar
@@ -68,6 +68,10 @@ class PassesPlots(_Plots):
     def rut(self, *, ax: Axes | None = None) -> Figure:
         """Shape of the surface across travel, pass by pass."""
         return rut_profile(self._result, ax=ax)
+
+    def drum(self) -> Figure:
+        """Of a drum on its track: pressure along travel, and how deep it stands, pass by pass."""
+        return drum_contact(self._result)
 
     def strain(self, *, ax: Axes | None = None) -> Figure:
         """Accumulated plastic strain in a section across travel, %."""

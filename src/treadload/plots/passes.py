@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.errors import InputError, nearest
-from treadload.plots.kit.figure import figure_and_axes
+from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import DEPTH_LABEL, MM, Y_LABEL, colour_bar, fields_of, limits, mark_peak, peak_of
 from treadload.plots.kit.style import CASES, INK, MUTED, headline, measure, sequential, styled
 from treadload.response.passes.verdict import in_words
@@ -48,6 +48,48 @@ def rut_profile(passes: Source, *, ax: Axes | None = None) -> Figure:
     deepest = float(data["rut_depth"][-1]) * MM * factor
     verdict = in_words(data.attrs.get("verdict", ""), data.attrs.get("falls"))
     headline(ax, "Rut across travel", f"{measure(deepest)} {unit} after {numbers[-1]:g} passes; {verdict}")
+    return figure
+
+
+@styled
+def drum_contact(passes: Source) -> Figure:
+    """A drum on its own track: its pressure along travel through its middle, and how deep it stands, pass by pass.
+
+    passes: of `response.roll_drum`, with pressure over (pass, y, x), Pa, and approach and rut_depth by pass, m.
+    Returns the figure.
+    """
+    data = fields_of(passes, "pressure", "approach", "rut_depth", "contact_length", "pass", "y", "x")
+    numbers, x = data["pass"].to_numpy(), data["x"].to_numpy() * MM
+    pressure = data["pressure"].sel(y=0.0, method="nearest").to_numpy()
+    factor, unit = (1e-6, "MPa") if pressure.max() >= 1e6 else (1e-3, "kPa")
+    figure = new_figure(9.0, 3.9)
+    left, right = figure.subplots(1, 2, width_ratios=(3, 2))
+    rows = _rows(len(numbers))
+    shades = sequential("strain")(np.linspace(0.25, 0.85, len(rows)))
+    for row, shade in zip(rows, shades, strict=True):
+        left.plot(x, pressure[row] * factor, color=shade, marker="o", ms=3, label=f"{numbers[row]:g}")
+    reach = np.abs(x[(pressure > 0).any(axis=0)]).max(initial=x[-1] - x[-2]) + 2 * (x[1] - x[0])
+    left.set_xlim(-reach, reach)
+    left.axvline(0, color=MUTED, lw=0.7)
+    left.set_xlabel("x, ahead of the axle (mm)")
+    left.set_ylabel(f"pressure ({unit})")
+    left.legend(title="pass")
+    depths = {"drum below the first surface": data["approach"], "rut": data["rut_depth"]}
+    small = max(float(one.max()) for one in depths.values()) * MM < _FINE
+    for (name, depth), colour in zip(depths.items(), CASES, strict=False):
+        right.plot(numbers, depth.to_numpy() * (1e6 if small else MM), color=colour, marker="o", ms=4, label=name)
+    right.set_ylim(bottom=0)
+    right.set_xlabel("pass")
+    right.xaxis.get_major_locator().set_params(integer=True)
+    right.set_ylabel("depth (µm)" if small else "depth (mm)")
+    right.legend()
+    for ax in (left, right):
+        ax.grid(True)
+    lengths = data["contact_length"].to_numpy() * MM
+    headline(
+        left, "Drum on its own track", f"contact {measure(lengths[0])} mm long in the first pass, "
+        f"{measure(lengths[-1])} mm in the last"
+    )  # fmt: skip
     return figure
 
 

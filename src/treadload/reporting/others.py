@@ -125,6 +125,9 @@ def _pictures(other: Other) -> list[Picture]:
             plots_of_passes = PassesPlots(data)
             caption = "Displacement of the surface that passes leave, down; the same all along travel."
             drawn = picture("Rut across travel", caption, plots_of_passes.rut, wide=True)
+            if "pressure" in data:
+                caption = "Pressure along travel below the drum's middle, and its depth below the first surface."
+                drawn = picture("Drum on its own track", caption, plots_of_passes.drum, wide=True) + drawn
             if not data["equivalent_plastic_strain"].any():
                 return drawn
             drawn += picture(

@@ -4,6 +4,7 @@ from treadload.response.gears import axle, dual_wheels, place_load, tandem
 from treadload.response.heterogeneous import Heterogeneous, compute_heterogeneous
 from treadload.response.loads import GridLoad, UniformDisc, UniformRectangle
 from treadload.response.material import MATERIAL_LENGTH
+from treadload.response.passes.drum import roll_drum
 from treadload.response.passes.solution import Passes
 from treadload.response.passes.solve import roll_passes
 from treadload.response.solution import Response
@@ -21,6 +22,7 @@ __all__ = [
     "compute_heterogeneous",
     "dual_wheels",
     "place_load",
+    "roll_drum",
     "roll_passes",
     "solve_response",
     "tandem",

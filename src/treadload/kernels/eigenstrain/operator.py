@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.kernels.eigenstrain.averages import average
+from treadload.kernels.eigenstrain.averages import NEAR, average
 from treadload.kernels.eigenstrain.corners import displacement_kernels, stress_kernels
 from treadload.kernels.eigenstrain.potentials import coefficients
 from treadload.kernels.fft import cosines, irfft2, next_fast_len, rfft, rfft2, sines
@@ -137,7 +137,7 @@ def cells(
     def rows(number: int) -> Array:
         kernels = stress_kernels(x, y, points[number], grid.edges, of, _blocks, surface=surface)
         if averaged:
-            average(kernels, number, x, y, grid.edges, of, surface=surface)
+            average(kernels, number, x[: NEAR + 1], y, grid.edges, of, _blocks, (grid.dx, grid.dy), surface=surface)
         layer = int(np.searchsorted(grid.edges, points[number])) - 1
         if 0 <= layer < len(grid.depths):
             kernels[:, :, layer, 0, 0] -= of.inside
@@ -152,17 +152,20 @@ def cells(
     return operator
 
 
-def track(grid: Grid, shear: float, poisson: float, *, single: bool = False) -> Operator:
+def track(grid: Grid, shear: float, poisson: float, *, averaged: bool = False, single: bool = False) -> Operator:
     """Stress, Pa, of eigenstrain in bars: each reaches from the front of its cell to x = -∞.
 
     With the increments D(x) that material takes as it comes from the front, at large x, the plastic strain at x is
     the sum of D from there to the front; its stress, the endless track behind the grid included, is track(D).
+    averaged: see `cells`.
     """
     of = coefficients(poisson)
     x, y = _fronts(grid), _edges(grid.ny, grid.dy)[:, None]
 
     def rows(depth: int) -> Array:
         kernels = stress_kernels(x, y, grid.depths[depth], grid.edges, of, _behind)
+        if averaged:
+            average(kernels, depth, x, y, grid.edges, of, _behind, (grid.dx, grid.dy), surface=True)
         # The points of the cell itself and behind it.
         kernels[:, :, depth, 0, : grid.nx] -= of.inside[..., None]
         return shear * kernels
@@ -170,13 +173,15 @@ def track(grid: Grid, shear: float, poisson: float, *, single: bool = False) -> 
     return _any(rows, grid, len(grid.depths), (_ODD_X, _ODD_Y), single=single)
 
 
-def endless(grid: Grid, shear: float, poisson: float, *, single: bool = False) -> Operator:
+def endless(grid: Grid, shear: float, poisson: float, *, averaged: bool = False, single: bool = False) -> Operator:
     """Stress (6, nz, ny, 1), Pa, of eigenstrain (6, nz, ny, 1) in bars along x without ends; nx is not read."""
     of = coefficients(poisson)
     x, y = _FAR * _size(grid) * np.array([-1.0, 1.0]), _edges(grid.ny, grid.dy)[:, None]
 
     def rows(depth: int) -> Array:
         kernels = stress_kernels(x, y, grid.depths[depth], grid.edges, of, _blocks)
+        if averaged:
+            average(kernels, depth, x, y, grid.edges, of, _blocks, (0.0, grid.dy), surface=True)
         kernels[:, :, depth, 0, 0] -= of.inside
         return shear * kernels
 

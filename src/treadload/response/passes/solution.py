@@ -15,6 +15,7 @@ from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS
 from treadload.response.loads import PlacedLoad
 from treadload.response.passes.verdict import in_words
+from treadload.tire import Tire
 
 _TENSORS = " ".join(f"{name}_{c}" for name in ("plastic_strain", "residual_stress") for c in COMPONENTS)
 
@@ -28,7 +29,9 @@ class Passes(BaseResult, group="passes"):
     and heave (m), plastic_increment and plastic_left, and wheel_offset (m). attrs: verdict and criterion;
     elastic_load_factor, the part of the load at which the road first yields; shakedown_load_factor where it was
     sought; falls, where the last pass adds less than the one before, by how much of it. stats: rounds, seconds, box.
-    warnings: sentences. loads, road, speed: the question.
+    warnings: sentences. loads, road, speed: the question; of a drum on its track drum and normal_load, N, in the
+    place of loads, and in the dataset pressure over (pass, y, x), and by pass approach, contact_length,
+    contact_width, contact_area, peak_pressure, pressure_centre_x and rolling_resistance.
     """
 
     holds: ClassVar[Holds] = Holds(
@@ -43,6 +46,13 @@ class Passes(BaseResult, group="passes"):
         texts="verdict criterion law",
         maybe_numbers="shakedown_load_factor elastic_load_factor falls",
         sizes={"pass": (1, np.inf), "depth": (1, np.inf)},
+        maybe={
+            "x": "x",
+            "pressure": "pass y x",
+            "approach contact_length contact_width contact_area peak_pressure pressure_centre_x rolling_resistance":
+                "pass",
+        },
+        asked={"drum": "x pressure approach contact_length contact_width contact_area peak_pressure"},
     )  # fmt: skip
 
     dataset: xr.Dataset
@@ -51,6 +61,8 @@ class Passes(BaseResult, group="passes"):
     loads: tuple[PlacedLoad, ...] = ()
     road: Pavement | None = None
     speed: float | None = None
+    drum: Tire | None = None
+    normal_load: float | None = None
 
     @property
     def verdict(self) -> str:
@@ -82,6 +94,15 @@ class Passes(BaseResult, group="passes"):
                 f"{100 * float(one['equivalent_plastic_strain'].max()):>24.3g}   "
                 f"{100 * float(one['plastic_increment']):>19.3g}"
             )
+        if "pressure" in data:
+            lines.append("pass   sinks mm   contact long mm   wide mm   peak kPa   resists N")
+            for row in shown:
+                one = data.isel({"pass": row})
+                lines.append(
+                    f"{numbers[row]:<6g} {_mm(one['approach']):>8}   {_mm(one['contact_length']):>15}   "
+                    f"{_mm(one['contact_width']):>7}   {float(one['peak_pressure']) / 1e3:>8.4g}   "
+                    f"{float(one['rolling_resistance']):>9.4g}"
+                )
         last = data["equivalent_plastic_strain"].isel({"pass": -1}).to_numpy()
         if last.any():
             row, column = np.unravel_index(int(last.argmax()), last.shape)

@@ -12,7 +12,7 @@ Source: Dang Van & Maitournam (1993), J. Mech. Phys. Solids 41, 1691-1710, for t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -95,10 +95,8 @@ class Track:
 
     def stress(self, change: Array) -> Array:
         """Stress (6, nz, ny, nx), Pa, of what a pass has changed of the plastic strain so far, (6, nz, ny, nx)."""
-        increments = change.copy()
-        increments[..., :-1] -= change[..., 1:]
         scale = self.stiffness[:, None, None]
-        stress: Array = scale * self.bars(scale * increments)
+        stress: Array = scale * self.bars(scale * taken(change))
         return stress
 
     def virgin(self) -> tuple[State, ...]:
@@ -124,27 +122,38 @@ class Pass:
     ends: Array
 
 
+def taken(change: Array) -> Array:
+    """What each cell along travel adds to a plastic strain (..., nx), coming from the front."""
+    increments = change.copy()
+    increments[..., :-1] -= change[..., 1:]
+    return increments
+
+
 def roll(
     road: Track,
-    elastic: Array,
+    elastic: Array | Callable[[Array], Array],
     before: Sequence[State],
     *,
     duration: float = 0.0,
     tolerance: float = 1e-3,
     most: int = _MOST_ROUNDS,
 ) -> Pass:
-    """One pass. elastic: stress (6, nz, ny, nx), Pa, of the load on the elastic road. before: states of the track.
+    """One pass.
 
-    duration: in which material passes one cell, s. tolerance: of the plastic strain of the pass, relative. most:
-    rounds.
+    elastic: stress (6, nz, ny, nx), Pa, of the load on the elastic road; of a load that feels the track a function
+    that gives it, of what the pass has changed of the plastic strain so far, (6, nz, ny, nx). before: states of the
+    track. duration: in which material passes one cell, s. tolerance: of the plastic strain of the pass, relative.
+    most: rounds.
     Raises NoSteadyPassError where it does not settle.
     """
     old = road.whole(before)[0]
-    given = elastic + road.residual(old)[..., None]
-    change, mixing = np.zeros_like(elastic), Anderson(_MEMORY)
+    left = road.residual(old)[..., None]
+    change, mixing = np.zeros((*old.shape, road.box.nx)), Anderson(_MEMORY)
     least, residual = _NOTHING * road.yield_strain, np.inf
     for rounds in range(1, most + 1):
-        stress = given + road.stress(change) if rounds > 1 else given
+        stress = left + (elastic(change) if callable(elastic) else elastic)
+        if rounds > 1:
+            stress += road.stress(change)
         after, found, ends = _march(road, stress, old[..., None] + change, before, duration)
         found -= old[..., None]
         size, moved = float(np.linalg.norm(found)), float(np.linalg.norm(found - change))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,15 +11,16 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.plasticity.state import State
 from treadload.response.passes.asked import SEARCHED, Asked, probe
 from treadload.response.passes.box import Box, over_strength, row_edges
-from treadload.response.passes.steady import NoSteadyPassError, Track, roll
-from treadload.response.passes.verdict import elastic_factor, judged, shakedown_factor, still_falls
+from treadload.response.passes.steady import NoSteadyPassError, Pass, Track, roll
+from treadload.response.passes.verdict import at_rest, elastic_factor, judged, shakedown_factor, still_falls
 
 # How often a box may grow that what yields has reached, and by which part of a side.
-_GROWTHS, _GROWN = 4, 0.35
-# What yields at a side counts from this part of the largest plastic strain of the pass on.
-_REACHED = 0.01
+GROWTHS, GROWN = 4, 0.35
+# What a pass adds at a side counts from this part of the largest plastic strain on.
+REACHED = 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,28 +55,25 @@ def by_steps(question: Asked, passes: int, tolerance: float) -> tuple[Box, list[
     box = probe(question)
     if box is None:
         return _nothing(question, passes)
-    for _ in range(_GROWTHS + 1):
+    for _ in range(GROWTHS + 1):
         question.tell(f"operator of {box.nx} x {box.ny} cells in {len(box.depths)} rows")
         track = Track.of(box, [question.material_at(float(z)) for z in box.depths])
         records, ends, told = _run(question, track, passes, tolerance)
-        bottom = question.courses[-1].bottom
-        if box.edges[-1] >= bottom * (1 - 1e-9):
-            ends[4] = 0.0
-        if not (ends > _REACHED).any():
+        if not (ends > REACHED).any():
             return box, records, told
-        if ends[4] > _REACHED and question.depth is not None:
+        if ends[4] > REACHED and question.depth is not None:
             raise InputError(
                 f"the plastic zone reaches the depth of the box, {question.depth:g} m: the last row takes "
                 f"{100 * ends[4]:.0f} % of the largest plastic strain; raise depth, or leave it out"
             )
-        reached = np.where(ends > _REACHED, _GROWN, 0.0)
+        reached = np.where(ends > REACHED, GROWN, 0.0)
         box = box.grown(*reached[:4].tolist())
         if reached[4]:
             top = question.courses[0].top
-            deeper = top + (box.edges[-1] - top) * (1 + _GROWN)
+            deeper = top + (box.edges[-1] - top) * (1 + GROWN)
             box = replace(box, edges=row_edges(question.courses, 0.8 * question.spacing, deeper, question.layers))
     raise InputError(
-        f"the plastic zone reaches the sides of a box of {box} and grew with it {_GROWTHS} times: this load is far "
+        f"the plastic zone reaches the sides of a box of {box} and grew with it {GROWTHS} times: this load is far "
         "above what the road bears; lower it, or give a stronger law"
     )
 
@@ -89,48 +88,88 @@ def _run(question: Asked, track: Track, passes: int, tolerance: float) -> tuple[
     question.tell("stress of the elastic road")
     wide = question.stress(box.x, y, box.depths)
     duration = 0.0 if question.speed is None or not question.speed > 0 else box.dx / question.speed
-    states, records, ends = track.virgin(), [], np.zeros(5)
-    strain, hardening = track.whole(states)
-    attrs: dict[str, Any] = {"yield_strain": track.yield_strain, "elastic_load_factor": elastic_factor(track, wide)}
-    warnings: tuple[str, ...] = ()
-    verdict = None
-    for number in range(1, passes + 1):
+
+    def one(number: int, states: Sequence[State]) -> tuple[Pass, float]:
         place = places[(number - 1) % len(places)]
-        stress = wide[:, :, right - place : right - place + box.ny]
         question.tell(f"pass {number} of {passes}")
+        stress = stress_at(place)
+        return roll(track, stress, states, duration=duration, tolerance=tolerance), place * box.dy
+
+    def stress_at(place: int) -> Array:
+        return wide[:, :, right - place : right - place + box.ny]
+
+    records, ends, error = follow(track, passes, one, deepest=question.courses[-1].bottom)
+    attrs: dict[str, Any] = {"elastic_load_factor": elastic_factor(track, wide)}
+    warnings: tuple[str, ...] = ()
+    if error is not None:
+        question.tell("the load that would shake down")
+        number = int(records[-1].number) + 1
+        factor = shakedown_factor(track, stress_at(places[(number - 1) % len(places)]), duration=duration)
+        attrs["shakedown_load_factor"] = factor
+        warnings += (
+            f"pass {number} has no steady state (its plastic strain still changed by {error.residual:.1e} of "
+            f"itself): the road ratchets; it would shake down under {100 * factor:.0f} % of this load; lower the "
+            "load, or give a law that hardens",
+        )
+    told, more = verdict_of(track, records, failed=error is not None, straight=len(question.offsets) == 1)
+    return records, ends, Told(attrs | told, {"memory_mb": track.bars.bytes / 1e6}, warnings + more)
+
+
+def follow(
+    track: Track,
+    passes: int,
+    one: Callable[[int, Sequence[State]], tuple[Pass, float]],
+    *,
+    deepest: float,
+    rests: bool = False,
+) -> tuple[list[Record], Array, NoSteadyPassError | None]:
+    """Passes over a track, one after the other, until they are done, or what yields reaches a side of the box.
+
+    one: the pass of a number over these states, and the place of the wheel, m. deepest: bottom of what can yield, m.
+    rests: whether to stop after a pass that adds as little as shakedown means. Returns what each left, what of the
+    largest plastic strain was added at the sides of the box at most, see `Pass`, and why there is no next pass.
+    """
+    states, records, ends, error = track.virgin(), list[Record](), np.zeros(5), None
+    strain, hardening = track.whole(states)
+    closed = track.box.edges[-1] >= deepest * (1 - 1e-9)
+    for number in range(1, passes + 1):
         try:
-            done = roll(track, stress, states, duration=duration, tolerance=tolerance)
-        except NoSteadyPassError as error:
-            verdict = "ratchetting"
-            question.tell("the load that would shake down")
-            factor = shakedown_factor(track, stress, duration=duration)
-            attrs["shakedown_load_factor"] = factor
-            warnings += (
-                f"pass {number} has no steady state (its plastic strain still changed by {error.residual:.1e} of "
-                f"itself): the road ratchets; it would shake down under {100 * factor:.0f} % of this load; lower the "
-                "load, or give a law that hardens",
-            )
+            done, offset = one(number, states)
+        except NoSteadyPassError as found:
+            error = found
             break
         states, old, before = done.states, strain, hardening
         strain, hardening = track.whole(states)
         added, left_over = float((hardening - before).max()), float(np.abs(strain - old).max())
-        if added > 0:
-            ends = np.maximum(ends, np.where(done.ends > 1e-3 * track.yield_strain, done.ends / added, 0.0))
         records.append(
-            Record(number, strain, hardening, track.residual(strain), added, left_over, place * box.dy, done.rounds)
+            Record(number, strain, hardening, track.residual(strain), added, left_over, offset, done.rounds)
         )
+        reached = np.where(done.ends > 1e-3 * track.yield_strain, done.ends, 0.0)
+        reached[4] *= not closed
+        ends = np.maximum(ends, reached / max(float(hardening.max()), np.finfo(float).tiny))
+        if (ends > REACHED).any() or (rests and at_rest(added, track.yield_strain)):
+            break
     if not records:
         records.append(Record(0, strain, hardening, 0 * strain, 0.0, 0.0, 0.0, 0))
+    return records, ends, error
+
+
+def verdict_of(
+    track: Track, records: Sequence[Record], *, failed: bool, straight: bool
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """Attributes that tell what passes come to, and sentences. failed: a pass has no steady state. straight: all
+    passes follow one line.
+    """
     added_by, left_by = [one.added for one in records], [one.left for one in records]
-    attrs["verdict"] = verdict or judged(added_by, left_by, track.yield_strain)
+    verdict = "ratchetting" if failed else judged(added_by, left_by, track.yield_strain)
+    attrs: dict[str, Any] = {"yield_strain": track.yield_strain, "verdict": verdict}
     falls = still_falls(added_by)
-    if attrs["verdict"] in ("cyclic", "ratchetting") and falls is not None and len(question.offsets) == 1:
-        attrs["falls"] = falls
-        warnings += (
-            f"the plastic strain that a pass adds still falls, by {100 * falls:.0f} % in the last: more passes may "
-            f"end in shakedown; the verdict is that of pass {records[-1].number:g}",
-        )
-    return records, ends, Told(attrs, {"memory_mb": track.bars.bytes / 1e6}, warnings)
+    if verdict not in ("cyclic", "ratchetting") or falls is None or not straight:
+        return attrs, ()
+    return attrs | {"falls": falls}, (
+        f"the plastic strain that a pass adds still falls, by {100 * falls:.0f} % in the last: more passes may "
+        f"end in shakedown; the verdict is that of pass {records[-1].number:g}",
+    )
 
 
 def _nothing(question: Asked, passes: int) -> tuple[Box, list[Record], Told]:

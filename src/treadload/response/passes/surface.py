@@ -8,6 +8,7 @@ sharp edges of the cells; waves add what the layers change of it, which is smoot
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -32,11 +33,16 @@ def surface_profile(strain: Array, box: Box, road: Pavement, across: Array) -> A
     lateral places, on the lattice of the box's cells. Of half-bonded interfaces the mean of both limits.
     """
     places = np.rint((across - box.y0) / box.dy).astype(int)
-    stacks = [stack_of(one) for one in road.bond_limits]
-    profile = _half_space(strain, box, places, stacks[0].poisson[0])
-    if not road.is_homogeneous:
-        profile += np.mean([_change(strain, box, places, stack) for stack in stacks], axis=0)
-    return profile
+    profile = _half_space(strain, box, places, stack_of(road.bond_limits[0]).poisson[0])
+    return profile if road.is_homogeneous else profile + layers_change(strain, box, road, places)
+
+
+def layers_change(strain: Array, box: Box, road: Pavement, places: Any) -> Array:
+    """What layers change of the surface of a half-space of the top one.
+
+    strain: as of `surface_profile`. places: (m,), numbers of cells across, the first of the box 0.
+    """
+    return np.asarray(np.mean([_change(strain, box, places, stack_of(one)) for one in road.bond_limits], axis=0))
 
 
 def _half_space(strain: Array, box: Box, places: Array, poisson: float) -> Array:

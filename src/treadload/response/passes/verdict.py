@@ -36,9 +36,14 @@ def judged(added: Sequence[float], left: Sequence[float], yield_strain: float) -
     """
     if max(added) <= _ELASTIC * yield_strain:
         return "elastic"
-    if added[-1] <= _SHAKEN * yield_strain:
+    if at_rest(added[-1], yield_strain):
         return "shakedown"
     return "cyclic" if left[-1] <= _CLOSED * added[-1] else "ratchetting"
+
+
+def at_rest(added: float, yield_strain: float) -> bool:
+    """Whether a pass adds as little as shakedown means."""
+    return added <= _SHAKEN * yield_strain
 
 
 def still_falls(added: Sequence[float]) -> float | None:
