@@ -301,4 +301,4 @@ def _share(scene: Scene, area: float) -> RoadShare | None:
     if any(isinstance(layer.resolved, Anisotropic) for layer in scene.road.layers):
         return half_space_share(scene.bodies.tire, scene.bodies.road, area) if scene.road.is_homogeneous else None
     # Of a road that changes with time or bond, the stiffest: the one that the half-space stands for.
-    return road_share(scene.bodies.tire, stack_of(scene.road.glassy.bond_limits[0]), area)
+    return road_share(scene.bodies.tire, stack_of(scene.road.glassy.sticking.bond_limits[0]), area)

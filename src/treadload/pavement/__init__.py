@@ -1,7 +1,7 @@
 """The road and its layers."""
 
 from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift_below
-from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded
+from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded, Parted
 from treadload.pavement.catalogue import Structure
 from treadload.pavement.heating import Heat, RoadTemperatures, bells, road_temperatures
 from treadload.pavement.layer import Layer
@@ -20,6 +20,7 @@ __all__ = [
     "Heat",
     "Layer",
     "LayerRow",
+    "Parted",
     "Pavement",
     "RoadTemperatures",
     "Structure",

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.registry import BONDS
-from treadload.units import Stiffness
+from treadload.units import Number, Stiffness
+
+# More than any road's faces have.
+_MOST_FRICTION = 5.0
 
 
 class BondLaw:
@@ -28,6 +31,11 @@ class BondLaw:
     def depends_on_temperature(self) -> bool:
         """True if the stiffness is known only once the temperature is."""
         return False
+
+    @property
+    def sticking(self) -> BondLaw:
+        """The bond while nothing slides: itself, unless it slides only beyond friction."""
+        return self
 
     def at(self, temperature: float) -> BondLaw:
         """The bond at a temperature of the layer above, °C."""
@@ -86,6 +94,45 @@ class HalfBonded(BondLaw):
 
     def __str__(self) -> str:
         return "half-bonded"
+
+
+@BONDS.register("parted")
+@dataclass(frozen=True)
+class Parted(BondLaw):
+    """A face that has parted: where pressed it bears shear up to friction times the pressure, where pulled it opens.
+
+    friction: coefficient μ on the face, in [0, 5]. unit_weight: of the layers above, which presses it together
+    everywhere, N/m³, > 0; 24 kN/m³ is asphalt. The load comes once, from rest: a wheel that rolls by leaves the face
+    slid behind it, which this does not follow. Raises InputError.
+    Source: Coulomb's law on a unilateral face, as in Kikuchi and Oden (1988), Contact Problems in Elasticity.
+    """
+
+    friction: Number
+    unit_weight: Number = 24e3
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.friction <= _MOST_FRICTION:
+            raise InputError(
+                f"the friction of a parted face must lie in [0, {_MOST_FRICTION:g}], got {self.friction}; "
+                "0.5 to 0.8 is usual for asphalt on asphalt"
+            )
+        positive("unit_weight, of the layers above a parted face,", self.unit_weight, "N/m³", "asphalt has 24e3")
+
+    @property
+    def stiffness(self) -> float:  # type: ignore[override]
+        """None of its own: raises InputError."""
+        raise InputError(
+            f"an interface that is {self} has no stiffness: it holds or slides, place by place; take "
+            "Pavement.sticking, or Bond(stiffness=...) for a spring"
+        )
+
+    @property
+    def sticking(self) -> BondLaw:
+        """Bonded."""
+        return BONDED
+
+    def __str__(self) -> str:
+        return f"parted with friction {self.friction:g}"
 
 
 BONDED = Bond(math.inf)

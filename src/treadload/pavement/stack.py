@@ -13,11 +13,12 @@ from treadload.materials import Elastic, Solid
 from treadload.pavement.structure import Pavement
 
 
-def stack_of(road: Pavement, materials: Sequence[Solid] | None = None) -> Stack:
+def stack_of(road: Pavement, materials: Sequence[Solid] | None = None, *, sticking: bool = False) -> Stack:
     """Moduli, thicknesses and springs of the distinct layers, neighbours of one material taken as one.
 
-    materials: of the distinct layers, in place of their own.
-    Raises InputError for a layer that is not elastic and for a half-bonded interface, which is two roads.
+    materials: of the distinct layers, in place of their own. sticking: True to bond a parted face.
+    Raises InputError for a layer that is not elastic, for a half-bonded interface, which is two roads, and for a
+    parted face.
     """
     layers = road.distinct_layers
     materials = [layer.elastic for layer in layers] if materials is None else materials
@@ -28,7 +29,7 @@ def stack_of(road: Pavement, materials: Sequence[Solid] | None = None) -> Stack:
                 f"the interface below layer {layer.name!r} is {layer.bond}, which stands for the mean of "
                 f"{len(layer.bond.limits)} roads; solve each of road.bond_limits"
             )
-        springs.append(layer.bond.stiffness)
+        springs.append((layer.bond.sticking if sticking else layer.bond).stiffness)
     return Stack(
         tuple(plane_of(material)[0] for material in materials),
         tuple(plane_of(material)[1] for material in materials),

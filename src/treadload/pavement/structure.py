@@ -17,7 +17,7 @@ from treadload.materials import Material, TemperatureDependent
 from treadload.materials.celsius import check_celsius
 from treadload.materials.kinds import AnyElastic, limit_of
 from treadload.materials.plastic import ElastoPlastic, elastic_part
-from treadload.pavement.bonds import BONDED
+from treadload.pavement.bonds import BONDED, Parted
 from treadload.pavement.catalogue import Structure, find_structure
 from treadload.pavement.layer import Layer
 from treadload.pavement.temperature import TemperatureProfile
@@ -187,6 +187,30 @@ class Pavement:
                 rigid_base=self.rigid_base,
             )
             for k in range(counts.pop())
+        )
+
+    @property
+    def parted(self) -> int | None:
+        """Number of the interface, 0 below the top layer, that has parted and bears friction; None if there is none.
+
+        Raises InputError for several.
+        """
+        found = [k for k, layer in enumerate(self.layers) if isinstance(layer.bond, Parted)]
+        if len(found) > 1:
+            names = " and ".join(str(k + 1) for k in found)
+            raise InputError(
+                f"interfaces {names} are both parted with friction, and a response follows one such face; give the "
+                "others FRICTIONLESS or Bond(stiffness=...)"
+            )
+        return found[0] if found else None
+
+    @property
+    def sticking(self) -> Pavement:
+        """The road while nothing slides on a parted face: that face bonded; itself if there is none."""
+        if self.parted is None:
+            return self
+        return Pavement(
+            [replace(layer, bond=layer.bond.sticking) for layer in self.layers], rigid_base=self.rigid_base
         )
 
     def at_temperature(

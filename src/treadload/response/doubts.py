@@ -31,8 +31,9 @@ def road_doubts(road: Pavement) -> tuple[str, ...]:
         if layer.thickness is not None:
             kind = _position(number, len(road.layers), modulus)
             said += doubt(kind, layer.thickness, "" if number == 0 else who)
-        if len(layer.bond.limits) == 1 and 0 < layer.bond.stiffness < math.inf:
-            said += doubt("stiffness of the bond", layer.bond.stiffness, f"the bond below {who}")
+        bond = layer.bond.sticking
+        if len(bond.limits) == 1 and 0 < bond.stiffness < math.inf:
+            said += doubt("stiffness of the bond", bond.stiffness, f"the bond below {who}")
     return said
 
 

@@ -7,14 +7,14 @@ spread over as much.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.errors import ConvergenceError
+from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.synthesis import READING
 from treadload.pavement import Pavement
@@ -24,6 +24,7 @@ from treadload.response.layered import Site, View, layered_responses
 from treadload.response.loads import SurfaceLoad
 from treadload.response.material import Windows, spread_over, windows
 from treadload.response.moving import MovingFields, at_speed, moving_response
+from treadload.response.parted import parted_fields
 from treadload.response.superposition import merged
 
 Side = Literal["above", "below"]
@@ -167,13 +168,20 @@ def _solve(
 ) -> Iterator[MovingFields]:
     """Fields for one question after the other, of roads with no half-bonded interface."""
     x, y, at = view.x, view.y, view.at
+    for one in questions:
+        if one.road.parted is not None and one.road.is_viscoelastic:
+            raise InputError(
+                "friction on a parted face is followed between elastic layers, and this road has a viscoelastic one; "
+                "take its limit, speed=0 or speed=math.inf, or a FRICTIONLESS face"
+            )
+    asked, questions = questions, [Question(one.loads, one.road.sticking, one.depths) for one in questions]
     layered = [one for one in questions if not (one.road.is_viscoelastic or one.road.is_homogeneous)]
     several = list({id(one.loads): one.loads for one in layered}.values())
     place = {id(loads): number for number, loads in enumerate(several)}
     pairs = [(place[id(one.loads)], number) for number, one in enumerate(layered)]
     sites = [Site(one.road, one.depths) for one in layered]
     found = layered_responses(several, sites, pairs, view, below=below)
-    for one in questions:
+    for one, parted in zip(questions, asked, strict=True):
         if one.road.is_viscoelastic:
             assert speed is not None
             fields = moving_response(one.loads, one.road, speed, one.depths, x, y, below=below, at=at)
@@ -184,8 +192,22 @@ def _solve(
                 else next(found)
             )
             fields = MovingFields(*solved[:3], np.zeros((len(one.depths), len(y))), solved[3])
+        if parted.road.parted is not None:
+            fields = _with_face(fields, parted, view, below=below)
         _check(fields, one.depths, [part for part in view.components if part < 6])
         yield fields
+
+
+def _with_face(fields: MovingFields, asked: Question, view: View, *, below: bool) -> MovingFields:
+    """With what the sliding and opening of a parted face adds."""
+    *added, said = parted_fields(asked.loads, asked.road, asked.depths, view.x, view.y, below=below, at=view.at)
+    stress, strain, displacement = (
+        whole + part for whole, part in zip((fields.stress, fields.strain, fields.displacement), added, strict=True)
+    )
+    return replace(
+        fields, stress=stress, strain=strain, displacement=displacement, method=f"{fields.method}+parted",
+        warnings=(*fields.warnings, *said),
+    )  # fmt: skip
 
 
 def _check(fields: MovingFields, depths: Array, stresses: Sequence[int]) -> None:

@@ -128,7 +128,7 @@ def transfer(wavenumbers: ArrayLike, stack: Stack, depths: Sequence[float], belo
     """
     k = np.asarray(wavenumbers, dtype=float)
     depths = stack.snapped(depths).tolist()
-    slabs, bodies = _upwards(k, stack, depths)
+    slabs, bodies = upwards(k, stack, depths)
     kind = np.result_type(float, bodies[0].plane.xx, bodies[0].transverse)
     fields = np.zeros((len(depths), 4, 2, len(k)), kind)
     sliding = np.zeros((len(depths), 2, len(k)), kind)
@@ -169,7 +169,7 @@ class _Compliance:
 
 
 @dataclass(frozen=True)
-class _Body:
+class Body:
     """All that lies below a depth.
 
     plane, transverse: compliance at its top. held, held_transverse: the same with the spring that holds the layer
@@ -183,7 +183,7 @@ class _Body:
     slides: bool
 
     @classmethod
-    def of(cls, plane: _Compliance, transverse: Scalars, k: Array, spring: float, shear: Scalars) -> _Body:
+    def of(cls, plane: _Compliance, transverse: Scalars, k: Array, spring: float, shear: Scalars) -> Body:
         """With a spring, Pa/m, between it and a layer whose shear modulus gives the scale."""
         if spring == math.inf:
             return cls(plane, transverse, plane, (1.0, transverse), False)
@@ -197,7 +197,7 @@ class _Body:
 
 
 @dataclass(frozen=True)
-class _Slab:
+class Slab:
     """Part of a layer between neighbouring depths of output or interfaces, in mixed form; all (nk,).
 
     c: compliance of its top, held at its bottom, 1/Pa. k: stiffness of its bottom, free at its top, Pa. t: what its
@@ -215,7 +215,7 @@ class _Slab:
     @classmethod
     def of(
         cls, k: Array, shear: Scalars, poisson: Scalars, thickness: float, bottom: float, upright: Upright | None
-    ) -> _Slab:
+    ) -> Slab:
         """A slab of a material at wavenumbers k (nk,)."""
         a = k * thickness
         if upright is not None:
@@ -270,7 +270,7 @@ class _Slab:
         )
 
     @classmethod
-    def _upright(cls, a: Array, shear: Scalars, poisson: Scalars, upright: Upright, bottom: float) -> _Slab:
+    def _upright(cls, a: Array, shear: Scalars, poisson: Scalars, upright: Upright, bottom: float) -> Slab:
         (cx, cz, cc), (kx, kz, kc), t = upright.slab(a, shear, poisson)
         modulus, turn = math.sqrt(shear * upright.shear), a * upright.roots(shear, poisson)[2]
         e, tanh = np.exp(-turn), np.tanh(turn)
@@ -325,23 +325,23 @@ class _Slab:
         return compliance * carried, one * carried
 
 
-def _upwards(k: Array, stack: Stack, depths: Sequence[float]) -> tuple[list[_Slab], list[_Body]]:
+def upwards(k: Array, stack: Stack, depths: Sequence[float]) -> tuple[list[Slab], list[Body]]:
     """Slabs from the surface down to the rigid base or the deepest depth, and the body below each and below none."""
-    pieces = _pieces(stack, depths)
+    parts = pieces(stack, depths)
     if stack.rigid:
         zero = np.zeros_like(k)
         plane, transverse = _Compliance(1.0, zero, zero, zero, zero), zero
     else:
         plane, transverse = _half_space(np.ones_like(k), stack)
-    slabs: list[_Slab] = []
-    bodies: list[_Body] = []
-    for layer, thickness, bottom, spring in reversed(pieces):
+    slabs: list[Slab] = []
+    bodies: list[Body] = []
+    for layer, thickness, bottom, spring in reversed(parts):
         shear = stack.shear[layer]
-        bodies.append(_Body.of(plane, transverse, k, spring, shear))
+        bodies.append(Body.of(plane, transverse, k, spring, shear))
         own = stack.upright_of(layer)
-        slabs.append(_Slab.of(k, shear, stack.poisson[layer], thickness, bottom, own))
+        slabs.append(Slab.of(k, shear, stack.poisson[layer], thickness, bottom, own))
         plane, transverse = slabs[-1].up(bodies[-1].held), slabs[-1].up_transverse(bodies[-1].held_transverse)
-    bodies.append(_Body.of(plane, transverse, k, math.inf, 1.0))
+    bodies.append(Body.of(plane, transverse, k, math.inf, 1.0))
     return slabs[::-1], bodies[::-1]
 
 
@@ -356,20 +356,20 @@ def _half_space(ones: Array, stack: Stack) -> tuple[_Compliance, Scalars]:
     return _Compliance(1.0, own, own, -squeeze / (4 * shear), (1 + squeeze) / (4 * shear * shear)), 1 / shear
 
 
-def _pieces(stack: Stack, depths: Sequence[float]) -> list[tuple[int, float, float, float]]:
+def pieces(stack: Stack, depths: Sequence[float]) -> list[tuple[int, float, float, float]]:
     """Layers cut at depths of output, down to the last: number of the layer, thickness, bottom, spring below."""
     ends = [*stack.interfaces, *([] if stack.rigid else [math.inf])]
     springs = [*stack.spring, math.inf]
-    pieces: list[tuple[int, float, float, float]] = []
+    parts: list[tuple[int, float, float, float]] = []
     top = 0.0
     for layer, end in enumerate(ends):
         for cut in sorted({float(z) for z in depths if top < z < end}):
-            pieces.append((layer, cut - top, cut, math.inf))
+            parts.append((layer, cut - top, cut, math.inf))
             top = cut
         if end < math.inf:
-            pieces.append((layer, end - top, float(end), springs[layer]))
+            parts.append((layer, end - top, float(end), springs[layer]))
             top = float(end)
-    return pieces
+    return parts
 
 
 def _sinh_less(x: Array) -> Array:
