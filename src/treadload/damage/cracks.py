@@ -25,6 +25,37 @@ OBLIQUE_TOLERANCE = math.radians(15)
 _FLAT = math.radians(45)
 
 
+def opens_down(orientation: str) -> bool:
+    """True for an orientation of a crack that runs down from where it begins; not for "none" and "horizontal"."""
+    return orientation not in (ORIENTATIONS[NONE], ORIENTATIONS[HORIZONTAL])
+
+
+def in_a_cell(orientation: str) -> str:
+    """An orientation for a table of first cracks: what a plane nearer to the horizontal than 45° does is no crack."""
+    if orientation == ORIENTATIONS[NONE]:
+        return "none: nothing is tensile"
+    return orientation if opens_down(orientation) else "none runs down: it splits parallel to the surface"
+
+
+def first_to_expect(orientation: str) -> str:
+    """Which crack comes first, in a clause."""
+    if orientation == ORIENTATIONS[NONE]:
+        return "no principal stress is tensile there, no crack opens"
+    if not opens_down(orientation):
+        return "the road splits along a plane closer to horizontal than to vertical; no crack runs down from it"
+    return f"{'an' if orientation[0] in 'aeiou' else 'a'} {orientation} crack is the first to expect"
+
+
+def nothing_opens(unread: float) -> str:
+    """Why nothing cracks, in a sentence. unread: the largest extension, whatever opens."""
+    if unread <= 0:
+        return "no extension here; this law sees no crack."
+    return (
+        f"the road extends by up to {unread * 1e6:.1f} microstrain, but only where no principal stress is tensile; "
+        "this law sees no crack."
+    )
+
+
 def gridded(response: Source) -> xr.Dataset:
     """A response's dataset; InputError for one at a list of points."""
     data = dataset_of(response)

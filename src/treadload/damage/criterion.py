@@ -12,7 +12,16 @@ import xarray as xr
 from treadload.damage.cracks import crack_plane
 from treadload.damage.laws.bond import BondStrength, BondUtilisation, ShearFatigue
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.quantity import STRESS, Place, Quantity, Reading, check_reading, ordered
+from treadload.damage.quantity import (
+    IN_THE_PLANE,
+    STRESS,
+    Place,
+    Quantity,
+    Reading,
+    check_reading,
+    in_tension,
+    ordered,
+)
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
@@ -152,8 +161,16 @@ class Criterion:
     def needs(self) -> tuple[str, ...]:
         """Variables of a response that it reads, in `read` and in `crack`."""
         quantity = self.quantity
-        tension = STRESS if self.place == "top" and quantity.needs_tension else ()
+        tension: tuple[str, ...] = ()
+        if quantity.needs_tension:
+            # Below the plane's own tension says whether an upright crack opens, with no component more to solve.
+            tension = STRESS if self.place == "top" or not self._upright else IN_THE_PLANE
         return tuple(dict.fromkeys((*quantity.needs, *tension)))
+
+    @property
+    def _upright(self) -> bool:
+        """True if it reads an extension of the horizontal plane."""
+        return self.quantity.extends and self.quantity.strain == "in-plane"
 
     def read(self, data: xr.Dataset) -> Array:
         """What the law reads (y, x) of a response at the criterion's one depth, positive where it does harm."""
@@ -166,13 +183,19 @@ class Criterion:
     def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
         """Angle of the trace and dip (y, x), rad, of the crack across what it reads; NaN for none.
 
-        data: as in `read`, or at one x for each y, whose cracks are (y,).
+        data: as in `read`, or at one x for each y, whose cracks are (y,). None opens where no principal stress is
+        tensile.
         """
-        normal = self.quantity.crack(data)
+        quantity = self.quantity
+        normal = quantity.crack(data)
+        none = np.full([data.sizes[dim] for dim in ordered(data)], np.nan)
         if normal is None:
-            none = np.full([data.sizes[dim] for dim in ordered(data)], np.nan)
             return none, none
-        return crack_plane(normal)
+        angle, dip = crack_plane(normal)
+        if not quantity.needs_tension:
+            return angle, dip
+        opens = quantity.opens(data) if set(STRESS) <= set(self.needs) else in_tension(data, upright=True)
+        return np.where(opens, angle, none), np.where(opens, dip, none)
 
 
 def interface_number(road: Pavement, interface: int) -> int:

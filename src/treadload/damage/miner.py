@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -223,6 +224,10 @@ def miner(
         doubts=json.dumps(doubts, ensure_ascii=False),
         ends=json.dumps([row[0].end_of_life for row in laws], ensure_ascii=False),
         reads=json.dumps([criterion.quantity.about for criterion in criteria], ensure_ascii=False),
+        proposed=json.dumps(
+            [_proposed(one, row[0]) for one, row in zip(criteria, laws, strict=True)], ensure_ascii=False
+        ),
+        places=json.dumps([criterion.place for criterion in criteria]),
     )
     said = [
         f"{criterion.name}: {text}"
@@ -246,6 +251,12 @@ def miner(
     )
 
 
+def _proposed(criterion: Criterion, law: FatigueLaw) -> str:
+    """Who proposed a criterion: of a law of any quantity whoever proposed that, else the law's source."""
+    any_quantity = dataclasses.is_dataclass(law) and any(one.name == "reads" for one in dataclasses.fields(law))
+    return criterion.quantity.source if any_quantity else law.source
+
+
 def _worst(yearly: Array, readings: Array, margin: int) -> int:
     """Column of the largest damage; where none is done that of the largest reading, margin columns further."""
     if yearly.max() > 0:
@@ -260,6 +271,8 @@ def _utilisation(laws: Sequence[FatigueLaw], readings: Array, traffic: Traffic) 
     """
     years = traffic.years
     passes = traffic.passes_per_year * (1.0 if years is None else growth_factor(years, traffic.growth, traffic.kind))
+    if not passes > 0:
+        return 0.0
     largest = readings.max(axis=(0, 2, 3))
     return float(max(value / law.allowable_strain(passes) for value, law in zip(largest, laws, strict=True)))
 

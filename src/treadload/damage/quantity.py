@@ -42,6 +42,7 @@ READINGS: Mapping[str, str] = MappingProxyType({"principal": "three-dimensional"
 
 STRESS = tuple(f"stress_{name}" for name in COMPONENTS)
 STRAIN = tuple(f"strain_{name}" for name in COMPONENTS)
+IN_THE_PLANE = (STRESS[0], STRESS[1], STRESS[3])
 _DIMS = ("depth", "y", "x")
 # Stress above this part of the largest is tension, below it round-off of a free surface.
 _TENSION = 1e-9
@@ -198,7 +199,10 @@ class Quantity(ABC):
     def about(self) -> dict[str, Any]:
         """What a file says of it, so that its readings are understood without this program."""
         shown = self.shown or ("" if self.unit == "1" else self.unit)
-        return {"name": self.name, "words": self.words, "shown": shown, "factor": self.factor, "harm": self.harm}
+        return {
+            "name": self.name, "words": self.words, "shown": shown, "factor": self.factor, "harm": self.harm,
+            "source": self.source, "calibrated": self.calibrated,
+        }  # fmt: skip
 
     def __str__(self) -> str:
         return self.words
@@ -238,15 +242,20 @@ def part(data: xr.Dataset, name: str) -> Array:
     return values
 
 
-def in_tension(data: xr.Dataset) -> BoolArray:
+def in_tension(data: xr.Dataset, *, upright: bool = False) -> BoolArray:
     """Where a principal stress of a response's dataset is tensile: (depth, y, x), or fewer; all if it has no stress.
 
     No crack opens elsewhere, whatever extends: beside a point that is squeezed hard a body extends as well.
+    upright: True for a principal stress of the horizontal plane, which opens upright cracks.
     """
-    if any(name not in data for name in STRESS):
+    names = IN_THE_PLANE if upright else STRESS
+    if any(name not in data for name in names):
         return np.ones([data.sizes[dim] for dim in ordered(data)], dtype=bool)
-    stress = np.stack([part(data, name) for name in STRESS])
+    stress = np.stack([part(data, name) for name in names])
     limit = _TENSION * np.abs(stress).max(initial=0.0)
+    if upright:
+        x, y, xy = stress
+        return np.asarray(0.5 * (x + y) + np.hypot(0.5 * (x - y), xy) > limit)
     tensile: BoolArray = tensors.principal_values(stress)[0] > limit
     return tensile
 

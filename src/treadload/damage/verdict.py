@@ -13,10 +13,12 @@ import xarray as xr
 from treadload import variables
 from treadload.composing import BaseResult, Holds, Source
 from treadload.damage.cracks import (
-    HORIZONTAL,
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
     check_tolerance,
+    first_to_expect,
+    nothing_opens,
+    opens_down,
     orientation,
 )
 from treadload.damage.laws.fatigue import PowerLaw, warnings_of
@@ -81,24 +83,21 @@ class Verdict(BaseResult, group="damage"):
         ]
         if not strain > 0:
             lines += [f"warning: {text}" for text in self.warnings]
-            return "\n".join([*lines, f"Verdict: {_no_crack(float(data.attrs['largest_unread']))}"])
+            return "\n".join([*lines, f"Verdict: {nothing_opens(float(data.attrs['largest_unread']))}"])
         angle, dip = float(data["worst_crack_angle"]), float(data["worst_crack_dip"])
         against = f"{strain * 1e6:.1f} microstrain is {strain / self.line.at_a_million:.2f} of {self.line.symbol}"
         lines += [
             f"worst point: x = {float(data['worst_x']) * 1e3:.1f} mm, y = {float(data['worst_y']) * 1e3:.1f} mm, "
             f"depth {float(data['worst_depth']) * 1e3:g} mm; {against}",
-            f"crack: {_crack_in_words(self.orientation, angle, dip)}",
+            _plane_in_words(self.orientation, angle, dip),
             f"allowable passes: {passes:.3g}",
             *self._error_estimate(),
             *(f"warning: {text}" for text in self.warnings),
         ]
         few = "fewer" if passes < 1e6 else "more"
-        first = f"{_article(self.orientation)} {self.orientation} crack is the first to expect"
-        if self.orientation == ORIENTATIONS[HORIZONTAL]:
-            first = "the road splits along a plane closer to horizontal than to vertical; no crack runs down from it"
         lines.append(
             f"Verdict: the {self.line.noun} allows {passes:.2g} passes at the worst point, {few} than a million; "
-            f"{first}."
+            f"{first_to_expect(self.orientation)}."
         )
         return "\n".join(lines)
 
@@ -220,23 +219,9 @@ def assess(
     return Verdict(dataset, line, quantity.strain)
 
 
-def _no_crack(unread: float) -> str:
-    """Why nothing cracks. unread: the largest extension, whatever opens."""
-    if unread <= 0:
-        return "no extension here; this law sees no crack."
-    return (
-        f"the road extends by up to {unread * 1e6:.1f} microstrain, but only where no principal stress is tensile; "
-        "this law sees no crack."
-    )
-
-
-def _crack_in_words(name: str, angle: float, dip: float) -> str:
-    if name == ORIENTATIONS[HORIZONTAL]:
-        return f"closer to horizontal than to vertical, as when layers separate (dip {math.degrees(dip):.0f}°)"
+def _plane_in_words(name: str, angle: float, dip: float) -> str:
+    if not opens_down(name):
+        return f"split: closer to horizontal than to vertical, as when layers separate (dip {math.degrees(dip):.0f}°)"
     side = "right" if angle > 0 else "left"
     turned = f"{abs(math.degrees(angle)):.0f}° from travel" + (f" to the {side}" if name == "oblique" else "")
-    return f"{name}, its trace {turned}, its plane {math.degrees(dip):.0f}° from the horizontal"
-
-
-def _article(word: str) -> str:
-    return "an" if word[0] in "aeiou" else "a"
+    return f"crack: {name}, its trace {turned}, its plane {math.degrees(dip):.0f}° from the horizontal"

@@ -9,6 +9,7 @@ from importlib import resources
 from pathlib import Path
 
 from treadload.case import Case
+from treadload.damage.cracks import in_a_cell
 from treadload.errors import InputError
 from treadload.files import replacing
 from treadload.plots import compare_pressure, compare_strain, fatigue_line, save
@@ -115,5 +116,5 @@ def comparison(results: list[Result]) -> list[tuple[str, ...]]:
             [f"{d.attrs['largest_in_plane_strain'] * 1e6:.0f} microstrain" for d in data],
         )
         add("allowable passes", [f"{float(d.worst_passes):.2g}" for d in data])
-        add("first crack", [verdict.orientation for verdict in verdicts if verdict is not None])
+        add("first crack", [in_a_cell(verdict.orientation) for verdict in verdicts if verdict is not None])
     return rows

@@ -6,6 +6,7 @@ from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.energy import dissipated_energy
+from treadload.plots.first import first_places
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
@@ -96,6 +97,7 @@ __all__ = [
     "dissipated_energy",
     "drum_contact",
     "fatigue_line",
+    "first_places",
     "indentation",
     "life_damage",
     "life_inputs",

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from treadload.composing import Source
-from treadload.damage.cracks import ORIENTATIONS
+from treadload.damage.cracks import HORIZONTAL, ORIENTATIONS
 from treadload.damage.laws.fatigue import FatigueLine
 from treadload.errors import InputError
 from treadload.plots.kit.figure import figure_and_axes
@@ -167,8 +167,10 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
     classes = plane(data, "crack_orientation").astype(int)
     flat = np.where(np.isnan(angle), 0.0, np.sin(np.nan_to_num(dip)))
     turned = np.nan_to_num(angle)
-    drawn = strokes(values, flat * np.cos(turned), flat * np.sin(turned), plan.x, plan.y, _SIGNIFICANT * scale.high)
-    if len(drawn.index) and np.nanmax(values) > 0:
+    # Where no principal stress is tensile the class is none: no crack opens there, however much the road extends.
+    opening = np.where(classes > 0, values, 0.0)
+    drawn = strokes(opening, flat * np.cos(turned), flat * np.sin(turned), plan.x, plan.y, _SIGNIFICANT * scale.high)
+    if len(drawn.index) and np.nanmax(opening) > 0:
         codes = classes[drawn.index[:, 0], drawn.index[:, 1]]
         draw_strokes(ax, drawn, [ORIENTATION_COLOURS[code] for code in codes], 1.5)
         present = [code for code in range(1, len(ORIENTATIONS)) if (codes == code).any()]
@@ -176,11 +178,16 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
             Line2D([], [], color=ORIENTATION_COLOURS[code], lw=2.2, label=ORIENTATIONS[code]) for code in present
         ]
         legend_below(ax, lines)
-        row, column = np.unravel_index(int(np.nanargmax(values)), values.shape)
-        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(float(values[row, column])))
+        row, column = np.unravel_index(int(np.nanargmax(opening)), opening.shape)
+        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(float(opening[row, column])))
+        splits = bool((codes == HORIZONTAL).all())
+        title = "Planes that split, nearer to the horizontal" if splits else "Cracks to expect"
+        headline(ax, title, f"traces across the largest extension, {reads}; first at the ring")
     else:
-        empty_note(ax, "no extension here")
-    headline(ax, "Cracks to expect", f"traces across the largest extension, {reads}; first at the ring")
+        empty_note(
+            ax, "no extension here" if not np.nanmax(values) > 0 else "nothing is tensile\nwhere the road extends"
+        )
+        headline(ax, "No crack to expect", f"extension, {reads}")
     travel_arrow(ax)
     return figure
 

@@ -17,6 +17,7 @@ from treadload._version import __version__
 from treadload.errors import InputError
 from treadload.files import HTML, check_suffix, check_writable, replacing
 from treadload.reporting.figures import case_figures, comparison_figures
+from treadload.reporting.first import first_of_response
 from treadload.reporting.inputs import input_lists, input_table
 from treadload.reporting.life import COLUMNS as LIFE_COLUMNS
 from treadload.reporting.life import life_report
@@ -112,6 +113,13 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
         "lives": [life_report(case.label, data) for case in cases if (data := case.group("life")) is not None],
         "life_columns": LIFE_COLUMNS,
         "passes_of_one_place": any(case.group("damage") is not None for case in cases),
+        "firsts": [
+            (case.label, page)
+            for case in cases
+            if case.group("life") is None
+            and (data := case.group("response")) is not None
+            and (page := first_of_response(data)) is not None
+        ],
         "comparison": comparison_figures(cases),
         "road_columns": COLUMNS,
         "roads": road_tables(cases),

@@ -24,8 +24,8 @@ from treadload.reporting.reading import ReportCase
 from treadload.response.fields import layer_in_words
 
 _STROKES = (
-    "Strokes lie along the largest extension; a crack opens across them. A stroke shortens to a point where the "
-    "extension turns out of the page. White: no extension."
+    "Strokes lie along the largest extension; where a principal stress is tensile a crack opens across them. A "
+    "stroke shortens to a point where the extension turns out of the page. White: no extension."
 )
 
 
@@ -213,8 +213,9 @@ def _verdict(case: ReportCase, alone: bool) -> Iterator[Picture]:
     yield from picture(
         "Cracks to expect",
         f"Traces on the surface of cracks across the largest extension, read from {_DRAWN[kind]}: longitudinal along "
-        "travel, transverse across it, oblique between, horizontal as points (layers separate). Drawn where the "
-        "strain is significant; the first crack opens at the ring.",
+        "travel, transverse across it, oblique between; planes nearer to the horizontal than 45° as points, where "
+        "the road splits and no crack runs down. Drawn where a principal stress is tensile and the strain is "
+        "significant; the ring marks the largest such strain.",
         plots.cracks,
     )
 
@@ -224,8 +225,8 @@ _HOLDS = ", which at the surface includes the shear of the tire itself"
 _DRAWN = {"principal": "the three-dimensional strain", "in-plane": "the strain in the horizontal plane"}
 _WHAT = {
     "principal": _STROKES,
-    "in-plane": "It opens vertical cracks. Strokes lie along the extension; a crack opens across them. White: no "
-    "extension in the plane.",
+    "in-plane": "Strokes lie along the extension; where a principal stress is tensile, vertical cracks open across "
+    "them. White: no extension in the plane.",
 }
 
 

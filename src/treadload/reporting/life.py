@@ -8,11 +8,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years
+from treadload.reporting.first import FirstPage, first_of_life, which_way
 from treadload.reporting.pictures import Picture, picture
 
 COLUMNS = (
@@ -24,7 +24,7 @@ COLUMNS = (
 class LifeReport:
     """What a report says of one life. label: of the case. facts: (term, value). rows: of `COLUMNS`. laws: name of a
     criterion, law, source, doubt, what the end of life is. groups: sentences on groups of axles. solved: what was
-    solved for it.
+    solved for it. first: where it would crack first, by whom; None for files from before that page.
     """
 
     label: str
@@ -34,6 +34,7 @@ class LifeReport:
     laws: tuple[tuple[str, str, str, str, str], ...]
     groups: tuple[str, ...]
     solved: str
+    first: FirstPage | None = None
 
 
 def life_report(label: str, data: xr.Dataset) -> LifeReport:
@@ -52,6 +53,7 @@ def life_report(label: str, data: xr.Dataset) -> LifeReport:
         tuple(zip(names, laws, sources, doubts, ends, strict=True)),
         tuple(json.loads(data.attrs.get("groups", "[]"))),
         _solved(data),
+        first_of_life(data),
     )
 
 
@@ -87,7 +89,7 @@ def _facts(data: xr.Dataset) -> tuple[tuple[str, str], ...]:
     facts = [("governing criterion", str(row["criterion"].item())), ("its life", _years(float(row["life_years"])))]
     if "design_damage" in data:
         facts.append((f"its damage after {float(data.attrs['design_years']):g} years", _number(row["design_damage"])))
-    facts += [("worst place", f"{_deep(row)}, {_aside(row)}"), ("first crack", _crack(row, _harm(data)))]
+    facts += [("worst place", f"{_deep(row)}, {_aside(row)}"), ("first crack", which_way(row, _harm(data)))]
     if "elasticity" in data:
         first = zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True)
         for name, value in first:
@@ -113,7 +115,7 @@ def _row(row: xr.Dataset, name: str, reads: Mapping[str, Any]) -> tuple[str, ...
         _number(row["design_damage"]) if "design_damage" in row else "–",
         read,
         f"{_deep(row)}, {_aside(row)}",
-        _crack(row, str(reads["harm"])),
+        which_way(row, str(reads["harm"])),
     )
 
 
@@ -144,25 +146,6 @@ def _harm(data: xr.Dataset) -> str:
     """What the quantity of the governing criterion does where it opens no crack."""
     reads = json.loads(data.attrs.get("reads", "[]"))
     return str(reads[int(data["life_years"].to_numpy().argmin())]["harm"]) if reads else ""
-
-
-def _crack(row: xr.Dataset, harm: str) -> str:
-    """Where the damage runs: the orientation that does most of it, with the angle of the first trace.
-
-    harm: what to say where no crack opens.
-    """
-    if "orientation_damage" not in row:
-        return "–"
-    shares = row["orientation_damage"]
-    most = int(np.argmax(shares.to_numpy()))
-    word = str(shares["orientation"].to_numpy()[most])
-    if word == "none":
-        return harm
-    if word == "horizontal":
-        return f"parallel to the surface ({100 * float(shares[most]):.0f} % of the damage)"
-    angle = float(row["first_crack_angle"])
-    trace = "" if math.isnan(angle) else f", first trace {signed(math.degrees(angle), 0)}° from travel"
-    return f"{word} ({100 * float(shares[most]):.0f} % of the damage){trace}"
 
 
 def _solved(data: xr.Dataset) -> str:
@@ -205,7 +188,7 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
         *picture(
             "Damage across the wheel path",
             "Miner's sum of every criterion, with lateral wander unless the law includes it; dots mark the worst "
-            "places. A full line above the dashed ones means that cracks start at the surface.",
+            "places. Full lines are read at the surface, dashed ones below.",
             lambda: life_damage(data),
             wide=True,
         ),

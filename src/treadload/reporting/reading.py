@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.damage.cracks import ORIENTATIONS
+from treadload.damage.cracks import ORIENTATIONS, first_to_expect, in_a_cell, nothing_opens
 from treadload.errors import InputError
 from treadload.plots.kit.plan import MICRO, MM, Plan, peak_of, plane
 from treadload.plots.kit.style import power_of_ten, signed
@@ -264,6 +264,11 @@ class ReportCase:
         return ORIENTATIONS[int(data["worst_crack_orientation"])]
 
     @property
+    def first_crack(self) -> str:
+        """The first crack for a table; empty without a verdict."""
+        return in_a_cell(self.orientation) if self.orientation else ""
+
+    @property
     def exhausted(self) -> bool:
         """True when the worst strain exceeds ε₆: fewer than a million passes; of a life, before its design ends."""
         life = self.group("life")
@@ -287,11 +292,11 @@ class ReportCase:
             return _POWER.sub(_raised, str(data.attrs["sentence"]).removeprefix("Verdict: ").strip())
         passes = float(data["worst_passes"])
         if not float(data["worst_strain"]) > 0 or math.isinf(passes):
-            return "no extension here; this law sees no crack."
+            return nothing_opens(float(data.attrs.get("largest_unread", 0.0)))
         few = "fewer" if passes < 1e6 else "more"
         return (
             f"at its worst point the line allows {power_of_ten(passes)} passes, {few} than a million; "
-            f"the first crack to expect is {self.orientation}."
+            f"{first_to_expect(self.orientation)}."
         )
 
 

@@ -77,7 +77,7 @@ def result_table(cases: list[ReportCase]) -> list[Section]:
                     "worst strain over ε₆", "–", lambda d: f"{float(d['worst_strain']) / d.attrs['epsilon_6']:.2f}"
                 ),
                 damage("allowable passes", "–", lambda d: power_of_ten(float(d["worst_passes"]))),
-                Row("first crack", "", tuple(case.orientation or MISSING for case in cases)),
+                Row("first crack", "", tuple(case.first_crack or MISSING for case in cases)),
                 damage(
                     "its trace, from travel", "°", lambda d: _degrees(d, "worst_crack_angle"), "positive to the right"
                 ),
