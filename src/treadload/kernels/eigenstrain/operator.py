@@ -120,6 +120,7 @@ def cells(
     *,
     depths: Array | None = None,
     averaged: bool = False,
+    along: int = NEAR,
     surface: bool = True,
     single: bool = False,
 ) -> Operator:
@@ -127,7 +128,8 @@ def cells(
 
     Depths are not those of edges between layers; the surface may be one, where no layer begins there. averaged: the
     mean over each cell of the stress of those less than three cells away, which makes K symmetric and negative in the
-    product of tensors weighted by the cells' volumes; at their centres only. surface: False for an endless body.
+    product of tensors weighted by the cells' volumes; at their centres only. along: of those less than so many away
+    along x; with all of nx the cells add up to the bars of `track`. surface: False for an endless body.
     single: keeps single precision, half the memory and time, an error of 1e-7.
     """
     of = coefficients(poisson)
@@ -137,7 +139,7 @@ def cells(
     def rows(number: int) -> Array:
         kernels = stress_kernels(x, y, points[number], grid.edges, of, _blocks, surface=surface)
         if averaged:
-            average(kernels, number, x[: NEAR + 1], y, grid.edges, of, _blocks, (grid.dx, grid.dy), surface=surface)
+            average(kernels, number, x[: along + 1], y, grid.edges, of, _blocks, (grid.dx, grid.dy), surface=surface)
         layer = int(np.searchsorted(grid.edges, points[number])) - 1
         if 0 <= layer < len(grid.depths):
             kernels[:, :, layer, 0, 0] -= of.inside

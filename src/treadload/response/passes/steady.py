@@ -80,8 +80,9 @@ class Track:
                     parts.append(Part(slice(first, row), material, material.return_map()))
                 first = row
         cells = box.cells
-        bars = track(cells, 1.0, poisson, single=True)
-        return cls(box, tuple(parts), stiffness, bars, endless(cells, 1.0, poisson))
+        # Means over cells: stress at their centres lets neighbours flow in turn where little hardens.
+        bars = track(cells, 1.0, poisson, averaged=True, single=True)
+        return cls(box, tuple(parts), stiffness, bars, endless(cells, 1.0, poisson, averaged=True))
 
     @cached_property
     def yield_strain(self) -> float:
