@@ -186,6 +186,14 @@ _RELIABILITY = {
     "coverage": ("1", "share of a criterion's damage in the classes and seasons that were solved again"),
 }
 
+_DESIGN = {
+    "exact_thickness": ("m", "thickness of the layer for which the road lasts exactly"),
+    "design_thickness": ("m", "thickness of the layer, rounded up"),
+    "asked_years": ("1", "years that the road is to last"),
+    "trial_thickness": ("m", "thickness of the layer that was tried"),
+    "trial_years": ("1", "years that a criterion lasts with a thickness that was tried"),
+}
+
 _CALIBRATION = {
     "start_value": ("1", "number that the search began with, in its SI unit"),
     "fitted_value": ("1", "number that fits the data best, in its SI unit"),
@@ -365,6 +373,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_CALIBRATION,
     **_LIFE,
     **_RELIABILITY,
+    **_DESIGN,
     **_INTERFACES,
     **_PASSES,
     **_UNIFORM,
@@ -377,9 +386,9 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
-    "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "input", "risk", "year",
-    "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth", "point",
-    "y", "across", "x", "component", "orientation",
+    "trial", "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "input", "risk",
+    "year", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth",
+    "point", "y", "across", "x", "component", "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
 

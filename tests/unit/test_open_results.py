@@ -98,6 +98,20 @@ def reliability():
     return tl.study.Reliability(data, scatter, stats, ("base: its law has no SN",))
 
 
+def thickness_design():
+    data = xr.Dataset(
+        {
+            "exact_thickness": 0.152, "design_thickness": 0.16, "asked_years": 20.0,
+            "trial_thickness": ("trial", [0.15, 0.152, 0.16]),
+            "trial_years": (("trial", "criterion"), [[19.0, 60.0], [20.0, 65.0], [25.0, math.inf]]),
+        },
+        {"criterion": ["top", "base"]},
+        {"layer": "asphalt", "step": 0.01, "at_risk": 0.05},
+    )  # fmt: skip
+    stats = {"lives": 3, "contacts": 1, "responses": 6}
+    return tl.study.ThicknessDesign(data, ROAD, life(), "asphalt", 0.01, 0.05, stats, ("base: its law has no risk",))
+
+
 def footprint():
     pressure = np.zeros((4, 5))
     pressure[1:3, 1:4] = 7e5
@@ -175,6 +189,7 @@ MADE = {
     "BondComparison": bond_comparison,
     "Sensitivity": sensitivity,
     "Reliability": reliability,
+    "ThicknessDesign": thickness_design,
     "UniformComparison": lambda: tl.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
     "RollingResistance": viscoelastic_tire,
     "Footprint": footprint,
@@ -193,7 +208,8 @@ MADE = {
 FIGURES = {
     "Contact": "pressure", "Response": "strain_directions", "Verdict": "passes", "BondVerdict": "utilisation",
     "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
-    "BondComparison": "lives", "Sensitivity": "inputs", "Reliability": "years", "UniformComparison": "strains",
+    "BondComparison": "lives", "Sensitivity": "inputs", "Reliability": "years", "ThicknessDesign": "lives",
+    "UniformComparison": "strains",
     "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",

@@ -14,6 +14,7 @@ import treadload as tl
 from treadload.case import LifeCase
 from treadload.damage import AxleClass, Climate, Criterion, FrenchSubgrade, Traffic
 from treadload.damage.laws.french import FrenchBituminous, risk_factor
+from treadload.damage.laws.limit import Limit
 from treadload.damage.scatter import Scatter
 from treadload.errors import InputError
 from treadload.pavement import Layer, Pavement
@@ -82,11 +83,13 @@ def test_the_risk_of_a_law_does_not_count_twice(life):
     assert f"k_r = {LAW.risk_factor:.3f}" in found.summary()
 
 
+# 31 roads, which the slow tests below share.
 @pytest.fixture(scope="module")
 def scattered(life):
     return reliability(life, scatter=Scatter(moduli=0.1, traffic=0.1, temperature=1.0))
 
 
+@pytest.mark.slow
 def test_more_scatter_shortens_the_first_years_and_hardly_the_median(life, scattered):
     few = reliability(life)
     assert scattered.years(0.05, "base") < few.years(0.05, "base")
@@ -104,6 +107,7 @@ def test_more_scatter_shortens_the_first_years_and_hardly_the_median(life, scatt
     assert "no SN" in said
 
 
+@pytest.mark.slow
 def test_first_order_and_draws_agree_on_a_surface_that_bends_little(scattered):
     found = scattered.dataset
     # Curvature moves tails by a few per cent in years.
@@ -212,6 +216,17 @@ def test_a_life_that_never_ends_has_no_years_to_scatter():
         reliability(never)
 
 
+def test_a_limit_has_no_years_to_scatter_and_says_so():
+    limit = Criterion("limit", Limit(BASE.quantity, 1e-5), 1, "bottom")
+    both = solve_life(TIRE, ROAD, Traffic((ONE,), 1e5), Climate.constant(15.0), (BASE, limit),
+                      contacts=CONTACTS, **COARSE)  # fmt: skip
+    found = reliability(both)
+    assert list(found.dataset["criterion"].to_numpy()) == ["base"]
+    assert any(text.startswith("limit: its law") and "is a step" in text for text in found.warnings)
+    with pytest.raises(InputError, match="in the place of a limit"):
+        reliability(both, criteria=["limit"])
+
+
 CASE = """
 spacing = "20 mm"
 tire = { profile = "315/80R22.5" }
@@ -241,6 +256,7 @@ draws = 20000
 """
 
 
+@pytest.mark.slow
 def test_a_case_asks_for_its_reliability(tmp_path):
     result = run_life(LifeCase.from_text(CASE), sensitivity=False, workers=1)
     made = result.reliability

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from treadload._version import __version__
-from treadload.cli import cases, compare, program, results, shell, studies, sweep, tires
+from treadload.cli import cases, compare, design, program, results, shell, studies, sweep, tires
 
 __all__ = ["app", "main"]
 
@@ -21,6 +21,7 @@ app = typer.Typer(
 for _command in (
     cases.run,
     cases.life,
+    design.design,
     sweep.sweep,
     cases.calibrate,
     cases.init,

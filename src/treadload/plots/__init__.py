@@ -5,6 +5,7 @@ from treadload.plots.bowl import deflection_bowl
 from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
+from treadload.plots.design import design_thicknesses
 from treadload.plots.energy import dissipated_energy
 from treadload.plots.first import first_places
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
@@ -34,6 +35,7 @@ from treadload.plots.others import (
     SensitivityPlots,
     SobolPlots,
     SweepPlots,
+    ThicknessDesignPlots,
     TireCardPlots,
     TornadoPlots,
     TransientPlots,
@@ -73,6 +75,7 @@ __all__ = [
     "SensitivityPlots",
     "SobolPlots",
     "SweepPlots",
+    "ThicknessDesignPlots",
     "TireCardPlots",
     "TornadoPlots",
     "TransientPlots",
@@ -94,6 +97,7 @@ __all__ = [
     "comparison_maps",
     "creep_curves",
     "deflection_bowl",
+    "design_thicknesses",
     "dissipated_energy",
     "drum_contact",
     "fatigue_line",

@@ -12,6 +12,7 @@ from treadload.accessors import offers
 from treadload.composing import Source, dataset_of
 from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.curve import creep_curves
+from treadload.plots.design import design_thicknesses
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
@@ -100,6 +101,15 @@ class SensitivityPlots(_Plots):
     def inputs(self, *, ax: Axes | None = None, most: int = 10) -> Figure:
         """Change of the life as each input grows by 5 %."""
         return life_inputs(self._result, ax=ax, most=most)
+
+
+@offers("plot", "ThicknessDesign")
+class ThicknessDesignPlots(_Plots):
+    """Figures of a design."""
+
+    def lives(self, *, ax: Axes | None = None) -> Figure:
+        """Years by criterion against the thickness that was looked for."""
+        return design_thicknesses(self._result, ax=ax)
 
 
 @offers("plot", "Reliability")

@@ -21,6 +21,7 @@ from treadload.plots import (
     RollingResistancePlots,
     SensitivityPlots,
     SobolPlots,
+    ThicknessDesignPlots,
     TireCardPlots,
     TornadoPlots,
     TransientPlots,
@@ -40,6 +41,7 @@ HEADINGS = {
     "creep_curve": "Creep curve",
     "indentation": "Indentation",
     "sensitivity": "What the life depends on",
+    "design": "Design of a thickness",
     "reliability": "Years with a probability",
     "transient": "Rolling from rest",
     "turn": "Turn on the spot",
@@ -139,6 +141,9 @@ def _pictures(other: Other) -> list[Picture]:
         case "sensitivity":
             caption = "Change of the governing life as each input grows by 5 %, temperature by 1 °C."
             return picture("What the life depends on", caption, SensitivityPlots(data).inputs)
+        case "design":
+            caption = "Years that every criterion lasts with each thickness that was solved, and those asked for."
+            return picture("How thick it must be", caption, ThicknessDesignPlots(data).lives, wide=True)
         case "reliability":
             plots_of_reliability = ReliabilityPlots(data)
             caption = "Probability that a criterion has failed by a year; dotted: the first of them."

@@ -2,13 +2,14 @@
 
 from treadload.study.calibration import Calibration, calibrate
 from treadload.study.delamination import BondComparison, compare_bonds, solve_interfaces
+from treadload.study.designing import ThicknessDesign, design_thickness
 from treadload.study.life import solve_life
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.plan import plan_case, plan_life
 from treadload.study.reliability import Reliability, life_reliability
 from treadload.study.run import Result, run_case
 from treadload.study.run_calibration import CalibrationResult, plan_calibration, run_calibration
-from treadload.study.run_life import LifeResult, run_life
+from treadload.study.run_life import LifeResult, run_design, run_life
 from treadload.study.screening import Morris, Sobol, Tornado, morris, sobol, tornado
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 from treadload.study.shakedown import shakedown_map
@@ -29,6 +30,7 @@ __all__ = [
     "Sensitivity",
     "Sobol",
     "Sweep",
+    "ThicknessDesign",
     "TireCard",
     "Tornado",
     "UniformComparison",
@@ -36,6 +38,7 @@ __all__ = [
     "calibrate",
     "compare_bonds",
     "compare_uniform",
+    "design_thickness",
     "life_reliability",
     "life_sensitivity",
     "morris",
@@ -45,6 +48,7 @@ __all__ = [
     "plan_life",
     "run_calibration",
     "run_case",
+    "run_design",
     "run_life",
     "sampled",
     "shakedown_map",

@@ -13,9 +13,11 @@ from treadload.case import LifeCase
 from treadload.composing import BaseResult
 from treadload.damage.miner import Life
 from treadload.describing import first_line
+from treadload.errors import InputError
 from treadload.pavement import Pavement
 from treadload.results import Study, to_tree
 from treadload.study.contacts import Contacts, Progress
+from treadload.study.designing import ThicknessDesign, design_thickness
 from treadload.study.life import solve_life
 from treadload.study.reliability import Reliability, life_reliability
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
@@ -80,3 +82,34 @@ def run_life(
     part = case.reliability
     scatters = None if part is None or not ends else life_reliability(tire, road, life, **part.asked(), **shared)
     return LifeResult(case, road, life, depends, scatters)
+
+
+def run_design(
+    case: LifeCase,
+    *,
+    layer: int | str,
+    years: float | None = None,
+    risk: float | None = None,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    **asked: Any,
+) -> ThicknessDesign:
+    """The thickness of a layer for which the road of a case lasts.
+
+    layer: its name, or its number from the surface, 1 the top one, as in `[[criteria]]`. years: those of the traffic
+    if left out. risk: of failing, in (0, 1); with `[reliability]` in the case the years at that risk are those of its
+    scatter. asked: low, high and step, m, see `design_thickness`. workers, progress: as in `run_life`. Raises
+    InputError, and ConvergenceError of a contact.
+    """
+    road, number = case.build_road(), layer
+    if isinstance(layer, int):
+        if not 1 <= layer <= len(road.layers):
+            raise InputError(f"no layer {layer}; the road has 1 to {len(road.layers)}, counted from the surface")
+        number = layer - 1
+    scatter = None if case.reliability is None or risk is None else case.reliability.build()
+    return design_thickness(
+        case.build_tire(), road, case.build_traffic(), case.build_climate(),
+        lambda changed: tuple(one.on(changed) for one in case.criteria),
+        layer=number, years=years, risk=risk, scatter=scatter, spacing=case.spacing, tolerance=case.tolerance,
+        workers=workers, progress=progress, **asked,
+    )  # fmt: skip

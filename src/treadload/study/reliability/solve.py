@@ -83,8 +83,9 @@ def life_reliability(
         raise InputError(f"coverage must lie in (0, 1], got {coverage}; 0.5 is the default")
     if not _FEWEST <= draws <= _MOST:
         raise InputError(f"draws must lie in [{_FEWEST}, {_MOST}], got {draws}; 100 000 is the default")
-    chosen = _chosen(life, criteria)
-    deviations, said = _fatigue(life, road, chosen, scatter)
+    chosen, said = _chosen(life, criteria)
+    deviations, without = _fatigue(life, road, chosen, scatter)
+    said += without
     inputs, skipped = inputs_of(road, scatter)
     said += skipped
     points = designed(len(inputs))
@@ -136,8 +137,8 @@ def life_reliability(
     return Reliability(dataset, scatter, stats, tuple(dict.fromkeys(said)))
 
 
-def _chosen(life: Life, criteria: Sequence[str] | None) -> list[int]:
-    """Numbers of the criteria that are asked for and ever fail."""
+def _chosen(life: Life, criteria: Sequence[str] | None) -> tuple[list[int], tuple[str, ...]]:
+    """Numbers of the criteria that are asked for and ever fail, and a sentence on those whose law has no power."""
     names = [one.name for one in life.criteria]
     wrong = next((name for name in criteria or () if name not in names), None)
     if wrong is not None:
@@ -147,9 +148,17 @@ def _chosen(life: Life, criteria: Sequence[str] | None) -> list[int]:
         for number, name in enumerate(names)
         if (criteria is None or name in criteria) and math.isfinite(float(life.dataset["life_passes"][number]))
     ]
-    if not ends:
-        raise InputError("no criterion that is asked for ever fails, so its years cannot scatter; give more passes")
-    return ends
+    steep = [n for n in ends if _power(life.laws[n][0], float(life.dataset["largest_reading"][n])) > 0]
+    if not steep:
+        raise InputError(
+            "no criterion that is asked for ever fails by a law whose passes fall steadily with its reading, so that "
+            "no years scatter; give more passes, or a law in the place of a limit"
+        )
+    return steep, tuple(
+        f"{names[number]}: its law, {life.laws[number][0]}, is a step, so that no probability of its years is told"
+        for number in ends
+        if number not in steep
+    )
 
 
 def _fatigue(
@@ -178,9 +187,10 @@ def _fatigue(
 
 
 def _power(law: FatigueLaw, reading: float) -> float:
-    """To which power damage grows with the reading."""
+    """To which power damage grows with the reading; 0 where it does not grow steadily."""
     more, less = (float(law.allowable_passes(reading * factor)) for factor in (1.01, 1 / 1.01))
-    return math.log(less / more) / (2 * math.log(1.01))
+    steady = 0 < more < less < math.inf
+    return math.log(less / more) / (2 * math.log(1.01)) if steady else 0.0
 
 
 def _risk_factor(law: FatigueLaw) -> float:

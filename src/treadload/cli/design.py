@@ -1,0 +1,51 @@
+"""`treadload design`: how thick a layer must be."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from treadload.cli import shell
+from treadload.cli.progress import counts
+
+
+def design(
+    case: Annotated[Path, typer.Argument(help="The design case, a TOML file.")],
+    layer: Annotated[str, typer.Option(help="Its name, or its number from the surface, 1 the top one.")],
+    years: Annotated[
+        float | None, typer.Option(min=0.0, help="That the road is to last; those of the traffic if left out.")
+    ] = None,
+    risk: Annotated[
+        str | None, typer.Option(help='Of failing, as "5%"; that of the laws if left out.', show_default=False)
+    ] = None,
+    low: Annotated[str, typer.Option(help="Least thickness to look at.")] = "40 mm",
+    high: Annotated[str, typer.Option(help="Largest thickness to look at.")] = "400 mm",
+    step: Annotated[str, typer.Option(help="The thickness is rounded up to it.")] = "10 mm",
+    output: shell.Output = None,
+    workers: Annotated[int | None, typer.Option(min=1, help="Threads; all cores if left out.")] = None,
+    changes: shell.Changes = None,
+    quiet: shell.Quiet = False,
+) -> None:
+    """Find the thickness of a layer for which a road lasts, rounded up, with the life on both sides of it."""
+    from treadload.case import LifeCase
+    from treadload.files import check_writable
+    from treadload.results import to_tree
+    from treadload.results.exports import check_output, write
+    from treadload.study import run_design
+    from treadload.units import quantity
+
+    path = output or case.with_name(f"{case.stem}_design.nc")
+    check_output(path)
+    question = LifeCase.from_toml(case, changes=changes or ())
+    check_writable(path)
+    share = None if risk is None else quantity(risk, "")
+    bounds = {"low": quantity(low, "m"), "high": quantity(high, "m"), "step": quantity(step, "m")}
+    with counts(shell.err, quiet=quiet) as tell:
+        found = run_design(
+            question, layer=int(layer) if layer.isdigit() else layer, years=years, risk=share, workers=workers,
+            progress=tell, **bounds,
+        )  # fmt: skip
+    shell.out.print(found.summary(), markup=False)
+    shell.written(write(to_tree(found, case=question, road=found.road.at_temperature(15.0)), path))

@@ -1,0 +1,56 @@
+"""A design: how long a road lasts with every thickness that was tried."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, NullFormatter
+
+from treadload.composing import Source
+from treadload.plots.kit.figure import figure_and_axes
+from treadload.plots.kit.plan import fields_of
+from treadload.plots.kit.style import CASES, INK, PAPER, headline, legend_below, measure, open_axes, plain, styled
+
+
+@styled
+def design_thicknesses(design: Source, *, ax: Axes | None = None) -> Figure:
+    """Years by criterion against thickness, the years that are asked for, and the thickness that lasts them.
+
+    design: a ThicknessDesign or its dataset. Returns the figure. Raises InputError if variables are missing.
+    """
+    data = fields_of(design, "trial_thickness", "trial_years", "design_thickness", "asked_years")
+    figure, ax = figure_and_axes(ax, 7.6, 4.0)
+    thickness, years = 1e3 * data["trial_thickness"].to_numpy(), data["trial_years"].to_numpy()
+    handles = []
+    for k, name in enumerate(data["criterion"].to_numpy()):
+        colour = CASES[k % (len(CASES) - 1)]
+        row = np.where(np.isfinite(years[:, k]), years[:, k], np.nan)
+        (line,) = ax.plot(thickness, row, "-o", ms=5, mec=PAPER, color=colour, label=plain(str(name)))
+        handles.append(line)
+    asked, chosen = float(data["asked_years"]), 1e3 * float(data["design_thickness"])
+    ax.axhline(asked, color=INK, lw=1.0, ls=(0, (4, 2)))
+    ax.annotate(f"{asked:g} years", (0, asked), xycoords=("axes fraction", "data"), xytext=(4, 4),
+                textcoords="offset points", fontsize=8.5)  # fmt: skip
+    ax.axvline(chosen, color=INK, lw=1.0)
+    ax.annotate(f"{chosen:.0f} mm", (chosen, 0), xycoords=("data", "axes fraction"), xytext=(-4, 5),
+                textcoords="offset points", ha="right", fontsize=8.5)  # fmt: skip
+    ax.set_yscale("log")
+    finite = years[np.isfinite(years)]
+    low, high = (
+        (min(finite.min(), asked) / 1.4, max(finite.max(), asked) * 1.4) if finite.size else (asked / 2, 2 * asked)
+    )
+    ax.set_ylim(low, high)
+    ax.set_yticks([t for t in (one * 10.0**power for power in range(-3, 7) for one in (1, 2, 5)) if low <= t <= high])
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    open_axes(ax)
+    layer = str(data.attrs.get("layer", "the layer"))
+    ax.set_xlabel(plain(f"thickness of {layer} (mm)"))
+    ax.set_ylabel("years until the damage is 1")
+    risk = data.attrs.get("at_risk")
+    exact = 1e3 * float(data["exact_thickness"])
+    at = "" if risk is None else f" at a risk of {measure(100 * float(risk))} %"
+    headline(ax, "How thick it must be", f"{exact:.1f} mm last {asked:g} years{at}; dots: lives that were solved")
+    legend_below(ax, handles, columns=min(3, len(handles)))
+    return figure
