@@ -6,16 +6,18 @@ from typing import ClassVar
 
 from pydantic import model_validator
 
+from treadload.case.climate import AgeingPart, ClimatePart
 from treadload.case.criteria import Criterion
 from treadload.case.file import FilePart
 from treadload.case.reliability import ReliabilityPart
 from treadload.case.road import PavementPart, RoadPart
 from treadload.case.tire import TirePart
-from treadload.case.traffic import ClimatePart, TrafficPart
+from treadload.case.traffic import TrafficPart
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage import Climate, Traffic
 from treadload.damage.criterion import Criterion as Judge
 from treadload.pavement import Pavement
+from treadload.pavement.sublayers import middle_temperatures
 from treadload.tire import Tire
 from treadload.units import Length, Number
 
@@ -36,12 +38,12 @@ class LifeCase(FilePart):
 
     Numbers are SI; in a TOML file a quoted number carries its unit. title: of summaries and reports. tire: of the
     classes of axles that bring none. pavement: the road. traffic: what passes. climate: how warm the road is over the
-    year. criteria: what ends its life. spacing: of the contact's cells, 3 mm if left
+    year. ageing: how old its mixes are. criteria: what ends its life. spacing: of the contact's cells, 3 mm if left
     out: surface lives move by less than 5 % on finer ones, and by half on cells of 6 mm. tolerance: of
     readings interpolated over the climate. reliability: what scatters; left out, no probabilities.
     """
 
-    own_tables: ClassVar = ("traffic", "climate", "criteria")
+    own_tables: ClassVar = ("traffic", "climate", "ageing", "criteria")
     how_to_run: ClassVar = "a design case: use `treadload life {name}`, in Python LifeCase"
 
     spacing: Length = DEFAULT_SPACING
@@ -50,6 +52,7 @@ class LifeCase(FilePart):
     pavement: DesignRoadPart
     traffic: TrafficPart
     climate: ClimatePart
+    ageing: AgeingPart | None = None
     criteria: tuple[Criterion, ...]
     reliability: ReliabilityPart | None = None
 
@@ -64,18 +67,30 @@ class LifeCase(FilePart):
             raise ValueError(f"two criteria have the name {twice!r}; give them different names")
         self.build_traffic()
         temperatures = {season.temperature for season in climate.seasons}
-        if len(temperatures) > 1 and not any(layer.depends_on_temperature for layer in road.layers):
+        waiting = any(layer.depends_on_temperature for layer in road.layers)
+        if self.ageing is not None and not waiting:
+            raise ValueError(
+                "ageing needs a mix with moduli over temperature, and no layer has one; give mixes of the catalogue "
+                "or materials with a shift"
+            )
+        if len(temperatures) > 1 and not waiting:
             raise ValueError(
                 f"the climate has {len(temperatures)} temperatures, but no layer has moduli for them; give mixes of "
                 "the catalogue or materials with a shift, or one temperature"
             )
+        criteria = self.build_criteria()
         for season in climate.seasons:
-            warm = season.temperature
-            warmed = road.at_temperature(warm)
-            for criterion in self.build_criteria():
+            profile, warm = season.profile, season.temperatures
+            if profile is None:
+                each = list(warm) if isinstance(season.temperature, tuple) else [*warm] * len(road.layers)
+                warmed = road.at_temperature(season.temperature)
+            else:
+                warmed = road.at_temperature(middle_temperatures(road, profile), extrapolate=True)
+            for criterion in criteria:
                 number = criterion.number(road)
                 criterion.depth(warmed)
-                criterion.law_at(warm[number] if isinstance(warm, tuple) else warm)
+                if profile is None:
+                    criterion.law_at(each[number])
         return self
 
     def build_tire(self) -> Tire:
@@ -92,7 +107,7 @@ class LifeCase(FilePart):
 
     def build_climate(self) -> Climate:
         """The climate."""
-        return self.climate.build()
+        return self.climate.build(self.build_road(), self.folder, self.ageing)
 
     def build_criteria(self) -> tuple[Judge, ...]:
         """The criteria on this road."""

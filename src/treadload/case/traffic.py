@@ -1,4 +1,4 @@
-"""Traffic and climate in a case: classes of axles, maneuvers, wander, and the temperatures of the year."""
+"""Traffic in a case: classes of axles, maneuvers, wander."""
 
 from __future__ import annotations
 
@@ -9,14 +9,12 @@ from pydantic import model_validator
 
 from treadload.case.choices import FRICTION_OR_NUMBER, Friction, ManeuverTable, maneuver_of
 from treadload.case.tire import TirePart
-from treadload.damage import AxleClass, Climate, Season, Traffic, Wander
+from treadload.damage import AxleClass, Traffic, Wander
 from treadload.errors import nearest
 from treadload.read import As, Table
-from treadload.units import Celsius, Force, Length, PerYear, Pressure, Share, Speed, Years
+from treadload.units import Force, Length, PerYear, Pressure, Share, Speed, Years
 
-_MONTHS = ("January", "February", "March", "April", "May", "June", "July", "August", "September", "October",
-           "November", "December")  # fmt: skip
-WANDER, SEASONS = As(Wander), As(tuple[Season, ...])
+WANDER = As(Wander)
 # Axles of a group, and wheels side by side on one end of an axle.
 GEARS = {
     "single": (1, 1),
@@ -131,35 +129,3 @@ class TrafficPart(Table):
         rows = [row for one in self.classes for row in one.build(folder)]
         wander = Wander.none() if self.wander is None else WANDER.build(self.wander)
         return Traffic(tuple(rows), self.passes_per_year, self.growth, self.kind, wander, self.years)
-
-
-class ClimatePart(Table):
-    """`[climate]`: temperature = 15, or months = [12 of them], or seasons, in °C.
-
-    temperature: of the road, all year round. months: of twelve months, January first. seasons: with their shares of
-    the passes.
-    """
-
-    one_of: ClassVar = ("temperature", "months", "seasons")
-
-    temperature: Celsius | None = None
-    months: tuple[Celsius, ...] | None = None
-    seasons: Annotated[Any, SEASONS] = None
-
-    @model_validator(mode="after")
-    def _one_kind(self) -> ClimatePart:
-        given = [name for name in ("temperature", "months", "seasons") if getattr(self, name) is not None]
-        if len(given) != 1:
-            got = " and ".join(given) or "none of them"
-            raise ValueError(f"give exactly one of temperature, months and seasons, got {got}")
-        if self.months is not None and len(self.months) != len(_MONTHS):
-            raise ValueError(f"months needs 12 temperatures in °C, January first, got {len(self.months)}")
-        return self
-
-    def build(self) -> Climate:
-        """The climate."""
-        if self.temperature is not None:
-            return Climate.constant(self.temperature)
-        if self.months is not None:
-            return Climate.equal_parts(self.months, _MONTHS)
-        return Climate(SEASONS.build(self.seasons))

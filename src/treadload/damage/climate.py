@@ -3,41 +3,95 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from treadload.damage.shares import check_shares
 from treadload.errors import InputError
-from treadload.units import Celsius, Share
+from treadload.kernels.arrays import Array
+from treadload.materials import Mix
+from treadload.materials.ageing import Ageing
+from treadload.pavement import Pavement, RoadTemperatures, TemperatureProfile, divided
+from treadload.tables import finite_list
+from treadload.units import Celsius, Length, Share
+
+MONTHS = ("January", "February", "March", "April", "May", "June", "July", "August", "September", "October",
+          "November", "December")  # fmt: skip
+PARTS = 4
+"""Parts of the day that stand for its hours."""
+_DIVISORS = (1, 2, 3, 4, 6, 8, 12, 24)
+# Hours of a year, but for the last that a file may lack.
+_YEAR = 8700.0
+# Strain over stiffness in asphalt, and a usual law over strain.
+_READING, _HARM = 0.8, 5.0
 
 
 @dataclass(frozen=True)
 class Season:
     """A part of the year with its temperatures.
 
-    name: for tables. share: of the passes, in [0, 1]. temperature: °C, of all layers or one for each, surface
-    first.
+    name: for tables. share: of the passes, in [0, 1]. temperature: °C, of all layers, or one for each, surface
+    first; or a TemperatureProfile, over depth. sublayers: the greatest thickness of the parts into which courses are
+    divided below a profile, m; left out, by the rule of `pavement.divided`. ageing: of the mixes, over depth.
+    Raises InputError.
     """
 
     name: str
     share: Share
-    temperature: Celsius | tuple[Celsius, ...]
+    temperature: Celsius | tuple[Celsius, ...] | TemperatureProfile
+    sublayers: Length | None = None
+    ageing: Ageing | None = None
 
     def __post_init__(self) -> None:
         if not 0 <= self.share <= 1:
             raise InputError(f"the share of {self.name!r} must lie in [0, 1], got {self.share}; a month is 1/12")
         if isinstance(self.temperature, Sequence):
             object.__setattr__(self, "temperature", tuple(float(t) for t in self.temperature))
-        if not np.isfinite(self.temperature).all():
+        if not np.isfinite(self.temperatures).all():
             raise InputError(f"the temperature of {self.name!r} must be finite, got {self.temperature} °C")
+        if self.ageing is not None and isinstance(self.temperature, tuple):
+            raise InputError(
+                f"season {self.name!r} has a temperature for each layer and ageing, which divides them; give one "
+                "temperature, or a profile over depth"
+            )
+
+    @property
+    def temperatures(self) -> tuple[float, ...]:
+        """All the temperatures that it names, °C, downwards."""
+        given = self.temperature
+        if isinstance(given, TemperatureProfile):
+            return given.temperatures
+        return given if isinstance(given, tuple) else (given,)
+
+    @property
+    def profile(self) -> TemperatureProfile | None:
+        """Temperature over depth, where the road is divided for it; None where each layer stays whole."""
+        if isinstance(self.temperature, TemperatureProfile):
+            return self.temperature
+        if self.ageing is None or isinstance(self.temperature, tuple):
+            return None
+        return TemperatureProfile((0.0, 1.0), (self.temperature, self.temperature))
+
+    def warmer(self, degrees: float) -> Season:
+        """The season warmer by so many degrees."""
+        now = self.temperature
+        if isinstance(now, TemperatureProfile):
+            return replace(self, temperature=TemperatureProfile(now.depths, [t + degrees for t in now.temperatures]))
+        return replace(self, temperature=tuple(t + degrees for t in now) if isinstance(now, tuple) else now + degrees)
 
 
 @dataclass(frozen=True)
 class Climate:
-    """The temperatures of the road over the passes. seasons: whose shares sum to 1. Raises InputError."""
+    """The temperatures of the road over the passes.
+
+    seasons: whose shares sum to 1. about: how they were found, in sentences. warnings: sentences for the user.
+    Raises InputError.
+    """
 
     seasons: tuple[Season, ...]
+    about: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "seasons", tuple(self.seasons))
@@ -58,3 +112,117 @@ class Climate:
         count = len(temperatures)
         labels = names or [f"{k + 1} of {count}" for k in range(count)]
         return cls(tuple(Season(n, 1 / count, t) for n, t in zip(labels, temperatures, strict=True)))
+
+    def within(self, sublayers: float | None, ageing: Ageing | None) -> Climate:
+        """The same climate with the road's courses divided, see `Season`."""
+        parts = tuple(replace(one, sublayers=sublayers, ageing=ageing) for one in self.seasons)
+        return replace(self, seasons=parts, about=(*self.about, *_told(ageing)))
+
+    def warmer(self, degrees: float) -> Climate:
+        """The climate with all its seasons warmer by so many degrees."""
+        return replace(self, seasons=tuple(one.warmer(degrees) for one in self.seasons))
+
+    @classmethod
+    def of_road(
+        cls,
+        road: Pavement,
+        found: RoadTemperatures,
+        *,
+        parts: int = PARTS,
+        hours: Sequence[float] | None = None,
+        sublayers: float | None = None,
+        ageing: Ageing | None = None,
+    ) -> Climate:
+        """Months by parts of the day, each with the mean profile of its hours over depth.
+
+        road: whose mixes wait for their temperature. found: its temperatures over a year at least. parts: of the day,
+        a divisor of 24, see `binning_error` for what they cost. hours: shares of the passes in the 24 hours of
+        a day, from midnight; left out, all alike. sublayers, ageing: as of a Season. Days count alike.
+        Raises InputError.
+        """
+        labels, weights = _binned(found, parts, hours)
+        temperatures, total = found.temperatures, float(weights.sum())
+        seasons = []
+        for label in np.unique(labels):
+            own = labels == label
+            share = float(weights[own].sum()) / total
+            if share == 0:
+                continue
+            mean = np.average(temperatures[own], axis=0, weights=weights[own])
+            month, part = divmod(int(label), parts)
+            wide = 24 // parts
+            name = MONTHS[month] if parts == 1 else f"{MONTHS[month]}, {part * wide}-{(part + 1) * wide} h"
+            seasons.append(
+                Season(name, share, TemperatureProfile(found.depths.tolist(), mean.tolist()), sublayers, ageing)
+            )
+        error = binning_error(road, found, parts=parts, hours=hours)
+        surface = found.temperatures[:, 0]
+        about = (
+            f"temperatures by {found.method}: surface {surface.min():.0f} to {surface.max():.0f} °C, gathered into "
+            f"{len(seasons)} seasons by month and {parts} part(s) of the day, which moves damage as readings off by "
+            f"{100 * error:.1g} % would"
+        )
+        return cls(tuple(seasons), (about, *_told(ageing)), found.assumed)
+
+
+def _told(ageing: Ageing | None) -> tuple[str, ...]:
+    if ageing is None:
+        return ()
+    return (
+        f"mixes aged by the {ageing}: read at this age all their life long, with the fatigue law of the young mix",
+    )
+
+
+def binning_error(
+    road: Pavement, found: RoadTemperatures, *, parts: int = PARTS, hours: Sequence[float] | None = None
+) -> float:
+    """What the means over months and parts of the day miss of the year's hours, as an error of a reading.
+
+    For mixes: strain is taken as E^-0.8 and harm as its fifth power; the harm of the binned temperatures over that of
+    all hours, to the power 1/5, less one; the largest over depth.
+    Arguments as in `Climate.of_road`.
+    """
+    labels, weights = _binned(found, parts, hours)
+    worst = 0.0
+    whole, owner = divided(road)
+    tops = np.concatenate([[0.0], whole.interfaces])[: len(whole.layers)]
+    for top, layer, number in zip(tops, whole.layers, owner, strict=True):
+        material = road.layers[number].material
+        if not isinstance(material, Mix) or layer.thickness is None:
+            continue
+        deep = top + 0.5 * layer.thickness
+        column = np.array([np.interp(deep, found.depths, row) for row in found.temperatures])
+        known = np.linspace(column.min(), column.max(), 200)
+        moduli = np.log([material.modulus(float(one), extrapolate=True) for one in known])
+
+        def harm(warm: Array, known: Array = known, moduli: Array = moduli) -> Array:
+            result: Array = np.exp(-_READING * _HARM * np.interp(warm, known, moduli))
+            return result
+
+        fine = float(np.average(harm(column), weights=weights))
+        sums = np.bincount(labels, weights)
+        means = np.divide(np.bincount(labels, weights * column), sums, out=np.zeros_like(sums), where=sums > 0)
+        rough = float(np.average(harm(means), weights=sums))
+        worst = max(worst, abs((rough / fine) ** (1 / _HARM) - 1))
+    return worst
+
+
+def _binned(found: RoadTemperatures, parts: int, hours: Sequence[float] | None) -> tuple[np.ndarray, Array]:
+    """Month times part of the day of each row, and its weight."""
+    if parts not in _DIVISORS:
+        raise InputError(f"parts of the day must divide 24: {', '.join(map(str, _DIVISORS))}; got {parts}")
+    months, clock = found.months, found.hour_of_day
+    if len(months) * found.step < _YEAR or len(np.unique(months)) < 12:
+        raise InputError(
+            f"a life needs a year of temperatures, 8760 hours, got {len(months) * found.step:g} from "
+            f"{found.start:%Y-%m-%d} on"
+        )
+    if hours is None:
+        share = np.full(24, 1 / 24)
+    else:
+        share = finite_list(hours, "hours")
+        if len(share) != 24:
+            raise InputError(f"hours needs 24 shares of the passes, from midnight on, got {len(share)}")
+        check_shares("day", share.tolist())
+    part = (clock // (24 / parts)).astype(int)
+    return (months - 1) * parts + part, share[clock.astype(int)]

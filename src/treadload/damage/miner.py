@@ -80,6 +80,7 @@ class Life(BaseResult, group="life"):
         ]
         years = self.traffic.years
         allowed = "the passes of a year" if years is None else f"the passes of {years:g} years"
+        lines += [f"  {text}" for text in self.climate.about]
         for criterion in self.criteria:
             row = data.sel(criterion=criterion.name)
             law = criterion.law_at(15.0)
@@ -148,9 +149,9 @@ def miner(
     if at.shape != (values.shape[-1],) or len(at) < 2 or np.ptp(np.diff(at)) > 1e-6 * abs(at[1] - at[0]):
         raise InputError(f"y must be {values.shape[-1]} evenly spaced values in m, got shape {at.shape}")
     if layer_temperatures is None:
-        if any(isinstance(season.temperature, tuple) for season in climate.seasons):
-            raise InputError("seasons with a temperature for each layer need layer_temperatures (criterion, season)")
-        one = [float(season.temperature) for season in climate.seasons]  # type: ignore[arg-type]
+        if any(len(season.temperatures) > 1 for season in climate.seasons):
+            raise InputError("seasons with several temperatures need layer_temperatures (criterion, season)")
+        one = [season.temperatures[0] for season in climate.seasons]
         layer_temperatures = np.tile(one, (len(criteria), 1))
     laws = [[c.law_at(float(t)) for t in row] for c, row in zip(criteria, layer_temperatures, strict=True)]
     damage = damage_of(values, laws, traffic, climate)

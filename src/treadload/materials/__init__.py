@@ -1,5 +1,6 @@
 """Materials: what deforms, and how."""
 
+from treadload.materials.ageing import Aged, GlobalAging
 from treadload.materials.aggregates import Aggregates
 from treadload.materials.anisotropic import Anisotropic, TransverselyIsotropic
 from treadload.materials.elastic import Elastic
@@ -34,6 +35,7 @@ from treadload.materials.viscoelastic import Prony
 
 __all__ = [
     "WLF",
+    "Aged",
     "Aggregates",
     "Anisotropic",
     "Arrhenius",
@@ -41,6 +43,7 @@ __all__ = [
     "Elastic",
     "ElastoPlastic",
     "FrequencySweep",
+    "GlobalAging",
     "HuetSayegh",
     "HydraulicMix",
     "MasterCurve",

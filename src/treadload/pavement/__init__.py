@@ -7,6 +7,7 @@ from treadload.pavement.heating import Heat, RoadTemperatures, bells, road_tempe
 from treadload.pavement.layer import Layer
 from treadload.pavement.rows import LayerRow, layer_rows, road_in_words
 from treadload.pavement.structure import Pavement
+from treadload.pavement.sublayers import divided
 from treadload.pavement.temperature import TemperatureProfile
 from treadload.pavement.weather import Weather, read_weather
 
@@ -28,6 +29,7 @@ __all__ = [
     "Weather",
     "bells",
     "bituminous_thickness",
+    "divided",
     "is_bituminous",
     "layer_rows",
     "lift_below",

@@ -34,9 +34,10 @@ _FIRST, _GROWTH, _DEPTH = 0.005, 1.15, 10.0
 class Heat:
     """How a road takes up heat and passes it on.
 
-    absorptivity: share of the sun's radiation that the surface takes up. emissivity: of the surface in the long
-    waves. asphalt_..., bound_..., unbound_...: conductivity, W/(m K), and heat capacity, J/(m³ K), of bituminous
-    layers, of those bound by cement, and of all others.
+    absorptivity: share of the sun's radiation that the surface takes up. emissivity: of the surface in long waves.
+    asphalt_conductivity: of bituminous layers, W/(m K). asphalt_capacity: what they store, J/(m³ K).
+    bound_conductivity: of layers bound by cement, W/(m K). bound_capacity: what they store, J/(m³ K).
+    unbound_conductivity: of all other layers, W/(m K). unbound_capacity: what they store, J/(m³ K).
     Defaults: those of the MEPDG for asphalt, 0.85, 0.93, 0.67 BTU/(h ft °F) and 0.23 BTU/(lb °F) at 2300 kg/m³; usual
     ones for the rest; from memory, to verify. Raises InputError.
     """

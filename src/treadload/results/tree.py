@@ -25,7 +25,8 @@ from treadload.contact import Contact
 from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
 from treadload.footprint import Footprint
-from treadload.pavement import Layer, LayerRow, Pavement, layer_rows, road_in_words
+from treadload.pavement import LayerRow, Pavement, layer_rows, road_in_words
+from treadload.pavement.sublayers import middle_temperatures
 from treadload.response import GridLoad, Heterogeneous, Passes, Response
 from treadload.results.cite import case_citations, citations, life_citations, passes_citations, stones_citations
 from treadload.results.dataset import Fields
@@ -217,9 +218,10 @@ def _last(parts: list[BaseResult], kind: type[Any]) -> Any:
 def _warm_rows(road: Pavement | None, season: Season) -> tuple[LayerRow, ...]:
     if road is None:
         return ()
-    warm = season.temperature
-    layers: list[Layer] = list(road.layers)
-    return layer_rows(road, list(warm) if isinstance(warm, tuple) else [warm] * len(layers))
+    profile, warm = season.profile, season.temperatures
+    if profile is not None:
+        return layer_rows(road, middle_temperatures(road, profile))
+    return layer_rows(road, warm if isinstance(season.temperature, tuple) else warm * len(road.layers))
 
 
 def _provenance() -> dict[str, Any]:

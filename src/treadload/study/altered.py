@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from treadload.damage.climate import Climate, Season
+from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import damage_of, wander_of
 from treadload.damage.traffic import Traffic
@@ -50,13 +50,7 @@ def stiffer(road: Pavement, number: int, factor: float) -> Pavement:
 
 def warmer(climate: Climate, degrees: float) -> Climate:
     """The climate with all its seasons warmer by so many degrees."""
-
-    def shifted(season: Season) -> Season:
-        now = season.temperature
-        warm = tuple(t + degrees for t in now) if isinstance(now, tuple) else now + degrees
-        return replace(season, temperature=warm)
-
-    return Climate(tuple(shifted(season) for season in climate.seasons))
+    return climate.warmer(degrees)
 
 
 def names_of(road: Pavement) -> list[str]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import PchipInterpolator, RBFInterpolator
 
 from treadload.damage.climate import Season
 from treadload.damage.traffic import Wander
@@ -14,13 +14,20 @@ from treadload.materials.kinds import AnyElastic, upright
 from treadload.pavement import Pavement
 
 NEVER = Wander.none()
+# Of what profiles differ in: the part that is left out, and the directions that are looked at.
+_SPREAD, _DIMENSIONS = 1e-3, 3
+# Below this part of the largest, readings are not told apart by their logarithm.
+_LINEAR = 0.1
 # Of the reading, in the damage: from soils and steep mixes over asphalt to courses bound with cement.
 _POWERS = (3, 5, 12)
 
 
 def warmth_of(seasons: Sequence[Season], roads: Sequence[Pavement]) -> Array | None:
-    """One number that orders the roads of a climate (road,): the mean of the layers' ln E, of which strains are
-    smoother functions than of temperature. None where a single number does not tell the roads apart.
+    """What orders the roads of a climate, of which strains are smoother functions than of temperature.
+
+    Of seasons of one temperature the mean of the layers' ln E, (road,). Of profiles over depth, the few combinations
+    of the layers' ln E in which the roads differ, (road, k), the widest from 0 to 1. None where these do not tell the
+    roads apart, or layers have temperatures of their own.
     """
     if any(isinstance(season.temperature, tuple) for season in seasons):
         return None
@@ -28,8 +35,21 @@ def warmth_of(seasons: Sequence[Season], roads: Sequence[Pavement]) -> Array | N
     moduli = [[upright(one)[0] for one in row if isinstance(one, AnyElastic)] for row in materials]
     if any(len(elastic) < len(row) for elastic, row in zip(moduli, materials, strict=True)):
         return None
-    warmth: Array = np.log(moduli).mean(axis=1)
-    return warmth if len(np.unique(warmth)) == len(warmth) else None
+    warmth: Array = np.log(moduli)
+    deep = any(season.profile is not None for season in seasons)
+    warmth = _apart(warmth) if deep else warmth.mean(axis=1)
+    return warmth if len(np.unique(warmth, axis=0)) == len(warmth) else None
+
+
+def _apart(moduli: Array) -> Array:
+    """Principal components (road, k) of ln E (road, layer) that hold all but a thousandth of the spread."""
+    centred = moduli - moduli.mean(axis=0)
+    left, size, _ = np.linalg.svd(centred, full_matrices=False)
+    held = np.cumsum(size**2) / max(float((size**2).sum()), np.finfo(float).tiny)
+    count = min(int(np.searchsorted(held, 1 - _SPREAD)) + 1, _DIMENSIONS)
+    scores = (left * size)[:, :count]
+    result: Array = (scores - scores.min(axis=0)) / max(float(np.ptp(scores)), np.finfo(float).tiny)
+    return result
 
 
 def nodes(
@@ -50,10 +70,9 @@ def nodes(
     true = _harm(pilot / largest, wander, spacing)
     most = true.max(axis=2, keepdims=True)
     most[most == 0] = 1.0
-    order = np.argsort(warmth)
-    kept = [int(order[0]), int(order[-1])]
+    kept = _first(warmth)
     while True:
-        kept.sort(key=lambda k: warmth[k])
+        kept.sort(key=lambda k: warmth[k] if warmth.ndim == 1 else k)
         read = _spline(warmth[kept], pilot[kept], 0)(warmth)
         apart = np.abs(_harm(read / largest, wander, spacing) - true) / most
         errors = (apart.max(axis=2) / np.array(_POWERS)[:, None]).max(axis=0)
@@ -61,6 +80,7 @@ def nodes(
             return kept, float(errors.max())
         if len(kept) + 1 == len(pilot):
             return everything, 0.0
+        errors[kept] = 0.0
         kept.append(int(errors.argmax()))
 
 
@@ -74,11 +94,40 @@ def _harm(readings: Array, wander: Wander, spacing: float) -> Array:
 def over_the_climate(warmth: Array | None, kept: list[int], rest: Array, turns: int) -> Array:
     """All roads (class, road, ...) from the kept ones: readings (turn) by splines, cracks from the nearest."""
     assert warmth is not None
-    nearest = np.abs(warmth[:, None] - warmth[kept]).argmin(axis=1)
+    places = warmth.reshape(len(warmth), -1)
+    nearest = np.linalg.norm(places[:, None] - places[kept], axis=-1).argmin(axis=1)
     whole = rest[:, nearest]
     whole[:, :, :turns] = np.maximum(_spline(warmth[kept], rest[:, :, :turns], 1)(warmth), 0.0)
     return whole
 
 
-def _spline(warmth: Array, values: Array, axis: int) -> PchipInterpolator:
-    return PchipInterpolator(warmth, values, axis=axis)
+def _first(warmth: Array) -> list[int]:
+    """Roads to begin with: the ends of every direction, and as many as a plane through them needs."""
+    if warmth.ndim == 1:
+        order = np.argsort(warmth)
+        return [int(order[0]), int(order[-1])]
+    kept = {int(one) for column in warmth.T for one in (column.argmin(), column.argmax())}
+    while len(kept) < warmth.shape[1] + 2:
+        known = sorted(kept)
+        far = np.linalg.norm(warmth[:, None] - warmth[known], axis=-1).min(axis=1)
+        kept.add(int(far.argmax()))
+    return sorted(kept)
+
+
+def _spline(warmth: Array, values: Array, axis: int) -> Callable[[Array], Array]:
+    """Curves through values over warmth; over several directions the smoothest surfaces through them.
+
+    These go through about the logarithm of the values, of which strains are smoother functions.
+    """
+    if warmth.ndim == 1:
+        curve: Callable[[Array], Array] = PchipInterpolator(warmth, values, axis=axis)
+        return curve
+    ahead = np.moveaxis(values, axis, 0)
+    linear = _LINEAR * float(np.abs(values).max()) or 1.0
+    surfaces = RBFInterpolator(warmth, np.arcsinh(ahead.reshape(len(ahead), -1) / linear), kernel="cubic", degree=1)
+
+    def read(at: Array) -> Array:
+        found = linear * np.sinh(surfaces(at))
+        return np.moveaxis(found.reshape(len(at), *ahead.shape[1:]), 0, axis)
+
+    return read

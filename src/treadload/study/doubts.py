@@ -5,8 +5,29 @@ from __future__ import annotations
 from treadload.contact.friction.laws import law_of
 from treadload.damage.climate import Climate
 from treadload.damage.traffic import Traffic
+from treadload.pavement import Pavement
 from treadload.plausible import doubt, load_doubt
+from treadload.study.seasons import beyond_data
 from treadload.tire import Tire
+
+
+def beyond_tables(road: Pavement, climate: Climate) -> tuple[str, ...]:
+    """Sentences on mixes that the climate takes beyond their tables: how far, and in which share of the passes."""
+    found: dict[tuple[str, float], tuple[float, float]] = {}
+    for season in climate.seasons:
+        worst: dict[tuple[str, float], float] = {}
+        for name, value, limit in beyond_data(road, season):
+            far = worst.get((name, limit), limit)
+            worst[name, limit] = max(far, value) if value > limit else min(far, value)
+        for key, value in worst.items():
+            furthest, share = found.get(key, (key[1], 0.0))
+            furthest = max(furthest, value) if value > key[1] else min(furthest, value)
+            found[key] = furthest, share + season.share
+    return tuple(
+        f"{name} reaches {furthest:.0f} °C, beyond its table to {limit:g} °C, in {100 * share:.2g} % of the passes: "
+        "ln E is extrapolated there, laws stay at the limit"
+        for (name, limit), (furthest, share) in found.items()
+    )
 
 
 def traffic_doubts(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str, ...]:
@@ -21,7 +42,6 @@ def traffic_doubts(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str,
         if row.speed is not None:
             said += doubt("speed", row.speed, row.name)
     for season in climate.seasons:
-        warm = season.temperature
-        for one in warm if isinstance(warm, tuple) else (warm,):
+        for one in season.temperatures:
             said += doubt("temperature", one, season.name)
     return said

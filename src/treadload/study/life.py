@@ -15,7 +15,7 @@ from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Traffic
 from treadload.pavement import Pavement, lift_below
 from treadload.study.contacts import Contacts, Progress
-from treadload.study.doubts import traffic_doubts
+from treadload.study.doubts import beyond_tables, traffic_doubts
 from treadload.study.groups import group_factors, in_words
 from treadload.study.passages import solve_passages
 from treadload.tire import Tire
@@ -71,7 +71,10 @@ def solve_life(
         "wheels_moved": passages.moved,
         "seconds": time.perf_counter() - start,
     }
-    said = (*_lifts(road, criteria), *traffic_doubts(tire, traffic, climate), *passages.warnings)
+    said = (
+        *_lifts(road, criteria), *traffic_doubts(tire, traffic, climate), *climate.warnings,
+        *beyond_tables(road, climate), *passages.warnings,
+    )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *said))
 
 

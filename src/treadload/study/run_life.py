@@ -20,6 +20,7 @@ from treadload.study.contacts import Contacts, Progress
 from treadload.study.designing import ThicknessDesign, design_thickness
 from treadload.study.life import solve_life
 from treadload.study.reliability import Reliability, life_reliability
+from treadload.study.seasons import warmed
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 
 
@@ -47,7 +48,7 @@ class LifeResult(Study):
         """The life in one tree with provenance, ready to be saved; the road in the season that does most damage."""
         shares = self.life.dataset["damage_share"].sel(criterion=self.life.governing).sum("axle_class")
         season = self.life.climate.seasons[int(np.argmax(shares.to_numpy()))]
-        road = self.road.at_temperature(season.temperature)
+        road = warmed(self.road, (), season).road
         return to_tree(self.parts, case=self.case, road=road, season=season, summary=self.summary())
 
     def summary(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,7 +11,9 @@ from treadload.damage.climate import Season
 from treadload.damage.criterion import Criterion
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.pavement import Pavement
+from treadload.materials import Mix
+from treadload.pavement import Pavement, TemperatureProfile
+from treadload.pavement.sublayers import divided, middle_temperatures
 
 
 @dataclass(frozen=True)
@@ -27,20 +29,68 @@ class Warm:
 
 
 def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season) -> Warm:
-    """The road and the criteria in a season. Raises InputError for temperatures that do not fit the road."""
+    """The road and the criteria in a season; below a profile courses are divided, and criteria read their ends.
+
+    Raises InputError for temperatures that do not fit the road.
+    """
     temperature = season.temperature
     if isinstance(temperature, tuple) and len(temperature) != len(road.layers):
         raise InputError(
             f"season {season.name!r} has {len(temperature)} temperatures, the road {len(road.layers)} layers"
         )
-    warm = road.at_temperature(temperature)
-    return Warm(warm, tuple(criterion.at(_at_layer(criterion.number(road), season)) for criterion in criteria))
+    profile = season.profile
+    if profile is None:
+        assert not isinstance(temperature, TemperatureProfile)
+        warm, numbers = road.at_temperature(temperature), None
+    else:
+        parts, owner = divided(road, thickest=season.sublayers, ageing=season.ageing)
+        # A sunny hour is warmer than the tables of most mixes: their modulus goes on, and the life says so.
+        warm = parts.at_temperature(middle_temperatures(parts, profile), extrapolate=True)
+        numbers = owner
+    placed = [_placed(one, road, numbers) for one in criteria]
+    pairs = zip(placed, criteria, strict=True)
+    return Warm(warm, tuple(new.at(_at_layer(old, road, season)) for new, old in pairs))
 
 
 def layer_temperatures(road: Pavement, criteria: Sequence[Criterion], seasons: Sequence[Season]) -> Array:
-    """Temperature (criterion, season) of the layer that each criterion reads, °C."""
-    return np.array([[_at_layer(c.number(road), season) for season in seasons] for c in criteria])
+    """Temperature (criterion, season) of the layer that each criterion reads, °C; of a divided one, of its part.
+
+    Within the data of a mix, to which laws go no further.
+    """
+    return np.array([[_at_layer(c, road, season) for season in seasons] for c in criteria])
 
 
-def _at_layer(layer: int, season: Season) -> float:
-    return season.temperature[layer] if isinstance(season.temperature, tuple) else season.temperature
+def beyond_data(road: Pavement, season: Season) -> list[tuple[str, float, float]]:
+    """Mixes of a road that a profile takes beyond their tables: name, the temperature furthest out, and the limit."""
+    profile = season.profile
+    if profile is None:
+        return []
+    parts, owner = divided(road, thickest=season.sublayers)
+    found = []
+    for number, value in zip(owner, middle_temperatures(parts, profile), strict=True):
+        mix = road.layers[number].material
+        if isinstance(mix, Mix):
+            low, high = mix.temperatures[0], mix.temperatures[-1]
+            if not low <= value <= high:
+                found.append((mix.name, value, high if value > high else low))
+    return found
+
+
+def _placed(criterion: Criterion, road: Pavement, owner: tuple[int, ...] | None) -> Criterion:
+    """The criterion at the part of its layer that it reads: the first at the top, else the last."""
+    if owner is None:
+        return criterion
+    number = criterion.number(road)
+    members = [k for k, whose in enumerate(owner) if whose == number]
+    return replace(criterion, layer=members[0] if criterion.place == "top" else members[-1])
+
+
+def _at_layer(criterion: Criterion, road: Pavement, season: Season) -> float:
+    number, given, profile = criterion.number(road), season.temperature, season.profile
+    if profile is None:
+        assert not isinstance(given, TemperatureProfile)
+        return given[number] if isinstance(given, tuple) else given
+    parts, owner = divided(road, thickest=season.sublayers)
+    own = _placed(criterion, road, owner).layer
+    value, mix = middle_temperatures(parts, profile)[own], road.layers[number].material
+    return float(np.clip(value, mix.temperatures[0], mix.temperatures[-1])) if isinstance(mix, Mix) else value
