@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -12,7 +13,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Mix
 from treadload.materials.ageing import Ageing
-from treadload.pavement import Pavement, RoadTemperatures, TemperatureProfile, divided
+from treadload.pavement import Pavement, RoadTemperatures, TemperatureProfile
 from treadload.tables import finite_list
 from treadload.units import Celsius, Length, Share
 
@@ -25,6 +26,9 @@ _DIVISORS = (1, 2, 3, 4, 6, 8, 12, 24)
 _YEAR = 8700.0
 # Strain over stiffness in asphalt, and a usual law over strain.
 _READING, _HARM = 0.8, 5.0
+_OTHERS = (3.0, 8.0)
+# Temperatures at which a mix is tabulated between its coldest and its warmest hour.
+_TABLE = 200
 
 
 @dataclass(frozen=True)
@@ -133,7 +137,10 @@ class Climate:
         sublayers: float | None = None,
         ageing: Ageing | None = None,
     ) -> Climate:
-        """Months by parts of the day, each with the mean profile of its hours over depth.
+        """Months by parts of the day, each with a profile over depth that does the harm of its hours.
+
+        At each depth in a mix it is the temperature at which E^-4 has its mean, strain taken as E^-0.8 and harm as
+        its fifth power; else the mean.
 
         road: whose mixes wait for their temperature. found: its temperatures over a year at least. parts: of the day,
         a divisor of 24, see `binning_error` for what they cost. hours: shares of the passes in the 24 hours of
@@ -142,13 +149,14 @@ class Climate:
         """
         labels, weights = _binned(found, parts, hours)
         temperatures, total = found.temperatures, float(weights.sum())
+        soft = _softness(road, found)
         seasons = []
         for label in np.unique(labels):
             own = labels == label
             share = float(weights[own].sum()) / total
             if share == 0:
                 continue
-            mean = np.average(temperatures[own], axis=0, weights=weights[own])
+            mean = _equivalent(soft, temperatures[own], weights[own])
             month, part = divmod(int(label), parts)
             wide = 24 // parts
             name = MONTHS[month] if parts == 1 else f"{MONTHS[month]}, {part * wide}-{(part + 1) * wide} h"
@@ -160,7 +168,7 @@ class Climate:
         about = (
             f"temperatures by {found.method}: surface {surface.min():.0f} to {surface.max():.0f} °C, gathered into "
             f"{len(seasons)} seasons by month and {parts} part(s) of the day, which moves damage as readings off by "
-            f"{100 * error:.1g} % would"
+            f"{100 * error:.2g} % would"
         )
         return cls(tuple(seasons), (about, *_told(ageing)), found.assumed)
 
@@ -176,35 +184,53 @@ def _told(ageing: Ageing | None) -> tuple[str, ...]:
 def binning_error(
     road: Pavement, found: RoadTemperatures, *, parts: int = PARTS, hours: Sequence[float] | None = None
 ) -> float:
-    """What the means over months and parts of the day miss of the year's hours, as an error of a reading.
+    """What seasons by month and part of the day miss of the year's hours, as an error of a reading.
 
-    For mixes: strain is taken as E^-0.8 and harm as its fifth power; the harm of the binned temperatures over that of
-    all hours, to the power 1/5, less one; the largest over depth.
-    Arguments as in `Climate.of_road`.
+    The harm of the binned temperatures over that of all hours, to the power 1/n, less one, for laws of another power
+    n than that by which the bins were made, 3 and 8; the largest over the depths in mixes. Arguments as in
+    `Climate.of_road`.
     """
     labels, weights = _binned(found, parts, hours)
+    bins = [labels == label for label in np.unique(labels) if weights[labels == label].sum() > 0]
+    shares = np.array([weights[own].sum() for own in bins])
     worst = 0.0
-    whole, owner = divided(road)
-    tops = np.concatenate([[0.0], whole.interfaces])[: len(whole.layers)]
-    for top, layer, number in zip(tops, whole.layers, owner, strict=True):
-        material = road.layers[number].material
-        if not isinstance(material, Mix) or layer.thickness is None:
+    temperatures, soft = found.temperatures, _softness(road, found)
+    binned = np.array([_equivalent(soft, temperatures[own], weights[own]) for own in bins])
+    for number, curve in enumerate(soft):
+        if curve is None:
             continue
-        deep = top + 0.5 * layer.thickness
-        column = np.array([np.interp(deep, found.depths, row) for row in found.temperatures])
-        known = np.linspace(column.min(), column.max(), 200)
-        moduli = np.log([material.modulus(float(one), extrapolate=True) for one in known])
-
-        def harm(warm: Array, known: Array = known, moduli: Array = moduli) -> Array:
-            result: Array = np.exp(-_READING * _HARM * np.interp(warm, known, moduli))
-            return result
-
-        fine = float(np.average(harm(column), weights=weights))
-        sums = np.bincount(labels, weights)
-        means = np.divide(np.bincount(labels, weights * column), sums, out=np.zeros_like(sums), where=sums > 0)
-        rough = float(np.average(harm(means), weights=sums))
-        worst = max(worst, abs((rough / fine) ** (1 / _HARM) - 1))
+        for power in _OTHERS:
+            rough, fine = (
+                float(np.average(np.exp(power * np.interp(warm, *curve)), weights=heavy))
+                for warm, heavy in ((binned[:, number], shares), (temperatures[:, number], weights))
+            )
+            worst = max(worst, abs((rough / fine) ** (1 / power) - 1))
     return worst
+
+
+def _softness(road: Pavement, found: RoadTemperatures) -> list[tuple[Array, Array] | None]:
+    """At each depth temperatures and ln of the strain there, but for a constant; None where there is no mix."""
+    curves: list[tuple[Array, Array] | None] = []
+    for number, depth in enumerate(found.depths):
+        mix, column = road.layers[road.layer_at(float(depth))].material, found.temperatures[:, number]
+        if not isinstance(mix, Mix) or np.ptp(column) == 0:
+            curves.append(None)
+            continue
+        known = np.linspace(column.min(), column.max(), _TABLE)
+        moduli = [mix.modulus(float(one), extrapolate=True) for one in known]
+        curves.append((known, -_READING * np.log(moduli)))
+    return curves
+
+
+def _equivalent(soft: Sequence[tuple[Array, Array] | None], temperatures: Array, weights: Array) -> Array:
+    """Temperature at each depth (nz,) that does the harm of some hours (nt, nz)."""
+    result: Array = np.average(temperatures, axis=0, weights=weights)
+    for number, curve in enumerate(soft):
+        if curve is not None:
+            strain = np.interp(temperatures[:, number], *curve)
+            harm = float(np.average(np.exp(_HARM * strain), weights=weights))
+            result[number] = np.interp(math.log(harm) / _HARM, curve[1], curve[0])
+    return result
 
 
 def _binned(found: RoadTemperatures, parts: int, hours: Sequence[float] | None) -> tuple[np.ndarray, Array]:
