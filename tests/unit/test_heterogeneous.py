@@ -46,6 +46,39 @@ def test_every_cell_keeps_the_law_of_its_material(one):
             assert np.abs(strain[c] - expected).max() < 1e-5 * np.abs(data[f"strain_{c}"]).max()
 
 
+def test_borders_by_share_keep_volumes_and_laws():
+    soft = tl.Aggregates.from_centres(-4e-3, -3e-3, 3e-3, 2e-3, tl.Elastic(0.5e9, 0.35))
+    stones = [tl.Aggregates.from_centres(3e-3, 1e-3, 5.5e-3, 3.5e-3, STONE), soft]
+    data = tl.compute_heterogeneous(EDGE, MORTAR, stones, **PLACE, borders="shares").dataset
+    for number, (radius, material) in enumerate(((3.5, STONE), (2.0, tl.Elastic(0.5e9, 0.35))), start=1):
+        cells = data.stone.to_numpy() == number
+        assert abs(cells.sum() - 4 / 3 * np.pi * radius**3) <= 0.5
+        assert (data.phase.to_numpy()[cells] == number).all()
+        stress, strain = (data[f"{kind}_xz"].to_numpy()[cells] for kind in ("stress", "strain"))
+        np.testing.assert_allclose(
+            strain, stress * (1 + material.poisson) / material.modulus, atol=1e-5 * np.abs(data.strain_xz).max()
+        )
+    mastic = data.phase.to_numpy() == 0
+    expected = data.stress_xz.to_numpy()[mastic] * 1.35 / MORTAR.modulus
+    np.testing.assert_allclose(data.strain_xz.to_numpy()[mastic], expected, atol=1e-5 * np.abs(data.strain_xz).max())
+    with pytest.raises(tl.InputError, match='borders must be "steps" or "shares", got \'half\''):
+        tl.compute_heterogeneous(EDGE, MORTAR, stones, **PLACE, borders="half")
+
+
+@pytest.mark.slow
+def test_borders_by_share_need_fewer_cells(one):
+    stiff = tl.Aggregates.from_centres(0.0, 0.0, 6e-3, 4e-3, tl.Elastic(36e9, 0.35))
+    place = {"window": (12e-3, 12e-3), "depth": 12e-3}
+
+    def carried(spacing, borders):
+        data = tl.compute_heterogeneous(EDGE, MORTAR, stiff, **place, spacing=spacing, borders=borders).dataset
+        return float(np.mean(data.stress_zz.to_numpy()[data.phase.to_numpy() == 1]))
+
+    fine = carried(0.5e-3, "shares")
+    # Four cells a radius beside eight.
+    assert abs(carried(1e-3, "shares") / fine - 1) < 0.7 * abs(carried(1e-3, "steps") / fine - 1)
+
+
 def test_readings_are_those_of_the_fields(one):
     data = one.dataset
     # Away from the sides and the bottom by the radius, here a quarter of the side at most.

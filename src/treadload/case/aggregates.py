@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import model_validator
 
@@ -38,7 +38,8 @@ class AggregatesPart(Table):
     material: of the stones. mortar: what is between them; left out, the top layer is mortar. fraction: of the
     window, in (0, 1). radii: of the stones. shares: of the stones' volume by radius; left out, all the same. window:
     where. spacing: of its cells. seed, gap, cover: of the drawing, see `tl.Aggregates.random`. bond_strength: tension
-    that mortar on stone bears. See `treadload.compute_heterogeneous`.
+    that mortar on stone bears. borders: "steps" of whole cells, or "shares" of cut ones. See
+    `treadload.compute_heterogeneous`.
     """
 
     material: StoneTable
@@ -52,6 +53,7 @@ class AggregatesPart(Table):
     gap: Length = 0.0
     cover: Length = 0.0
     bond_strength: Pressure | None = None
+    borders: Literal["steps", "shares"] = "steps"
 
     @model_validator(mode="after")
     def _possible(self) -> AggregatesPart:

@@ -152,7 +152,8 @@ def stones_of(case: Case, load: Loaded) -> Heterogeneous:
     window = asked.window
     return compute_heterogeneous(
         load.wheels, asked.road(load.road), asked.build(), window=(window.length, window.width), depth=window.depth,
-        at=(window.x, window.y), spacing=asked.spacing, bond_strength=asked.bond_strength, progress=load.tell,
+        at=(window.x, window.y), spacing=asked.spacing, bond_strength=asked.bond_strength, borders=asked.borders,
+        progress=load.tell,
     )  # fmt: skip
 
 
