@@ -175,10 +175,11 @@ BONDS = Registry("bond", "treadload.bonds", default="spring", words=True, exampl
 FRICTION = Registry("friction law", "treadload.friction", key="law", number="coulomb")
 MANEUVERS = Registry("maneuver", "treadload.maneuvers", words=True, example='{ kind = "braking", deceleration = 3 }')
 CRITERIA = Registry("fatigue law", "treadload.criteria", key="law")
+GROWTH = Registry("law of crack growth", "treadload.growth", key="law")
 QUANTITIES = Registry(
     "quantity", "treadload.quantities", key="quantity", words=True,
     example='{ quantity = "utilisation", cohesion = "0.85 MPa" }',
 )  # fmt: skip
 READERS = Registry("reader of meshes", "treadload.readers", key="")
 FOOTPRINTS = Registry("reader of footprints", "treadload.footprints", key="format")
-ALL = (MATERIALS, SHIFTS, PLASTICITY, BONDS, FRICTION, MANEUVERS, CRITERIA, QUANTITIES, READERS, FOOTPRINTS)
+ALL = (MATERIALS, SHIFTS, PLASTICITY, BONDS, FRICTION, MANEUVERS, CRITERIA, GROWTH, QUANTITIES, READERS, FOOTPRINTS)

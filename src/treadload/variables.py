@@ -235,6 +235,20 @@ _LIFE = {
     "elasticity": ("1", "relative change of the life per relative change of an input; of temperature, per °C"),
 }
 
+_GROWTH = {
+    "crack_depth": ("m", "depth of a crack's tip from its mouth"),
+    "solved_depth": ("m", "depth of a crack's tip at which stress intensity was solved"),
+    "initiation_passes": ("1", "passes until a crack starts at a place"),
+    "growth_passes": ("1", "passes until a crack has come so deep at a place"),
+    "growth_rate": ("m", "growth of a crack per pass of the whole traffic"),
+    "reach_passes": ("1", "passes until the first crack has come so deep"),
+    "reach_years": ("1", "years until the first crack has come so deep"),
+    "risk_years": ("1", "years until a crack has come so deep in a share of roads"),
+    "reach_chance": ("1", "share of roads in which a crack has come so deep at the end of the design life"),
+    "stress_intensity_range": ("Pa m^0.5", "range of the stress intensity as an axle class passes"),
+    "crack_offset": ("m", "offset of a crack's path along the normal of its trace"),
+}
+
 _INTERFACES = {
     "interface": ("1", "number of the interface from the surface, 0 below the top layer"),
     "interface_shear_x": ("Pa", "shear stress xz at an interface"),
@@ -374,6 +388,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_LIFE,
     **_RELIABILITY,
     **_DESIGN,
+    **_GROWTH,
     **_INTERFACES,
     **_PASSES,
     **_UNIFORM,
@@ -387,7 +402,8 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
     "trial", "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "input", "risk",
-    "year", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth",
+    "year", "crack_depth", "solved_depth",
+    "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth",
     "point", "y", "across", "x", "component", "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}

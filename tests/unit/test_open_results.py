@@ -27,7 +27,7 @@ from treadload.study.reliability.solve import told
 from treadload.study.screening import asked
 from treadload.study.sweeps.design import product
 from treadload.study.two_grids import with_error
-from treadload.variables import in_order
+from treadload.variables import dataset, in_order
 
 RUBBER = tl.Elastic(3e6, 0.5)
 ROAD = tl.Pavement([tl.Layer(tl.Elastic(5.4e9, 0.35), 0.08, name="asphalt"), tl.Layer(tl.Elastic(2e8, 0.35))])
@@ -112,6 +112,34 @@ def thickness_design():
     return tl.study.ThicknessDesign(data, ROAD, life(), "asphalt", 0.01, 0.05, stats, ("base: its law has no risk",))
 
 
+def growth():
+    depths, solved, y = [0.01, 0.02, 0.06], [0.01, 0.03, 0.057], [-0.1, 0.0, 0.1]
+    passes = np.array([[2e6, 1e6, np.inf], [3e6, 1.5e6, np.inf], [4e6, 1.7e6, np.inf]])
+    data = dataset(
+        {
+            "initiation_passes": (("y",), passes[0]),
+            "growth_passes": (("crack_depth", "y"), passes),
+            "growth_rate": (("solved_depth", "y"), np.full((3, 3), 1e-8)),
+            "reach_passes": (("crack_depth",), passes.min(axis=1)),
+            "reach_years": (("crack_depth",), [10.0, 15.0, 17.0]),
+            "risk_years": (("risk", "crack_depth"), np.array([0.5, 1, 2])[:, None] * [10.0, 15.0, 17.0]),
+            "reach_chance": (("crack_depth",), [0.9, 0.8, 0.7]),
+            "stress_intensity_range": (("axle_class", "solved_depth", "mode"), np.full((2, 3, 4), 2e5)),
+            "crack_offset": (("crack_depth",), np.zeros(3)),
+            "worst_y": ((), 0.0),
+        },
+        {
+            "crack_depth": depths, "solved_depth": solved, "risk": [0.05, 0.5, 0.95], "y": y,
+            "mode": ["I", "II", "III", "Irwin"], "axle_class": ["light", "heavy"],
+        },
+        grows="down through asphalt, vertical, trace 0 degrees from travel",
+        starts="top, a crack of 10 mm where its damage is 1",
+        design_years=20.0,
+    )  # fmt: skip
+    asked = tl.damage.CrackGrowth("top", law=tl.damage.ParisLaw(1e-4, 4.0))
+    return tl.damage.Growth(data, asked, {"responses": 4}, ("crack growth: from memory",))
+
+
 def footprint():
     pressure = np.zeros((4, 5))
     pressure[1:3, 1:4] = 7e5
@@ -190,6 +218,7 @@ MADE = {
     "Sensitivity": sensitivity,
     "Reliability": reliability,
     "ThicknessDesign": thickness_design,
+    "Growth": growth,
     "UniformComparison": lambda: tl.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
     "RollingResistance": viscoelastic_tire,
     "Footprint": footprint,
@@ -210,6 +239,7 @@ FIGURES = {
     "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
     "BondComparison": "lives", "Sensitivity": "inputs", "Reliability": "years", "ThicknessDesign": "lives",
     "UniformComparison": "strains",
+    "Growth": "depth",
     "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",

@@ -9,6 +9,7 @@ from pydantic import model_validator
 from treadload.case.climate import AgeingPart, ClimatePart
 from treadload.case.criteria import Criterion
 from treadload.case.file import FilePart
+from treadload.case.growth import GrowthPart
 from treadload.case.reliability import ReliabilityPart
 from treadload.case.road import PavementPart, RoadPart
 from treadload.case.tire import TirePart
@@ -40,7 +41,8 @@ class LifeCase(FilePart):
     classes of axles that bring none. pavement: the road. traffic: what passes. climate: how warm the road is over the
     year. ageing: how old its mixes are. criteria: what ends its life. spacing: of the contact's cells, 3 mm if left
     out: surface lives move by less than 5 % on finer ones, and by half on cells of 6 mm. tolerance: of
-    readings interpolated over the climate. reliability: what scatters; left out, no probabilities.
+    readings interpolated over the climate. growth: of a crack; left out, none grows. reliability: what scatters; left
+    out, no probabilities.
     """
 
     own_tables: ClassVar = ("traffic", "climate", "ageing", "criteria")
@@ -54,6 +56,7 @@ class LifeCase(FilePart):
     climate: ClimatePart
     ageing: AgeingPart | None = None
     criteria: tuple[Criterion, ...]
+    growth: GrowthPart | None = None
     reliability: ReliabilityPart | None = None
 
     @model_validator(mode="after")
@@ -65,6 +68,8 @@ class LifeCase(FilePart):
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
             raise ValueError(f"two criteria have the name {twice!r}; give them different names")
+        if self.growth is not None:
+            self.growth.build(self.build_criteria())
         self.build_traffic()
         temperatures = {season.temperature for season in climate.seasons}
         waiting = any(layer.depends_on_temperature for layer in road.layers)

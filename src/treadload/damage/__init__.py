@@ -4,6 +4,7 @@ from treadload.damage.climate import Climate, Season
 from treadload.damage.cracks import crack_rose, envelope
 from treadload.damage.criterion import Criterion
 from treadload.damage.fields import compute_quantities, known_quantities, peak, tension_behind
+from treadload.damage.growth import CrackGrowth, FromStrength, Growth, ParisLaw
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
 from treadload.damage.interface import BondVerdict, assess_bonds, delaminate, interface_fields
 from treadload.damage.laws.american import (
@@ -56,6 +57,7 @@ __all__ = [
     "BondVerdict",
     "BottomExtension",
     "Climate",
+    "CrackGrowth",
     "Criterion",
     "DissipatedEnergy",
     "DistortionEnergy",
@@ -67,6 +69,8 @@ __all__ = [
     "FrenchBituminous",
     "FrenchHydraulic",
     "FrenchSubgrade",
+    "FromStrength",
+    "Growth",
     "HorizontalTension",
     "InterfaceStrength",
     "Life",
@@ -79,6 +83,7 @@ __all__ = [
     "OctahedralRatio",
     "OctahedralShear",
     "OnLayer",
+    "ParisLaw",
     "PowerLaw",
     "PowerLine",
     "PrincipalTension",

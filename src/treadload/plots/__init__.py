@@ -9,6 +9,7 @@ from treadload.plots.design import design_thicknesses
 from treadload.plots.energy import dissipated_energy
 from treadload.plots.first import first_places
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
+from treadload.plots.growth import crack_depth, crack_intensity
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
@@ -25,6 +26,7 @@ from treadload.plots.others import (
     CreepCurvePlots,
     FieldsPlots,
     FootprintComparisonPlots,
+    GrowthPlots,
     HeterogeneousPlots,
     IndentationPlots,
     LifePlots,
@@ -64,6 +66,7 @@ __all__ = [
     "CreepCurvePlots",
     "FieldsPlots",
     "FootprintComparisonPlots",
+    "GrowthPlots",
     "HeterogeneousPlots",
     "IndentationPlots",
     "LifePlots",
@@ -95,6 +98,8 @@ __all__ = [
     "compare_temperatures",
     "comparison_cuts",
     "comparison_maps",
+    "crack_depth",
+    "crack_intensity",
     "creep_curves",
     "deflection_bowl",
     "design_thicknesses",

@@ -14,6 +14,7 @@ from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
+from treadload.plots.growth import crack_depth, crack_intensity
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
@@ -123,6 +124,19 @@ class ReliabilityPlots(_Plots):
     def inputs(self, *, ax: Axes | None = None) -> Figure:
         """What the scatter of each criterion is made of."""
         return reliability_inputs(self._result, ax=ax)
+
+
+@offers("plot", "Growth")
+class GrowthPlots(_Plots):
+    """Figures of a crack that grows."""
+
+    def depth(self, *, ax: Axes | None = None) -> Figure:
+        """Depth of the first crack against years, with what scatters."""
+        return crack_depth(self._result, ax=ax)
+
+    def intensity(self) -> Figure:
+        """Range of the stress intensity against depth, by class of axles and mode."""
+        return crack_intensity(self._result)
 
 
 @offers("plot", "BondVerdict")

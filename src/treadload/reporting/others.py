@@ -12,6 +12,7 @@ from treadload.plots import (
     CreepCurvePlots,
     FieldsPlots,
     FootprintComparisonPlots,
+    GrowthPlots,
     HeterogeneousPlots,
     IndentationPlots,
     LifePlots,
@@ -39,6 +40,7 @@ HEADINGS = {
     "bond_comparison": "Road with and without its bond",
     "comparison": "Computed and measured footprint",
     "creep_curve": "Creep curve",
+    "growth": "A crack that grows",
     "indentation": "Indentation",
     "sensitivity": "What the life depends on",
     "design": "Design of a thickness",
@@ -120,6 +122,18 @@ def _pictures(other: Other) -> list[Picture]:
         case "creep_curve":
             caption = "Force over friction times load, and the share of the contact that slips, against creepage."
             return picture("Force against creepage", caption, CreepCurvePlots(data).forces, wide=True)
+        case "growth":
+            plots_of_growth = GrowthPlots(data)
+            caption = (
+                "The first crack of the wheel path, from its initiation to the end of its way; the band holds what "
+                "scatters in initiation and in growth."
+            )
+            drawn = picture("Depth of the crack against years", caption, plots_of_growth.depth, wide=True)
+            caption = (
+                "Range of the stress intensity in a passage at the worst place with no wander, in the season where "
+                "it is largest; faces close under pressure and rub."
+            )
+            return drawn + picture("Stress intensity", caption, plots_of_growth.intensity, wide=True)
         case "indentation":
             caption = "Pressure under the body, and what the surface keeps of it, step by step."
             return picture("Pressure and dent", caption, IndentationPlots(data).dent, wide=True)

@@ -3,6 +3,7 @@
 from treadload.study.calibration import Calibration, calibrate
 from treadload.study.delamination import BondComparison, compare_bonds, solve_interfaces
 from treadload.study.designing import ThicknessDesign, design_thickness
+from treadload.study.growth import grow_cracks
 from treadload.study.life import solve_life
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.plan import plan_case, plan_life
@@ -39,6 +40,7 @@ __all__ = [
     "compare_bonds",
     "compare_uniform",
     "design_thickness",
+    "grow_cracks",
     "life_reliability",
     "life_sensitivity",
     "morris",

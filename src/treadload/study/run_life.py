@@ -11,6 +11,7 @@ import xarray as xr
 
 from treadload.case import LifeCase
 from treadload.composing import BaseResult
+from treadload.damage.growth import Growth
 from treadload.damage.miner import Life
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -18,6 +19,7 @@ from treadload.pavement import Pavement
 from treadload.results import Study, to_tree
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.designing import ThicknessDesign, design_thickness
+from treadload.study.growth import grow_cracks
 from treadload.study.life import solve_life
 from treadload.study.reliability import Reliability, life_reliability
 from treadload.study.seasons import warmed
@@ -29,7 +31,8 @@ class LifeResult(Study):
     """What a design case gave.
 
     road: whose materials wait for their temperature. sensitivity: None if it was not asked for, or no criterion
-    ever fails. reliability: None where the case has no [reliability], or no criterion ever fails.
+    ever fails. reliability: None where the case has no [reliability], or no criterion ever fails. growth: None where
+    the case has no [growth].
     """
 
     case: LifeCase
@@ -37,11 +40,15 @@ class LifeResult(Study):
     life: Life
     sensitivity: Sensitivity | None
     reliability: Reliability | None = None
+    growth: Growth | None = None
 
     @property
     def parts(self) -> Mapping[str, BaseResult]:
         """Its results by their names in a tree."""
-        parts = {"life": self.life, "sensitivity": self.sensitivity, "reliability": self.reliability}
+        parts = {
+            "life": self.life, "sensitivity": self.sensitivity, "reliability": self.reliability,
+            "growth": self.growth,
+        }  # fmt: skip
         return {name: part for name, part in parts.items() if part is not None}
 
     def to_tree(self) -> xr.DataTree:
@@ -61,7 +68,7 @@ class LifeResult(Study):
 def run_life(
     case: LifeCase, *, sensitivity: bool = True, workers: int | None = None, progress: Progress | None = None
 ) -> LifeResult:
-    """The life of the road of a case, its sensitivities, and its reliability where the case asks for it.
+    """The life of the road of a case and its sensitivities; its reliability, a crack's growth where the case asks.
 
     sensitivity: False to leave them out. workers: threads; all cores if left out. progress: called after every solve.
     Raises the errors of reading, contact and response.
@@ -82,7 +89,11 @@ def run_life(
     depends = life_sensitivity(tire, road, life, **shared) if sensitivity and ends else None
     part = case.reliability
     scatters = None if part is None or not ends else life_reliability(tire, road, life, **part.asked(), **shared)
-    return LifeResult(case, road, life, depends, scatters)
+    crack = None
+    if case.growth is not None:
+        asked = case.growth.build(case.build_criteria())
+        crack = grow_cracks(tire, road, life, asked, contacts=contacts, workers=workers, progress=progress)
+    return LifeResult(case, road, life, depends, scatters, crack)
 
 
 def run_design(

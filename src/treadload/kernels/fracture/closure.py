@@ -8,23 +8,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.fracture.crack import CrackFaces
 
 # Active sets settle in about five steps; rows that do not are finished by one change at a time.
 _STEPS = 40
-# Pressure and shear of the faces alternate where the path bends or leans; a turn makes the rest ten times smaller.
-_TURNS, _SETTLED = 100, 1e-5
+# Pressure and shear of the faces alternate where the path bends or leans.
+_TURNS, _SETTLED = 30, 1e-5
 # Rows whose sets are sought together, some 100 MB.
 _TOGETHER = 20_000
 
 
-def stress_intensity(faces: CrackFaces, traction: Array, friction: float) -> Array:
-    """K (..., 3), Pa √m, of modes I, II and III as the faces allow.
+def stress_intensity(faces: CrackFaces, traction: Array, friction: float) -> tuple[Array, BoolArray]:
+    """K (..., 3), Pa √m, of modes I, II and III as the faces allow, and which states (...) settled.
 
     traction: (..., 3, n), Pa, normal, along the path and out of the plane, that the uncracked body has at the points.
     friction: of the faces. Shear starts from rest in every state: the faces remember no earlier slip. Its bound is
-    shared between the modes as the shear of the uncracked body is. Raises ArithmeticError.
+    shared between the modes as the shear of the uncracked body is. Faces that lean or bend may jam: pressure and
+    shear then go round, and K is that without friction. Raises ArithmeticError.
     """
     shape, n = traction.shape[:-2], len(faces.z)
     normal, shear, lateral = np.moveaxis(traction.reshape(-1, 3, n), 1, 0)
@@ -35,7 +36,7 @@ def stress_intensity(faces: CrackFaces, traction: Array, friction: float) -> Arr
     part = np.divide(np.abs(shear), size, out=np.full_like(shear, np.sqrt(0.5)), where=size > 0)
     rest = np.sqrt(1 - part**2)
     pressure, rubbing = np.zeros_like(normal), np.zeros_like(shear)
-    left = np.arange(len(normal))
+    left, settled = np.arange(len(normal)), np.ones(len(normal), dtype=bool)
     for _ in range(_TURNS):
         # Displacement that shear makes counts as normal traction that would make it, and the other way round.
         own, beside = normal[left], shear[left]
@@ -52,17 +53,18 @@ def stress_intensity(faces: CrackFaces, traction: Array, friction: float) -> Arr
         if not len(left):
             break
     else:
-        raise ArithmeticError(
-            f"the pressure and the shear on a crack's faces still change by {change.max():.2g} Pa after {_TURNS} "
-            "turns; take a straight path, or less friction between its faces"
-        )
-    limit = friction * pressure * rest
+        # Faces that jam have no state that the turns find: without friction they have one.
+        settled[left] = False
+        push = normal[left] + np.linalg.solve(opening, across @ shear[left].T).T
+        pressure[left] = -bounded(opening, push, np.full_like(push, -np.inf), np.zeros_like(push))
+        rubbing[left] = 0.0
+    limit = friction * pressure * rest * settled[:, None]
     held = bounded(faces.tearing, lateral, -limit, limit)
     plane = np.concatenate([normal + pressure, shear - rubbing], axis=1) @ faces.plane.T
     # Where the faces touch up to the tip nothing opens there but what round-off leaves.
     first = np.where(pressure[:, -1] > 0, 0.0, np.maximum(plane[:, 0], 0.0))
     modes = np.stack([first, plane[:, 1], (lateral - held) @ faces.antiplane], axis=1)
-    return modes.reshape(*shape, 3)
+    return modes.reshape(*shape, 3), settled.reshape(shape)
 
 
 def bounded(compliance: Array, traction: Array, low: Array, high: Array) -> Array:

@@ -16,7 +16,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.fracture.dislocations import Section, edge_stress, screw_stress
 
 Curve = Callable[[Array], tuple[Array, Array, Array, Array]]
-"""Places x, z, m, and directions dx/ds, dz/ds at lengths s, m, from the mouth."""
+"""Places x, z, m, and dx/ds, dz/ds at s, m, from the mouth: lengths, or what rises with them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ def straight(direction: tuple[float, float], mouth: tuple[float, float] = (0.0, 
 
 
 def crack_faces(section: Section, curve: Curve, length: float, points: int = 32) -> CrackFaces:
-    """The faces of a crack of a length, m, along a curve in the layer of a section, z from the layer's top."""
+    """The faces of a crack up to s = length, m, along a curve in the layer of a section, z from the layer's top."""
     n = points
     theta = (2 * np.arange(1, n + 1) - 1) * np.pi / (2 * n + 1)
     phi = 2 * np.arange(1, n + 1)[::-1] * np.pi / (2 * n + 1)
@@ -59,8 +59,8 @@ def crack_faces(section: Section, curve: Curve, length: float, points: int = 32)
     weight = 2 * np.pi * (1 + of) / (2 * n + 1)
     x, z, along, down = curve(0.5 * length * (1 + at))
     xi, zeta, its_along, its_down = curve(0.5 * length * (1 + of))
-    normal, tangent = np.stack([down, -along]), np.stack([along, down])
-    its_normal, its_tangent = np.stack([its_down, -its_along]), np.stack([its_along, its_down])
+    normal, tangent = _frame(along, down)
+    its_normal, its_tangent = _frame(its_along, its_down)
     # Stress of Burgers vectors along the normal and the tangent at the sources.
     stress = edge_stress(section, (xi, zeta), (x, z)) * (0.5 * length * weight)
     own = [sum(stress[:, part] * vector[part] for part in range(2)) for vector in (its_normal, its_tangent)]
@@ -78,7 +78,8 @@ def crack_faces(section: Section, curve: Curve, length: float, points: int = 32)
     gathered[:, 1:] += np.sin(order[1:] * phi[:, None]) / order[1:]
     displacement = 0.5 * length * gathered @ coefficients
     both = np.kron(np.eye(2), displacement)
-    factor = np.pi * np.sqrt(2 * np.pi * length)
+    _, _, *end = curve(np.array([length]))
+    factor = np.pi * np.sqrt(2 * np.pi * length / np.hypot(*end)[0])
     inverse, beside = np.linalg.inv(matrix), np.linalg.inv(lateral)
     return CrackFaces(
         length,
@@ -91,6 +92,12 @@ def crack_faces(section: Section, curve: Curve, length: float, points: int = 32)
         -both @ inverse,
         -displacement @ beside,
     )
+
+
+def _frame(along: Array, down: Array) -> tuple[Array, Array]:
+    """Unit normal and tangent (2, n)."""
+    size = np.hypot(along, down)
+    return np.stack([down, -along]) / size, np.stack([along, down]) / size
 
 
 def _traction(stress: Array, normal: Array, onto: Array) -> Array:

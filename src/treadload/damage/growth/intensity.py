@@ -1,0 +1,291 @@
+"""Stress intensity of a crack in a road as wheels pass: from the uncracked stress along its path.
+
+The section is that across the crack's trace: plane strain, with the uncracked three-dimensional stress of that place
+as the load. The weight functions are those of the layers, see `kernels.fracture`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+from scipy.ndimage import map_coordinates
+
+from treadload.damage.growth.asked import STEEPEST
+from treadload.errors import ConvergenceError, InputError
+from treadload.kernels.arrays import Array
+from treadload.kernels.fracture.closure import stress_intensity
+from treadload.kernels.fracture.crack import CrackFaces, crack_faces
+from treadload.kernels.fracture.dislocations import Section
+from treadload.kernels.fracture.layers import Strip
+from treadload.materials import Elastic
+from treadload.pavement import Pavement
+
+# Points along a crack, straight down and not: 0.3 % of K under uniform tension.
+_POINTS, _BENT = 12, 24
+# States whose stress intensity without friction is below this part of the largest are taken as none.
+_LEAST = 0.02
+# A tip at an interface has another singularity: the last solve stops short of it by this part of the way.
+CLOSE = 0.95
+
+
+@dataclass(frozen=True, eq=False)
+class Crossing:
+    """Uncracked stress around the path of cracks as the wheels of a class pass in a season.
+
+    stress: (6, nd, ny, nx), Pa, xx, yy, zz, xy, xz, yz, at distances (nd,) from the mouth into the road, m, rising
+    from 0, places y and x of the crack in the wheels' frame, m, rising. section: layers with the one that cracks.
+    upwards: True for a crack that grows up from below. axles: of the class.
+    """
+
+    stress: Array
+    distances: Array
+    y: Array
+    x: Array
+    section: Section
+    upwards: bool
+    poisson: float
+    axles: int
+
+
+def section_of(road: Pavement, start: int, layers: int, *, upwards: bool) -> tuple[Section, float]:
+    """Layers in a section, those that the crack goes through as one, and its Poisson's ratio.
+
+    road: elastic, or viscoelastic and then as under fast loads; of half-bonded interfaces as if bonded.
+    start: number of the layer in which the crack starts. layers: that it goes through, from there; they become one of
+    their mean modulus. Raises InputError.
+    """
+    first, last = (start - layers + 1, start) if upwards else (start, start + layers - 1)
+    if first < 0 or last >= len(road.layers) or road.layers[last].thickness is None:
+        raise InputError(
+            f"a crack through {layers} layer(s) from layer {start + 1} leaves the layers that have a thickness; the "
+            f"road has {len(road.interfaces)} of them"
+        )
+    elastic = road.bond_limits[0]
+    if elastic.is_viscoelastic:
+        elastic = elastic.glassy
+    strips = []
+    for number, layer in enumerate(elastic.layers):
+        material = layer.resolved
+        if not isinstance(material, Elastic):
+            raise InputError(
+                f"layer {layer.name or number + 1!r} is {material}; cracks grow in layers that are the same in all "
+                "directions, so give them Elastic materials"
+            )
+        slip = 1 / layer.bond.stiffness if layer.bond.stiffness > 0 else math.inf
+        strips.append(Strip(material.modulus, material.poisson, layer.thickness or math.inf, slip))
+    own = strips[first : last + 1]
+    if any(one.slip for one in own[:-1]):
+        raise InputError("a crack goes through layers that are bonded; the bond between those asked is not")
+    thick = [one.thickness for one in own]
+    joined = Strip(
+        float(np.average([one.modulus for one in own], weights=thick)),
+        float(np.average([one.poisson for one in own], weights=thick)),
+        sum(thick),
+        own[-1].slip,
+    )
+    found = Section((*strips[:first], joined, *strips[last + 1 :]), first, elastic.rigid_base)
+    return found, joined.poisson
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """A path: offsets (k,), m, along the normal of the trace, at distances (k,) from the mouth, rising from 0."""
+
+    distances: Array
+    offsets: Array
+
+    def at(self, distance: Array) -> tuple[Array, Array]:
+        """Offset, m, and its slope at distances, m; straight on beyond the last one."""
+        if not self.offsets.any():
+            return np.zeros_like(distance), np.zeros_like(distance)
+        if len(self.distances) == 2:
+            slope = self.offsets[1] / self.distances[1]
+            return slope * distance, np.full_like(distance, slope)
+        curve = PchipInterpolator(self.distances, self.offsets)
+        return curve(distance), curve.derivative()(distance)
+
+    def until(self, distance: float) -> Way:
+        """As far as a distance, m."""
+        keep = self.distances <= distance * (1 + 1e-9)
+        return Way(self.distances[keep], self.offsets[keep])
+
+
+def faces_along(section: Section, way: Way, distance: float, *, upwards: bool) -> CrackFaces:
+    """The faces of a crack whose tip is at a distance from its mouth, m."""
+
+    def curve(s: Array) -> tuple[Array, Array, Array, Array]:
+        offset, slope = way.at(s)
+        turn = -1.0 if upwards else 1.0
+        mouth = section.thickness if upwards else 0.0
+        return offset, mouth + turn * s, slope, np.full_like(s, turn)
+
+    return crack_faces(section, curve, distance, _BENT if way.offsets.any() else _POINTS)
+
+
+def tractions(crossing: Crossing, faces: CrackFaces, trace: float) -> Array:
+    """Normal, along the path and out of the plane (ny, nx, 3, n), Pa, at the points of the faces.
+
+    trace: its angle from travel towards the right, rad. x of the faces counts along the trace's normal.
+    """
+    across = np.array([-math.sin(trace), math.cos(trace)])
+    distance = crossing.section.thickness - faces.z if crossing.upwards else faces.z
+    at = np.clip(np.searchsorted(crossing.distances, distance) - 1, 0, len(crossing.distances) - 2)
+    part = (distance - crossing.distances[at]) / (crossing.distances[at + 1] - crossing.distances[at])
+    stress: Array = (
+        crossing.stress[:, at] * (1 - part)[:, None, None] + crossing.stress[:, at + 1] * part[:, None, None]
+    )
+    if faces.x.any():
+        stress = _moved(stress, crossing, faces.x[:, None] * across)
+    xx, yy, zz, xy, xz, yz = stress
+    s, c = across
+    # Across and along the trace, seen from above.
+    nn, nt, nz = s * s * xx + c * c * yy + 2 * s * c * xy, s * c * (yy - xx) + (s * s - c * c) * xy, s * xz + c * yz
+    tz = c * xz - s * yz
+    n, t = faces.normal[:, :, None, None], faces.tangent[:, :, None, None]
+    normal = n[0] ** 2 * nn + n[1] ** 2 * zz + 2 * n[0] * n[1] * nz
+    shear = n[0] * t[0] * nn + n[1] * t[1] * zz + (n[0] * t[1] + n[1] * t[0]) * nz
+    lateral = n[0] * nt + n[1] * tz
+    return np.stack([normal, shear, lateral]).transpose(2, 3, 0, 1)
+
+
+def _moved(stress: Array, crossing: Crossing, by: Array) -> Array:
+    """Stress (6, n, ny, nx) at places moved by (n, 2), m, along x and y."""
+    columns, rows = np.arange(len(crossing.x)), np.arange(len(crossing.y))
+    found = np.empty_like(stress)
+    for k, (along, across) in enumerate(by):
+        grid = np.meshgrid(
+            np.interp(crossing.y + across, crossing.y, rows), np.interp(crossing.x + along, crossing.x, columns),
+            indexing="ij",
+        )  # fmt: skip
+        for part in range(len(stress)):
+            found[part, k] = map_coordinates(stress[part, k], grid, order=1)
+    return found
+
+
+def modes(crossing: Crossing, faces: CrackFaces, trace: float, friction: float) -> tuple[Array, int]:
+    """K_I, K_II, K_III (ny, nx, 3), Pa √m, at every state of a passage; in how many the faces jam, see there.
+
+    Raises ConvergenceError.
+    """
+    load = tractions(crossing, faces, trace)
+    n = len(faces.z)
+    found = np.concatenate(
+        [load[..., :2, :].reshape(*load.shape[:2], 2 * n) @ faces.plane.T, load[..., 2:, :] @ faces.antiplane],
+        axis=-1,
+    )
+    found[..., 0] = np.maximum(found[..., 0], 0.0)
+    size = np.abs(found).max(axis=-1)
+    moves = size > _LEAST * size.max()
+    found[~moves] = 0.0
+    try:
+        found[moves], settled = stress_intensity(faces, load[moves], friction)
+    except ArithmeticError as error:
+        raise ConvergenceError(str(error)) from error
+    return found, int((~settled).sum())
+
+
+def intensity_ranges(history: Array, poisson: float, axles: int) -> Array:
+    """Ranges of a passage's cycles (ny, 4, cycles), Pa √m: of modes I, II, III and Irwin's of the three.
+
+    history: K (ny, nx, 3) in the order of the passage, from and to rest. Cycles are counted by rainflow, mode by
+    mode; the largest of the modes are taken together, ΔK² = ΔK_I² + ΔK_II² + ΔK_III² / (1 - ν), as if they peaked at
+    once, and so on. axles: of which each makes two cycles at most. Faces that close leave K_I = 0, so that its range
+    is that part of the passage in which the crack is open: no more is made of the ratio of smallest to largest.
+    Source: Irwin (1957) for the sum; Matsuishi and Endo (1968) for the count.
+    """
+    count = 2 * axles
+    found = np.zeros((len(history), 4, count))
+    for row, passage in enumerate(history):
+        for mode in range(3):
+            if passage[:, mode].any():
+                cycles = rainflow(passage[:, mode])[:count]
+                found[row, mode, : len(cycles)] = cycles
+    found[:, 3] = np.sqrt(found[:, 0] ** 2 + found[:, 1] ** 2 + found[:, 2] ** 2 / (1 - poisson))
+    return found
+
+
+def rainflow(values: Array) -> list[float]:
+    """Ranges of the cycles of a history that begins and ends at zero and comes again and again, the largest first."""
+    line = np.concatenate([[0.0], values, [0.0]])
+    # From its largest deflection on, the repeated history closes every cycle.
+    start = int(np.abs(line).argmax())
+    line = np.concatenate([line[start:], line[: start + 1]])
+    steps = np.diff(line)
+    line = np.append(line[:-1][steps != 0], line[-1])
+    turns: Any = np.concatenate([[True], np.diff(line[:-1]) * np.diff(line[1:]) < 0, [True]]) if len(line) > 2 else []
+    stack: list[float] = []
+    found = []
+    for value in line[turns].tolist() if len(line) > 2 else []:
+        stack.append(value)
+        while len(stack) > 3 and abs(stack[-2] - stack[-3]) <= min(
+            abs(stack[-1] - stack[-2]), abs(stack[-3] - stack[-4])
+        ):
+            found.append(abs(stack[-2] - stack[-3]))
+            del stack[-3:-1]
+    # What is left goes out from the largest deflection and comes back to it.
+    found += [abs(b - a) for a, b in zip(stack[:-1:2], stack[1::2], strict=False)]
+    return sorted((one for one in found if one > 0), reverse=True)
+
+
+def kink_angle(first: float, second: float) -> float:
+    """Angle, rad, from the tangent towards the normal of the path, across which the hoop stress is largest.
+
+    first, second: K_I >= 0 and K_II. Source: Erdogan and Sih (1963), J. Basic Eng. 85, 519-527.
+    """
+    if second == 0:
+        return 0.0
+    return 2 * math.atan((first - math.hypot(first, math.sqrt(8) * second)) / (4 * second))
+
+
+def hoop_intensity(found: Array) -> Array:
+    """Largest hoop stress at a distance from the tip times √2πr (...), Pa √m, of K (..., 3)."""
+    first, second = found[..., 0], found[..., 1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = (first - np.hypot(first, np.sqrt(8) * second)) / (4 * second)
+    half = np.arctan(np.where(second == 0, 0.0, ratio))
+    hoop: Array = np.cos(half) * (first * np.cos(half) ** 2 - 1.5 * second * np.sin(2 * half))
+    return hoop
+
+
+def crack_paths(
+    crossings: Sequence[Crossing], weights: Array, place: int, distances: Array, trace: float, friction: float
+) -> Way:
+    """The kinked path of the crack at one place y, step by step to distances (k,), m; to the first it is straight.
+
+    crossings: of the classes and seasons. weights: how much each counts, such as its share of the passes. Every step
+    goes where the largest hoop stress of any state points, weighted by how much the class and season count.
+    """
+    from_mouth, offsets = [0.0, float(distances[0])], [0.0, 0.0]
+    angle = 0.0
+    for k in range(1, len(distances)):
+        way = Way(np.array(from_mouth), np.array(offsets))
+        best = (0.0, 0.0, 0.0)
+        for crossing, weight in zip(crossings, weights, strict=True):
+            faces = faces_along(crossing.section, way, from_mouth[-1], upwards=crossing.upwards)
+            near = slice(max(place - 1, 0), place + 2)
+            found = modes(_rows(crossing, near), faces, trace, friction)[0][place - near.start]
+            hoop = hoop_intensity(found) * weight
+            at = int(hoop.argmax())
+            if hoop[at] > best[0]:
+                best = (float(hoop[at]), float(found[at, 0]), float(found[at, 1]))
+        _, slope = way.at(np.array(from_mouth[-1:]))
+        turn = kink_angle(best[1], best[2]) if best[0] > 0 else 0.0
+        # From the tangent towards the normal; going down the normal points to where offsets grow, going up away.
+        sign = -1.0 if crossings[0].upwards else 1.0
+        angle = float(np.clip(math.atan(float(slope[0])) + sign * turn, -STEEPEST, STEEPEST))
+        step = float(distances[k]) - from_mouth[-1]
+        offsets.append(offsets[-1] + step * math.tan(angle))
+        from_mouth.append(float(distances[k]))
+    return Way(np.array(from_mouth), np.array(offsets))
+
+
+def _rows(crossing: Crossing, rows: slice) -> Crossing:
+    return partial(Crossing, crossing.stress[:, :, rows], crossing.distances, crossing.y[rows])(
+        crossing.x, crossing.section, crossing.upwards, crossing.poisson, crossing.axles
+    )

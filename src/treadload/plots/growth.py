@@ -1,0 +1,89 @@
+"""A crack that grows: its depth against years, and its stress intensity against depth."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from treadload.composing import Source
+from treadload.plots.kit.figure import figure_and_axes, new_figure
+from treadload.plots.kit.plan import fields_of
+from treadload.plots.kit.style import CASES, INK, headline, legend_below, open_axes, plain, styled
+
+_GROWS, _SCATTERS = "#d55e00", "#f3c39b"
+_NAMES = {"I": "opening, K_I", "II": "sliding, K_II", "III": "tearing, K_III"}
+
+
+@styled
+def crack_depth(growth: Source, *, ax: Axes | None = None) -> Figure:
+    """Depth of the first crack against years, with what scatters and the end of the design life.
+
+    growth: a Growth or its dataset. Returns the figure. Raises InputError if variables are missing.
+    """
+    data = fields_of(growth, "reach_years", "risk_years")
+    depth, years = 1e3 * data["crack_depth"].to_numpy(), data["reach_years"].to_numpy()
+    spread, risks = data["risk_years"].to_numpy(), data["risk"].to_numpy()
+    figure, ax = figure_and_axes(ax, 7.0, 4.0)
+    design = data.attrs.get("design_years")
+    known = [*spread[np.isfinite(spread)], *years[np.isfinite(years)], *([float(design)] if design else [])]
+    end = 1.15 * max(known) if known else 1.0
+    low, high = np.minimum(spread[0], end), np.minimum(spread[-1], end)
+    ax.fill_betweenx(depth, low, high, color=_SCATTERS, lw=0)
+    middle = int(np.abs(risks - 0.5).argmin())
+    lines = []
+    if 0 < middle < len(risks) - 1:
+        lines += ax.plot(spread[middle], depth, "--", color=_GROWS, lw=1.2, label="even odds")
+    lines += ax.plot(years, depth, "-o", color=_GROWS, ms=3.5, label="by the laws as they are")
+    # Before it starts there is none.
+    ax.plot([years[0], years[0]], [0, depth[0]], ":", color=_GROWS, lw=1.2)
+    handles = [*lines, Patch(color=_SCATTERS, label=f"{100 * risks[0]:g} to {100 * risks[-1]:g} % of such roads")]
+    ax.set_xlim(0, end)
+    ax.set_ylim(1.02 * depth[-1], 0)
+    ax.axhline(depth[-1], color=INK, lw=1.0)
+    if design:
+        ax.axvline(float(design), color=INK, lw=1.2, ls=(0, (4, 2)))
+        ax.annotate(
+            f"design, {float(design):g} years", (float(design), 0), xycoords=("data", "axes fraction"),
+            xytext=(4, 4), textcoords="offset points", fontsize=8.5,
+        )  # fmt: skip
+    open_axes(ax)
+    ax.set_xlabel("years from the opening")
+    upwards = str(data.attrs.get("grows", "")).startswith("up")
+    ax.set_ylabel("height above the bottom (mm)" if upwards else "depth of the crack (mm)")
+    if upwards:
+        ax.invert_yaxis()
+    headline(ax, "How deep the crack is, and when", plain(str(data.attrs.get("starts", ""))))
+    legend_below(ax, handles, columns=3)
+    return figure
+
+
+@styled
+def crack_intensity(growth: Source) -> Figure:
+    """Range of the stress intensity against depth by class of axles, mode by mode.
+
+    growth: a Growth or its dataset. Returns the figure. Raises InputError if variables are missing.
+    """
+    data = fields_of(growth, "stress_intensity_range")
+    depth = 1e3 * data["solved_depth"].to_numpy()
+    ranges = 1e-6 * data["stress_intensity_range"].to_numpy()
+    names = [plain(str(name)) for name in data["axle_class"].to_numpy()]
+    figure = new_figure(9.6, 3.9)
+    axes = figure.subplots(1, 3, sharex=True, sharey=True)
+    largest = float(ranges[:, :, :3].max()) or 1.0
+    lines = []
+    for panel, (mode, ax) in enumerate(zip(_NAMES, axes, strict=True)):
+        for k, name in enumerate(names):
+            (line,) = ax.plot(ranges[k, :, panel], depth, "-o", ms=3, color=CASES[k % len(CASES)], label=name)
+            lines += [line] if panel == 0 else []
+        ax.set_xlim(0, 1.1 * largest)
+        open_axes(ax)
+        ax.set_title(_NAMES[mode], loc="left", fontsize=9.5)
+        ax.set_xlabel("range (MPa √m)")
+    upwards = str(data.attrs.get("grows", "")).startswith("up")
+    axes[0].set_ylabel("height of the tip (mm)" if upwards else "depth of the tip (mm)")
+    axes[0].set_ylim((0, 1.05 * depth[-1]) if upwards else (1.05 * depth[-1], 0))
+    figure.suptitle("Stress intensity as the wheels pass", x=0.01, ha="left", fontweight="bold")
+    legend_below(axes[1], lines, columns=min(3, len(lines)))
+    return figure

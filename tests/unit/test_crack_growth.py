@@ -1,0 +1,366 @@
+"""Cracks that grow: Paris' law, cycles, paths, closed forms, a life with a crack, and what is refused."""
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+import treadload as tl
+from treadload.case import LifeCase
+from treadload.damage.growth.advance import chances, drawn, grown, risk_quantiles
+from treadload.damage.growth.asked import CrackGrowth
+from treadload.damage.growth.intensity import (
+    Crossing,
+    Way,
+    crack_paths,
+    faces_along,
+    intensity_ranges,
+    kink_angle,
+    modes,
+    rainflow,
+    section_of,
+)
+from treadload.damage.growth.laws import FromStrength, ParisLaw, law_of_mix
+from treadload.damage.traffic import Traffic, Wander
+from treadload.errors import InputError
+from treadload.kernels.fracture.dislocations import Section
+from treadload.kernels.fracture.layers import Strip
+from treadload.study.contacts import Contacts
+from treadload.study.growth import grow_cracks
+from treadload.study.life import solve_life
+
+CASE = """
+spacing = "8 mm"
+[tire]
+profile = "315/80R22.5"
+[pavement]
+layers = [
+  { name = "asphalt", thickness = "60 mm", material = { modulus = "5400 MPa", poisson = 0.35 } },
+  { name = "base", thickness = "120 mm", material = { modulus = "9000 MPa", poisson = 0.35 } },
+  { name = "soil", material = { modulus = "80 MPa", poisson = 0.35 } },
+]
+[climate]
+temperature = 15
+[traffic]
+passes_per_year = 1e5
+years = 20
+wander = { deviation = "100 mm" }
+[[traffic.classes]]
+name = "braked"
+share = 1
+wheel_load = "35 kN"
+inflation_pressure = "8.3 bar"
+maneuver = { kind = "braking", deceleration = 3 }
+[[criteria]]
+name = "surface"
+law = "fatigue-line"
+layer = "asphalt"
+place = "top"
+epsilon_6 = "6 microstrain"
+slope = -0.2
+[[criteria]]
+name = "base"
+law = "fatigue-line"
+layer = "base"
+epsilon_6 = "100 microstrain"
+slope = -0.2
+"""
+PARIS = 'law = { law = "paris", rate = "0.5 mm", exponent = 4 }\n'
+
+
+def case(table):
+    return LifeCase.from_text(CASE + "[growth]\n" + PARIS + table, name="case")
+
+
+@cache
+def solved():
+    one = LifeCase.from_text(CASE, name="case")
+    tire, road = one.build_tire(), one.build_road()
+    contacts = Contacts(tire, one.spacing)
+    life = solve_life(
+        tire, road, one.build_traffic(), one.build_climate(), one.build_criteria(), spacing=0.008, contacts=contacts
+    )
+    return tire, road, life, contacts
+
+
+def grow(**asked):
+    tire, road, life, contacts = solved()
+    told = {"criterion": "surface", "law": ParisLaw(5e-4, 4.0, 0.2), "steps": 4} | asked
+    return grow_cracks(tire, road, life, CrackGrowth(**told), contacts=contacts)
+
+
+def test_growth_at_a_constant_range_is_the_closed_form():
+    lengths = np.geomspace(0.01, 0.06, 9)
+    law = ParisLaw(3e-4, 4.2)
+    rates = law.growth(np.full(len(lengths), 0.4e6))[:, None]
+    targets = np.array([0.01, 0.0237, 0.06])
+    expected = (targets - 0.01) / (3e-4 * 0.4**4.2)
+    np.testing.assert_allclose(grown(lengths, rates, targets)[:, 0], expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("exponent", [2.0, 4.2])
+def test_growth_under_constant_stress_is_the_closed_form(exponent):
+    # ΔK = 1.1215 σ √(πa): a power of the length, which the rule integrates exactly.
+    lengths = np.geomspace(0.005, 0.06, 6)
+    law = ParisLaw(3e-4, exponent)
+    stress = 0.7e6
+    rates = law.growth(1.1215 * stress * np.sqrt(math.pi * lengths))[:, None]
+    scale = 3e-4 * (1.1215 * 0.7 * math.sqrt(math.pi)) ** exponent
+    power = 1 - exponent / 2
+    whole = math.log(12) if power == 0 else (0.06**power - 0.005**power) / power
+    np.testing.assert_allclose(grown(lengths, rates, np.array([0.06]))[0, 0], whole / scale, rtol=1e-6)
+
+
+def test_a_crack_that_stops_never_comes_further():
+    found = grown(np.array([0.01, 0.02, 0.03]), np.array([[1e-6], [1e-6], [0.0]]), np.array([0.015, 0.02, 0.025]))
+    np.testing.assert_allclose(found[:2, 0], [5e3, 1e4])
+    assert math.isinf(found[2, 0])
+
+
+def test_units_of_paris_law():
+    # A = 1e-7 mm by N/mm^1.5 and n = 4: at 1 MPa √m, 31.62 N/mm^1.5, 1e-7 x 1e6 = 0.1 mm.
+    law = ParisLaw.from_millimetres(1e-7, 4.0)
+    assert law.rate == pytest.approx(1e-4, rel=1e-12)
+    assert law.in_millimetres == pytest.approx(1e-7, rel=1e-12)
+    assert float(law.growth(np.array(2e6))) == pytest.approx(16e-4)
+    # log A = 4.389 - 2.52 log(5000 x 4 x 4).
+    own = FromStrength(4.0, 4e6).at(5e9)
+    assert own.in_millimetres == pytest.approx(10 ** (4.389 - 2.52 * math.log10(80_000)), rel=1e-12)
+    assert "memory" in own.doubt
+
+
+def test_law_of_a_mix():
+    mixes = tl.catalogue.mixes
+    law = law_of_mix(mixes["EB-BBSG3"], "top")
+    assert law.exponent == pytest.approx(-1 / mixes["EB-BBSG3"].slope)
+    with pytest.raises(InputError, match="has no data of crack growth; give"):
+        law_of_mix(tl.Elastic(5e9, 0.35), "top")
+    with pytest.raises(InputError, match=r"must lie in \[1, 10\]"):
+        ParisLaw(1e-4, 40.0)
+    with pytest.raises(InputError, match="rate of Paris' law must be"):
+        ParisLaw(-1e-4, 4.0)
+
+
+@pytest.mark.parametrize(
+    ("history", "cycles"),
+    [
+        ([0, 5, 0], [5]),
+        ([0, 5, 2, 4, 0], [5, 2]),
+        ([0, 3, 0, 5, 0], [5, 3]),
+        ([0, 3, -2, 0], [5]),
+        ([0, -1, 4, -3, 2, 0], [7, 3]),
+        ([0, 1, 1, 1, 0], [1]),
+        ([0, 0, 0], []),
+    ],
+)
+def test_cycles_of_a_passage(history, cycles):
+    assert rainflow(np.array(history, dtype=float)) == pytest.approx(cycles)
+
+
+def test_irwin_takes_three_modes_together():
+    history = np.zeros((1, 5, 3))
+    history[0, :, 0], history[0, :, 1], history[0, :, 2] = [0, 3, 0, 0, 0], [0, 2, 0, -2, 0], [0, 0, 1, 0, 0]
+    ranges = intensity_ranges(history, 0.35, 1)
+    np.testing.assert_allclose(ranges[0, :, 0], [3, 4, 1, math.sqrt(9 + 16 + 1 / 0.65)])
+    np.testing.assert_allclose(ranges[0, :, 1], 0.0)
+
+
+def test_kinks_of_the_largest_hoop_stress():
+    # Pure shear kinks by 70.53 degrees, tension not at all (Erdogan and Sih 1963).
+    assert kink_angle(1.0, 0.0) == 0.0
+    assert math.degrees(kink_angle(0.0, 1.0)) == pytest.approx(-70.53, abs=0.01)
+    assert math.degrees(kink_angle(0.0, -1.0)) == pytest.approx(70.53, abs=0.01)
+
+
+def uniform(xx=0.0, xz=0.0, thickness=math.inf):
+    """A crossing with one state of uniform stress, the crack across x, in a half-plane."""
+    stress = np.zeros((6, 3, 3, 1))
+    stress[0], stress[4] = xx, xz
+    strips = (
+        (Strip(1e9, 0.3, thickness),)
+        if math.isinf(thickness)
+        else (Strip(1e9, 0.3, thickness), Strip(1e9, 0.3, math.inf))
+    )
+    return Crossing(
+        stress, np.array([0.0, 0.05, 0.1]), np.array([-1.0, 0.0, 1.0]), np.zeros(1), Section(strips), False, 0.3, 1
+    )
+
+
+def test_modes_of_uniform_stress_and_a_trace():
+    crossing = uniform(xx=1e6)
+    faces = faces_along(crossing.section, Way(np.array([0.0, 0.1]), np.zeros(2)), 0.02, upwards=False)
+    # Across travel the crack has its trace along y.
+    found = modes(crossing, faces, 0.5 * math.pi, 0.0)[0][1, 0]
+    np.testing.assert_allclose(found, [1.1215e6 * math.sqrt(math.pi * 0.02), 0, 0], rtol=3e-3, atol=1.0)
+    # A trace of 45 degrees takes half of it as tension, and half as shear out of the plane.
+    found = modes(crossing, faces, 0.25 * math.pi, 0.0)[0][1, 0]
+    root = 0.5e6 * math.sqrt(math.pi * 0.02)
+    np.testing.assert_allclose(np.abs(found), [1.1215 * root, 0, root], rtol=3e-3, atol=1.0)
+
+
+def test_kinked_path_turns_towards_pure_opening():
+    # Tension along the surface and no shear: straight down. With shear the path turns, to the side that shear pulls.
+    distances = np.linspace(0.01, 0.03, 5)
+    straight = crack_paths([uniform(xx=1e6)], np.ones(1), 1, distances, 0.5 * math.pi, 0.0)
+    np.testing.assert_allclose(straight.offsets, 0.0, atol=1e-9)
+    ways = [
+        crack_paths([uniform(xx=1e6, xz=sign * 0.5e6)], np.ones(1), 1, distances, 0.5 * math.pi, 0.0)
+        for sign in (1, -1)
+    ]
+    np.testing.assert_allclose(ways[0].offsets, -ways[1].offsets, atol=1e-9)
+    assert abs(ways[0].offsets[-1]) > 0.004
+    # The plane across the largest tension, to which the path tends, dips by half of atan(2 τ / σ) from the vertical.
+    slope = np.diff(ways[0].offsets)[1:] / np.diff(ways[0].distances)[1:]
+    found = modes(
+        uniform(xx=1e6, xz=0.5e6),
+        faces_along(uniform().section, ways[0], 0.03, upwards=False),
+        0.5 * math.pi,
+        0.0,
+    )[0][1, 0]
+    assert abs(found[1]) < 0.12 * found[0], "little shear is left at the tip"
+    assert np.abs(slope).min() > 0.1
+
+
+def test_risks_of_two_scatters():
+    initiation, growth = np.array([1e6, np.inf]), np.array([[0.0, 0.0], [5e5, 1.0]])
+    passes = drawn(initiation, growth, 0.25, 0.3)
+    low, middle, high = risk_quantiles(passes)
+    # Of initiation alone the quantiles are closed forms: 10^(±1.645 SN).
+    np.testing.assert_allclose(
+        [low[0], middle[0], high[0]], 1e6 * 10 ** (0.25 * np.array([-1.6449, 0, 1.6449])), rtol=0.01
+    )
+    start, speed = np.random.default_rng(2).normal(size=(2, 400_000))
+    together = 1e6 * 10 ** (0.25 * start) + 5e5 * 10 ** (-0.3 * speed)
+    np.testing.assert_allclose([low[1], middle[1], high[1]], np.quantile(together, [0.05, 0.5, 0.95]), rtol=0.01)
+    np.testing.assert_allclose(chances(passes, 1e6)[0], 0.5, atol=0.01)
+    with pytest.raises(InputError, match="a risk must lie between 0 and 1"):
+        risk_quantiles(passes, (0.0,))
+
+
+def test_a_crack_through_the_wearing_course():
+    growth = grow()
+    data = growth.dataset
+    years = data["reach_years"].to_numpy()
+    assert growth.depths[0] == pytest.approx(0.01)
+    assert growth.depths[-1] == pytest.approx(0.06)
+    assert (np.diff(years) > 0).all()
+    _, _, life, _ = solved()
+    assert years[0] == pytest.approx(life.years("surface"), rel=1e-6)
+    assert (np.diff(data["risk_years"].to_numpy(), axis=0) > 0).all()
+    assert growth.years_to(0.04) == pytest.approx(float(np.interp(0.04, growth.depths, years)))
+    assert set(growth.risk_years_to(0.04)) == {0.05, 0.5, 0.95}
+    assert 0 <= float(data["reach_chance"][-1]) <= float(data["reach_chance"][0]) <= 1
+    assert "through after" in growth.summary()
+
+
+def test_rates_go_with_the_power_of_the_stress():
+    # The same stress, a law with n = 4 and one ten times as fast: a tenth of the passes to grow.
+    slow, fast = grow(), grow(law=ParisLaw(5e-3, 4.0, 0.2))
+    told = [one.dataset["growth_rate"].max("y") for one in (slow, fast)]
+    # The largest lies between two of the places that are kept, a few mm apart.
+    np.testing.assert_allclose(10 * told[0], told[1], rtol=1e-2)
+    gone = [float(one.dataset["reach_passes"][-1] - one.dataset["initiation_passes"].min()) for one in (slow, fast)]
+    assert gone[1] < gone[0]
+
+
+@pytest.mark.slow
+def test_friction_of_the_faces_slows_growth():
+    none, much = (grow(friction=mu).dataset["growth_rate"] for mu in (0.0, 1.0))
+    assert float(much.max()) <= float(none.max())
+
+
+@pytest.mark.slow
+def test_a_band_grows_up_from_below():
+    growth = grow(criterion="base", layers=1, path=0.2)
+    assert growth.dataset.attrs["grows"].startswith("up through base")
+    assert growth.depths[-1] == pytest.approx(0.12)
+    # Bending pulls at the bottom: opening leads.
+    ranges = growth.dataset["stress_intensity_range"][0, 0]
+    assert float(ranges.sel(mode="I")) > float(ranges.sel(mode="II"))
+    assert float(growth.dataset["crack_offset"][-1]) == pytest.approx(0.12 * math.tan(0.2))
+
+
+@pytest.mark.slow
+def test_a_crack_that_goes_through_two_layers_and_one_that_kinks():
+    through = grow(layers=2)
+    assert through.depths[-1] == pytest.approx(0.18)
+    kinked = grow(path="kinked", trace="transverse")
+    assert kinked.dataset["crack_offset"].to_numpy()[0] == 0
+    assert np.isfinite(kinked.dataset["crack_offset"].to_numpy()).all()
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"initial_length": 0.07}, "the crack is 70 mm long when it starts, and its way only 60 mm"),
+        ({"layers": 3}, "leaves the layers that have a thickness"),
+        ({"criterion": "bass"}, "no criterion 'bass' starts a crack"),
+        ({"law": None}, "layer 'asphalt', .* has no data of crack growth"),
+        ({"path": 1.5}, "must lean by at most 60 degrees"),
+        ({"path": "curved"}, 'the path must be "vertical"'),
+        ({"friction": -0.1}, "the friction of a crack's faces"),
+        ({"trace": "skew"}, 'the trace must be "longitudinal"'),
+        ({"layers": 0}, "goes through at least one layer"),
+        ({"initial_length": 0.0}, "the initial length of a crack must be > 0 m"),
+        ({"steps": 2}, r"steps must lie in \[3, 40\]"),
+        ({"scatter": -1.0}, r"log10 of the passes must lie in \[0, 2\]"),
+    ],
+)
+def test_what_is_refused(asked, message):
+    with pytest.raises(InputError, match=message):
+        grow(**asked)
+
+
+def test_sections_of_roads():
+    layers = [
+        tl.Layer(tl.Elastic(6e9, 0.35), 0.04),
+        tl.Layer(tl.Elastic(3e9, 0.35), 0.08, bond=tl.Bond(1e11)),
+        tl.Layer(tl.Elastic(1e8, 0.35)),
+    ]
+    section, poisson = section_of(tl.Pavement(layers), 0, 2, upwards=False)
+    assert section.thickness == pytest.approx(0.12)
+    assert section.strips[0].modulus == pytest.approx(4e9)
+    assert section.strips[0].slip == pytest.approx(1e-11)
+    assert poisson == pytest.approx(0.35)
+    slipped = [tl.Layer(tl.Elastic(6e9, 0.35), 0.04, bond=tl.Bond(1e11)), *layers[1:]]
+    with pytest.raises(InputError, match="layers that are bonded"):
+        section_of(tl.Pavement(slipped), 0, 2, upwards=False)
+
+
+def test_a_case_with_a_crack():
+    made = case('criterion = "base"\ntrace = "transverse"\nfriction = 0.3\n')
+    asked = made.growth.build(made.build_criteria())
+    assert asked == CrackGrowth("base", law=ParisLaw(5e-4, 4.0), trace="transverse", friction=0.3)
+    assert case("").growth.build(made.build_criteria()).criterion == "surface"
+    with pytest.raises(InputError, match=r"growth\.criterion 'x' is none of the criteria, 'surface', 'base'"):
+        case('criterion = "x"\n')
+    with pytest.raises(InputError, match="must lean by at most 60"):
+        case('path = "80 deg"\n')
+
+
+@pytest.mark.slow
+def test_run_life_grows_the_crack(tmp_path):
+    result = tl.study.run_life(case("steps = 3\n"), sensitivity=False)
+    assert result.growth is not None
+    path = tl.save_results(result, tmp_path / "life.nc")
+    back = tl.open_results(path)["growth"]
+    assert back.summary() == result.growth.summary()
+    assert back.asked == result.growth.asked
+    assert "crack growth down through asphalt" in result.summary()
+
+
+@pytest.mark.slow
+def test_wander_spreads_growth_and_few_tracks_do_not():
+    tire, road, life, contacts = solved()
+    narrow = Traffic(life.traffic.classes, 1e5, wander=Wander.none())
+    still = grow_cracks(
+        tire,
+        road,
+        replace(life, traffic=narrow),
+        CrackGrowth("surface", law=ParisLaw(5e-4, 4.0), steps=3),
+        contacts=contacts,
+    )
+    wandering = grow(steps=3)
+    assert float(still.dataset["growth_rate"].max()) > float(wandering.dataset["growth_rate"].max())
