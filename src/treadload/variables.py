@@ -221,6 +221,7 @@ _LIFE = {
     "life_years_with_wander": ("1", "years until the damage is 1 with wheels that wander, whatever the law includes"),
     "life_passes": ("1", "passes until the damage at the worst place is 1"),
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
+    "class_reading": ("1", "largest reading of the criterion's law by class and season, in the law's unit"),
     "design_utilisation": (
         "1",
         "largest reading over what the law allows for the design life, or a year",

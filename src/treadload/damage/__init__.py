@@ -15,6 +15,7 @@ from treadload.damage.laws.american import (
     ShellFatigue,
 )
 from treadload.damage.laws.bond import LEUTNER_MINIMUM, BondStrength, BondUtilisation, InterfaceStrength, ShearFatigue
+from treadload.damage.laws.bond_by_test import TimedStrength, passage_rate
 from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.laws.equivalence import AGGRESSIVENESS, aggressiveness, equivalent_axles
 from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine, PowerLaw, PowerLine
@@ -93,6 +94,7 @@ __all__ = [
     "ShellFatigue",
     "SubgradeCompression",
     "SurfaceExtension",
+    "TimedStrength",
     "Traffic",
     "Verdict",
     "VerticalCompression",
@@ -113,6 +115,7 @@ __all__ = [
     "laws_listed",
     "listed",
     "miner",
+    "passage_rate",
     "peak",
     "quantities_listed",
     "residual_after",

@@ -112,6 +112,12 @@ class Criterion:
         quantity = before.at(temperature)
         return self if quantity == before else replace(self, reads=quantity)
 
+    def passing(self, speed: float | None, depth: float, length: float) -> Self:
+        """The criterion as a wheel rolls by: speed, m/s, None if unknown; its depth and the footprint's length, m."""
+        before = self.quantity
+        quantity = before.passing(speed, depth, length)
+        return self if quantity is before else replace(self, reads=quantity)
+
     def law_at(self, temperature: float) -> FatigueLaw:
         """The law at a temperature of the layer, °C."""
         return self.law(temperature) if callable(self.law) else self.law

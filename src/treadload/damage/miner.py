@@ -35,7 +35,8 @@ class Life(BaseResult, group="life"):
     dataset: damage_per_year (criterion, y), of the first year, with wander unless the criterion's law includes it;
     damage_share (criterion, axle_class, season) of it at the worst y; life_years, life_passes, worst_y,
     largest_reading (criterion) and its design_utilisation, over what the law allows for all passes of the design
-    life, or of the first year without one; where the traffic wanders, life_years_without_wander and
+    life, or of the first year without one; class_reading (criterion, axle_class, season), the largest of
+    each; where the traffic wanders, life_years_without_wander and
     life_years_with_wander, whichever the law takes; with a design life design_damage; with cracks
     first_crack_angle, first_crack_dip
     (criterion), of the class and season that do most, and orientation_damage (criterion, orientation). criteria,
@@ -81,6 +82,7 @@ class Life(BaseResult, group="life"):
         years = self.traffic.years
         allowed = "the passes of a year" if years is None else f"the passes of {years:g} years"
         lines += [f"  {text}" for text in self.climate.about]
+        between = json.loads(data.attrs.get("between", "{}"))
         for criterion in self.criteria:
             row = data.sel(criterion=criterion.name)
             law = criterion.law_at(15.0)
@@ -94,7 +96,8 @@ class Life(BaseResult, group="life"):
             if "design_utilisation" in row:
                 used = f", {float(row['design_utilisation']):.2g} of what is allowed for {allowed}"
             lines.append(
-                f"  {criterion.name}: {_years(float(row['life_years']))}, {float(row['life_passes']):.3g} passes; "
+                f"  {criterion.name}{_of(between.get(criterion.name))}: {_years(float(row['life_years']))}, "
+                f"{float(row['life_passes']):.3g} passes; "
                 f"largest {criterion.quantity} {criterion.quantity.in_words(float(row['largest_reading']))} at "
                 f"y = {float(row['worst_y']) * 1e3:z.0f} mm{used}; {by if share[worst] > 0 else 'no damage'}; "
                 f"damage 1 means {law.end_of_life}"
@@ -189,6 +192,7 @@ def miner(
         "life_passes": (("criterion",), passes),
         "worst_y": (("criterion",), wide[worst]),
         "largest_reading": (("criterion",), values.max(axis=(1, 2, 3, 4))),
+        "class_reading": (("criterion", "axle_class", "season"), values.max(axis=(3, 4))),
         "design_utilisation": (
             ("criterion",),
             [_utilisation(row, read, traffic) for row, read in zip(laws, values, strict=True)],
@@ -373,6 +377,10 @@ def _years_to(traffic: Traffic, damage: float) -> float:
 
 def _over(part: Any, whole: float) -> Any:
     return part / whole if whole > 0 else np.zeros_like(part)
+
+
+def _of(place: str | None) -> str:
+    return f" ({place})" if place else ""
 
 
 def _years(years: float) -> str:

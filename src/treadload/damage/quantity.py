@@ -140,6 +140,10 @@ class Quantity(ABC):
         """Itself at a temperature of its layer, °C."""
         return self
 
+    def passing(self, speed: float | None, depth: float, length: float) -> Self:
+        """The same as a wheel rolls by; speed: m/s, None if unknown; depth and length of the footprint: m."""
+        return self
+
     def with_strain(self, strain: Reading) -> Self:
         """Itself, in space ("principal") or in the horizontal plane ("in-plane") where it knows both."""
         return self

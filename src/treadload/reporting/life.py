@@ -44,7 +44,10 @@ def life_report(label: str, data: xr.Dataset) -> LifeReport:
     )
     names = [str(name) for name in data["criterion"].to_numpy()]
     ends = json.loads(data.attrs.get("ends", "[]")) or [""] * len(names)
-    rows = tuple(_row(data.isel(criterion=k), names[k], reads[k]) for k in range(len(names)))
+    between = json.loads(data.attrs.get("between", "{}"))
+    rows = tuple(
+        _row(data.isel(criterion=k), names[k], reads[k], between.get(names[k], "")) for k in range(len(names))
+    )
     return LifeReport(
         label,
         _facts(data),
@@ -104,8 +107,10 @@ def changed_life(name: str, elasticity: float) -> str:
     return f"{'+' if change > 0 else ''}{signed(change, 0)} %"
 
 
-def _row(row: xr.Dataset, name: str, reads: Mapping[str, Any]) -> tuple[str, ...]:
-    """Cells of `COLUMNS`. reads: what the file says of the quantity, see `damage.quantity.Quantity.about`."""
+def _row(row: xr.Dataset, name: str, reads: Mapping[str, Any], between: str) -> tuple[str, ...]:
+    """Cells of `COLUMNS`. reads: what the file says of the quantity, see `damage.quantity.Quantity.about`. between:
+    the interface that it reads, in words, or nothing.
+    """
     reading, unit = float(row["largest_reading"]) * float(reads["factor"]), str(reads["shown"])
     read = f"{measure(reading) if unit == 'microstrain' else f'{reading:.3g}'} {unit}".strip()
     return (
@@ -114,7 +119,7 @@ def _row(row: xr.Dataset, name: str, reads: Mapping[str, Any]) -> tuple[str, ...
         power_of_ten(float(row["life_passes"])),
         _number(row["design_damage"]) if "design_damage" in row else "–",
         read,
-        f"{_deep(row)}, {_aside(row)}",
+        f"{f'{between}, ' if between else ''}{_deep(row)}, {_aside(row)}",
         which_way(row, str(reads["harm"])),
     )
 

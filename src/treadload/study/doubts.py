@@ -1,13 +1,17 @@
-"""Values of a traffic that no road sees: sentences for the warnings of a life."""
+"""Values of a traffic that no road sees, and bonds beyond their tests: sentences for the warnings of a life."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from treadload.contact.friction.laws import law_of
 from treadload.damage.climate import Climate
+from treadload.damage.criterion import Criterion
 from treadload.damage.traffic import Traffic
 from treadload.pavement import Pavement
 from treadload.plausible import doubt, load_doubt
-from treadload.study.seasons import beyond_data
+from treadload.study.seasons import Warm, beyond_data
+from treadload.study.wheels import Wheels
 from treadload.tire import Tire
 
 
@@ -28,6 +32,22 @@ def beyond_tables(road: Pavement, climate: Climate) -> tuple[str, ...]:
         "ln E is extrapolated there, laws stay at the limit"
         for (name, limit), (furthest, share) in found.items()
     )
+
+
+def bond_doubts(criteria: Sequence[Criterion], warm: Sequence[Warm], wheels: Sequence[Wheels]) -> tuple[str, ...]:
+    """Sentences on bonds in seasons and under classes for which their strength was not tested."""
+    said = {
+        f"{one.name}: {text}": None
+        for season in warm
+        for k, one in enumerate(criteria)
+        if one.quantity.between_layers
+        for wheel in wheels
+        for text in season.criteria[k]
+        .passing(wheel.speed, season.criteria[k].depth(season.road), wheel.length)
+        .quantity.doubt.split("; ")
+        if text not in one.quantity.doubt
+    }
+    return tuple(said)
 
 
 def traffic_doubts(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str, ...]:

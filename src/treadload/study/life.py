@@ -11,6 +11,7 @@ from treadload import variables
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
+from treadload.damage.interface import interface_in_words
 from treadload.damage.miner import Life, miner
 from treadload.damage.traffic import Traffic
 from treadload.pavement import Pavement, lift_below
@@ -59,7 +60,10 @@ def solve_life(
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))
     factors, axles = group_factors(road, life, passages, workers)
     names = (tuple(row.name for row in traffic.classes), tuple(criterion.name for criterion in criteria))
-    about = {"groups": json.dumps(in_words(*names, factors, axles), ensure_ascii=False)}
+    about = {
+        "groups": json.dumps(in_words(*names, factors, axles), ensure_ascii=False),
+        "between": json.dumps(_interfaces(road, criteria), ensure_ascii=False),
+    }
     fields = {"group_factor": (("criterion", "axle_class"), factors), "axles": (("axle_class",), axles)}
     told = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
     life = replace(life, dataset=life.dataset.assign(told).assign_attrs(about))
@@ -76,6 +80,15 @@ def solve_life(
         *beyond_tables(road, climate), *passages.warnings,
     )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *said))
+
+
+def _interfaces(road: Pavement, criteria: Sequence[Criterion]) -> dict[str, str]:
+    """The interface, in words, of each criterion that reads one."""
+    names = [layer.name or f"layer {number + 1}" for number, layer in enumerate(road.layers)]
+    numbers = {one.name: one.number(road) for one in criteria if one.quantity.between_layers}
+    return {
+        name: interface_in_words(number, f"{names[number]} / {names[number + 1]}") for name, number in numbers.items()
+    }
 
 
 def _lifts(road: Pavement, criteria: Sequence[Criterion]) -> tuple[str, ...]:

@@ -41,6 +41,11 @@ class Passing:
         """At which one of its criteria reads, m."""
         return self.warm.criteria[number].depth(self.warm.road)
 
+    def criterion(self, number: int) -> Criterion:
+        """One of its criteria, as these wheels roll by."""
+        own = self.warm.criteria[number]
+        return own.passing(self.wheels.speed, self.depth(number), self.wheels.length)
+
     @property
     def speed(self) -> float | None:
         """At which the wheels roll, m/s, where the road minds."""
@@ -97,7 +102,7 @@ def passages(tasks: Sequence[Passing]) -> list[Array]:
         for (number, own), data in zip(members.items(), solved, strict=True):
             for k in own:
                 at = data.sel(depth=tasks[number].depth(k))
-                _read(results[number][k], tasks[number].warm.criteria[k], at, tasks[number], plane, rows)
+                _read(results[number][k], tasks[number].criterion(k), at, tasks[number], plane, rows)
     return results
 
 

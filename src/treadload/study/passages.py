@@ -21,6 +21,7 @@ from treadload.pavement import Pavement
 from treadload.response.doubts import overlapping, road_doubts
 from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.study.contacts import Contacts, Counter, Progress
+from treadload.study.doubts import bond_doubts
 from treadload.study.passage import Passing, solve_passings
 from treadload.study.seasons import layer_temperatures, warmed
 from treadload.study.wheels import Wheels, across, check_speed, states_of, wheels_of
@@ -159,5 +160,7 @@ def solve_passages(
         max(errors),
         max(one.moved for one in wheels),
         tuple(wheels),
-        tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads)) + road_doubts(warm[0].road),
+        tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads))
+        + road_doubts(warm[0].road)
+        + bond_doubts(criteria, distinct, wheels),
     )

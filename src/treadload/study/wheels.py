@@ -46,6 +46,12 @@ class Wheels:
         """The same loads, fewer where they stand close together."""
         return merged(self.loads)
 
+    @cached_property
+    def length(self) -> float:
+        """Of the longest footprint, m."""
+        pressed = [load.grid.dx * np.ptp(np.flatnonzero((load.pressure > 0).any(axis=0))) for load in self.loads]
+        return float(max(pressed)) + self.loads[0].grid.dx
+
     @property
     def cell(self) -> float:
         """Size of the cells across travel, m."""

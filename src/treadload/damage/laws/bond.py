@@ -15,13 +15,15 @@ from types import MappingProxyType
 from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantity import INTERFACE, Quantity
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
-from treadload.registry import CRITERIA, QUANTITIES
-from treadload.units import Angle, Number, Pressure
+from treadload.registry import CRITERIA
+from treadload.tables import finite_list
+from treadload.units import Number
 
 Strength = float | Callable[[float], float]
 
@@ -37,6 +39,8 @@ _CORE = 0.15
 _PARTED = 1e3
 # Utilisation below this is the solver's round-off, as on an interface that bears no shear.
 _ROUND_OFF = 1e-6
+# Tests through which a line is drawn.
+_FEWEST = 3
 _RECALLED = "the least force of Leutner's test is from memory, no source was read"
 
 
@@ -59,6 +63,10 @@ class BondStrength(ABC):
 
     def at(self, temperature: float) -> Self:
         """The strength at a temperature of the interface, °C."""
+        return self
+
+    def passing(self, speed: float | None, depth: float, length: float) -> Self:
+        """The strength as a wheel rolls by; speed: m/s, None if unknown; depth and length of the footprint: m."""
         return self
 
 
@@ -223,6 +231,10 @@ class BondUtilisation(Quantity):
         """The same with the strength at a temperature of the layer above, °C."""
         return self if self.strength is None else replace(self, strength=self.strength.at(temperature))
 
+    def passing(self, speed: float | None, depth: float, length: float) -> Self:
+        """The same with the strength as a wheel rolls by."""
+        return self if self.strength is None else replace(self, strength=self.strength.passing(speed, depth, length))
+
     def of(self, stress: Array, strain: Array) -> Array:
         """The strength's utilisation by the shear of the horizontal plane and the pressure on it."""
         if self.strength is None:
@@ -238,17 +250,6 @@ class BondUtilisation(Quantity):
 UTILISATION = BondUtilisation()
 
 
-@QUANTITIES.register("utilisation")
-def utilisation_of(
-    cohesion: Pressure, friction_angle: Angle = 0.0, tensile_strength: Pressure | None = None
-) -> BondUtilisation:
-    """Utilisation by a load of a bond with Coulomb's strength, see `InterfaceStrength`.
-
-    cohesion: c. friction_angle: φ. tensile_strength: left out, where Coulomb's line ends. Raises InputError.
-    """
-    return BondUtilisation(InterfaceStrength(cohesion, friction_angle, tensile_strength))
-
-
 @CRITERIA.register("shear-fatigue")
 @dataclass(frozen=True)
 class ShearFatigue(PowerLaw):
@@ -259,8 +260,9 @@ class ShearFatigue(PowerLaw):
     reads: the utilisation of a bond, with its strength where a criterion reads it of a response.
     It reads the largest utilisation, once as each axle passes, though the shear reverses under it: take a slope
     counted likewise. Straight lines in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied
-    Science 8(2); they depend on normal stress and temperature (Isailović, Cannone Falchetto and Wistuba 2017, AAPT).
-    No slope is given here.
+    Science 8(2); they depend on normal stress and temperature (Isailović, Cannone Falchetto and Wistuba 2017, AAPT);
+    Diakhaté et al. (2011), Constr. Build. Mater. 25, 2070, tested tack coats in double shear (not read). No slope is
+    given here: `fit` draws the line through tests.
     Raises InputError.
     """
 
@@ -281,6 +283,30 @@ class ShearFatigue(PowerLaw):
         positive("single_pass", self.single_pass, remedy="1 is the strength")
         if not self.reads.between_layers:
             raise InputError(f"the fatigue of a bond reads its utilisation, got the {self.reads}; take a law of that")
+
+    @classmethod
+    def fit(cls, utilisation: ArrayLike, passes: ArrayLike) -> Self:
+        """The line through cyclic shear tests, by regression of log N on log u.
+
+        utilisation: largest shear stress of a cycle over the strength at the same temperature, rate and normal
+        stress, > 0. passes: cycles until the bond failed, > 0; leave out tests that did not fail. Raises InputError
+        for fewer than three, for one utilisation, and for lives that grow with it.
+        """
+        used, borne = finite_list(utilisation, "utilisation"), finite_list(passes, "passes")
+        if len(used) != len(borne) or len(used) < _FEWEST:
+            raise InputError(
+                f"a line of fatigue needs {_FEWEST} tests or more, a utilisation and passes each, got {len(used)} "
+                f"and {len(borne)}"
+            )
+        if not ((used > 0).all() and (borne > 0).all()) or np.ptp(used) == 0:
+            raise InputError("tests of fatigue need utilisations > 0 that differ, and passes > 0")
+        power, log = np.polyfit(np.log(used), np.log(borne), 1)
+        if not power < -1:
+            raise InputError(
+                f"in these tests passes go as the utilisation to the power {power:.3g}, which must lie below -1; "
+                "look for columns that were exchanged"
+            )
+        return cls(float(1 / power), float(np.exp(-log / power)))
 
     @property
     def at_a_million(self) -> float:
