@@ -186,6 +186,17 @@ _RELIABILITY = {
     "coverage": ("1", "share of a criterion's damage in the classes and seasons that were solved again"),
 }
 
+_EQUIVALENTS = {
+    "standard_axles": ("1", "passes of an axle of 130 kN that do as much damage as one passage of a class"),
+    "mean_standard_axles": ("1", "the same in the mean over the traffic"),
+    "axle_load": ("N", "load of one axle, both its ends"),
+    "french_axles": ("1", "passage in axles of 130 kN by the fifth power of the load and K of its group"),
+    "single_axle_loads": ("1", "passage in axles of 80 kN by the fourth power of the load"),
+    "equivalent_temperature": ("degC", "temperature at which a year does the damage of the climate"),
+    "equivalent_reading": ("1", "largest reading at the equivalent temperature, in the law's unit"),
+    "years_at_equivalent": ("1", "years at the equivalent temperature of the governing criterion"),
+}
+
 _DESIGN = {
     "exact_thickness": ("m", "thickness of the layer for which the road lasts exactly"),
     "design_thickness": ("m", "thickness of the layer, rounded up"),
@@ -390,6 +401,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_RELIABILITY,
     **_DESIGN,
     **_GROWTH,
+    **_EQUIVALENTS,
     **_INTERFACES,
     **_PASSES,
     **_UNIFORM,

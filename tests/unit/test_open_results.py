@@ -140,6 +140,23 @@ def growth():
     return tl.damage.Growth(data, asked, {"responses": 4}, ("crack growth: from memory",))
 
 
+def equivalents():
+    two, each = ("criterion", "axle_class"), "axle_class"
+    data = xr.Dataset(
+        {
+            "standard_axles": (two, [[0.1, 0.9], [0.2, math.nan]]), "mean_standard_axles": ("criterion", [0.3, 0.2]),
+            "equivalent_temperature": ("criterion", [17.0, math.nan]),
+            "equivalent_reading": ("criterion", [1e-4, math.nan]),
+            "years_at_equivalent": ("criterion", [24.0, math.nan]), "life_years": ("criterion", [24.0, math.inf]),
+            "french_axles": (each, [0.05, 0.5]), "single_axle_loads": (each, [0.6, 4.0]),
+            "axle_load": (each, [7e4, 1.1e5]), "axles": (each, [1, 1]),
+        },
+        {"criterion": ["top", "base"], "axle_class": ["light", "heavy"]},
+        {"governing": "top", "readings": json.dumps(["100 microstrain", ""])},
+    )  # fmt: skip
+    return tl.study.Equivalents(data)
+
+
 def footprint():
     pressure = np.zeros((4, 5))
     pressure[1:3, 1:4] = 7e5
@@ -217,6 +234,7 @@ MADE = {
     "BondComparison": bond_comparison,
     "Sensitivity": sensitivity,
     "Reliability": reliability,
+    "Equivalents": equivalents,
     "ThicknessDesign": thickness_design,
     "Growth": growth,
     "UniformComparison": lambda: tl.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
@@ -238,9 +256,7 @@ FIGURES = {
     "Contact": "pressure", "Response": "strain_directions", "Verdict": "passes", "BondVerdict": "utilisation",
     "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
     "BondComparison": "lives", "Sensitivity": "inputs", "Reliability": "years", "ThicknessDesign": "lives",
-    "UniformComparison": "strains",
-    "Growth": "depth",
-    "RollingResistance": "losses",
+    "Growth": "depth", "Equivalents": "axles", "UniformComparison": "strains", "RollingResistance": "losses",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",

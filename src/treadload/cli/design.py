@@ -33,7 +33,7 @@ def design(
     from treadload.files import check_writable
     from treadload.results import to_tree
     from treadload.results.exports import check_output, write
-    from treadload.study import run_design
+    from treadload.study import design_case
     from treadload.units import quantity
 
     path = output or case.with_name(f"{case.stem}_design.nc")
@@ -43,7 +43,7 @@ def design(
     share = None if risk is None else quantity(risk, "")
     bounds = {"low": quantity(low, "m"), "high": quantity(high, "m"), "step": quantity(step, "m")}
     with counts(shell.err, quiet=quiet) as tell:
-        found = run_design(
+        found = design_case(
             question, layer=int(layer) if layer.isdigit() else layer, years=years, risk=share, workers=workers,
             progress=tell, **bounds,
         )  # fmt: skip

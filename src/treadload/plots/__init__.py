@@ -7,6 +7,7 @@ from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
 from treadload.plots.energy import dissipated_energy
+from treadload.plots.equivalents import standard_axles
 from treadload.plots.first import first_places
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.growth import crack_depth, crack_intensity
@@ -24,6 +25,7 @@ from treadload.plots.others import (
     BondVerdictPlots,
     CalibrationPlots,
     CreepCurvePlots,
+    EquivalentsPlots,
     FieldsPlots,
     FootprintComparisonPlots,
     GrowthPlots,
@@ -64,6 +66,7 @@ __all__ = [
     "CalibrationPlots",
     "ContactPlots",
     "CreepCurvePlots",
+    "EquivalentsPlots",
     "FieldsPlots",
     "FootprintComparisonPlots",
     "GrowthPlots",
@@ -130,6 +133,7 @@ __all__ = [
     "shakedown_map",
     "shift_factors",
     "sobol_bars",
+    "standard_axles",
     "stones_in_mortar",
     "study_curve",
     "study_curves",

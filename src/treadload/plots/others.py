@@ -13,6 +13,7 @@ from treadload.composing import Source, dataset_of
 from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
+from treadload.plots.equivalents import standard_axles
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.growth import crack_depth, crack_intensity
 from treadload.plots.history import transient_history, turn_history
@@ -111,6 +112,15 @@ class ThicknessDesignPlots(_Plots):
     def lives(self, *, ax: Axes | None = None) -> Figure:
         """Years by criterion against the thickness that was looked for."""
         return design_thicknesses(self._result, ax=ax)
+
+
+@offers("plot", "Equivalents")
+class EquivalentsPlots(_Plots):
+    """Figures of a traffic in standard axles."""
+
+    def axles(self, *, ax: Axes | None = None) -> Figure:
+        """What one passage of each class does, in standard axles, by criterion."""
+        return standard_axles(self._result, ax=ax)
 
 
 @offers("plot", "Reliability")

@@ -10,6 +10,7 @@ from treadload.plots import (
     CalibrationPlots,
     ContactPlots,
     CreepCurvePlots,
+    EquivalentsPlots,
     FieldsPlots,
     FootprintComparisonPlots,
     GrowthPlots,
@@ -43,6 +44,7 @@ HEADINGS = {
     "growth": "A crack that grows",
     "indentation": "Indentation",
     "sensitivity": "What the life depends on",
+    "equivalents": "Standard axles and equivalent temperature",
     "design": "Design of a thickness",
     "reliability": "Years with a probability",
     "transient": "Rolling from rest",
@@ -155,6 +157,12 @@ def _pictures(other: Other) -> list[Picture]:
         case "sensitivity":
             caption = "Change of the governing life as each input grows by 5 %, temperature by 1 °C."
             return picture("What the life depends on", caption, SensitivityPlots(data).inputs)
+        case "equivalents":
+            caption = (
+                "Passes of the French axle of 130 kN that do as much damage as one passage of a class, by every "
+                "criterion; crosses: by the load alone."
+            )
+            return picture("In standard axles", caption, EquivalentsPlots(data).axles, wide=True)
         case "design":
             caption = "Years that every criterion lasts with each thickness that was solved, and those asked for."
             return picture("How thick it must be", caption, ThicknessDesignPlots(data).lives, wide=True)

@@ -3,6 +3,7 @@
 from treadload.study.calibration import Calibration, calibrate
 from treadload.study.delamination import BondComparison, compare_bonds, solve_interfaces
 from treadload.study.designing import ThicknessDesign, design_thickness
+from treadload.study.equivalents import Equivalents, life_equivalents
 from treadload.study.growth import grow_cracks
 from treadload.study.life import solve_life
 from treadload.study.passages import Passages, solve_passages
@@ -10,7 +11,7 @@ from treadload.study.plan import plan_case, plan_life
 from treadload.study.reliability import Reliability, life_reliability
 from treadload.study.run import Result, run_case
 from treadload.study.run_calibration import CalibrationResult, plan_calibration, run_calibration
-from treadload.study.run_life import LifeResult, run_design, run_life
+from treadload.study.run_life import LifeResult, design_case, run_life
 from treadload.study.screening import Morris, Sobol, Tornado, morris, sobol, tornado
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 from treadload.study.shakedown import shakedown_map
@@ -23,6 +24,7 @@ __all__ = [
     "BondComparison",
     "Calibration",
     "CalibrationResult",
+    "Equivalents",
     "LifeResult",
     "Morris",
     "Passages",
@@ -39,8 +41,10 @@ __all__ = [
     "calibrate",
     "compare_bonds",
     "compare_uniform",
+    "design_case",
     "design_thickness",
     "grow_cracks",
+    "life_equivalents",
     "life_reliability",
     "life_sensitivity",
     "morris",
@@ -50,7 +54,6 @@ __all__ = [
     "plan_life",
     "run_calibration",
     "run_case",
-    "run_design",
     "run_life",
     "sampled",
     "shakedown_map",

@@ -19,6 +19,7 @@ from treadload.pavement import Pavement
 from treadload.results import Study, to_tree
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.designing import ThicknessDesign, design_thickness
+from treadload.study.equivalents import Equivalents, life_equivalents
 from treadload.study.growth import grow_cracks
 from treadload.study.life import solve_life
 from treadload.study.reliability import Reliability, life_reliability
@@ -32,7 +33,7 @@ class LifeResult(Study):
 
     road: whose materials wait for their temperature. sensitivity: None if it was not asked for, or no criterion
     ever fails. reliability: None where the case has no [reliability], or no criterion ever fails. growth: None where
-    the case has no [growth].
+    the case has no [growth]. equivalents: the traffic in standard axles, the climate as one temperature.
     """
 
     case: LifeCase
@@ -41,13 +42,14 @@ class LifeResult(Study):
     sensitivity: Sensitivity | None
     reliability: Reliability | None = None
     growth: Growth | None = None
+    equivalents: Equivalents | None = None
 
     @property
     def parts(self) -> Mapping[str, BaseResult]:
         """Its results by their names in a tree."""
-        parts = {
+        parts: dict[str, BaseResult | None] = {
             "life": self.life, "sensitivity": self.sensitivity, "reliability": self.reliability,
-            "growth": self.growth,
+            "growth": self.growth, "equivalents": self.equivalents,
         }  # fmt: skip
         return {name: part for name, part in parts.items() if part is not None}
 
@@ -93,10 +95,11 @@ def run_life(
     if case.growth is not None:
         asked = case.growth.build(case.build_criteria())
         crack = grow_cracks(tire, road, life, asked, contacts=contacts, workers=workers, progress=progress)
-    return LifeResult(case, road, life, depends, scatters, crack)
+    alike = life_equivalents(road, life, workers=workers)
+    return LifeResult(case, road, life, depends, scatters, crack, alike)
 
 
-def run_design(
+def design_case(
     case: LifeCase,
     *,
     layer: int | str,

@@ -1,0 +1,56 @@
+"""Classes of axles in standard axles, by criterion and by convention."""
+
+from __future__ import annotations
+
+import textwrap
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, NullFormatter
+
+from treadload.composing import Source
+from treadload.plots.kit.figure import figure_and_axes
+from treadload.plots.kit.plan import fields_of
+from treadload.plots.kit.style import CASES, INK, PAPER, headline, legend_below, open_axes, plain, styled
+
+_LETTERS = 26
+
+
+@styled
+def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
+    """Dots of what one passage of each class does, in axles of 130 kN, by every criterion; crosses by its load alone.
+
+    equivalents: an Equivalents or its dataset. Returns the figure. Raises InputError if variables are missing.
+    """
+    data = fields_of(equivalents, "standard_axles", "french_axles")
+    names = [textwrap.fill(plain(str(name)), _LETTERS) for name in data["axle_class"].to_numpy()]
+    figure, ax = figure_and_axes(ax, 7.6, 1.9 + 0.34 * len(names))
+    rows = np.arange(len(names))[::-1]
+    handles = []
+    for k, name in enumerate(data["criterion"].to_numpy()):
+        values = data["standard_axles"].to_numpy()[k]
+        shown = np.where(values > 0, values, np.nan)
+        handles += ax.plot(
+            shown, rows, "o", ms=7, mec=PAPER, color=CASES[k % (len(CASES) - 1)], label=plain(str(name))
+        )
+    handles += ax.plot(
+        data["french_axles"], rows, "x", ms=6, mew=1.4, color=INK, label="by its load: (P / 130 kN)⁵ K of the group"
+    )
+    ax.axvline(1.0, color=INK, lw=1.0, ls=(0, (4, 2)))
+    ax.set_xscale("log")
+    low, high = ax.get_xlim()
+    ticks = [one * 10.0**power for power in range(-4, 6) for one in ((1, 2, 5) if high < 300 * low else (1,))]
+    ax.set_xticks([one for one in ticks if low <= one <= high])
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.set_yticks(rows, names)
+    ax.set_ylim(-0.6, len(names) - 0.4)
+    open_axes(ax)
+    ax.tick_params(axis="y", length=0)
+    ax.set_xlabel("one passage in axles of 130 kN on twin discs, logarithmic")
+    headline(
+        ax, "What a passage does, in standard axles", "each at its own worst place, in the season that does most"
+    )
+    legend_below(ax, handles, columns=2)
+    return figure
