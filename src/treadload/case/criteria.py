@@ -26,7 +26,8 @@ class CriterionTable(Made):
     the bond below the layer; left out, the usual one of what is read: "top" for both of these, else "bottom". reads:
     a quantity by its name, or a table with its numbers, for laws with the user's numbers; those of published laws
     hold for what they read. strain: of an extension, "principal" or "in-plane", which it is if left out. mean_over:
-    side of the cube of road that an extension near the surface is a mean over; 10 mm if left out. The rest are
+    side of the cube of road that an extension near the surface is a mean over; 10 mm if left out. search_to: how
+    far below the top of its layer the largest reading is looked for; only at the top if left out. The rest are
     parameters of the law; those left out are taken from the layer where it is one of the catalogue: ε₆, slope, SN,
     k_c and E(θ) of a mix, A and b of a platform.
     """
@@ -48,7 +49,7 @@ class CriterionTable(Made):
         length = MATERIAL_LENGTH if table.mean_over is None else table.mean_over
         # A law that leaves open what it reads has taken `reads` itself.
         reads = None if "reads" in self.hints else quantity if self.told_quantity else None
-        return Judge(name, law, number, table.place, table.strain, length, reads)
+        return Judge(name, law, number, table.place, table.strain, length, reads, table.search_to)
 
     @property
     def told_quantity(self) -> bool:
@@ -87,6 +88,7 @@ CRITERION = Choice(
         "strain": Reading,
         "reads": Quantity,
         "mean_over": Length,
+        "search_to": Length,
     },
     needed=("name",),
     lenient=True,

@@ -32,6 +32,8 @@ Side = Literal["above", "below"]
 
 # At which a law that depends on temperature is asked what it reads.
 _ANY_TEMPERATURE = 15.0
+# How far a criterion looks below its place at most, and how near to the end of its layer, m.
+_FARTHEST, _OFF_THE_END = 0.5, 1e-6
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,8 @@ class Criterion:
     plane; left out, as the law's quantity does, and for all others it does not matter.
     length: of the mean over a cube of road that is read near the surface where what the law reads has no bound there,
     m, see `response.material`; None for the points themselves, which depend on the cells there.
+    search_to: how far below the top of its layer the largest reading is looked for, m, within the layer, at every
+    `length`; None for the top itself.
     reads: what the law reads, with details that the law leaves open, as the strength of a bond.
     An extension at the top of a layer counts only where a principal stress is tensile: no crack opens elsewhere.
     Raises InputError for a law at a place that it does not apply to: one of the bottom of the asphalt, of the
@@ -58,6 +62,7 @@ class Criterion:
     strain: Reading | None = None
     length: float | None = MATERIAL_LENGTH
     reads: Quantity | None = None
+    search_to: float | None = None
 
     def __post_init__(self) -> None:
         law = self.law_at(_ANY_TEMPERATURE)
@@ -73,6 +78,8 @@ class Criterion:
             check_reading(self.strain)
         if self.length is not None:
             check_length(self.length)
+        if self.search_to is not None:
+            self._check_search(self.search_to)
         if self.reads is not None and not law.reads.admits(self.reads):
             raise InputError(
                 f"the criterion {self.name!r} reads the {self.reads}, but the numbers of its law, {law}, hold for "
@@ -158,6 +165,30 @@ class Criterion:
             )
         return float(road.interfaces[number])
 
+    def depths(self, road: Pavement) -> tuple[float, ...]:
+        """Depths of which it reads the largest, m: its own, and those below it down to `search_to`."""
+        top = self.depth(road)
+        if self.search_to is None:
+            return (top,)
+        number = self.number(road)
+        ends = float(road.interfaces[number]) if number < len(road.interfaces) else np.inf
+        step = MATERIAL_LENGTH if self.length is None else self.length
+        count = int(np.ceil(self.search_to / step - 1e-9))
+        below = top + self.search_to / count * np.arange(1, count + 1)
+        return (top, *(float(depth) for depth in below if depth < ends - _OFF_THE_END))
+
+    def _check_search(self, search_to: float) -> None:
+        if not 0 < search_to <= _FARTHEST:
+            raise InputError(
+                f"search_to of the criterion {self.name!r} must lie in (0, {_FARTHEST:g}] m, got {search_to:g}; "
+                "cracks from the surface begin in the upper 20 to 50 mm"
+            )
+        if self.place != "top" or self.law_at(_ANY_TEMPERATURE).reads.where.only:
+            raise InputError(
+                f"the criterion {self.name!r} reads one depth, so that search_to does not apply; leave it out, or "
+                'read a quantity at place = "top"'
+            )
+
     @property
     def mean_over(self) -> float | None:
         """Side of the cube of road over which it reads a mean near the surface, m; None to read points."""
@@ -179,7 +210,7 @@ class Criterion:
         return self.quantity.extends and self.quantity.strain == "in-plane"
 
     def read(self, data: xr.Dataset) -> Array:
-        """What the law reads (y, x) of a response at the criterion's one depth, positive where it does harm."""
+        """What the law reads (y, x) of a response at one depth, or (depth, y, x), positive where it does harm."""
         quantity = self.quantity
         values = quantity.values(data)
         if self.place == "top" and quantity.needs_tension:

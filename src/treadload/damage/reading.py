@@ -24,8 +24,12 @@ from treadload.response import Response, solve_response
 _STEPS = 20
 _FINER = 8
 # Maxima of a map this near to its largest may be larger between its points; so many are looked at.
-_RIVAL = 0.97
-_RIVALS = 3
+_RIVAL = 0.94
+_RIVALS = 8
+# Depths between two of the response that are looked at below the worst point.
+_DEPTHS = 4
+# Readings nearer to each other than this are the same.
+_SAME = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,19 +120,52 @@ def closer(response: Source, field: Field) -> Field | None:
 
     field: means over (depth, y, x). The map's points lie as far apart as its cells, and the largest reading lies
     between them: by round maxima a little higher, by the line where tension ends, which cuts the reading off at once,
-    by up to a twentieth. So the neighbourhood is searched twice, and that of every maximum near the largest.
+    by up to a twentieth. So the neighbourhood is searched twice, and that of every maximum near the largest; then the
+    depths between those of the field, under the worst point, and the neighbourhood there.
     """
     if not isinstance(response, Response) or response.road is None:
         return None
     fields = [near for at in _rivals(field) if (near := _nearer(response, field, at)) is not None]
     if not fields:
         return None
-    best = max(fields, key=lambda near: float(near.value[near.worst]))
+    best = max(fields, key=_largest)
     finer = {
         name: _between(best.data[name].to_numpy(), k) for name, k in zip(("y", "x"), best.worst[1:], strict=True)
     }
     finest = replace(best, data=_solved(response, best.data["depth"].to_numpy(), best.length, **finer))
-    return max(best, finest, key=lambda near: float(near.value[near.worst]))
+    best = max(best, finest, key=_largest)
+    return max(best, _deeper(response, field, best), key=_largest)
+
+
+def _largest(field: Field) -> float:
+    return float(field.value[field.worst])
+
+
+def _deeper(response: Response, field: Field, best: Field) -> Field:
+    """The neighbourhood of the worst place at the worst depth between those of a field; the best if that is worse."""
+    depths = field.data["depth"].to_numpy()
+    if len(depths) < 2:
+        return best
+    parts = np.arange(1, _DEPTHS + 1) / (_DEPTHS + 1)
+    between = (depths[:-1, None] + np.diff(depths)[:, None] * parts).ravel()
+    _, j, i = best.worst
+    here = {"y": best.data["y"].to_numpy()[j : j + 1], "x": best.data["x"].to_numpy()[i : i + 1]}
+    column = replace(best, data=_solved(response, between, best.length, **here))
+    # And again between the neighbours of the worst of them.
+    worst = between[column.worst[0]]
+    beside = np.diff(depths)[int(np.searchsorted(depths, worst)) - 1] / (_DEPTHS + 1)
+    closer_by = worst + beside * np.arange(-_DEPTHS, _DEPTHS + 1) / (_DEPTHS + 1)
+    column = replace(best, data=_solved(response, closer_by, best.length, **here))
+    # Cubes less than half a length deep are one and the same.
+    if not _largest(column) > _largest(best) * (1 + _SAME):
+        return best
+    own = closer_by[column.worst[0] : column.worst[0] + 1]
+    apart = {name: np.abs(np.diff(field.data[name].to_numpy()[:2])) for name in here}
+    around = {
+        name: at + (step / _FINER * np.arange(-_FINER, _FINER + 1) if len(step) else np.zeros(1))
+        for (name, at), step in zip(here.items(), apart.values(), strict=True)
+    }
+    return max(column, replace(best, data=_solved(response, own, best.length, **around)), key=_largest)
 
 
 def _rivals(field: Field) -> list[tuple[int, int, int]]:

@@ -135,8 +135,9 @@ def assess(
     tensile; such points are not read.
 
     response: of `solve_response` on a grid. Its road is solved again for means over a cube of `mean_over`, m, at each
-    of its depths that lies in the top layer, to which the line applies, and around the worst of them on points
-    closer to each other; the worst of all is the verdict. A response that already is a mean is read as it is.
+    of its depths that lies in the top layer, to which the line applies, and around the worst of them on points and at
+    depths closer to each other; the worst of all is the verdict, which says how deep it is. A response that already
+    is a mean is read as it is.
     line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
     bottom needs `depth`.
     depth: one of the response's depths, m, whose points are read as they are; a response from elsewhere, with
@@ -164,10 +165,13 @@ def assess(
     quantity = line.reads if strain is None else line.reads.with_strain(strain)
     field = Field(data, quantity)
     row = field.worst[0]
+    deep = float(data["depth"][row])
     near = (closer(response, field) if depth is None and field.value[field.worst] > 0 else None) or field
     at = near.worst
     if near is not field:
-        row = int(np.flatnonzero(data["depth"] == near.data["depth"][0])[0])
+        deep = float(near.data["depth"][at[0]])
+        # Fields are drawn at the depth of the response that is nearest to it.
+        row = int(np.abs(data["depth"].to_numpy() - deep).argmin())
     opens = bool(near.value[at] > 0)
     angle, dip = (part[row] for part in field.crack)
     worst_angle, worst_dip = (float(part[at]) for part in near.crack)
@@ -183,7 +187,7 @@ def assess(
         "extension_by_depth": (("depth",), field.value.max(axis=(1, 2))),
         "worst_x": (none, float(near.data["x"][at[2]])),
         "worst_y": (none, float(near.data["y"][at[1]])),
-        "worst_depth": (none, float(data["depth"][row])),
+        "worst_depth": (none, deep),
         "worst_strain": (none, float(near.value[at])),
         "worst_passes": (none, float(line.allowable_passes(float(near.value[at])))),
         "worst_crack_angle": (none, worst_angle),

@@ -7,6 +7,8 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from treadload import variables
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.climate import Climate
@@ -18,7 +20,7 @@ from treadload.pavement import Pavement, lift_below
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.doubts import beyond_tables, traffic_doubts
 from treadload.study.groups import group_factors, in_words
-from treadload.study.passages import solve_passages
+from treadload.study.passages import Passages, solve_passages
 from treadload.tire import Tire
 
 
@@ -56,7 +58,7 @@ def solve_life(
         layer_temperatures=passages.layer_temperatures,
         cracks=(passages.crack_angle, passages.crack_dip),
     )
-    depths = ("criterion", [criterion.depth(road) for criterion in criteria], variables.attributes("read_depth"))
+    depths = ("criterion", _read_depths(life, passages), variables.attributes("read_depth"))
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))
     factors, axles = group_factors(road, life, passages, workers)
     names = (tuple(row.name for row in traffic.classes), tuple(criterion.name for criterion in criteria))
@@ -89,6 +91,18 @@ def _interfaces(road: Pavement, criteria: Sequence[Criterion]) -> dict[str, str]
     return {
         name: interface_in_words(number, f"{names[number]} / {names[number + 1]}") for name, number in numbers.items()
     }
+
+
+def _read_depths(life: Life, passages: Passages) -> list[float]:
+    """Depth of the reading that does most at the worst place of each criterion, m."""
+    y, shares = life.readings["y"].to_numpy(), life.dataset["damage_share"].to_numpy()
+    found = []
+    for k, place in enumerate(life.dataset["worst_y"].to_numpy()):
+        column = int(np.abs(y - place).argmin())
+        by = shares[k] if shares[k].max() > 0 else passages.readings.to_numpy()[k, ..., column].max(axis=-1)
+        row, season = np.unravel_index(int(by.argmax()), by.shape)
+        found.append(float(passages.read_depth[k, row, season, column]))
+    return found
 
 
 def _lifts(road: Pavement, criteria: Sequence[Criterion]) -> tuple[str, ...]:

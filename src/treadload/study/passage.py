@@ -46,6 +46,10 @@ class Passing:
         own = self.warm.criteria[number]
         return own.passing(self.wheels.speed, self.depth(number), self.wheels.length)
 
+    def depths(self, number: int) -> tuple[float, ...]:
+        """Of which one of its criteria reads the largest, m."""
+        return self.warm.criteria[number].depths(self.warm.road)
+
     @property
     def speed(self) -> float | None:
         """At which the wheels roll, m/s, where the road minds."""
@@ -86,12 +90,12 @@ def batches(tasks: Sequence[Passing]) -> list[list[int]]:
 
 
 def passages(tasks: Sequence[Passing]) -> list[Array]:
-    """(criterion, turns + 2, y): peaks and valleys, see `Passages`, then the angle and the dip of the crack.
+    """(criterion, turns + 3, y): peaks and valleys, see `Passages`, then angle and dip of the crack, and the depth.
 
     For each of some tasks that stand on the same cells at the same speed, see `batches`.
     """
     y, wheels = tasks[0].y, tasks[0].wheels
-    results: list[Array] = [np.empty((len(task.warm.criteria), task.turns + 2, len(y))) for task in tasks]
+    results: list[Array] = [np.empty((len(task.warm.criteria), task.turns + 3, len(y))) for task in tasks]
     planes: dict[_Plane, dict[int, list[int]]] = {}
     for number, task in enumerate(tasks):
         for k in range(len(task.warm.criteria)):
@@ -101,7 +105,7 @@ def passages(tasks: Sequence[Passing]) -> list[Array]:
         solved = _solved([(tasks[number], own) for number, own in members.items()], plane, x, y[rows])
         for (number, own), data in zip(members.items(), solved, strict=True):
             for k in own:
-                at = data.sel(depth=tasks[number].depth(k))
+                at = data.sel(depth=list(tasks[number].depths(k)))
                 _read(results[number][k], tasks[number].criterion(k), at, tasks[number], plane, rows)
     return results
 
@@ -130,7 +134,7 @@ def _solved(asked: Sequence[tuple[Passing, list[int]]], plane: _Plane, x: Array,
     """What criteria, by number, read over (depth, y, x), for each task."""
     needs = {name for task, own in asked for k in own for name in task.warm.criteria[k].needs}
     at: dict[str, Any] = {"speed": asked[0][0].speed, "side": plane.side, "mean_over": plane.mean_over}
-    depths = [np.array(sorted({task.depth(k) for k in own})) for task, own in asked]
+    depths = [np.array(sorted({depth for k in own for depth in task.depths(k)})) for task, own in asked]
     places = [(task.wheels, task.warm.road, own) for (task, _), own in zip(asked, depths, strict=True)]
     found = tensors_of_many(
         [Question(wheels.joined, road, own) for wheels, road, own in places], x, y, needs=needs, **at
@@ -141,16 +145,21 @@ def _solved(asked: Sequence[tuple[Passing, list[int]]], plane: _Plane, x: Array,
 
 
 def _read(result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, plane: _Plane, rows: Any) -> None:
-    """Into (turns + 2, y) what a criterion reads of a plane (y[rows], x)."""
+    """Into (turns + 3, y) what a criterion reads of a plane (depth, y[rows], x)."""
     y, turns = task.y, task.turns
     smooth = plane.stride > 0
-    read = criterion.read(data)
+    every = data if data.sizes["depth"] > 1 else data.isel(depth=0)
+    read = criterion.read(every)
+    deepest = read.argmax(axis=0) if read.ndim > 2 else np.zeros(read.shape, dtype=int)
+    read = read.max(axis=0) if read.ndim > 2 else read
     centres = task.wheels.x.mean(axis=1)
     peaks = _turns(data["x"].to_numpy(), read, centres, turns, smooth=smooth or plane.mean_over is not None)
     result[:turns] = np.maximum(_between(y[rows], peaks, smooth=smooth)(y), 0.0)
-    worst = data.isel(x=xr.DataArray(read.argmax(axis=1), dims="y"))
+    instant = read.argmax(axis=1)
+    deep = np.take_along_axis(deepest, instant[:, None], axis=1)[:, 0]
+    worst = data.isel(x=xr.DataArray(instant, dims="y"), depth=xr.DataArray(deep, dims="y"))
     nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
-    for part, field in enumerate(criterion.crack(worst)):
+    for part, field in enumerate((*criterion.crack(worst), data["depth"].to_numpy()[deep])):
         result[turns + part] = field[nearest]
 
 

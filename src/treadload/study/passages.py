@@ -34,7 +34,8 @@ class Passages:
 
     readings: (criterion, axle_class, season, turn, y): the peak under each axle of a group and, between them, the
     valley: peak, valley, peak, ..., zeros behind the last. crack_angle, crack_dip: (criterion, axle_class, season,
-    y), rad, of the crack at the worst instant, in the season's road or the nearest that was solved.
+    y), rad, of the crack at the worst instant, in the season's road or the nearest that was solved. read_depth:
+    of the largest reading there, m.
     layer_temperatures: (criterion, season), °C. contacts, responses: how many were really solved.
     interpolation_error: the largest that interpolation over the climate does, measured on the heaviest class: the
     relative error of its largest reading that would move damage as much; 0 if nothing was interpolated. moved: how
@@ -44,6 +45,7 @@ class Passages:
     readings: xr.DataArray
     crack_angle: Array
     crack_dip: Array
+    read_depth: Array
     layer_temperatures: Array
     contacts: int
     responses: int
@@ -110,7 +112,7 @@ def solve_passages(
         wheels = [wheels_of(own, row, y) for own, row in zip(by_class, classes, strict=True)]
         turns = 2 * max(len(one.x) for one in wheels) - 1
 
-        values = np.empty((len(classes), len(distinct), len(criteria), turns + 2, len(y)))
+        values = np.empty((len(classes), len(distinct), len(criteria), turns + 3, len(y)))
 
         def solve_all(rows: Sequence[int], asked: Sequence[tuple[int, list[int]]]) -> None:
             """Into values, for classes, of roads those criteria; all by number."""
@@ -154,6 +156,7 @@ def solve_passages(
         readings,
         everything[:, :, :, turns],
         everything[:, :, :, turns + 1],
+        everything[:, :, :, turns + 2],
         temperatures,
         touched,
         count.total - touched,
