@@ -1,6 +1,7 @@
 """The road and its layers."""
 
 from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift_below
+from treadload.pavement.bond_tests import RECALLED_STIFFNESS, ShearTest, TestedBond
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded, Parted
 from treadload.pavement.catalogue import Structure
 from treadload.pavement.heating import Heat, RoadTemperatures, bells, road_temperatures
@@ -15,6 +16,7 @@ __all__ = [
     "BONDED",
     "FRICTIONLESS",
     "HALF_BONDED",
+    "RECALLED_STIFFNESS",
     "Bond",
     "BondLaw",
     "HalfBonded",
@@ -24,8 +26,10 @@ __all__ = [
     "Parted",
     "Pavement",
     "RoadTemperatures",
+    "ShearTest",
     "Structure",
     "TemperatureProfile",
+    "TestedBond",
     "Weather",
     "bells",
     "bituminous_thickness",
