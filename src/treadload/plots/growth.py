@@ -13,7 +13,7 @@ from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, headline, legend_below, open_axes, plain, styled
 
 _GROWS, _SCATTERS = "#d55e00", "#f3c39b"
-_NAMES = {"I": "opening, K_I", "II": "sliding, K_II", "III": "tearing, K_III"}
+_NAMES = {"I": "opening (mode I)", "II": "sliding (mode II)", "III": "tearing (mode III)"}
 
 
 @styled
@@ -45,8 +45,8 @@ def crack_depth(growth: Source, *, ax: Axes | None = None) -> Figure:
     if design:
         ax.axvline(float(design), color=INK, lw=1.2, ls=(0, (4, 2)))
         ax.annotate(
-            f"design, {float(design):g} years", (float(design), 0), xycoords=("data", "axes fraction"),
-            xytext=(4, 4), textcoords="offset points", fontsize=8.5,
+            f"design, {float(design):g} years", (float(design), 0.5), xycoords=("data", "axes fraction"), rotation=90,
+            xytext=(-4, 0), textcoords="offset points", ha="right", va="center", fontsize=8.5,
         )  # fmt: skip
     open_axes(ax)
     ax.set_xlabel("years from the opening")

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from treadload.errors import InputError, TreadloadError, nearest
 from treadload.validation import (
+    cracking,
     dissimilar,
     grain,
     histories,
@@ -53,6 +54,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "rheology": rheology.rheology_checks,
     "fatigue": laws.law_checks,
     "reliability": reliability.reliability_checks,
+    "cracks": cracking.crack_checks,
     "criteria": tensors.criteria_checks,
     "traffic": journeys.traffic_checks,
     "conditions": tires.condition_checks,
