@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -10,7 +11,8 @@ from pydantic import model_validator
 from treadload.case.choices import FRICTION_OR_NUMBER, Friction, ManeuverTable, maneuver_of
 from treadload.case.tire import TirePart
 from treadload.damage import AxleClass, Traffic, Wander
-from treadload.errors import nearest
+from treadload.damage.frequency import LoadingFrequency
+from treadload.errors import InputError, nearest
 from treadload.read import As, Table
 from treadload.units import Force, Length, PerYear, Pressure, Share, Speed, Years
 
@@ -114,6 +116,9 @@ class TrafficPart(Table):
 
     passes_per_year: of all classes, in the first year. growth: per year. kind: of growth, "geometric" or
     "arithmetic". years: for which the road is designed. wander: of the wheels across the road; left out, none.
+    frequency: the rule by which each class reads moduli at its own speed and depth, "mepdg" or "brown"; left out, the
+    one frequency of the road, 10 Hz, for which French laws are made. angular: True for f = 1/(2πt), False for 1/t;
+    left out, as the source of the rule has it.
     classes: of axles, whose shares sum to 1.
     """
 
@@ -122,10 +127,17 @@ class TrafficPart(Table):
     kind: Literal["geometric", "arithmetic"] = "geometric"
     years: Years | None = None
     wander: Annotated[Any, WANDER] = None
+    frequency: Literal["mepdg", "brown"] | None = None
+    angular: bool | None = None
     classes: tuple[AxlePart, ...]
 
     def build(self, folder: Path) -> Traffic:
         """The traffic."""
         rows = [row for one in self.classes for row in one.build(folder)]
+        if self.frequency is not None:
+            rule = LoadingFrequency(self.frequency, self.angular)
+            rows = [replace(row, frequency=rule) for row in rows]
+        elif self.angular is not None:
+            raise InputError('angular belongs to a frequency, "mepdg" or "brown"; give one, or leave it out')
         wander = Wander.none() if self.wander is None else WANDER.build(self.wander)
         return Traffic(tuple(rows), self.passes_per_year, self.growth, self.kind, wander, self.years)

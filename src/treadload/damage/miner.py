@@ -81,7 +81,6 @@ class Life(BaseResult, group="life"):
         ]
         years = self.traffic.years
         allowed = "the passes of a year" if years is None else f"the passes of {years:g} years"
-        lines += [f"  {text}" for text in self.climate.about]
         between = json.loads(data.attrs.get("between", "{}"))
         for criterion in self.criteria:
             row = data.sel(criterion=criterion.name)

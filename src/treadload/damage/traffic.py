@@ -12,6 +12,7 @@ from scipy.special import ndtr
 
 from treadload.contact.friction.laws import FrictionLaw
 from treadload.contact.maneuver import STRAIGHT, Maneuver
+from treadload.damage.frequency import LoadingFrequency
 from treadload.damage.laws.equivalence import NO_GROWTH, growth_factor
 from treadload.damage.shares import check_shares
 from treadload.describing import as_call
@@ -34,6 +35,7 @@ class AxleClass:
     of a tandem. maneuver: how they roll. friction: coefficient or law. speed: m/s, for viscoelastic roads.
     tire: its own; None for that of the traffic. mirrored: numbers of the wheels, from 0, whose tire is turned round,
     as that of one of dual wheels is: their contact is a mirror image, which shows where a tread is not symmetric.
+    frequency: the rule by which the class reads moduli at its own speed; None for those of the road as it is given.
     Raises InputError.
     """
 
@@ -47,6 +49,7 @@ class AxleClass:
     speed: float | None = None
     tire: Tire | None = None
     mirrored: tuple[int, ...] = ()
+    frequency: LoadingFrequency | None = None
 
     def __post_init__(self) -> None:
         if not 0 <= self.share <= 1:
@@ -60,6 +63,8 @@ class AxleClass:
         if not wheels or not np.isfinite(wheels).all():
             raise InputError(f"{self.name!r} needs at least one wheel at finite (x, y) in m, got {self.wheels!r}")
         object.__setattr__(self, "wheels", wheels)
+        if self.frequency is not None and self.speed is None:
+            raise InputError(f"the loading frequency of {self.name!r} follows from its speed: give it one in m/s")
         object.__setattr__(self, "mirrored", tuple(self.mirrored))
         stray = next((number for number in self.mirrored if number not in range(len(wheels))), None)
         if stray is not None:

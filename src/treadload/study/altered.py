@@ -69,10 +69,16 @@ def most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
 
 
 def in_seasons(
-    road: Pavement, climate: Climate, criterion: Criterion, pairs: Sequence[tuple[int, int]]
-) -> dict[int, Any]:
-    """The road and the criterion in the seasons of the pairs."""
-    return {s: warmed(road, (criterion,), climate.seasons[s]) for s in dict.fromkeys(s for _, s in pairs)}
+    question: Question, criterion: Criterion, pairs: Sequence[tuple[int, int]]
+) -> dict[tuple[int, int], Any]:
+    """The road and the criterion of the pairs (class, season), shared by classes without a frequency of their own."""
+    road, traffic, climate = question
+    shared = {s: warmed(road, (criterion,), climate.seasons[s]) for s in dict.fromkeys(s for _, s in pairs)}
+    own = {pair: traffic.classes[pair[0]] for pair in pairs}
+    return {
+        pair: shared[pair[1]] if row.frequency is None else warmed(road, (criterion,), climate.seasons[pair[1]], row)
+        for pair, row in own.items()
+    }
 
 
 class Solver:
@@ -102,8 +108,8 @@ class Solver:
         known = self.contacts.known
         stand: dict[Any, Wheels] = {}
         tasks = []
-        for (road, _, climate), several in zip(questions, classes, strict=True):
-            warm_roads = in_seasons(road, climate, self.criterion, self.pairs)
+        for question, several in zip(questions, classes, strict=True):
+            warm_roads = in_seasons(question, self.criterion, self.pairs)
             by_class = [[known[one] for one in states_of(row, self.tire)] for row in several]
             y = across([own[0] for own in by_class], several)
             wheels = {}
@@ -113,7 +119,7 @@ class Solver:
                     stand[key] = wheels_of(own, one, y)
                 wheels[row] = stand[key]
             turns = 2 * max(len(one.x) for one in wheels.values()) - 1
-            tasks += [Passing(wheels[row], warm_roads[season], y, turns) for row, season in self.pairs]
+            tasks += [Passing(wheels[row], warm_roads[row, season], y, turns) for row, season in self.pairs]
         read = iter(zip(tasks, solve_passings(tasks, pool, count), strict=True))
         return [self._damage(question, [next(read) for _ in self.pairs]) for question in questions]
 

@@ -35,9 +35,13 @@ def group_factors(road: Pavement, life: Life, passages: Passages, workers: int |
     axles = np.array([len(one.x) for one in passages.wheels])
     several = [int(number) for number in np.flatnonzero(axles > 1)]
     seasons = [int(shares[:, number].sum(axis=0).argmax()) for number in several]
-    warm = {season: warmed(road, life.criteria, life.climate.seasons[season]) for season in seasons}
+    classes = life.traffic.classes
+    warm = {
+        (number, season): warmed(road, life.criteria, life.climate.seasons[season], classes[number])
+        for number, season in zip(several, seasons, strict=True)
+    }
     tasks = [
-        Passing(_one_axle(passages.wheels[number]), warm[season], y, 1)
+        Passing(_one_axle(passages.wheels[number]), warm[number, season], y, 1)
         for number, season in zip(several, seasons, strict=True)
     ]
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:

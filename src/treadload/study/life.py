@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -21,6 +23,7 @@ from treadload.study.contacts import Contacts, Progress
 from treadload.study.doubts import beyond_tables, traffic_doubts
 from treadload.study.groups import group_factors, in_words
 from treadload.study.passages import Passages, solve_passages
+from treadload.study.seasons import frequencies
 from treadload.tire import Tire
 
 
@@ -46,6 +49,8 @@ def solve_life(
     Raises InputError, and ConvergenceError of a contact.
     """
     start = time.perf_counter()
+    contacts = contacts or Contacts(tire, spacing)
+    again: dict[str, Any] = {"workers": workers, "progress": progress, "contacts": contacts}
     passages = solve_passages(
         tire, road, traffic, climate, criteria,
         spacing=spacing, tolerance=tolerance, workers=workers, progress=progress, contacts=contacts,
@@ -62,8 +67,10 @@ def solve_life(
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))
     factors, axles = group_factors(road, life, passages, workers)
     names = (tuple(row.name for row in traffic.classes), tuple(criterion.name for criterion in criteria))
+    plain = _at_one_frequency(tire, road, traffic, climate, criteria, life, tolerance=tolerance, **again)
+    sentences = [*climate.about, *plain, *in_words(*names, factors, axles)]
     about = {
-        "groups": json.dumps(in_words(*names, factors, axles), ensure_ascii=False),
+        "groups": json.dumps(sentences, ensure_ascii=False),
         "between": json.dumps(_interfaces(road, criteria), ensure_ascii=False),
     }
     fields = {"group_factor": (("criterion", "axle_class"), factors), "axles": (("axle_class",), axles)}
@@ -103,6 +110,38 @@ def _read_depths(life: Life, passages: Passages) -> list[float]:
         row, season = np.unravel_index(int(by.argmax()), by.shape)
         found.append(float(passages.read_depth[k, row, season, column]))
     return found
+
+
+def _at_one_frequency(
+    tire: Tire,
+    road: Pavement,
+    traffic: Traffic,
+    climate: Climate,
+    criteria: Sequence[Criterion],
+    life: Life,
+    **how: Any,
+) -> list[str]:
+    """Sentences on the loading frequencies of the classes, and on the life without them, which is solved for it."""
+    ruled = [row for row in traffic.classes if row.frequency is not None]
+    if not ruled:
+        return []
+    shares = life.dataset["damage_share"].to_numpy().sum(axis=(0, 1))
+    season = climate.seasons[int(shares.argmax())]
+    said = []
+    for row in ruled:
+        found, ratios = frequencies(road, season, row)
+        if found:
+            said.append(
+                f"{row.name} reads moduli at {min(found):.3g} to {max(found):.3g} Hz over depth in {season.name}: "
+                f"{min(ratios):.3g} to {max(ratios):.3g} times those of the road as given ({row.frequency})"
+            )
+    plain = replace(traffic, classes=tuple(replace(row, frequency=None) for row in traffic.classes))
+    other = solve_life(tire, road, plain, climate, criteria, **how)
+    for one in criteria:
+        own, without = life.years(one.name), other.years(one.name)
+        if math.isfinite(own) and math.isfinite(without):
+            said.append(f"{one.name}: {own:.3g} years with these frequencies, {without:.3g} without them")
+    return said
 
 
 def _lifts(road: Pavement, criteria: Sequence[Criterion]) -> tuple[str, ...]:

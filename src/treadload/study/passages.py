@@ -100,7 +100,13 @@ def solve_passages(
     for row in classes:
         check_speed(row, warm[0].road)
     temperatures = layer_temperatures(road, criteria, seasons)
-    distinct = [one for k, one in enumerate(warm) if one not in warm[:k]]
+    firsts = [k for k, one in enumerate(warm) if one not in warm[:k]]
+    distinct = [warm[k] for k in firsts]
+    # By class, where each reads the moduli at its own loading frequency.
+    warm_of = [
+        distinct if row.frequency is None else [warmed(road, criteria, seasons[k], row) for k in firsts]
+        for row in classes
+    ]
     states = [one for row in classes for one in states_of(row, tire)]
     contacts = contacts or Contacts(tire, spacing)
     touched = len(contacts.missing(states))
@@ -117,14 +123,17 @@ def solve_passages(
         def solve_all(rows: Sequence[int], asked: Sequence[tuple[int, list[int]]]) -> None:
             """Into values, for classes, of roads those criteria; all by number."""
             tasks = [(row, number, own) for row in rows for number, own in asked]
-            passings = [Passing(wheels[row], distinct[number].reading(own), y, turns) for row, number, own in tasks]
+            passings = [
+                Passing(wheels[row], warm_of[row][number].reading(own), y, turns) for row, number, own in tasks
+            ]
             for (row, number, own), read in zip(tasks, solve_passings(passings, pool, count), strict=True):
                 values[row, number, own] = read
 
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
         others = [row for row in range(len(classes)) if row != heaviest]
         solve_all([heaviest], [(number, list(range(len(criteria)))) for number in range(len(distinct))])
-        warmth = warmth_of(seasons, [one.road for one in distinct])
+        warmths = [warmth_of(seasons, [one.road for one in own]) for own in warm_of]
+        warmth = warmths[heaviest]
         kept, errors = [], []
         for k, criterion in enumerate(criteria):
             wander = wander_of(criterion.law_at(temperatures[k, 0]), traffic)
@@ -137,8 +146,9 @@ def solve_passages(
             solve_all(others, asked)
             for k, few in enumerate(kept):
                 if len(few) < len(distinct):
-                    rest = values[np.ix_(others, few)][:, :, k]
-                    values[others, :, k] = over_the_climate(warmth, few, rest, turns)
+                    for number in others:
+                        rest = values[np.ix_([number], few)][:, :, k]
+                        values[number, :, k] = over_the_climate(warmths[number], few, rest, turns)[0]
     where = [distinct.index(one) for one in warm]
     # (criterion, axle_class, season, turn, y), with the crack behind the turns.
     everything = values[:, where].transpose(2, 0, 1, 3, 4)

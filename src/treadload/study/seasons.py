@@ -9,6 +9,8 @@ import numpy as np
 
 from treadload.damage.climate import Season
 from treadload.damage.criterion import Criterion
+from treadload.damage.frequency import contact_radius
+from treadload.damage.traffic import AxleClass
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Mix
@@ -28,10 +30,11 @@ class Warm:
         return Warm(self.road, tuple(self.criteria[k] for k in numbers))
 
 
-def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season) -> Warm:
+def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season, row: AxleClass | None = None) -> Warm:
     """The road and the criteria in a season; below a profile courses are divided, and criteria read their ends.
 
-    Raises InputError for temperatures that do not fit the road.
+    row: the class of axles, which may read moduli at its own loading frequency. Raises InputError for temperatures
+    that do not fit the road.
     """
     temperature = season.temperature
     if isinstance(temperature, tuple) and len(temperature) != len(road.layers):
@@ -41,12 +44,18 @@ def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season) -> War
     profile = season.profile
     if profile is None:
         assert not isinstance(temperature, TemperatureProfile)
-        warm, numbers = road.at_temperature(temperature), None
+        warm, numbers, parts = road.at_temperature(temperature), None, road
+        each = list(temperature) if isinstance(temperature, tuple) else [temperature] * len(road.layers)
     else:
         parts, owner = divided(road, thickest=season.sublayers, ageing=season.ageing)
         # A sunny hour is warmer than the tables of most mixes: their modulus goes on, and the life says so.
-        warm = parts.at_temperature(middle_temperatures(parts, profile), extrapolate=True)
-        numbers = owner
+        each = middle_temperatures(parts, profile)
+        warm, numbers = parts.at_temperature(each, extrapolate=True), owner
+    if row is not None and row.frequency is not None:
+        assert row.speed is not None
+        radius = contact_radius(row.wheel_load, row.inflation_pressure)
+        faster, _ = row.frequency.on(parts, each, row.speed, radius)
+        warm = faster.at_temperature(each, extrapolate=True)
     placed = [_placed(one, road, numbers) for one in criteria]
     pairs = zip(placed, criteria, strict=True)
     return Warm(warm, tuple(new.at(_at_layer(old, road, season)) for new, old in pairs))
@@ -58,6 +67,25 @@ def layer_temperatures(road: Pavement, criteria: Sequence[Criterion], seasons: S
     Within the data of a mix, to which laws go no further.
     """
     return np.array([[_at_layer(c, road, season) for season in seasons] for c in criteria])
+
+
+def frequencies(road: Pavement, season: Season, row: AxleClass) -> tuple[list[float], list[float]]:
+    """Loading frequencies of a class in a season at the mixes' middles, Hz, and their moduli over those at 10 Hz."""
+    assert row.frequency is not None
+    assert row.speed is not None
+    profile, given = season.profile, season.temperature
+    parts = road
+    if profile is not None:
+        parts, _ = divided(road, thickest=season.sublayers, ageing=season.ageing)
+        each = middle_temperatures(parts, profile)
+    else:
+        assert not isinstance(given, TemperatureProfile)
+        each = list(given) if isinstance(given, tuple) else [given] * len(road.layers)
+    faster, found = row.frequency.on(parts, each, row.speed, contact_radius(row.wheel_load, row.inflation_pressure))
+    fast, slow = (one.at_temperature(each, extrapolate=True) for one in (faster, parts))
+    mixes = [k for k, layer in enumerate(parts.layers[: len(found)]) if layer.depends_on_temperature]
+    ratios = [fast.layers[k].elastic.modulus / slow.layers[k].elastic.modulus for k in mixes]  # type: ignore[union-attr]
+    return [found[k] for k in mixes], ratios
 
 
 def beyond_data(road: Pavement, season: Season) -> list[tuple[str, float, float]]:

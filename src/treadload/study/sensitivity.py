@@ -108,8 +108,8 @@ def life_sensitivity(
     for name, change in changes.items():
         try:
             both = [(name, sign, change(sign)) for sign in (-1.0, 1.0)]
-            for _, _, (one, _, climate) in both:
-                in_seasons(one, climate, criterion, pairs)
+            for _, _, changed in both:
+                in_seasons(changed, criterion, pairs)
         except InputError as error:
             skipped.append(f"{name}: {error}")
             continue
