@@ -1,8 +1,10 @@
 """Cracks that grow: Paris' law, cycles, paths, closed forms, a life with a crack, and what is refused."""
 
+import json
 import math
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,13 +23,16 @@ from treadload.damage.growth.intensity import (
     modes,
     rainflow,
     section_of,
+    tractions,
 )
 from treadload.damage.growth.laws import FromStrength, ParisLaw, law_of_mix
 from treadload.damage.traffic import Traffic, Wander
 from treadload.errors import InputError
 from treadload.kernels.fracture.dislocations import Section
 from treadload.kernels.fracture.layers import Strip
+from treadload.study import crossings
 from treadload.study.contacts import Contacts
+from treadload.study.crossings import distances_to
 from treadload.study.growth import grow_cracks
 from treadload.study.life import solve_life
 
@@ -200,6 +205,32 @@ def test_modes_of_uniform_stress_and_a_trace():
     np.testing.assert_allclose(np.abs(found), [1.1215 * root, 0, root], rtol=3e-3, atol=1.0)
 
 
+def test_a_road_under_a_moving_strip_is_the_finite_elements():
+    # The whole chain: stress below a strip so long that it is plane, read at depths as lives read it, against
+    # the finite elements of a crack of length 1 under a strip of half width 2 with shear of 0.4 of the pressure.
+    told = json.loads(
+        (Path(__file__).parents[1] / "data" / "cracks" / "edge_crack_fe.json").read_text(encoding="utf-8")
+    )
+    rows = [one for one in told["surface"] if one["shape"] == "strip" and one["degrees"] == 0]
+    a = 0.02
+    load = tl.UniformRectangle(4 * a, 20.0, 1e6, traction_x=0.4e6)
+    places = -a * np.array([one["centre"] for one in rows])
+    order = np.argsort(places)
+    distances = distances_to(0.06)
+    road = tl.Pavement.half_space(tl.Elastic(5e9, 0.3))
+    data = tl.solve_response(load, road, depths=distances, x=places[order], y=[0.0, 0.01]).dataset
+    stress = np.stack([data[f"stress_{part}"].to_numpy() for part in ("xx", "yy", "zz", "xy", "xz", "yz")])
+    section = Section((Strip(5e9, 0.3, math.inf),))
+    crossing = Crossing(stress, distances, np.array([0.0, 0.01]), places[order], section, False, 0.3, 1)
+    faces = faces_along(section, Way(np.array([0.0, a]), np.zeros(2)), a, upwards=False)
+    load_on = tractions(crossing, faces, 0.5 * math.pi)[0, :, :2].reshape(len(rows), -1)
+    found = np.abs(load_on @ faces.plane.T) / (1e6 * math.sqrt(a))
+    exact = np.abs([rows[k]["k"] for k in order])
+    # 2 % of the largest of a mode.
+    np.testing.assert_allclose(found[:, 0], exact[:, 0], atol=0.02 * exact[:, 0].max())
+    np.testing.assert_allclose(found[:, 1], exact[:, 1], atol=0.02 * exact[:, 1].max())
+
+
 def test_kinked_path_turns_towards_pure_opening():
     # Tension along the surface and no shear: straight down. With shear the path turns, to the side that shear pulls.
     distances = np.linspace(0.01, 0.03, 5)
@@ -364,3 +395,23 @@ def test_wander_spreads_growth_and_few_tracks_do_not():
     )
     wandering = grow(steps=3)
     assert float(still.dataset["growth_rate"].max()) > float(wandering.dataset["growth_rate"].max())
+
+
+@pytest.mark.slow
+def test_few_seasons_stand_for_many(monkeypatch):
+    head, tail = CASE.split("layers = [", 1)
+    text = head + 'structure = "6 BBSG3 / 12 GB3 / PF3"\n' + tail[tail.index("[climate]") :]
+    text = text.replace("temperature = 15", "months = [4, 5, 9, 12, 17, 22, 25, 24, 19, 14, 8, 5]")
+    text = text.replace('layer = "asphalt"', 'layer = "EB-BBSG3"').replace('layer = "base"', 'layer = "EB-GB3"')
+    one = LifeCase.from_text(text, name="case")
+    tire, road = one.build_tire(), one.build_road()
+    contacts = Contacts(tire, one.spacing)
+    traffic, climate, criteria = one.build_traffic(), one.build_climate(), one.build_criteria()
+    life = solve_life(tire, road, traffic, climate, criteria, spacing=one.spacing, contacts=contacts)
+    asked = CrackGrowth("base", steps=4)
+    few = grow_cracks(tire, road, life, asked, contacts=contacts).dataset["growth_rate"].max("y")
+    monkeypatch.setattr(crossings, "_SEASONS", 99)
+    every = grow_cracks(tire, road, life, asked, contacts=contacts)
+    assert every.stats["responses"] > 9
+    # The rate goes with the fifth power of what is interpolated: 2 % of it are 0.4 % of that.
+    np.testing.assert_allclose(few, every.dataset["growth_rate"].max("y"), rtol=0.02)
