@@ -6,6 +6,7 @@ from treadload.damage.criterion import Criterion
 from treadload.damage.fields import compute_quantities, known_quantities, peak, tension_behind
 from treadload.damage.growth import CrackGrowth, FromStrength, Growth, ParisLaw
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
+from treadload.damage.indices import asphalt_rut, distortion_work, polishing_work, tearing_work
 from treadload.damage.interface import BondVerdict, assess_bonds, delaminate, interface_fields
 from treadload.damage.laws.american import (
     AsphaltInstitute,
@@ -103,11 +104,13 @@ __all__ = [
     "Wander",
     "add_thermal_stress",
     "aggressiveness",
+    "asphalt_rut",
     "assess",
     "assess_bonds",
     "compute_quantities",
     "crack_rose",
     "delaminate",
+    "distortion_work",
     "envelope",
     "equivalent_axles",
     "interface_fields",
@@ -117,8 +120,10 @@ __all__ = [
     "miner",
     "passage_rate",
     "peak",
+    "polishing_work",
     "quantities_listed",
     "residual_after",
+    "tearing_work",
     "tension_behind",
     "thermal_stress",
 ]
