@@ -13,8 +13,8 @@ from matplotlib.quiver import Quiver
 from treadload.damage import InterfaceStrength, ShearFatigue, assess_bonds
 from treadload.errors import InputError
 from treadload.materials import Elastic
-from treadload.pavement import BONDED, FRICTIONLESS, Layer, Pavement
-from treadload.plots import bond_utilisation, bonded_and_parted, png
+from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
+from treadload.plots import bond_utilisation, bonded_and_parted, png, sliding
 from treadload.response import UniformRectangle
 from treadload.study import solve_interfaces
 
@@ -109,3 +109,15 @@ def test_a_bond_that_never_parts_has_no_line():
     assert not any("fails" in t.get_text() for t in ax.texts)
     with pytest.raises(InputError, match="no lives to compare"):
         bonded_and_parted(_compared([[math.inf] * 3] * 3, math.inf))
+
+
+def test_sliding_is_drawn_where_layers_slide_and_points_the_way_of_the_upper_one(fields):
+    figure = sliding(solve_interfaces(BRAKED, _road(Bond(1e9)), x=X, y=X))
+    maps = [ax for ax in figure.axes if ax.get_xlabel()]
+    assert [ax.get_title(loc="left") for ax in maps] == ["Interface 1, below wearing course"]
+    arrows = next(c for c in maps[0].collections if isinstance(c, Quiver))
+    # The road is pushed ahead, and its upper layer with it.
+    assert np.mean(arrows.U) > 0
+    assert len(png(figure)) > 10_000
+    with pytest.raises(InputError, match="nothing slides"):
+        sliding(fields)

@@ -13,7 +13,7 @@ from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shar
 from treadload.plots.growth import crack_depth, crack_intensity
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
-from treadload.plots.interface import bond_utilisation, bonded_and_parted
+from treadload.plots.interface import bond_utilisation, bonded_and_parted, sliding
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.files import png, save
 from treadload.plots.kit.layers import both_sides
@@ -132,6 +132,7 @@ __all__ = [
     "save",
     "shakedown_map",
     "shift_factors",
+    "sliding",
     "sobol_bars",
     "standard_axles",
     "stones_in_mortar",

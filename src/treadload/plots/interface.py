@@ -1,4 +1,4 @@
-"""Figures of the bond between layers: its utilisation in plan, and the lives with it and without."""
+"""Figures of the bond between layers: its utilisation and its sliding in plan, and the lives with it and without."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from treadload.composing import Source
 from treadload.damage.interface import interface_in_words
 from treadload.errors import InputError
+from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import (
     MM,
@@ -113,9 +114,50 @@ def _in_numbers(one: xr.Dataset, plan: Plan, row: int, column: int) -> str:
     return text
 
 
+@styled
+def sliding(fields: Source, *, contact: Source | None = None) -> Figure:
+    """How far the upper layer slides on the lower at every interface that slides, in plan.
+
+    fields: of `solve_interfaces`, with jump_x, jump_y and interface_shear over (interface, y, x). contact: outlined,
+    if given. Arrows show which way the upper layer slides, longest at each map's own largest. Returns the figure.
+    Raises InputError for what is missing, and where nothing slides.
+    """
+    data = fields_of(fields, "jump_x", "jump_y", "interface_shear", "interface_pressure")
+    along, across = (data[f"jump_{name}"].transpose("interface", "y", "x").to_numpy() for name in "xy")
+    size = np.hypot(along, across)
+    slid = [k for k in range(len(size)) if np.nanmax(size[k]) > 0]
+    if not slid:
+        raise InputError("nothing slides at these interfaces; give a layer bond=Parted(...) or Bond(stiffness=...)")
+    plan = Plan.of(data)
+    figure = new_figure(len(slid) * (_MAP + 1.35), min(9.0, _MAP * plan.aspect + 1.5), "compressed")
+    for ax, k in zip(np.atleast_1d(figure.subplots(1, len(slid))), slid, strict=True):
+        one, microns = data.isel(interface=k), 1e6 * size[k]
+        scale = limits(microns)
+        mesh = draw_cells(ax, plan, microns, sequential("shear"), scale)
+        mask = None if contact is None else contact_mask(fields_of(contact))
+        if contact is not None and mask is not None:
+            draw_outline(ax, mask, Plan.of(fields_of(contact)), MUTED, 0.6)
+        _strokes(ax, plan, -plane(one, "jump_x"), -plane(one, "jump_y"), "sliding")
+        row, column = peak_of(microns)
+        mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{microns[row, column]:.2g} µm")
+        travel_arrow(ax)
+        title = interface_in_words(int(one["interface"]), str(one["between"].item()))
+        shear, pressed = (float(plane(one, f"interface_{name}").max()) / 1e3 for name in ("shear", "pressure"))
+        text = (
+            f"{float(one['depth']) * MM:g} mm deep; the upper layer slides on the lower along the arrows;\n"
+            f"largest shear {shear:.0f} kPa, largest pressure {pressed:.0f} kPa"
+        )
+        headline(ax, title[:1].upper() + title[1:], text, _LETTERS)
+        colour_bar(mesh, ax, "sliding (µm)", scale)
+    return figure
+
+
 def _arrows(ax: Axes, one: xr.Dataset, plan: Plan) -> None:
     # The upper layer's shear on the lower: the traction on the plane that faces up.
-    along, across = -plane(one, "interface_shear_x"), -plane(one, "interface_shear_y")
+    _strokes(ax, plan, -plane(one, "interface_shear_x"), -plane(one, "interface_shear_y"), "shear")
+
+
+def _strokes(ax: Axes, plan: Plan, along: Array, across: Array, name: str) -> None:
     size = np.hypot(along, across)
     largest = float(size.max())
     if largest == 0:
@@ -128,7 +170,7 @@ def _arrows(ax: Axes, one: xr.Dataset, plan: Plan) -> None:
         angles="xy", scale_units="xy", scale=1.0, pivot="mid", width=0.0032, headwidth=4.2, headlength=4.6,
         headaxislength=4.2, minlength=0.5, zorder=3,
     )  # fmt: skip
-    arrows.set_gid("shear")
+    arrows.set_gid(name)
 
 
 @styled
