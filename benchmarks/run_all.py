@@ -21,6 +21,7 @@ def main() -> None:
     import normal_contact
     import rolling_contact
     import belt
+    import indentation
     import peers
     import scaling
     import studies
@@ -30,6 +31,7 @@ def main() -> None:
     normal_contact.main()
     rolling_contact.main()
     belt.main()
+    indentation.main()
     scaling.main(peers.main())
     studies.main()
     layered.main()

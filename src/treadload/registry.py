@@ -108,7 +108,8 @@ class Registry:
         """What to say of a name that is not one of those known."""
         what = self.key if self.key != "kind" else self.noun if self.words else f"{self.noun} of the kind"
         what = what or self.noun
-        return f"no {what} {name!r}; {nearest(name, known)}"
+        # The order in which rooms were loaded is nobody's business.
+        return f"no {what} {name!r}; {nearest(name, sorted(known))}"
 
     def __iter__(self) -> Iterator[Entry]:
         return (self.find(name) for name in self.names())

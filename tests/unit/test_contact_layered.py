@@ -197,6 +197,28 @@ def test_layers_that_are_no_elastic_stack_are_refused():
     assert "road  " not in contact(STEEL, waiting).summary()
 
 
+def test_layers_with_a_grain_tell_their_share_or_why_not():
+    top = tl.Elastic(7e9, 0.35)
+    plain, upright, grained = (
+        tl.Pavement([tl.Layer(top, 0.06), tl.Layer(base, name="base")])
+        for base in (
+            tl.Elastic(1e9, 0.35),
+            # Isotropic to 1e-6, and so is its share.
+            tl.TransverselyIsotropic(1e9, 1e9 * (1 + 1e-6), 1e9 / 2.7, 0.35, 0.35),
+            tl.Orthotropic((1e9, 8e8, 9e8), (3e8, 3e8, 3e8), (0.3, 0.3, 0.3)),
+        )
+    )
+    known, found = (contact(STEEL, one).stats for one in (plain, upright))
+    for name in ("road_share", "layer_share"):
+        assert found[name] == pytest.approx(known[name], rel=1e-4)
+    unknown = contact(STEEL, grained)
+    assert "road_share" not in unknown.stats
+    (text,) = [text for text in unknown.warnings if "is not known" in text]
+    assert "layer 'base' has a horizontal grain; a TransverselyIsotropic or an Elastic in its place tells" in text
+    # Under a soft tire the road does not matter.
+    assert not any("is not known" in text for text in contact(tl.Elastic(2e6, 0.5), grained).warnings)
+
+
 def test_a_fit_that_fails_is_refused(monkeypatch):
     monkeypatch.setattr(layered, "_WORST_FIT", 1e-14)
     with pytest.raises(tl.ConvergenceError, match=r"fitted with an error of .* above 1e-14"):

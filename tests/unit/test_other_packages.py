@@ -20,7 +20,7 @@ from tire_meshes import tire_mesh, write
 from treadload.case import Case, LifeCase
 from treadload.case.schema import json_schema
 from treadload.errors import InputError
-from treadload.registry import ALL, BONDS, CRITERIA, FRICTION, MATERIALS, READERS
+from treadload.registry import ALL, BONDS, CRITERIA, FRICTION, MATERIALS, PLASTICITY, READERS
 from treadload.reporting.words import entries
 
 FRICTION_LAW = '''
@@ -551,3 +551,11 @@ def test_importing_treadload_loads_nothing_of_theirs(road_laws):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_the_names_that_are_known_do_not_depend_on_the_order_of_imports():
+    with pytest.raises(tl.InputError) as caught:
+        PLASTICITY.find("q9x7")
+    told = str(caught.value).split("known are ")[1].split(", ")
+    assert told == sorted(told)
+    assert len(told) >= 5

@@ -33,11 +33,11 @@ from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.describing import first_line
 from treadload.errors import ConvergenceError, InputError, positive
 from treadload.grid import Grid
-from treadload.kernels import fft
 from treadload.kernels.arrays import Array
 from treadload.kernels.eigenstrain.operator import Grid as Cells
 from treadload.kernels.eigenstrain.operator import cells, moved_by_cells
 from treadload.kernels.eigenstrain.rows import graded_edges
+from treadload.kernels.gridding.below import Below
 from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.mixing import Anderson
 from treadload.kernels.plasticity.state import State
@@ -47,8 +47,8 @@ from treadload.tire import Tire
 
 # Less memory takes more than twice as many rounds above ten times the load of first yield.
 _MEMORY, _MOST_ROUNDS = 15, 150
-# Of the contact inside: a looser one would stall the mixing.
-_INNER = 1e-7
+# Of the contact inside: looser than this part of what the plastic strain still changes it would stall the mixing.
+_INNER, _FINEST = 1e-3, 1e-7
 # Depth of the rows, in radii of the elastic contact under the largest load.
 _DEEP = 2.2
 # What a side of the box takes of the largest plastic strain, from where on the box is too small; and small strains.
@@ -125,27 +125,14 @@ class _Body:
         return moved_by_cells(self.cells, self.material.elastic.poisson)
 
     @cached_property
-    def _spectrum(self) -> Any:
-        """Of the stress of one loaded cell at all depths, (nz, 6, …)."""
+    def stress(self) -> Below:
+        """Stress of a pressure."""
         grid, one = self.grid, np.zeros((3, 1, 1))
         one[0] = 1.0
         x, y = grid.dx * np.arange(1 - grid.nx, grid.nx), grid.dy * np.arange(1 - grid.ny, grid.ny)
         poisson = self.material.elastic.poisson
         stress = fields_on_grid(one, grid.dx, grid.dy, self.cells.depths, 1.0, poisson, x, y, moves=False)[0]
-        return fft.rfft2(stress, s=self._period)
-
-    @property
-    def _period(self) -> tuple[int, int]:
-        ny, nx = self.grid.shape
-        return int(fft.next_fast_len(3 * ny - 2)), int(fft.next_fast_len(3 * nx - 2, real=True))
-
-    def stress(self, pressure: Array) -> Array:
-        """Stress (6, nz, ny, nx), Pa, of a pressure (ny, nx), Pa."""
-        ny, nx = self.grid.shape
-        both = self._spectrum * fft.rfft2(pressure, s=self._period)
-        whole = fft.irfft2(both, s=self._period)[..., ny - 1 : 2 * ny - 1, nx - 1 : 2 * nx - 1]
-        stress: Array = np.moveaxis(whole, 1, 0)
-        return stress
+        return Below.of(np.moveaxis(stress, 1, 0))
 
 
 def solve_indentation(
@@ -189,16 +176,20 @@ def solve_indentation(
     for number, load in enumerate(steps, start=1):
         tell(f"step {number} of {len(steps)}")
 
-        def press(change: Array, before: Array, load: float = load, near: Array = pressure) -> NormalSolution | None:
+        def press(
+            change: Array, before: Array, near: Array, still: float, load: float = load
+        ) -> NormalSolution | None:
             if not load:
                 return None
             dented = gap + body.moved(before + change)[2, 0]
-            return solve_normal(influence, dented, load=load, start=near, tolerance=_INNER)
+            inner = min(max(_INNER * still, _FINEST), _INNER)
+            return solve_normal(influence, dented, load=load, start=near, tolerance=inner)
 
-        change, mixing = np.zeros_like(state.strain), Anderson(_MEMORY)
+        change, mixing, still = np.zeros_like(state.strain), Anderson(_MEMORY), tolerance
+        touching: NormalSolution | None = None
         for _ in range(_MOST_ROUNDS):
             rounds += 1
-            touching = press(change, state.strain)
+            touching = press(change, state.strain, pressure if touching is None else touching.pressure, still)
             stress = body.own(state.strain + change) + law.elastic(change)
             if touching is not None:
                 stress = stress + body.stress(touching.pressure)
@@ -207,7 +198,7 @@ def solve_indentation(
             size, off = float(np.linalg.norm(step)), float(np.linalg.norm(step - change))
             if off <= tolerance * size or np.abs(step - change).max() <= 1e-6 * material.yield_strain:
                 break
-            change = mixing.next(change, step)
+            change, still = mixing.next(change, step), off / size if size else tolerance
         else:
             raise ConvergenceError(
                 f"the plastic strain of step {number} ({load:g} N) did not settle in {_MOST_ROUNDS} rounds: it still "

@@ -23,7 +23,7 @@ from treadload.contact.solvers.normal import solve_normal
 from treadload.errors import GeometryError, InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.materials import Anisotropic
+from treadload.materials import Anisotropic, TransverselyIsotropic
 from treadload.pavement import Pavement
 from treadload.pavement.stack import stack_of
 from treadload.tire import Tire
@@ -279,7 +279,8 @@ def _contact(
     ]
     if pair.splitting:
         warnings.append(f"Newton's method stalled and went on after {pair.splitting} steps of the slower splitting")
-    share = _share(scene, float((normal.pressure > 0).sum()) * grid.cell_area)
+    area = float((normal.pressure > 0).sum()) * grid.cell_area
+    share = _share(scene, area)
     layered = road_compliance == "layers" and not road.is_homogeneous
     if share is not None:
         stats |= {"road_share": share.share, "layer_share": share.layering, "layers_solved": layered}
@@ -288,17 +289,36 @@ def _contact(
                 f"the layers of the road change the compliance of this contact by {100 * share.layering:.1f} %, and "
                 'it was solved on a half-space of the top layer; solve it with road_compliance="layers"'
             )
+    elif not road.is_homogeneous and _grained(road):
+        alone = half_space_share(scene.bodies.tire, scene.bodies.road, area)
+        if alone.share > _LAYERS_MATTER:
+            warnings.append(
+                f"the road gives {100 * alone.share:.3g} % of the compliance of this contact as a half-space of its "
+                f"top layer, and what its layers change of that is not known: layer {_grained(road)[0]!r} has a "
+                "horizontal grain; a TransverselyIsotropic or an Elastic in its place tells"
+            )
     return Contact(data, tire, road, rolling, stats, tuple(warnings + cautions.of_fields(data)))
 
 
 def _share(scene: Scene, area: float) -> RoadShare | None:
     """The road's share in a contact of an area, m²; None while a layer waits for its temperature.
 
-    None also for layers of which one is anisotropic.
+    None also for layers of which one has a horizontal grain.
     """
     if any(layer.depends_on_temperature for layer in scene.road.layers):
         return None
-    if any(isinstance(layer.resolved, Anisotropic) for layer in scene.road.layers):
+    if _grained(scene.road):
         return half_space_share(scene.bodies.tire, scene.bodies.road, area) if scene.road.is_homogeneous else None
     # Of a road that changes with time or bond, the stiffest: the one that the half-space stands for.
     return road_share(scene.bodies.tire, stack_of(scene.road.glassy.sticking.bond_limits[0]), area)
+
+
+def _grained(road: Pavement) -> list[str]:
+    """Names of the layers whose stiffness depends on the horizontal direction; of such layers no body is known."""
+    return [
+        layer.name
+        for layer in road.layers
+        if not layer.depends_on_temperature
+        and isinstance(layer.resolved, Anisotropic)
+        and not isinstance(layer.resolved, TransverselyIsotropic)
+    ]

@@ -121,7 +121,9 @@ class Choice(Mark):
         registry = self.registry
         kind = table.get(registry.key, registry.default or None)
         if kind is None:
-            raise ValueError(f"a {registry.noun} needs its name, {registry.key} = …; {nearest('', self.names())}")
+            raise ValueError(
+                f"a {registry.noun} needs its name, {registry.key} = …; {nearest('', sorted(self.names()))}"
+            )
         if not isinstance(kind, str) or kind not in self.names():
             raise ValueError(registry.unknown(kind, self.names()))
         return kind

@@ -55,18 +55,20 @@ def stress_kernels(x: Array, y: Array, depth: float, edges: Array, of: Coefficie
     # Along z corners count from the near side: the source's coordinate runs against the distance.
     kernels = -np.tensordot(of.full, np.diff(full, axis=1), 1)
     if surface:
-        kernels += np.diff(_image(x, y, depth, edges, of, cells), axis=2)
+        kernels += _image(x, y, depth, edges, of, cells)
     return kernels
 
 
 def _image(x: Array, y: Array, depth: float, edges: Array, of: Coefficients, cells: Difference) -> Array:
-    """Of the image, at each edge, (6, 6, n + 1, ny, nx)."""
-    waves = Waves(x, y, depth + edges[:, None, None])
-    (c00, c01), (c10, c11) = of.stress
-    values, slopes, curvatures = cells(waves.values), cells(waves.slopes), cells(waves.curvatures)
+    """Of the image, (6, 6, n, ny, nx)."""
     deep = edges[:, None, None]
-    result: Array = np.tensordot(c00 + c01, values, 1) - np.tensordot(depth * (c10 + c11), slopes, 1)
-    result += np.tensordot(depth * c11, deep * curvatures, 1) - np.tensordot(c01, deep * slopes, 1)
+    waves = Waves(x, y, depth + deep)
+    (c00, c01), (c10, c11) = of.stress
+    slopes = cells(waves.slopes)
+    functions = np.concatenate([cells(waves.values), slopes, deep * slopes, deep * cells(waves.curvatures)])
+    factors = np.concatenate([c00 + c01, -depth * (c10 + c11), -c01, depth * c11], axis=-1)
+    # Differences of the functions are fewer than those of the fields.
+    result: Array = np.tensordot(factors, np.diff(functions, axis=1), 1)
     return result
 
 

@@ -243,19 +243,23 @@ def _even(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray],
     _, ny, nx = grid.shape
     ly, lx = next_fast_len(ny), next_fast_len(nx)
     imaginary = odd[0] ^ odd[1], _ODD_X ^ _ODD_Y
+    kind = np.float32 if single else np.float64
+
+    odd_x, odd_y = odd[0][:, None] != _ODD_X, odd[1][:, None] != _ODD_Y
+    # (-i)² of two odd axes; i (-i) where the row alone counts with i, -i / i where the column does.
+    negative = (odd_x & odd_y) | (imaginary[1] & ~imaginary[0][:, None])
+    sign = np.where(negative, -1.0, 1.0)[..., None, None, None]
 
     def transformed(kernels: Array) -> Array:
-        result = np.empty((*kernels.shape[:3], ly + 1, lx + 1))
-        for row, column in np.ndindex(kernels.shape[:2]):
-            odd_x, odd_y = odd[0][row] != _ODD_X[column], odd[1][row] != _ODD_Y[column]
-            part = (sines if odd_y else cosines)(kernels[row, column], ly, axis=1)
-            part = (sines if odd_x else cosines)(part, lx, axis=2)
-            # (-i)² of two odd axes; i (-i) where the row alone counts with i, -i / i where the column does.
-            negative = (odd_x and odd_y) or (imaginary[1][column] and not imaginary[0][row])
-            result[row, column] = -part if negative else part
+        result = np.empty((*kernels.shape[:3], ly + 1, lx + 1), kind)
+        signed = (sign * kernels).astype(kind)
+        for parity in np.ndindex(2, 2):
+            # All of one parity along both axes at once.
+            some = (odd_y == parity[0]) & (odd_x == parity[1])
+            part = (sines if parity[0] else cosines)(signed[some], ly, axis=2)
+            result[some] = (sines if parity[1] else cosines)(part, lx, axis=3)
         return result
 
-    kind = np.float32 if single else np.float64
     matrices = _gathered(rows, transformed, grid, depths, len(odd[0]), (ly + 1, lx + 1), np.dtype(kind))
     factors = np.result_type(kind, np.complex64)
     phase = (
