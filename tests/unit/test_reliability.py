@@ -1,6 +1,7 @@
 """Years with a probability: draws and first order beside closed forms, surfaces beside solves, what is refused."""
 
 import math
+import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -18,7 +19,7 @@ from treadload.damage.laws.limit import Limit
 from treadload.damage.scatter import Scatter
 from treadload.errors import InputError
 from treadload.pavement import Layer, Pavement
-from treadload.study import life_reliability, run_life, solve_life
+from treadload.study import life_reliability, plan_life, run_life, solve_life
 from treadload.study.altered import Solver
 from treadload.study.contacts import Contacts
 from treadload.study.reliability.inputs import asked_at, inputs_of
@@ -288,6 +289,15 @@ def test_a_case_with_a_wrong_reliability_is_refused(old, new, said):
     assert old in CASE
     with pytest.raises(InputError, match=said):
         LifeCase.from_text(CASE.replace(old, new))
+
+
+def test_a_scatter_of_what_is_not_there_is_refused_before_anything_is_solved(monkeypatch):
+    monkeypatch.setattr(sys.modules["treadload.study.run_life"], "solve_life", None)
+    case = LifeCase.from_text(CASE.replace("{ EB-GB3 =", "{ EB-GB =").replace('"10 %"', "0.1"))
+    for verb in (run_life, plan_life):
+        with pytest.raises(InputError, match="scatter of moduli: no layer has the name 'EB-GB'; did you mean"):
+            verb(case)
+    assert "11 roads for each criterion" in plan_life(LifeCase.from_text(CASE))
 
 
 @pytest.mark.slow

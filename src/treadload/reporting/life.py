@@ -92,6 +92,9 @@ def _facts(data: xr.Dataset) -> tuple[tuple[str, str], ...]:
     facts = [("governing criterion", str(row["criterion"].item())), ("its life", _years(float(row["life_years"])))]
     if "design_damage" in data:
         facts.append((f"its damage after {float(data.attrs['design_years']):g} years", _number(row["design_damage"])))
+    ends = json.loads(data.attrs.get("ends", "[]"))
+    if ends:
+        facts.append(("damage 1 means", str(ends[int(data["life_years"].to_numpy().argmin())])))
     facts += [("worst place", f"{_deep(row)}, {_aside(row)}"), ("first crack", which_way(row, _harm(data)))]
     if "elasticity" in data:
         first = zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True)

@@ -74,8 +74,8 @@ class Equivalents(BaseResult, group="equivalents"):
         wide = max(22, *(len(str(name)) + 2 for name in data["axle_class"].to_numpy()))
         columns = [*(name[:20] for name in names), "(P/130)⁵ K", "(P/80)⁴"]
         lines = [
-            "one passage in axles of 130 kN on twin discs, each at its own worst place; by load alone: French "
-            "(P/130 kN)⁵ with K of the group, and axles of 80 kN by the fourth power",
+            "one passage in axles of 130 kN on twin discs, each at its own worst place;",
+            "by load alone: French (P/130 kN)⁵ with K of the group, and axles of 80 kN by the fourth power",
             "  " + " " * wide + "".join(f"{one:>22s}" for one in columns),
         ]
         for k, name in enumerate(data["axle_class"].to_numpy()):
@@ -92,13 +92,13 @@ class Equivalents(BaseResult, group="equivalents"):
             if math.isfinite(warmth)
         ]
         if told:
-            lines.append(f"equivalent temperature by Miner's sum: {'; '.join(told)}")
+            lines.append(f"equivalent temperature by Miner's sum: \n  {f'{chr(10)}  '.join(told)}")
         governing = str(data.attrs["governing"])
         at = warm[names.index(governing)] if governing in names else math.nan
         if math.isfinite(at):
             pairs = zip(names, *(data[one].to_numpy() for one in ("years_at_equivalent", "life_years")), strict=True)
-            beside = "; ".join(f"{name} {_short(one)} years ({_short(full)})" for name, one, full in pairs)
-            lines.append(f"with the {at:.1f} °C of {governing} all year (and by the full sum): {beside}")
+            lines.append(f"with the {at:.1f} °C of {governing} all year, and by the full sum:")
+            lines += [f"  {name}: {_short(one)} and {_short(full)} years" for name, one, full in pairs]
         return "\n".join(lines)
 
     __repr__ = first_line

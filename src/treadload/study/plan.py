@@ -18,6 +18,7 @@ from treadload.response import GridLoad
 from treadload.response.doubts import question_doubts, road_doubts
 from treadload.results import road_in_rows
 from treadload.study.doubts import traffic_doubts
+from treadload.study.reliability import roads_asked
 from treadload.study.run import map_grid, slice_depths
 from treadload.study.seasons import warmed
 from treadload.study.wheels import state
@@ -86,6 +87,9 @@ def plan_life(case: LifeCase) -> str:
         "climate; the sensitivities take about as many again",
     ]
     lines += [f"criterion {one.name}: {one.law_at(15.0)} at {one.depth(road) * 1e3:g} mm" for one in criteria]
+    if case.reliability is not None:
+        roads = roads_asked(road, criteria, case.reliability.build())
+        lines.append(f"scatter   {roads} roads for each criterion, in the seasons that do half of its damage")
     said = [*traffic_doubts(tire, traffic, case.build_climate()), *road_doubts(warm[0].road)]
     return "\n".join([*lines, *(f"warning: {text}" for text in said)])
 

@@ -22,7 +22,7 @@ from treadload.study.designing import ThicknessDesign, design_thickness
 from treadload.study.equivalents import Equivalents, life_equivalents
 from treadload.study.growth import grow_cracks
 from treadload.study.life import solve_life
-from treadload.study.reliability import Reliability, life_reliability
+from treadload.study.reliability import Reliability, life_reliability, roads_asked
 from treadload.study.seasons import warmed
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
 
@@ -76,6 +76,9 @@ def run_life(
     Raises the errors of reading, contact and response.
     """
     tire, road, spacing = case.build_tire(), case.build_road(), case.spacing
+    if case.reliability is not None:
+        # What cannot scatter is refused before anything is solved.
+        roads_asked(road, case.build_criteria(), case.reliability.build())
     contacts = Contacts(tire, spacing)
     shared: dict[str, Any] = {"spacing": spacing, "workers": workers, "progress": progress, "contacts": contacts}
     life = solve_life(

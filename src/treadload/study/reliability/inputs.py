@@ -66,6 +66,14 @@ def asked_at(
     return road, traffic, climate
 
 
+def check_names(fatigue: float | Mapping[str, float] | None, criteria: Sequence[str]) -> None:
+    """Raise InputError for the SN of a criterion that is not there."""
+    given = fatigue if isinstance(fatigue, Mapping) else {}
+    wrong = next((name for name in given if name not in criteria), None)
+    if wrong is not None:
+        raise InputError(f"scatter of fatigue: this life has no criterion {wrong!r}; {nearest(wrong, criteria)}")
+
+
 def lognormal(variation: float) -> float:
     """Standard deviation of the logarithm for a coefficient of variation."""
     return math.sqrt(math.log1p(variation**2))

@@ -15,6 +15,7 @@ from scipy.special import ndtr
 
 from treadload import variables
 from treadload.contact.solve import DEFAULT_SPACING
+from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.miner import Life
@@ -31,6 +32,7 @@ from treadload.study.reliability.inputs import (
     TRAFFIC,
     Input,
     asked_at,
+    check_names,
     inputs_of,
     lognormal,
 )
@@ -137,6 +139,13 @@ def life_reliability(
     return Reliability(dataset, scatter, stats, tuple(dict.fromkeys(said)))
 
 
+def roads_asked(road: Pavement, criteria: Sequence[Criterion], scatter: Scatter) -> int:
+    """How many roads a reliability solves for each criterion; InputError for a scatter of what is not there."""
+    check_names(scatter.fatigue, [one.name for one in criteria])
+    inputs, _ = inputs_of(road, scatter)
+    return len(designed(len(inputs))) if inputs else 0
+
+
 def _chosen(life: Life, criteria: Sequence[str] | None) -> tuple[list[int], tuple[str, ...]]:
     """Numbers of the criteria that are asked for and ever fail, and a sentence on those whose law has no power."""
     names = [one.name for one in life.criteria]
@@ -166,11 +175,7 @@ def _fatigue(
 ) -> tuple[list[float], tuple[str, ...]]:
     """SN of every criterion, its law's or its mix's if none is fatigue; a sentence on those that have none."""
     fatigue = scatter.fatigue
-    if isinstance(fatigue, Mapping):
-        names = [one.name for one in life.criteria]
-        wrong = next((name for name in fatigue if name not in names), None)
-        if wrong is not None:
-            raise InputError(f"scatter of fatigue: this life has no criterion {wrong!r}; {nearest(wrong, names)}")
+    check_names(fatigue, [one.name for one in life.criteria])
     deviations, said = [], []
     for number in chosen:
         name, law = life.criteria[number].name, life.laws[number][0]
