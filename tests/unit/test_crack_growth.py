@@ -334,7 +334,7 @@ def test_a_crack_that_goes_through_two_layers_and_one_that_kinks():
         ({"friction": -0.1}, "the friction of a crack's faces"),
         ({"trace": "skew"}, 'the trace must be "longitudinal"'),
         ({"layers": 0}, "goes through at least one layer"),
-        ({"initial_length": 0.0}, "the initial length of a crack must be > 0 m"),
+        ({"initial_length": 0.0}, "the initial length of a crack must be a positive number of metres, got 0"),
         ({"steps": 2}, r"steps must lie in \[3, 40\]"),
         ({"scatter": -1.0}, r"log10 of the passes must lie in \[0, 2\]"),
     ],
@@ -350,14 +350,14 @@ def test_sections_of_roads():
         tl.Layer(tl.Elastic(3e9, 0.35), 0.08, bond=tl.Bond(1e11)),
         tl.Layer(tl.Elastic(1e8, 0.35)),
     ]
-    section, poisson = section_of(tl.Pavement(layers), 0, 2, upwards=False)
+    section, poisson = section_of(tl.Pavement(layers), 0.0, 0.12)
     assert section.thickness == pytest.approx(0.12)
     assert section.strips[0].modulus == pytest.approx(4e9)
     assert section.strips[0].slip == pytest.approx(1e-11)
     assert poisson == pytest.approx(0.35)
     slipped = [tl.Layer(tl.Elastic(6e9, 0.35), 0.04, bond=tl.Bond(1e11)), *layers[1:]]
     with pytest.raises(InputError, match="layers that are bonded"):
-        section_of(tl.Pavement(slipped), 0, 2, upwards=False)
+        section_of(tl.Pavement(slipped), 0.0, 0.12)
 
 
 def test_a_case_with_a_crack():
@@ -415,3 +415,21 @@ def test_few_seasons_stand_for_many(monkeypatch):
     assert every.stats["responses"] > 9
     # The rate goes with the fifth power of what is interpolated: 2 % of it are 0.4 % of that.
     np.testing.assert_allclose(few, every.dataset["growth_rate"].max("y"), rtol=0.02)
+
+
+@pytest.mark.slow
+def test_a_crack_goes_through_the_parts_of_a_course_under_a_profile():
+    # A profile of one temperature divides the road and changes nothing else.
+    road = tl.Pavement.from_catalogue("6 BBSG3 / 12 GB3 / PF3")
+    one = LifeCase.from_text(CASE, name="case")
+    tire, contacts = one.build_tire(), Contacts(one.build_tire(), one.spacing)
+    profile = tl.pavement.TemperatureProfile([0.0, 0.3], [15.0, 15.0])
+    criteria = (tl.damage.Criterion("top", tl.FatigueLine(6e-6, -0.2), 0, "top"),)
+    found = []
+    for season in (tl.damage.Season("a", 1.0, 15.0), tl.damage.Season("a", 1.0, profile)):
+        life = solve_life(
+            tire, road, one.build_traffic(), tl.damage.Climate((season,)), criteria, spacing=0.008, contacts=contacts
+        )
+        growth = grow_cracks(tire, road, life, CrackGrowth("top", steps=3), contacts=contacts)
+        found.append(growth.dataset["growth_rate"].max("y").to_numpy())
+    np.testing.assert_allclose(found[1], found[0], rtol=0.01)

@@ -25,12 +25,14 @@ from treadload.damage.growth.intensity import (
     intensity_ranges,
     modes,
     section_of,
+    way_through,
 )
 from treadload.damage.growth.laws import GrowthLaw, ParisLaw, law_of_mix
 from treadload.damage.growth.solution import MODES, Growth
 from treadload.damage.miner import Life
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
+from treadload.materials.kinds import limit_of, upright
 from treadload.materials.plastic import elastic_part
 from treadload.pavement import Pavement
 from treadload.response import MATERIAL_LENGTH
@@ -85,8 +87,8 @@ def grow_cracks(
     if criterion.place == "interface":
         raise InputError(f"the criterion {criterion.name!r} reads a bond, which parts; take one of a layer")
     warm = [warmed(road, life.criteria, season) for season in life.climate.seasons]
-    sections = [section_of(one.road, layer, asked.layers, upwards=upwards) for one in warm]
-    thickness = sections[0][0].thickness
+    top, bottom = way_through(road, layer, asked.layers, upwards=upwards)
+    thickness = bottom - top
     length = asked.initial_length or criterion.mean_over or MATERIAL_LENGTH
     if not length < CLOSE * thickness:
         raise InputError(
@@ -100,7 +102,14 @@ def grow_cracks(
     touched = len(contacts.missing(states))
     warmth = warmth_of(life.climate.seasons, [one.road for one in distinct])
     nodes = nodes_of_climate(warmth, len(distinct))
-    nodes_of = [distinct[one] for one in nodes]
+    firsts = [warm.index(one) for one in distinct]
+    # By class, where each reads the moduli at its own loading frequency.
+    by_class_roads = [
+        distinct
+        if row.frequency is None
+        else [warmed(road, life.criteria, life.climate.seasons[k], row) for k in firsts]
+        for row in classes
+    ]
     count = Counter(touched + len(classes) * len(nodes), progress)
     solved = np.geomspace(length, CLOSE * thickness, asked.steps)
     trace = _trace(life, number, asked)
@@ -111,14 +120,15 @@ def grow_cracks(
         wheels = [wheels_of(own, row, y) for own, row in zip(by_class, classes, strict=True)]
         distances = distances_to(thickness)
 
-        mouth = float(road.interfaces[layer]) if upwards else 0.0
+        mouth = bottom if upwards else top
         depths = mouth - distances[::-1] if upwards else distances
 
         def cross(row: int) -> list[Crossing]:
             rows, x = lines(wheels[row], y)
+            roads = [by_class_roads[row][one] for one in nodes]
             own_roads = []
-            for season, stress in zip(nodes, stresses(wheels[row], nodes_of, depths, x, rows), strict=True):
-                section, poisson = sections[warm.index(distinct[season])]
+            for season, stress in zip(nodes, stresses(wheels[row], roads, depths, x, rows), strict=True):
+                section, poisson = section_of(by_class_roads[row][season].road, top, bottom)
                 own = stress[:, ::-1] if upwards else stress
                 whole = Crossing(own, distances, rows, x, section, upwards, poisson, len(wheels[row].x))
                 own_roads.append(count.after(whole, "response"))
@@ -154,7 +164,7 @@ def grow_cracks(
             told = in_season(warmth, nodes, own, number_of)
             share = classes[row].share * life.climate.seasons[season].share
             for k in range(len(solved)):
-                law = _law_at(laws, road, warm[season], layer, float(solved[k]), upwards)
+                law = _law_at(laws, road, by_class_roads[row][number_of], layer, float(solved[k]), upwards)
                 # Along a path that leans a crack must grow by more than its depth does.
                 rate[k] += share * law.growth(told[k, :, 3]).sum(axis=-1) / math.hypot(1.0, float(slopes[k]))
     wide = life.traffic.wander.spread(rate, spacing)
@@ -243,17 +253,12 @@ def _laws(road: Pavement, asked: CrackGrowth, layer: int, upwards: bool) -> list
 def _law_at(
     laws: Sequence[GrowthLaw], road: Pavement, warm: Warm, layer: int, distance: float, upwards: bool
 ) -> ParisLaw:
-    """The law where the tip is."""
-    left = distance
-    for step, law in enumerate(laws):
-        number = layer - step if upwards else layer + step
-        thickness = road.layers[number].thickness
-        assert thickness is not None
-        if left <= thickness or step == len(laws) - 1:
-            material = warm.road.layers[number].resolved
-            return law.at(getattr(material, "modulus", 0.0) or material.glassy.modulus)  # type: ignore[union-attr]
-        left -= thickness
-    raise AssertionError
+    """The law where the tip is, a distance from the mouth, m."""
+    ends = np.cumsum([road.layers[layer - k if upwards else layer + k].thickness for k in range(len(laws))])
+    law = laws[min(int(np.searchsorted(ends, distance)), len(laws) - 1)]
+    depth = float(road.interfaces[layer]) - distance if upwards else distance
+    material = warm.road.layers[warm.road.layer_at(max(depth, 0.0))].resolved
+    return law.at(upright(limit_of(material, "glassy"))[0])
 
 
 def _trace(life: Life, number: int, asked: CrackGrowth) -> float:

@@ -8,7 +8,7 @@ from typing import Literal
 
 from treadload.damage.growth.laws import GrowthLaw
 from treadload.describing import as_call
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 
 Path = Literal["vertical", "kinked"]
 # Beyond this from the vertical a crack goes along the road rather than through it.
@@ -40,8 +40,8 @@ class CrackGrowth:
     scatter: float | None = None
 
     def __post_init__(self) -> None:
-        if self.initial_length is not None and not (math.isfinite(self.initial_length) and self.initial_length > 0):
-            raise InputError(f"the initial length of a crack must be > 0 m, got {self.initial_length}; 0.01 is usual")
+        if self.initial_length is not None:
+            positive("the initial length of a crack", self.initial_length, "metres", "0.01 is usual")
         if not (math.isfinite(self.friction) and 0 <= self.friction <= 2):
             raise InputError(f"the friction of a crack's faces must lie in [0, 2], got {self.friction}; 0.5 is usual")
         if isinstance(self.path, str) and self.path not in ("vertical", "kinked"):

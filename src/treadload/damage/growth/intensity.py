@@ -53,12 +53,10 @@ class Crossing:
     axles: int
 
 
-def section_of(road: Pavement, start: int, layers: int, *, upwards: bool) -> tuple[Section, float]:
-    """Layers in a section, those that the crack goes through as one, and its Poisson's ratio.
+def way_through(road: Pavement, start: int, layers: int, *, upwards: bool) -> tuple[float, float]:
+    """Depths, m, between which a crack runs that starts in a layer, by number, and goes through so many.
 
-    road: elastic, or viscoelastic and then as under fast loads; of half-bonded interfaces as if bonded.
-    start: number of the layer in which the crack starts. layers: that it goes through, from there; they become one of
-    their mean modulus. Raises InputError.
+    Raises InputError for layers without a thickness.
     """
     first, last = (start - layers + 1, start) if upwards else (start, start + layers - 1)
     if first < 0 or last >= len(road.layers) or road.layers[last].thickness is None:
@@ -66,6 +64,18 @@ def section_of(road: Pavement, start: int, layers: int, *, upwards: bool) -> tup
             f"a crack through {layers} layer(s) from layer {start + 1} leaves the layers that have a thickness; the "
             f"road has {len(road.interfaces)} of them"
         )
+    return float(road.interfaces[first - 1]) if first else 0.0, float(road.interfaces[last])
+
+
+def section_of(road: Pavement, top: float, bottom: float) -> tuple[Section, float]:
+    """Layers in a section, those between two depths, m, as one, and its Poisson's ratio.
+
+    road: elastic, or viscoelastic and then as under fast loads; of half-bonded interfaces as if bonded. The crack
+    goes through whole layers, parts of a course with temperatures of their own among them; they become one of their
+    mean modulus. Raises InputError.
+    """
+    ends = np.concatenate([[0.0], road.interfaces])
+    first, last = int(np.abs(ends - top).argmin()), int(np.abs(ends - bottom).argmin()) - 1
     elastic = road.bond_limits[0]
     if elastic.is_viscoelastic:
         elastic = elastic.glassy
