@@ -30,7 +30,7 @@ def pressed(multiples, n=32, layers=14, reach=1.35, road=ROAD, **more):
 
 
 def kogut_etsion(depth):
-    """Load over that of first yield at a depth over that of first yield."""
+    """Load over that of first yield at a depth over that of first yield; read in programs that use it."""
     return 1.03 * depth**1.425 if depth <= 6 else 1.40 * depth**1.263
 
 
