@@ -234,6 +234,8 @@ _LIFE = {
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
     "class_reading": ("1", "largest reading of the criterion's law by class and season, in the law's unit"),
     "polishing_work": ("J/m^2", "work of sliding that a passage leaves per area of road"),
+    "largest_polishing_work": ("J/m^2", "largest work of sliding of a wheel's passage per area of road"),
+    "largest_tearing_work": ("J/m^2", "largest elastic work of a wheel's shear in a skin as deep as the texture"),
     "tearing_work": ("J/m^2", "largest elastic work of a passage's shear in a skin as deep as the texture"),
     "distortion_work": ("J/m^2", "distortion energy of a passage in a layer, per area of road"),
     "asphalt_rut": ("m", "rut of the bituminous layers by the permanent strain of NCHRP 1-37A"),

@@ -202,3 +202,16 @@ def test_the_command_lists_them():
     wrong = CliRunner().invoke(app, ["criteria", "energy"])
     assert wrong.exit_code == 2
     assert "did you mean 'energy_ratio'" in wrong.output
+
+
+def test_a_life_tells_what_each_class_does_to_the_surface(life, tmp_path):
+    """The contact's own largest work of sliding; the tearing of its shear with the modulus of the season."""
+    data = life.dataset
+    (polishing,) = data["largest_polishing_work"].to_numpy()
+    ((tearing,),) = data["largest_tearing_work"].to_numpy()
+    assert polishing >= 0
+    assert tearing > 0
+    assert data["largest_tearing_work"].dims == ("axle_class", "season")
+    page = tl.report(life, tmp_path / "life.html").read_text()
+    assert "Ravelling and polishing" in page
+    assert f"{tearing:.3g}" in page

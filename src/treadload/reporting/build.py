@@ -20,7 +20,7 @@ from treadload.reporting.figures import case_figures, comparison_figures
 from treadload.reporting.first import first_of_response
 from treadload.reporting.inputs import input_lists, input_table
 from treadload.reporting.life import COLUMNS as LIFE_COLUMNS
-from treadload.reporting.life import life_report
+from treadload.reporting.life import WORKS, life_report
 from treadload.reporting.others import other_report
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.road import COLUMNS, road_tables
@@ -112,6 +112,7 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
         "labels": [case.label for case in cases],
         "lives": [life_report(case.label, data) for case in cases if (data := case.group("life")) is not None],
         "life_columns": LIFE_COLUMNS,
+        "work_columns": WORKS,
         "passes_of_one_place": any(case.group("damage") is not None for case in cases),
         "firsts": [
             (case.label, page)

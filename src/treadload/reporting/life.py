@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from treadload.plots.kit.style import measure, power_of_ten, signed
@@ -19,12 +20,15 @@ COLUMNS = (
     "criterion", "life", "passes", "damage at the design life", "largest reading", "where", "first crack",
 )  # fmt: skip
 
+WORKS = ("axles", "polishing: work of sliding, J/m²", "ravelling: work of tearing, J/m²", "in the season")
+
 
 @dataclass(frozen=True)
 class LifeReport:
     """What a report says of one life. label: of the case. facts: (term, value). rows: of `COLUMNS`. laws: name of a
     criterion, law, source, doubt, what the end of life is. groups: sentences on groups of axles. solved: what was
-    solved for it. first: where it would crack first, by whom; None for files from before that page.
+    solved for it. first: where it would crack first, by whom; None for files from before that page. works:
+    rows of `WORKS`.
     """
 
     label: str
@@ -35,6 +39,7 @@ class LifeReport:
     groups: tuple[str, ...]
     solved: str
     first: FirstPage | None = None
+    works: tuple[tuple[str, ...], ...] = ()
 
 
 def life_report(label: str, data: xr.Dataset) -> LifeReport:
@@ -57,7 +62,24 @@ def life_report(label: str, data: xr.Dataset) -> LifeReport:
         tuple(json.loads(data.attrs.get("groups", "[]"))),
         _solved(data),
         first_of_life(data),
+        _works(data),
     )
+
+
+def _works(data: xr.Dataset) -> tuple[tuple[str, ...], ...]:
+    """Cells of `WORKS` for every class of axles."""
+    if not {"largest_polishing_work", "largest_tearing_work"} <= set(data):
+        return ()
+    rows = []
+    for k, name in enumerate(data["axle_class"].to_numpy()):
+        polishing, tearing = (data[f"largest_{what}_work"][k].to_numpy() for what in ("polishing", "tearing"))
+        if np.isnan(tearing).all():
+            rows.append((str(name), f"{float(polishing):.3g}", "–", "–"))
+            continue
+        most = int(np.nanargmax(tearing))
+        season = str(data["season"].to_numpy()[most])
+        rows.append((str(name), f"{float(polishing):.3g}", f"{tearing[most]:.3g}", season))
+    return tuple(rows)
 
 
 def sentence(data: xr.Dataset) -> str:

@@ -24,6 +24,7 @@ from treadload.study.doubts import beyond_tables, traffic_doubts
 from treadload.study.groups import group_factors, in_words
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.seasons import frequencies
+from treadload.study.surface_works import surface_works
 from treadload.tire import Tire
 
 
@@ -73,7 +74,11 @@ def solve_life(
         "groups": json.dumps(sentences, ensure_ascii=False),
         "between": json.dumps(_interfaces(road, criteria), ensure_ascii=False),
     }
-    fields = {"group_factor": (("criterion", "axle_class"), factors), "axles": (("axle_class",), axles)}
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+        "group_factor": (("criterion", "axle_class"), factors),
+        "axles": (("axle_class",), axles),
+    }
+    fields |= surface_works(tire, road, traffic, climate, contacts)
     told = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
     life = replace(life, dataset=life.dataset.assign(told).assign_attrs(about))
     stats = {
