@@ -10,6 +10,7 @@ import xarray as xr
 
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
+from treadload.kernels.complementarity.parted import FaceStiffness, solve_parted
 from treadload.materials import Elastic
 from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
 from treadload.response import GridLoad, UniformDisc, UniformRectangle, solve_response
@@ -57,6 +58,7 @@ _FRENCH = {
 def layer_checks() -> Iterator[Check]:
     """Tables of others, the half-space, one wavenumber at a time, a footprint."""
     yield from _amadeus()
+    yield _parted()
     yield from _ellea()
     yield from _french()
     yield from _half_space()
@@ -69,6 +71,24 @@ def _road(thickness: Sequence[float], moduli: Sequence[float], poissons: Sequenc
     bonds = [top, *[BONDED] * (len(moduli) - 1)]
     rows = zip(moduli, poissons, [*thickness, None], bonds, strict=True)
     return Pavement([Layer(Elastic(e * 1e6, nu), h, bond=bond) for e, nu, h, bond in rows])
+
+
+def _parted() -> Check:
+    """The zone that slides in a row of them in one material, under a shear with a closed form."""
+    count, length, top, width, friction, shear = 512, 1.0, 1e6, 0.2, 0.3, 5e8
+    x = (np.arange(count) + 0.5) * length / count - 0.5 * length
+    k = 2 * np.pi / length * np.arange(count // 2 + 1.0)[None]
+    traction = np.zeros((3, 1, count))
+    traction[1, 0] = top * width**2 / (np.sin(np.pi * x / length) ** 2 + width**2)
+    traction[2] = 1e6
+    stiffness = FaceStiffness((k > 0).astype(float), 0 * k, 0.7 * k * shear, 0.7 * k * shear, 0 * k, 0.5 * k * shear)
+    found = solve_parted(traction, stiffness, friction, tolerance=1e-6)
+    slid = 1e3 * length * float((found.jump[1] != 0).mean())
+    exact = 2e3 * length / np.pi * np.arcsin(width * np.sqrt((top / (friction * 1e6)) ** 2 - 1))
+    return absolute(
+        "parted face", "width of the zone that slides, mm", slid, exact, 2e3 * length / count,
+        "no stress intensity at its ends: sin(πa/L) = b √((T/g)² - 1)",
+    )  # fmt: skip
 
 
 def _amadeus() -> Iterator[Check]:
