@@ -6,6 +6,7 @@ import sys
 import threading
 import time
 
+import pytest
 from rich.console import Console
 
 from cases import COARSE_CASE
@@ -93,6 +94,7 @@ def test_a_terminal_gets_a_spinner_and_a_bar():
     assert "contacts" in stream.getvalue()
 
 
+@pytest.mark.slow
 def test_a_pipe_gets_lines_on_stderr_and_a_quiet_one_none(tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(COARSE_CASE)

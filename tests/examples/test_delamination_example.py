@@ -8,6 +8,7 @@ import pytest
 EXAMPLE = Path(__file__).parents[2] / "examples" / "delamination.py"
 
 
+@pytest.mark.slow
 def test_delamination(tmp_path, capsys):
     module = runpy.run_path(str(EXAMPLE))
     found = module["main"](tmp_path, spacing=12e-3, step=15e-3)

@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+import pytest
+
 README = Path(__file__).parents[2] / "README.md"
 
 
@@ -20,6 +22,7 @@ def test_the_first_python_of_the_readme(tmp_path, monkeypatch, capsys):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["report.html", "results.nc", "strain.png"]
 
 
+@pytest.mark.slow
 def test_the_road_in_july(tmp_path, monkeypatch, capsys):
     run(1, tmp_path, monkeypatch)
     said = capsys.readouterr().out

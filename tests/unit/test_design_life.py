@@ -42,6 +42,7 @@ HEAVY = AxleClass("heavy", 0.4, 32.5e3, 850e3, ((0.0, -0.17), (0.0, 0.17)), Mane
 COARSE = {"spacing": 12e-3, "workers": 1}
 
 
+@pytest.mark.slow
 def test_interpolated_readings_stay_within_the_tolerance():
     traffic = Traffic((LIGHT, HEAVY), 1e5)
     climate = Climate.equal_parts([2.0, 8.0, 15.0, 22.0, 28.0])
