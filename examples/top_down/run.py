@@ -1,0 +1,115 @@
+"""Where does a crack start, by which mechanism, and when is it how deep: a motorway, an exit curve, a bus stop.
+
+Each place is a design case, a TOML file beside this one, with its traffic, its climate and its criteria; each is
+solved under the tire as a half-space of rubber and as a tread on an inflated belt. The crack that the surface
+criterion starts grows down through the wearing course; years come with what 5 and 95 % of such roads see. Traffic and
+temperatures are assumed.
+
+    python examples/top_down/run.py [folder]
+
+One of them without Python: treadload life bus_stop.toml -o life.nc; treadload report life.nc -o life.html
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import treadload as tl
+from treadload.plots import new_figure, save
+from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
+
+HERE = Path(__file__).parent
+PLACES = {"motorway": "Motorway", "exit_curve": "Exit curve", "bus_stop": "Bus stop"}
+TIRES = {"half-space": {}, "belt": {"belt": "315/80R22.5"}}
+DEEP = 0.04
+
+
+def case_of(place: str, tire: str, spacing: float | None = None) -> tl.LifeCase:
+    """The design case of a place, on one of the two tires."""
+    case = tl.LifeCase.from_toml(HERE / f"{place}.toml")
+    part = case.tire.model_copy(update=TIRES[tire])
+    return case.model_copy(update={"tire": part, "spacing": spacing or case.spacing})
+
+
+def main(
+    folder: Path, spacing: float | None = None, workers: int | None = None
+) -> dict[tuple[str, str], tl.LifeResult]:
+    folder.mkdir(parents=True, exist_ok=True)
+    results = {}
+    for place in PLACES:
+        for tire in TIRES:
+            result = tl.run_life(case_of(place, tire, spacing), workers=workers)
+            results[place, tire] = result
+            tl.save_results(result, folder / f"{place}_{tire}.nc")
+            tl.report(result, folder / f"{place}_{tire}.html")
+    tell(results)
+    check(results)
+    save(depths(results), folder / "depth_against_years.png")
+    print(f"\nthe pages and the figure: {folder}")
+    return results
+
+
+def tell(results: dict[tuple[str, str], tl.LifeResult]) -> None:
+    """The table: what governs, and the years of the crack from the surface at 5, 50 and 95 % of roads."""
+    print(f"{'':26s}{'governs first':24s}{'years':>7s}   surface crack, years at 5 / 50 / 95 % of roads")
+    print(f"{'':57s}   {'started':24s}{'40 mm deep':24s}")
+    for (place, tire), result in results.items():
+        life, growth = result.life, result.growth
+        start, deep = (growth.risk_years_to(depth) for depth in (growth.depths[0], DEEP))
+        print(
+            f"{PLACES[place] + ', ' + tire:26s}{life.governing:24s}{_years(life.years(life.governing)):>7s}   "
+            f"{_three(start):24s}{_three(deep):24s}"
+        )
+
+
+def _three(at: dict[float, float]) -> str:
+    return " / ".join(_years(at[risk]) for risk in sorted(at))
+
+
+def _years(years: float) -> str:
+    return "never" if np.isinf(years) else f"{years:.3g}" if years < 1000 else "> 1000"
+
+
+def check(results: dict[tuple[str, str], tl.LifeResult]) -> None:
+    """What must hold whatever the numbers."""
+    for result in results.values():
+        growth = result.growth
+        reach, risk = growth.dataset["reach_years"].to_numpy(), growth.dataset["risk_years"].to_numpy()
+        # A crack is no deeper earlier, and more roads have it later.
+        assert (np.diff(reach[np.isfinite(reach)]) >= 0).all()
+        assert (risk[1:] >= risk[:-1]).all()
+        # The years of the crack's start are those of its criterion.
+        assert abs(reach[0] / result.life.years("surface, top-down") - 1) < 0.02
+
+
+@styled
+def depths(results: dict[tuple[str, str], tl.LifeResult]) -> Figure:
+    """Depth of the crack against years: half of the roads, between 5 and 95 % of them."""
+    figure = new_figure(10.5, 4.2)
+    axes = figure.subplots(1, len(PLACES), sharey=True)
+    for axis, (place, words) in zip(axes, PLACES.items(), strict=True):
+        open_axes(axis)
+        for colour, tire in zip(CASES, TIRES, strict=False):
+            growth = results[place, tire].growth
+            depth, low, half, high = 1e3 * growth.depths, *growth.dataset["risk_years"].to_numpy()
+            axis.fill_betweenx(depth, low, np.minimum(high, 1e6), color=colour, alpha=0.2, linewidth=0)
+            axis.plot(half, depth, color=colour, label=tire)
+        years = results[place, "belt"].life.traffic.years
+        axis.axvline(years, color=MUTED, linewidth=0.8, linestyle=":")
+        axis.set_xscale("log")
+        axis.set_xlim(0.3, 1000)
+        axis.set_title(words, loc="left")
+        axis.set_xlabel("years from the opening")
+    axes[0].invert_yaxis()
+    axes[0].set_ylabel("depth of the crack (mm)")
+    axes[-1].legend(loc="lower right", frameon=False)
+    headline(
+        figure, "How deep a crack from the surface is", "half of the roads; shaded: 5 to 95 %; dotted: design life"
+    )
+    return figure
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path("top_down"))
