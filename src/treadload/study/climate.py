@@ -70,10 +70,10 @@ def nodes(
     true = _harm(pilot / largest, wander, spacing)
     most = true.max(axis=2, keepdims=True)
     most[most == 0] = 1.0
-    kept = _first(warmth)
+    kept = first_nodes(warmth)
     while True:
         kept.sort(key=lambda k: warmth[k] if warmth.ndim == 1 else k)
-        read = _spline(warmth[kept], pilot[kept], 0)(warmth)
+        read = curves(warmth[kept], pilot[kept], 0)(warmth)
         apart = np.abs(_harm(read / largest, wander, spacing) - true) / most
         errors = (apart.max(axis=2) / np.array(_POWERS)[:, None]).max(axis=0)
         if errors.max() <= tolerance:
@@ -97,11 +97,11 @@ def over_the_climate(warmth: Array | None, kept: list[int], rest: Array, turns: 
     places = warmth.reshape(len(warmth), -1)
     nearest = np.linalg.norm(places[:, None] - places[kept], axis=-1).argmin(axis=1)
     whole = rest[:, nearest]
-    whole[:, :, :turns] = np.maximum(_spline(warmth[kept], rest[:, :, :turns], 1)(warmth), 0.0)
+    whole[:, :, :turns] = np.maximum(curves(warmth[kept], rest[:, :, :turns], 1)(warmth), 0.0)
     return whole
 
 
-def _first(warmth: Array) -> list[int]:
+def first_nodes(warmth: Array) -> list[int]:
     """Roads to begin with: the ends of every direction, and as many as a plane through them needs."""
     if warmth.ndim == 1:
         order = np.argsort(warmth)
@@ -114,7 +114,7 @@ def _first(warmth: Array) -> list[int]:
     return sorted(kept)
 
 
-def _spline(warmth: Array, values: Array, axis: int) -> Callable[[Array], Array]:
+def curves(warmth: Array, values: Array, axis: int) -> Callable[[Array], Array]:
     """Curves through values over warmth; over several directions the smoothest surfaces through them.
 
     These go through about the logarithm of the values, of which strains are smoother functions.

@@ -6,10 +6,10 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from treadload.kernels.arrays import Array
 from treadload.response.several import Question, tensors_of_many
+from treadload.study.climate import curves, first_nodes
 from treadload.study.seasons import Warm
 from treadload.study.wheels import Wheels
 
@@ -19,8 +19,9 @@ _NEAR, _FAR, _REACH, _AROUND = 0.012, 0.040, 0.24, 0.02
 # The first distance below the surface at which stress is read, m, and the largest ratio of two that follow.
 _FIRST, _RATIO = 0.003, 1.5
 _STRESS = tuple(f"stress_{part}" for part in ("xx", "yy", "zz", "xy", "xz", "yz"))
-# Roads of a climate that are solved; ranges in the others lie on splines over warmth.
-_SEASONS = 5
+# Roads of a climate that are solved, of one temperature each and of profiles over depth; ranges in the others lie on
+# curves and surfaces over warmth.
+_SEASONS, _PROFILES = 5, 10
 
 
 def distances_to(thickness: float) -> Array:
@@ -49,21 +50,27 @@ def stresses(wheels: Wheels, roads: Sequence[Warm], depths: Array, x: Array, y: 
 
 
 def nodes_of_climate(warmth: Array | None, count: int) -> list[int]:
-    """Numbers of the roads that are solved, of so many, by their warmth: the ends and some between."""
-    if warmth is None or count <= _SEASONS:
+    """Numbers of the roads that are solved, of so many: the ends of their warmth and some between."""
+    if warmth is None or count <= (_SEASONS if warmth.ndim == 1 else _PROFILES):
         return list(range(count))
-    wanted = np.linspace(warmth.min(), warmth.max(), _SEASONS)
-    return sorted({int(np.abs(warmth - one).argmin()) for one in wanted}, key=lambda one: float(warmth[one]))
+    if warmth.ndim == 1:
+        wanted = np.linspace(warmth.min(), warmth.max(), _SEASONS)
+        return sorted({int(np.abs(warmth - one).argmin()) for one in wanted})
+    kept = first_nodes(warmth)
+    while len(kept) < _PROFILES:
+        kept.append(int(np.linalg.norm(warmth[:, None] - warmth[kept], axis=-1).min(axis=1).argmax()))
+    return sorted(kept)
 
 
-def in_season(warmth: Array | None, nodes: list[int], ranges: Array, number: int) -> Array:
-    """Ranges in a road by number, from those (nodes, ...) that were solved."""
-    if number in nodes:
-        told: Array = ranges[nodes.index(number)]
-        return told
-    assert warmth is not None
-    between: Array = np.maximum(PchipInterpolator(warmth[nodes], ranges)(warmth[number]), 0.0)
-    return between
+def in_seasons(warmth: Array | None, nodes: list[int], ranges: Array) -> Array:
+    """Ranges in all roads (road, ...), from those (nodes, ...) that were solved."""
+    if warmth is None or len(nodes) == len(warmth):
+        return ranges
+    order = sorted(range(len(nodes)), key=lambda k: warmth[nodes[k]] if warmth.ndim == 1 else k)
+    known = [nodes[k] for k in order]
+    every: Array = np.maximum(curves(warmth[known], ranges[order], 0)(warmth), 0.0)
+    every[nodes] = ranges
+    return every
 
 
 def _spread(lattice: Array, spans: Sequence[tuple[float, float]], cell: float) -> Array:

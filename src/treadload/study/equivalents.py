@@ -194,7 +194,8 @@ def _temperatures(life: Life) -> tuple[Array, Array, Array]:
     count = len(life.criteria)
     warmth, reading, years = (np.full(count, np.nan) for _ in range(3))
     seasons = life.climate.seasons
-    degrees = np.array([one.temperature if not isinstance(one.temperature, tuple) else np.nan for one in seasons])
+    # A profile over depth, as layers with temperatures of their own, has no one temperature.
+    degrees = np.array([one.temperature if isinstance(one.temperature, float | int) else np.nan for one in seasons])
     parts = np.array([one.share for one in seasons])
     known, first = np.unique(degrees, return_index=True)
     shares = life.dataset["damage_share"].to_numpy().sum(axis=1)

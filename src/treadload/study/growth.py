@@ -41,12 +41,12 @@ from treadload.study.contacts import Contacts, Counter, Progress
 from treadload.study.crossings import (
     between_rows,
     distances_to,
-    in_season,
+    in_seasons,
     lines,
     nodes_of_climate,
     stresses,
 )
-from treadload.study.seasons import Warm, warmed
+from treadload.study.seasons import Warm, Warmed, roads_of
 from treadload.study.wheels import across, states_of, wheels_of
 from treadload.tire import Tire
 
@@ -86,7 +86,7 @@ def grow_cracks(
         )
     if criterion.place == "interface":
         raise InputError(f"the criterion {criterion.name!r} reads a bond, which parts; take one of a layer")
-    warm = [warmed(road, life.criteria, season) for season in life.climate.seasons]
+    classes, seasons = life.traffic.classes, life.climate.seasons
     top, bottom = way_through(road, layer, asked.layers, upwards=upwards)
     thickness = bottom - top
     length = asked.initial_length or criterion.mean_over or MATERIAL_LENGTH
@@ -96,25 +96,15 @@ def grow_cracks(
             "shorter initial_length, or more layers"
         )
     laws = _laws(road, asked, layer, upwards)
-    classes = life.traffic.classes
-    distinct = [one for k, one in enumerate(warm) if one not in warm[:k]]
+    warm = roads_of(road, life.criteria, seasons, classes)
     states = [one for row in classes for one in states_of(row, tire)]
     touched = len(contacts.missing(states))
-    warmth = warmth_of(life.climate.seasons, [one.road for one in distinct])
-    nodes = nodes_of_climate(warmth, len(distinct))
-    firsts = [warm.index(one) for one in distinct]
-    # By class, where each reads the moduli at its own loading frequency.
-    by_class_roads = [
-        distinct
-        if row.frequency is None
-        else [warmed(road, life.criteria, life.climate.seasons[k], row) for k in firsts]
-        for row in classes
-    ]
+    nodes = nodes_of_climate(warmth_of(seasons, [one.road for one in warm.distinct]), len(warm.distinct))
     count = Counter(touched + len(classes) * len(nodes), progress)
     solved = np.geomspace(length, CLOSE * thickness, asked.steps)
     trace = _trace(life, number, asked)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        contacts.solve(states, warm[0].road, pool, count)
+        contacts.solve(states, warm.distinct[0].road, pool, count)
         by_class = [[contacts.known[one] for one in states_of(row, tire)] for row in classes]
         y = across([one[0] for one in by_class], classes)
         wheels = [wheels_of(own, row, y) for own, row in zip(by_class, classes, strict=True)]
@@ -125,10 +115,10 @@ def grow_cracks(
 
         def cross(row: int) -> list[Crossing]:
             rows, x = lines(wheels[row], y)
-            roads = [by_class_roads[row][one] for one in nodes]
+            roads = [warm.by_class[row][one] for one in nodes]
             own_roads = []
             for season, stress in zip(nodes, stresses(wheels[row], roads, depths, x, rows), strict=True):
-                section, poisson = section_of(by_class_roads[row][season].road, top, bottom)
+                section, poisson = section_of(warm.by_class[row][season].road, top, bottom)
                 own = stress[:, ::-1] if upwards else stress
                 whole = Crossing(own, distances, rows, x, section, upwards, poisson, len(wheels[row].x))
                 own_roads.append(count.after(whole, "response"))
@@ -136,7 +126,7 @@ def grow_cracks(
 
         tasks = [(row, season) for row in range(len(classes)) for season in nodes]
         crossings = [one for several in pool.map(cross, range(len(classes))) for one in several]
-        way = _way(crossings, tasks, life, warm, distinct, asked, solved, trace, number)
+        way = _way(crossings, tasks, life, warm, asked, solved, trace, number)
 
         def ranges_of(crossing: Crossing) -> tuple[Array, int]:
             told, jammed = [], 0
@@ -151,7 +141,6 @@ def grow_cracks(
     found = {task: ranges for task, (ranges, _) in zip(tasks, read, strict=True)}
     jammed = sum(stuck for _, stuck in read)
     rows = {task: crossing.y for task, crossing in zip(tasks, crossings, strict=True)}
-    where = [distinct.index(one) for one in warm]
     fine = life.dataset["y"].to_numpy()
     spacing = float(y[1] - y[0])
     _, slopes = way.at(solved)
@@ -160,11 +149,12 @@ def grow_cracks(
     for row in range(len(classes)):
         own = np.stack([between_rows(rows[row, one], y, found[row, one]) for one in nodes])
         largest[row] = own.max(axis=(0, -1)).transpose(0, 2, 1)
-        for season, number_of in enumerate(where):
-            told = in_season(warmth, nodes, own, number_of)
-            share = classes[row].share * life.climate.seasons[season].share
+        roads = warm.by_class[row]
+        every_road = in_seasons(warmth_of(seasons, [one.road for one in roads]), nodes, own)
+        for season, number_of in zip(seasons, warm.where, strict=True):
+            told, share = every_road[number_of], classes[row].share * season.share
             for k in range(len(solved)):
-                law = _law_at(laws, road, by_class_roads[row][number_of], layer, float(solved[k]), upwards)
+                law = _law_at(laws, road, roads[number_of], layer, float(solved[k]), upwards)
                 # Along a path that leans a crack must grow by more than its depth does.
                 rate[k] += share * law.growth(told[k, :, 3]).sum(axis=-1) / math.hypot(1.0, float(slopes[k]))
     wide = life.traffic.wander.spread(rate, spacing)
@@ -232,7 +222,7 @@ def grow_cracks(
         "jammed": jammed,
         "seconds": time.perf_counter() - start,
     }
-    return Growth(dataset, asked, stats, tuple(_said(doubts, jammed, states_solved, way, warm[0].road)))
+    return Growth(dataset, asked, stats, tuple(_said(doubts, jammed, states_solved, way, warm.distinct[0].road)))
 
 
 def _criterion(life: Life, name: str) -> tuple[Criterion, int]:
@@ -281,8 +271,7 @@ def _way(
     crossings: Sequence[Crossing],
     tasks: Sequence[tuple[int, int]],
     life: Life,
-    warm: Sequence[Warm],
-    distinct: Sequence[Warm],
+    warm: Warmed,
     asked: CrackGrowth,
     solved: Array,
     trace: float,
@@ -295,9 +284,13 @@ def _way(
     worst = float(life.dataset["worst_y"][number])
     shares = life.dataset["damage_share"].to_numpy()[number]
     row, season = np.unravel_index(int(shares.argmax()), shares.shape)
-    own = distinct.index(warm[int(season)])
-    pick = tasks.index((int(row), own))
-    chosen = crossings[pick]
+    own, solved_roads = warm.where[int(season)], [one for other, one in tasks if other == row]
+    if own not in solved_roads:
+        warmth = warmth_of(life.climate.seasons, [one.road for one in warm.distinct])
+        assert warmth is not None
+        places = warmth.reshape(len(warmth), -1)
+        own = min(solved_roads, key=lambda one: float(np.linalg.norm(places[one] - places[own])))
+    chosen = crossings[tasks.index((int(row), own))]
     place = int(np.abs(chosen.y - worst).argmin())
     return crack_paths([chosen], np.ones(1), place, solved, trace, asked.friction)
 

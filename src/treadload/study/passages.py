@@ -23,7 +23,7 @@ from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.study.contacts import Contacts, Counter, Progress
 from treadload.study.doubts import bond_doubts
 from treadload.study.passage import Passing, solve_passings
-from treadload.study.seasons import layer_temperatures, warmed
+from treadload.study.seasons import layer_temperatures, roads_of
 from treadload.study.wheels import Wheels, across, check_speed, states_of, wheels_of
 from treadload.tire import Tire
 
@@ -96,23 +96,17 @@ def solve_passages(
     classes, seasons = traffic.classes, climate.seasons
     for criterion in criteria:
         criterion.depth(road)
-    warm = [warmed(road, criteria, season) for season in seasons]
+    warm = roads_of(road, criteria, seasons, classes)
+    distinct = warm.distinct
     for row in classes:
-        check_speed(row, warm[0].road)
+        check_speed(row, distinct[0].road)
     temperatures = layer_temperatures(road, criteria, seasons)
-    firsts = [k for k, one in enumerate(warm) if one not in warm[:k]]
-    distinct = [warm[k] for k in firsts]
-    # By class, where each reads the moduli at its own loading frequency.
-    warm_of = [
-        distinct if row.frequency is None else [warmed(road, criteria, seasons[k], row) for k in firsts]
-        for row in classes
-    ]
     states = [one for row in classes for one in states_of(row, tire)]
     contacts = contacts or Contacts(tire, spacing)
     touched = len(contacts.missing(states))
     count = Counter(touched + len(classes) * len(distinct), progress)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        contacts.solve(states, warm[0].road, pool, count)
+        contacts.solve(states, distinct[0].road, pool, count)
         by_class = [[contacts.known[one] for one in states_of(row, tire)] for row in classes]
         y = across([one[0] for one in by_class], classes)
         wheels = [wheels_of(own, row, y) for own, row in zip(by_class, classes, strict=True)]
@@ -124,7 +118,7 @@ def solve_passages(
             """Into values, for classes, of roads those criteria; all by number."""
             tasks = [(row, number, own) for row in rows for number, own in asked]
             passings = [
-                Passing(wheels[row], warm_of[row][number].reading(own), y, turns) for row, number, own in tasks
+                Passing(wheels[row], warm.by_class[row][number].reading(own), y, turns) for row, number, own in tasks
             ]
             for (row, number, own), read in zip(tasks, solve_passings(passings, pool, count), strict=True):
                 values[row, number, own] = read
@@ -132,7 +126,7 @@ def solve_passages(
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
         others = [row for row in range(len(classes)) if row != heaviest]
         solve_all([heaviest], [(number, list(range(len(criteria)))) for number in range(len(distinct))])
-        warmths = [warmth_of(seasons, [one.road for one in own]) for own in warm_of]
+        warmths = [warmth_of(seasons, [one.road for one in own]) for own in warm.by_class]
         warmth = warmths[heaviest]
         kept, errors = [], []
         for k, criterion in enumerate(criteria):
@@ -149,9 +143,8 @@ def solve_passages(
                     for number in others:
                         rest = values[np.ix_([number], few)][:, :, k]
                         values[number, :, k] = over_the_climate(warmths[number], few, rest, turns)[0]
-    where = [distinct.index(one) for one in warm]
     # (criterion, axle_class, season, turn, y), with the crack behind the turns.
-    everything = values[:, where].transpose(2, 0, 1, 3, 4)
+    everything = values[:, warm.where].transpose(2, 0, 1, 3, 4)
     readings = xr.DataArray(
         everything[:, :, :, :turns],
         dims=("criterion", "axle_class", "season", "turn", "y"),
@@ -174,6 +167,6 @@ def solve_passages(
         max(one.moved for one in wheels),
         tuple(wheels),
         tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads))
-        + road_doubts(warm[0].road)
+        + road_doubts(distinct[0].road)
         + bond_doubts(criteria, distinct, wheels),
     )

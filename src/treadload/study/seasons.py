@@ -30,6 +30,33 @@ class Warm:
         return Warm(self.road, tuple(self.criteria[k] for k in numbers))
 
 
+@dataclass(frozen=True)
+class Warmed:
+    """The roads of a climate.
+
+    distinct: those that differ. where: which of them each season has, by number. by_class: the same roads for every
+    class of axles, at its own loading frequency if it reads moduli at one.
+    """
+
+    distinct: tuple[Warm, ...]
+    where: tuple[int, ...]
+    by_class: tuple[tuple[Warm, ...], ...]
+
+
+def roads_of(
+    road: Pavement, criteria: Sequence[Criterion], seasons: Sequence[Season], classes: Sequence[AxleClass]
+) -> Warmed:
+    """The road and the criteria in all seasons under all classes. Raises InputError."""
+    warm = [warmed(road, criteria, season) for season in seasons]
+    firsts = [k for k, one in enumerate(warm) if one not in warm[:k]]
+    distinct = tuple(warm[k] for k in firsts)
+    by_class = tuple(
+        distinct if row.frequency is None else tuple(warmed(road, criteria, seasons[k], row) for k in firsts)
+        for row in classes
+    )
+    return Warmed(distinct, tuple(distinct.index(one) for one in warm), by_class)
+
+
 def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season, row: AxleClass | None = None) -> Warm:
     """The road and the criteria in a season; below a profile courses are divided, and criteria read their ends.
 
