@@ -253,6 +253,20 @@ _LIFE = {
     "elasticity": ("1", "relative change of the life per relative change of an input; of temperature, per °C"),
 }
 
+_CLIMATE = {
+    "month": ("1", "month of the year, January is 1"),
+    "hour": ("h", "local hour of the day"),
+    "profile_depth": ("m", "depth below the road surface of a profile of temperature"),
+    "day_temperature": ("degC", "temperature of the road at an hour of the mean day of a month"),
+    "sublayer": ("1", "number of a part of a course, from the surface, 0 the top one"),
+    "sublayer_top": ("m", "depth of the top of a part of a course"),
+    "sublayer_bottom": ("m", "depth of the bottom of a part of a course"),
+    "sublayer_layer": ("1", "number of the layer that a part belongs to, from the surface, 0 the top one"),
+    "sublayer_temperature": ("degC", "temperature of a part of a course in a season"),
+    "sublayer_modulus": ("Pa", "Young's modulus of a part of a course in a season"),
+    "sublayer_modulus_young": ("Pa", "the same of the young mix"),
+}
+
 _GROWTH = {
     "crack_depth": ("m", "depth of a crack's tip from its mouth"),
     "solved_depth": ("m", "depth of a crack's tip at which stress intensity was solved"),
@@ -404,6 +418,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_QUANTITIES,
     **_CALIBRATION,
     **_LIFE,
+    **_CLIMATE,
     **_RELIABILITY,
     **_DESIGN,
     **_GROWTH,
@@ -420,10 +435,10 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
-    "trial", "state", "criterion", "axle_class", "season", "turn", "direction", "reading", "unknown", "input", "risk",
-    "year", "crack_depth", "solved_depth",
+    "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
+    "input", "risk", "year", "crack_depth", "solved_depth",
     "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth",
-    "point", "y", "across", "x", "component", "orientation",
+    "profile_depth", "sublayer", "point", "y", "across", "x", "component", "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
 

@@ -15,12 +15,14 @@ from studies import CASE, study_of
 from treadload.case import Case
 from treadload.composing import BaseResult, dataset_of, result_classes
 from treadload.damage import Climate, Traffic, Wander
+from treadload.damage.climate import TypicalDays
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
 from treadload.damage.scatter import Scatter
 from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
+from treadload.study.layered_climate import climate_fields
 from treadload.study.reliability.inputs import inputs_of
 from treadload.study.reliability.propagation import Quadratic
 from treadload.study.reliability.solve import told
@@ -36,6 +38,9 @@ LINE = tl.FatigueLine(epsilon_6=120e-6, slope=-0.2)
 CELL = 5e-3
 AT = np.linspace(-0.05, 0.05, 9)
 ACROSS = (np.arange(24) - 11.5) * CELL
+DAYS = TypicalDays(np.array([3.0, 15.0]), np.array([0.0, 0.06]), np.arange(48.0).reshape(12, 2, 2))
+PROFILE = tl.pavement.TemperatureProfile((0.0, 0.06), (5.0, 9.0))
+OLD = tl.materials.GlobalAging(10.0, 10.0)
 TIRE = tl.Tire.from_height_map(ACROSS[None, :] ** 2 + ACROSS[:, None] ** 2, CELL, material=RUBBER, name="a ball")
 
 
@@ -62,7 +67,12 @@ def life():
     traffic = Traffic(classes, 1e5, 0.02, wander=Wander.normal(0.2), years=20.0)
     criteria = (Criterion("top", LINE, 0, "top"), Criterion("base", tl.damage.ShellFatigue(5e9), 1))
     values = peaks[..., None] * np.exp(-0.5 * (y / 0.1) ** 2)
-    return miner(values, criteria, traffic, Climate.equal_parts([5.0, 25.0], ["cold", "warm"]), y=y)
+    climate = replace(Climate.equal_parts([5.0, 25.0], ["cold", "warm"]), days=DAYS)
+    made = miner(values, criteria, traffic, climate, y=y)
+    # As below a weather: what it tells over depth, of a road whose mix waits for its temperature.
+    deep = replace(climate, seasons=[replace(one, temperature=PROFILE, ageing=OLD) for one in climate.seasons])
+    told = climate_fields(tl.Pavement.from_catalogue("6 BBSG3 / PF2"), deep)
+    return replace(made, dataset=made.dataset.merge(told, combine_attrs="override"))
 
 
 def bond_comparison():

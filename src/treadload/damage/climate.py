@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -85,17 +85,52 @@ class Season:
         return replace(self, temperature=tuple(t + degrees for t in now) if isinstance(now, tuple) else now + degrees)
 
 
+@dataclass(frozen=True, eq=False)
+class TypicalDays:
+    """The mean day of every month, over depth.
+
+    hours: (nh,), local, [0, 24). depths: (nz,), m, the first at the surface. temperatures: (12, nh, nz), °C, January
+    first. Raises InputError.
+    """
+
+    hours: Array
+    depths: Array
+    temperatures: Array
+
+    def __post_init__(self) -> None:
+        expected = (len(MONTHS), len(self.hours), len(self.depths))
+        if np.shape(self.temperatures) != expected or not np.isfinite(self.temperatures).all():
+            raise InputError(
+                f"typical days need finite temperatures (month, hour, depth) {expected}, got "
+                f"{np.shape(self.temperatures)}"
+            )
+
+    @classmethod
+    def of(cls, found: RoadTemperatures) -> TypicalDays:
+        """Means of a year's temperatures over the days of each month."""
+        months, clock = found.months, found.hour_of_day
+        whole = clock.astype(int)
+        hours = np.unique(whole)
+        means = [
+            [found.temperatures[(months == month) & (whole == hour)].mean(axis=0) for hour in hours]
+            for month in range(1, len(MONTHS) + 1)
+        ]
+        return cls(np.array([clock[whole == hour].mean() for hour in hours]), found.depths, np.array(means))
+
+
 @dataclass(frozen=True)
 class Climate:
     """The temperatures of the road over the passes.
 
-    seasons: whose shares sum to 1. about: how they were found, in sentences. warnings: sentences for the user.
+    seasons: whose shares sum to 1. about: how they were found, in sentences. warnings: sentences for the user. days:
+    below a weather the mean day of every month, from which figures are drawn and nothing is computed.
     Raises InputError.
     """
 
     seasons: tuple[Season, ...]
     about: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    days: TypicalDays | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "seasons", tuple(self.seasons))
@@ -124,7 +159,9 @@ class Climate:
 
     def warmer(self, degrees: float) -> Climate:
         """The climate with all its seasons warmer by so many degrees."""
-        return replace(self, seasons=tuple(one.warmer(degrees) for one in self.seasons))
+        days = self.days
+        warm = None if days is None else replace(days, temperatures=days.temperatures + degrees)
+        return replace(self, seasons=tuple(one.warmer(degrees) for one in self.seasons), days=warm)
 
     @classmethod
     def of_road(
@@ -170,7 +207,7 @@ class Climate:
             f"{len(seasons)} seasons by month and {parts} part(s) of the day, which moves damage as readings off by "
             f"{100 * error:.2g} % would"
         )
-        return cls(tuple(seasons), (about, *_told(ageing)), found.assumed)
+        return cls(tuple(seasons), (about, *_told(ageing)), found.assumed, TypicalDays.of(found))
 
 
 def _told(ageing: Ageing | None) -> tuple[str, ...]:

@@ -39,7 +39,9 @@ class Life(BaseResult, group="life"):
     each; where the traffic wanders, life_years_without_wander and
     life_years_with_wander, whichever the law takes; with a design life design_damage; with cracks
     first_crack_angle, first_crack_dip
-    (criterion), of the class and season that do most, and orientation_damage (criterion, orientation). criteria,
+    (criterion), of the class and season that do most, and orientation_damage (criterion, orientation); below a
+    weather day_temperature (month, hour, profile_depth); where courses are divided sublayer_modulus and
+    sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young. criteria,
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
     season. stats: solves and errors behind the readings. warnings: sentences for the user.
     """
@@ -48,6 +50,14 @@ class Life(BaseResult, group="life"):
         {
             "life_years life_passes worst_y largest_reading": "criterion",
             "damage_share": "criterion axle_class season",
+        },
+        maybe={
+            "day_temperature": "month hour profile_depth",
+            "month": "month",
+            "hour": "hour",
+            "profile_depth": "profile_depth",
+            "sublayer_top sublayer_bottom sublayer_layer": "sublayer",
+            "sublayer_temperature sublayer_modulus sublayer_modulus_young": "season sublayer",
         },
         labels={"criterion": "criterion", "axle_class": "axle_class", "season": "season"},
         each={"criterion": "criteria"},

@@ -3,6 +3,7 @@
 from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
 from treadload.plots.bowl import deflection_bowl
 from treadload.plots.calibration import calibration_fit, calibration_numbers
+from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.compare import compare_pressure, compare_strain
 from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
@@ -104,6 +105,7 @@ __all__ = [
     "crack_depth",
     "crack_intensity",
     "creep_curves",
+    "day_temperatures",
     "deflection_bowl",
     "design_thicknesses",
     "dissipated_energy",
@@ -130,6 +132,7 @@ __all__ = [
     "rib_shares",
     "rut_profile",
     "save",
+    "season_moduli",
     "shakedown_map",
     "shift_factors",
     "sliding",

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from treadload.accessors import offers
 from treadload.composing import Source, dataset_of
 from treadload.plots.calibration import calibration_fit, calibration_numbers
+from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
 from treadload.plots.equivalents import standard_axles
@@ -53,6 +54,14 @@ class LifePlots(_Plots):
     def shares(self, criterion: str | None = None) -> Figure:
         """Who does the damage, and when: classes of axles by seasons."""
         return life_shares(self._result, criterion)
+
+    def temperatures(self, months: Sequence[int] = (1, 4, 7, 10)) -> Figure:
+        """Temperature over depth and hour on the mean day of months, below a weather. months: January is 1."""
+        return day_temperatures(self._result, months)
+
+    def moduli(self) -> Figure:
+        """Temperature and modulus over depth in the coldest and the warmest season, old and young."""
+        return season_moduli(self._result)
 
 
 @offers("plot", "Indentation")

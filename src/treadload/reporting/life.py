@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years
 from treadload.reporting.first import FirstPage, first_of_life, which_way
@@ -227,5 +228,27 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
             "Shares of the governing damage at its worst place by class of axles and season; blank: below 0.5 %.",
             lambda: life_shares(data),
             wide=True,
+        ),
+        *(
+            picture(
+                "Temperature of the road",
+                "Mean day of four months over depth and hour, by heat conduction below the weather; dashed: "
+                "interfaces of layers.",
+                lambda: day_temperatures(data),
+                wide=True,
+            )
+            if "day_temperature" in data
+            else []
+        ),
+        *(
+            picture(
+                "Modulus over depth",
+                "Temperature and Young's modulus of the parts that courses are divided into, in the coldest and the "
+                "warmest season, at the frequency at which mixes are given.",
+                lambda: season_moduli(data),
+                wide=True,
+            )
+            if "sublayer_modulus" in data
+            else []
         ),
     ]

@@ -22,6 +22,7 @@ from treadload.pavement import Pavement, lift_below
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.doubts import beyond_tables, traffic_doubts
 from treadload.study.groups import group_factors, in_words
+from treadload.study.layered_climate import climate_fields
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.seasons import frequencies
 from treadload.study.surface_works import surface_works
@@ -80,7 +81,8 @@ def solve_life(
     }
     fields |= surface_works(tire, road, traffic, climate, contacts)
     told = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
-    life = replace(life, dataset=life.dataset.assign(told).assign_attrs(about))
+    dataset = life.dataset.assign(told).assign_attrs(about)
+    life = replace(life, dataset=dataset.merge(climate_fields(road, climate), combine_attrs="override"))
     stats = {
         "contacts": passages.contacts,
         "responses": passages.responses + int((axles > 1).sum()),

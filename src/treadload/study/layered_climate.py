@@ -1,0 +1,69 @@
+"""What a climate makes of a road over depth: days of the months, temperatures and moduli of the parts of courses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.damage.climate import MONTHS, Climate, Season
+from treadload.kernels.arrays import Array
+from treadload.materials import Elastic
+from treadload.pavement import Pavement, divided
+from treadload.pavement.sublayers import middle_temperatures
+from treadload.study.seasons import warmed
+
+
+def climate_fields(road: Pavement, climate: Climate) -> xr.Dataset:
+    """Fields of a life, see `Life`, that tell temperatures and moduli over depth; what a climate lacks is left out.
+
+    day_temperature (month, hour, profile_depth), below a weather. sublayer_temperature and sublayer_modulus (season,
+    sublayer), where all seasons divide courses alike: of all parts above the last layer, without the frequencies of
+    the classes; NaN for a material without one modulus. sublayer_modulus_young: with ageing, that of the young mix.
+    """
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {}
+    coordinates: dict[str, Any] = {}
+    days = climate.days
+    if days is not None:
+        fields["day_temperature"] = (("month", "hour", "profile_depth"), days.temperatures)
+        coordinates |= {
+            "month": np.arange(1, len(MONTHS) + 1),
+            "hour": days.hours,
+            "profile_depth": days.depths,
+        }
+    seasons = climate.seasons
+    if all(one.profile is not None for one in seasons) and len({one.sublayers for one in seasons}) == 1:
+        parts, owner = divided(road, thickest=seasons[0].sublayers)
+        count = len(parts.interfaces)
+        over = ("season", "sublayer")
+        fields |= {
+            "sublayer_top": (("sublayer",), np.concatenate([[0.0], parts.interfaces])[:count]),
+            "sublayer_bottom": (("sublayer",), np.asarray(parts.interfaces, dtype=float)),
+            "sublayer_layer": (("sublayer",), np.array(owner[:count])),
+            "sublayer_temperature": (over, np.array([_degrees(parts, one)[:count] for one in seasons])),
+            "sublayer_modulus": (over, np.array([_moduli(road, one, count) for one in seasons])),
+        }
+        if any(one.ageing is not None for one in seasons):
+            young = [_moduli(road, _young(one), count) for one in seasons]
+            fields["sublayer_modulus_young"] = (over, np.array(young))
+        coordinates |= {"season": [one.name for one in seasons], "sublayer": np.arange(count)}
+    return variables.dataset(fields, coordinates)
+
+
+def _young(season: Season) -> Season:
+    assert season.profile is not None
+    return replace(season, temperature=season.profile, ageing=None)
+
+
+def _degrees(parts: Pavement, season: Season) -> list[float]:
+    assert season.profile is not None
+    return middle_temperatures(parts, season.profile)
+
+
+def _moduli(road: Pavement, season: Season, count: int) -> Array:
+    """Young's modulus of the upper parts in a season, Pa."""
+    found = [layer.resolved for layer in warmed(road, (), season).road.layers[:count]]
+    return np.array([one.modulus if isinstance(one, Elastic) else np.nan for one in found])
