@@ -9,7 +9,7 @@ from tests.cases import ONE_AXLE
 
 from treadload.case import LifeCase
 from treadload.catalogue import mixes
-from treadload.damage import Climate, Criterion, FatigueLine, Season
+from treadload.damage import Climate, Criterion, FatigueLine, PowerLine, Season, VerticalShear
 from treadload.damage.climate import binning_error
 from treadload.errors import InputError
 from treadload.grid import Grid
@@ -23,6 +23,7 @@ from treadload.pavement import (
     divided,
 )
 from treadload.response import GridLoad, solve_response
+from treadload.study import solve_life
 from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.study.seasons import beyond_data, layer_temperatures, warmed
 
@@ -237,6 +238,44 @@ def test_readings_over_profiles_are_interpolated_within_the_tolerance():
     other = 0.7 * peak**1.1
     whole = over_the_climate(features, kept, other[None][:, kept], 1)[0]
     assert np.abs(whole / other - 1)[:, :, 10].max() < 0.03
+
+
+def test_a_search_goes_through_all_parts_of_its_course():
+    """As on the whole course, and no further; the first part ends at 20 mm."""
+    law = PowerLine(VerticalShear(), 100e-6, -0.2)
+    asked = [Criterion(str(k), law, k, "top", search_to=0.1) for k in (0, 1, 2)]
+    warm = warmed(ROAD, asked, Season("noon", 1.0, PROFILE))
+    for new, old in zip(warm.criteria, asked, strict=True):
+        assert new.depths(warm.road) == pytest.approx(old.depths(ROAD))
+    assert warm.criteria[0].depths(warm.road)[-1] == pytest.approx(0.05)
+    with pytest.raises(InputError, match="parts of the criterion '0' must be 1 or more, got 0"):
+        replace(asked[0], parts=0)
+
+
+def test_a_life_below_a_profile_finds_the_shear_below_the_first_part():
+    case = LifeCase.from_text(ONE_AXLE + BASE)
+    law = PowerLine(VerticalShear(), 100e-6, -0.2)
+    tops = [Criterion(name, law, 0, "top", search_to=to) for name, to in (("near", 0.02), ("deep", 0.05))]
+    # Of one temperature, divided or not: the same road, so the same depth and the same reading.
+    found = [
+        solve_life(
+            case.build_tire(),
+            ROAD,
+            case.build_traffic(),
+            Climate((Season("all year", 1.0, one),)),
+            tops,
+            spacing=0.02,
+        ).dataset
+        for one in (TemperatureProfile((0.0, 0.3), (15.0, 15.0)), 15.0)
+    ]
+    divided_, whole = (
+        solve_life(case.build_tire(), ROAD, case.build_traffic(), one, tops, spacing=0.02).dataset for one in climates
+    )
+    assert float(divided_.read_depth[1]) > 0.02
+    assert float(divided_.read_depth[1]) == float(whole.read_depth[1])
+    assert float(divided_.largest_reading[1]) > 1.05 * float(divided_.largest_reading[0])
+    # Cubes end where a part does.
+    assert float(divided_.largest_reading[1]) == pytest.approx(float(whole.largest_reading[1]), rel=0.05)
 
 
 WEATHER = ONE_AXLE.replace("climate = { temperature = 15 }", f"climate = {{ air = {{ months = {MONTHS} }} }}")

@@ -49,6 +49,8 @@ class Criterion:
     m, see `response.material`; None for the points themselves, which depend on the cells there.
     search_to: how far below the top of its layer the largest reading is looked for, m, within the layer, at every
     `length`; None for the top itself.
+    parts: how many layers of the road the course has that it reads, from its layer down: more than 1 where it is
+    divided over depth. `search_to` goes through all of them.
     reads: what the law reads, with details that the law leaves open, as the strength of a bond.
     An extension at the top of a layer counts only where a principal stress is tensile: no crack opens elsewhere.
     Raises InputError for a law at a place that it does not apply to: one of the bottom of the asphalt, of the
@@ -63,6 +65,7 @@ class Criterion:
     length: float | None = MATERIAL_LENGTH
     reads: Quantity | None = None
     search_to: float | None = None
+    parts: int = 1
 
     def __post_init__(self) -> None:
         law = self.law_at(_ANY_TEMPERATURE)
@@ -80,6 +83,8 @@ class Criterion:
             check_length(self.length)
         if self.search_to is not None:
             self._check_search(self.search_to)
+        if self.parts < 1:
+            raise InputError(f"parts of the criterion {self.name!r} must be 1 or more, got {self.parts}")
         if self.reads is not None and not law.reads.admits(self.reads):
             raise InputError(
                 f"the criterion {self.name!r} reads the {self.reads}, but the numbers of its law, {law}, hold for "
@@ -170,8 +175,8 @@ class Criterion:
         top = self.depth(road)
         if self.search_to is None:
             return (top,)
-        number = self.number(road)
-        ends = float(road.interfaces[number]) if number < len(road.interfaces) else np.inf
+        last = self.number(road) + self.parts - 1
+        ends = float(road.interfaces[last]) if last < len(road.interfaces) else np.inf
         step = MATERIAL_LENGTH if self.length is None else self.length
         count = int(np.ceil(self.search_to / step - 1e-9))
         below = top + self.search_to / count * np.arange(1, count + 1)

@@ -132,12 +132,14 @@ def beyond_data(road: Pavement, season: Season) -> list[tuple[str, float, float]
 
 
 def _placed(criterion: Criterion, road: Pavement, owner: tuple[int, ...] | None) -> Criterion:
-    """The criterion at the part of its layer that it reads: the first at the top, else the last."""
+    """The criterion at the part of its layer that it reads: the last, or at the top the first, to search them all."""
     if owner is None:
         return criterion
     number = criterion.number(road)
     members = [k for k, whose in enumerate(owner) if whose == number]
-    return replace(criterion, layer=members[0] if criterion.place == "top" else members[-1])
+    if criterion.place == "top":
+        return replace(criterion, layer=members[0], parts=len(members))
+    return replace(criterion, layer=members[-1])
 
 
 def _at_layer(criterion: Criterion, road: Pavement, season: Season) -> float:
