@@ -36,7 +36,8 @@ def lugs():
 
 # A life that moves by 3 % is a strain that moves by 0.6 %. Measured: the scan's strain moves by 1.6 %, its life by
 # 8 %; the contact moves, not the reading (next test). Why is not proven: perhaps the pressure at its sharp
-# shoulder, whose part in a cell would converge with the first power of the cells. Lugs, which cut cells: 5.4 %, measured.
+# shoulder, whose part in a cell would converge with the first power of the cells. Lugs, which cut cells:
+# 5.4 %, measured.
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("tire", "wheel", "bound"),

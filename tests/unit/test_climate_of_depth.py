@@ -257,16 +257,8 @@ def test_a_life_below_a_profile_finds_the_shear_below_the_first_part():
     law = PowerLine(VerticalShear(), 100e-6, -0.2)
     tops = [Criterion(name, law, 0, "top", search_to=to) for name, to in (("near", 0.02), ("deep", 0.05))]
     # Of one temperature, divided or not: the same road, so the same depth and the same reading.
-    found = [
-        solve_life(
-            case.build_tire(),
-            ROAD,
-            case.build_traffic(),
-            Climate((Season("all year", 1.0, one),)),
-            tops,
-            spacing=0.02,
-        ).dataset
-        for one in (TemperatureProfile((0.0, 0.3), (15.0, 15.0)), 15.0)
+    climates = [
+        Climate((Season("all year", 1.0, one),)) for one in (TemperatureProfile((0.0, 0.3), (15.0, 15.0)), 15.0)
     ]
     divided_, whole = (
         solve_life(case.build_tire(), ROAD, case.build_traffic(), one, tops, spacing=0.02).dataset for one in climates
