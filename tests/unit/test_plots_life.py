@@ -8,7 +8,7 @@ from matplotlib.text import Text
 
 from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchSubgrade, Traffic, Wander, miner
 from treadload.errors import InputError
-from treadload.plots import life_damage, life_inputs, life_shares, life_years
+from treadload.plots import life_damage, life_inputs, life_shares, life_works, life_years
 from treadload.reporting import write_report
 from treadload.reporting.life import exhausted, life_report, sentence
 from treadload.reporting.reading import ReportCase
@@ -65,6 +65,43 @@ def test_the_map_holds_the_shares():
     assert float(np.sum(mesh.get_array())) == pytest.approx(100, rel=1e-9)
     with pytest.raises(InputError, match="no criterion 'nothing'"):
         life_shares(life, "nothing")
+
+
+def with_works(tearing):
+    works = dataset(
+        {
+            "largest_polishing_work": (("axle_class",), [1.5, 183.0]),
+            "largest_tearing_work": (("axle_class", "season"), np.array(tearing)),
+        },
+        {"axle_class": ["light", "heavy"], "season": ["cold", "warm"]},
+    )
+    return a_life().dataset.merge(works)
+
+
+def test_the_works_are_those_of_each_class_and_season():
+    tearing = [[2e-9, 4e-9], [0.02, 0.128]]
+    data = with_works(tearing)
+    bars, cells = life_works(data).axes
+    assert [patch.get_width() for patch in bars.patches] == [1.5, 183.0]
+    assert [text.get_text() for text in bars.texts[:2]] == ["1.5", "180"]
+    # What is left of a wheel that rolls freely is drawn as nothing.
+    assert [text.get_text() for text in cells.texts[:4]] == ["0", "0", "0.02", "0.13"]
+    drawn = np.ma.asarray(cells.collections[0].get_array())
+    assert drawn.mask.tolist() == [[True, True], [False, False]]
+    assert drawn[1].tolist() == tearing[1]
+    titles = [one.title for one in life_report("a road", data).pictures]
+    assert titles.count("What polishes and tears the surface") == 1
+
+
+@pytest.mark.parametrize("nothing", [1e-10, np.nan])
+def test_without_shear_there_is_no_figure_of_works(nothing):
+    data = with_works([[nothing, nothing]] * 2)
+    with pytest.raises(InputError, match="none shears a surface of known modulus"):
+        life_works(data)
+    with pytest.raises(InputError, match="largest_polishing_work"):
+        life_works(a_life())
+    titles = [one.title for one in life_report("a road", data).pictures]
+    assert "What polishes and tears the surface" not in titles
 
 
 def test_inputs_are_changed_by_five_per_cent_and_a_degree():

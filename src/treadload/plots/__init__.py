@@ -60,6 +60,7 @@ from treadload.plots.tearing import tearing
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 from treadload.plots.verdict import fatigue_line
+from treadload.plots.works import life_works
 
 __all__ = [
     "BondComparisonPlots",
@@ -116,6 +117,7 @@ __all__ = [
     "life_damage",
     "life_inputs",
     "life_shares",
+    "life_works",
     "life_years",
     "losses",
     "master_curve",

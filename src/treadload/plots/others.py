@@ -30,6 +30,7 @@ from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
+from treadload.plots.works import life_works
 
 
 class _Plots:
@@ -54,6 +55,10 @@ class LifePlots(_Plots):
     def shares(self, criterion: str | None = None) -> Figure:
         """Who does the damage, and when: classes of axles by seasons."""
         return life_shares(self._result, criterion)
+
+    def works(self) -> Figure:
+        """Polishing by class of axles, and tearing by class and season."""
+        return life_works(self._result)
 
     def temperatures(self, months: Sequence[int] = (1, 4, 7, 10)) -> Figure:
         """Temperature over depth and hour on the mean day of months, below a weather. months: January is 1."""

@@ -14,6 +14,7 @@ import xarray as xr
 from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years
+from treadload.plots.works import life_works, shears
 from treadload.reporting.first import FirstPage, first_of_life, which_way
 from treadload.reporting.pictures import Picture, picture
 
@@ -228,6 +229,18 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
             "Shares of the governing damage at its worst place by class of axles and season; blank: below 0.5 %.",
             lambda: life_shares(data),
             wide=True,
+        ),
+        *(
+            picture(
+                "What polishes and tears the surface",
+                "Work of sliding, and elastic work of the shear in the skin, of one wheel's passage at its worst "
+                "place, by class of axles and season. Indices that rank, not calibrated; 0: below a ten-thousandth "
+                "of the largest.",
+                lambda: life_works(data),
+                wide=True,
+            )
+            if shears(data)
+            else []
         ),
         *(
             picture(
