@@ -11,6 +11,7 @@ One of them without Python: treadload life bus_stop.toml -o life.nc; treadload r
 """
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -34,11 +35,11 @@ def case_of(place: str, tire: str, spacing: float | None = None) -> tl.LifeCase:
 
 
 def main(
-    folder: Path, spacing: float | None = None, workers: int | None = None
+    folder: Path, spacing: float | None = None, workers: int | None = None, places: Sequence[str] = tuple(PLACES)
 ) -> dict[tuple[str, str], tl.LifeResult]:
     folder.mkdir(parents=True, exist_ok=True)
     results = {}
-    for place in PLACES:
+    for place in places:
         for tire in TIRES:
             result = tl.run_life(case_of(place, tire, spacing), workers=workers)
             results[place, tire] = result
@@ -88,8 +89,9 @@ def check(results: dict[tuple[str, str], tl.LifeResult]) -> None:
 def depths(results: dict[tuple[str, str], tl.LifeResult]) -> Figure:
     """Depth of the crack against years: half of the roads, between 5 and 95 % of them."""
     figure = new_figure(10.5, 4.2)
-    axes = figure.subplots(1, len(PLACES), sharey=True)
-    for axis, (place, words) in zip(axes, PLACES.items(), strict=True):
+    places = list(dict.fromkeys(place for place, _ in results))
+    axes = figure.subplots(1, len(places), sharey=True, squeeze=False)[0]
+    for axis, place in zip(axes, places, strict=True):
         open_axes(axis)
         for colour, tire in zip(CASES, TIRES, strict=False):
             growth = results[place, tire].growth
@@ -100,7 +102,7 @@ def depths(results: dict[tuple[str, str], tl.LifeResult]) -> Figure:
         axis.axvline(years, color=MUTED, linewidth=0.8, linestyle=":")
         axis.set_xscale("log")
         axis.set_xlim(0.3, 1000)
-        axis.set_title(words, loc="left")
+        axis.set_title(PLACES[place], loc="left")
         axis.set_xlabel("years from the opening")
     axes[0].invert_yaxis()
     axes[0].set_ylabel("depth of the crack (mm)")

@@ -38,6 +38,8 @@ _FRENCH_POWER, _FOURTH = 5.0, 4.0
 _POINTS, _CELL = 8, 6e-3
 # Wheels further apart than this, m, are those of both ends of an axle.
 _BOTH_ENDS = 1.0
+# Standard axles beyond which their own damage is next to none.
+_MOST = 1000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,10 +82,12 @@ class Equivalents(BaseResult, group="equivalents"):
         ]
         for k, name in enumerate(data["axle_class"].to_numpy()):
             row = [*data["standard_axles"].to_numpy()[:, k], float(data["french_axles"][k])]
-            cells = [_short(float(value)) for value in (*row, float(data["single_axle_loads"][k]))]
+            cells = [_axles(float(value)) for value in (*row, float(data["single_axle_loads"][k]))]
             lines.append(f"  {name!s:{wide}s}" + "".join(f"{cell:>22s}" for cell in cells))
-        mean = [_short(float(value)) for value in data["mean_standard_axles"].to_numpy()]
+        mean = [_axles(float(value)) for value in data["mean_standard_axles"].to_numpy()]
         lines.append(f"  {'mean of the traffic':{wide}s}" + "".join(f"{cell:>22s}" for cell in mean))
+        if float(data["standard_axles"].max()) > _MOST:
+            lines.append(f"> {_MOST:g}: uniform discs hardly do that damage, so that axles of them say nothing of it")
         warm = data["equivalent_temperature"].to_numpy()
         readings = json.loads(data.attrs["readings"])
         told = [
@@ -233,3 +237,8 @@ def _root(curve: PchipInterpolator, known: Array, near: float) -> float:
 
 def _short(value: float) -> str:
     return "–" if math.isnan(value) else "no end" if math.isinf(value) else f"{value:.3g}"
+
+
+def _axles(value: float) -> str:
+    """A number of standard axles; none that means something where their discs hardly do that damage."""
+    return f"> {_MOST:g}" if _MOST < value < math.inf else _short(value)

@@ -1,0 +1,29 @@
+"""`examples/top_down`: the bus stop on coarse cells under both tires; the other two places are cases that can be read."""
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+import treadload as tl
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "top_down"
+
+
+@pytest.mark.slow
+def test_top_down(tmp_path, capsys):
+    results = runpy.run_path(str(EXAMPLE / "run.py"))["main"](tmp_path, 16e-3, 1, ["bus_stop"])
+    said = capsys.readouterr().out
+    assert "Bus stop, half-space" in said
+    assert "Bus stop, belt" in said
+    names = {"bus_stop_half-space", "bus_stop_belt"}
+    written = {f"{name}.{kind}" for name in names for kind in ("nc", "html")} | {"depth_against_years.png"}
+    assert {path.name for path in tmp_path.iterdir()} == written
+    opened = tl.open_results(tmp_path / "bus_stop_belt.nc")
+    assert opened.growth.years_to(0.04) == pytest.approx(results["bus_stop", "belt"].growth.years_to(0.04), rel=1e-12)
+
+
+@pytest.mark.parametrize("place", ["motorway", "exit_curve", "bus_stop"])
+def test_its_cases_can_be_read(place):
+    case = tl.LifeCase.from_toml(EXAMPLE / f"{place}.toml")
+    assert {row.speed for row in case.build_traffic().classes} != {None}
