@@ -21,7 +21,7 @@ _FIRST, _RATIO = 0.003, 1.5
 _STRESS = tuple(f"stress_{part}" for part in ("xx", "yy", "zz", "xy", "xz", "yz"))
 # Roads of a climate that are solved, of one temperature each and of profiles over depth; ranges in the others lie on
 # curves and surfaces over warmth.
-_SEASONS, _PROFILES = 5, 10
+_SEASONS, _PROFILES = 5, 8
 
 
 def distances_to(thickness: float) -> Array:
