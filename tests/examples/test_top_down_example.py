@@ -1,4 +1,4 @@
-"""`examples/top_down`: the bus stop on coarse cells under both tires; the other two places are cases that can be read."""
+"""`examples/top_down`: the bus stop on coarse cells under both tires; the other places are cases that can be read."""
 
 import runpy
 from pathlib import Path

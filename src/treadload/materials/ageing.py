@@ -122,7 +122,7 @@ class GlobalAging:
 
     def __str__(self) -> str:
         of = self.binder or f"binder A = {self.intercept:g}, VTS = {self.slope:g}"
-        return f"Global Aging System, {self.age:g} years of {of}, air {self.mean_air:g} °C over the year"
+        return f"Global Aging System, {self.age:g} years of {of}, air {self.mean_air:.1f} °C over the year"
 
 
 @dataclass(frozen=True)
