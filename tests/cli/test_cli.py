@@ -261,6 +261,7 @@ def test_an_interrupted_run_leaves_nothing_behind(case, tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["case.toml"]
 
 
+@pytest.mark.slow
 def test_what_is_written_is_what_the_name_says(case, tmp_path):
     ran = call("run", case, "-o", tmp_path / "r.csv")
     assert ran.exit_code == 0, ran.output

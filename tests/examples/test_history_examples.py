@@ -8,6 +8,7 @@ import pytest
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
+@pytest.mark.slow
 def test_parking_turn(tmp_path, capsys):
     found = runpy.run_path(str(EXAMPLES / "parking_turn.py"))["main"](tmp_path, coarse=True)
     # The whole tread slides at 30°, all but a cell or two around the middle.
@@ -22,6 +23,7 @@ def test_parking_turn(tmp_path, capsys):
         assert (tmp_path / name).stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_transient_start(tmp_path, capsys):
     found = runpy.run_path(str(EXAMPLES / "transient_start.py"))["main"](tmp_path, coarse=True)
     # 1.2 m are four lengths of the contact: each forgets three quarters or more of what was.

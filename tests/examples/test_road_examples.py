@@ -26,6 +26,7 @@ def test_examples_are_valid_and_written_back(name):
     assert tl.Case.from_text(case.to_toml(), folder=FOLDER) == case
 
 
+@pytest.mark.slow
 def test_dual_wheels_of_tires_strain_the_base_as_the_standard_discs_do(tmp_path):
     result = tl.run_case(example("dual_wheel"))
     # The French method's load on the French structure: 100.0 microstrain at the base, between the wheels, where
@@ -51,6 +52,7 @@ def test_dual_wheels_of_tires_strain_the_base_as_the_standard_discs_do(tmp_path)
     assert names == ["EB-BBSG3", "EB-GB3", "PF3"]
 
 
+@pytest.mark.slow
 def test_a_delaminated_wearing_course_extends_at_its_underside():
     case = example("delaminated")
     result = tl.run_case(case)

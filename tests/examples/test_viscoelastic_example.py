@@ -8,6 +8,7 @@ import pytest
 EXAMPLE = Path(__file__).parents[2] / "examples" / "rolling_resistance.py"
 
 
+@pytest.mark.slow
 def test_rolling_resistance(tmp_path, capsys):
     found = runpy.run_path(str(EXAMPLE))["main"](tmp_path, spacing=12e-3, speeds=(0.1, 20.0, 500.0))
     one, five = found.values()

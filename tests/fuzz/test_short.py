@@ -6,7 +6,14 @@ from fuzz.runner import attack_of, run
 
 
 @pytest.mark.parametrize(
-    ("kind", "count"), [("cases", 200), ("tables", 200), ("meshes", 20), ("results", 40), ("footprints", 150)]
+    ("kind", "count"),
+    [
+        ("cases", 200),
+        ("tables", 200),
+        ("meshes", 20),
+        pytest.param("results", 40, marks=pytest.mark.slow),
+        ("footprints", 150),
+    ],
 )
 def test_nothing_breaks(kind, count):
     tally = run(kind, attack_of(kind), seed=1, indices=range(count))

@@ -1,6 +1,7 @@
 """Moving loads: what holds for any road, load and speed."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -53,6 +54,7 @@ def test_a_mirrored_load_gives_the_mirrored_field(solid, load, speed):
         assert np.abs(one[name].to_numpy() - flipped).max() <= 1e-9 * np.abs(flipped).max(), name
 
 
+@pytest.mark.slow
 @settings(max_examples=2, deadline=None)
 @given(solid=solids, first=loads, speed=st.floats(0.1, 50.0))
 def test_loads_add_up(solid, first, speed):

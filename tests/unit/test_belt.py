@@ -259,6 +259,7 @@ def test_a_tread_that_remembers_presses_harder_on_the_way_in():
     assert float(found.pressure_centre_x) > 1e-5
 
 
+@pytest.mark.slow
 def test_a_history_ends_in_steady_rolling(ribbed):
     tire = replace(ribbed, belt=replace(ribbed.belt, belt_radius=0.8))
     wheel = tl.Rolling(normal_load=6e3, friction=0.5, tractive_force=1e3)

@@ -70,6 +70,7 @@ def test_ahead_on_layers_by_a_part_of_a_cell_is_the_displacement_of_finer_cells(
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
 
 
+@pytest.mark.slow
 def test_a_history_on_layers_ends_in_steady_rolling_on_them():
     road = tl.Pavement([tl.Layer(tl.Elastic(7e9, 0.35), 0.01), tl.Layer(tl.Elastic(120e6, 0.35))])
     x = 2e-3 * (np.arange(20) - 9.5)

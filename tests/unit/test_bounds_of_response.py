@@ -24,6 +24,7 @@ THIN = Pavement([Layer(Elastic(5e9, 0.35), 1e-3), Layer(Elastic(1e8, 0.35))])
 @pytest.mark.parametrize(
     "load", [UniformDisc(0.1, 8e5), GridLoad(Grid.centred(0.2, 0.2, 0.02), np.full((10, 10), 8e5))]
 )
+@pytest.mark.slow
 def test_a_refusal_of_too_many_wavenumbers_tells_more_than_the_most(load):
     with pytest.raises(InputError, match="wavenumbers, more than") as raised:
         tl.solve_response(load, THIN, depths=[1e-3], x=[0.0, 400.0], y=[0.0, 400.0])

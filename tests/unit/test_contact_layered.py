@@ -157,6 +157,7 @@ def test_refused():
         contact(STEEL, road(tl.FRICTIONLESS), road_compliance="layers")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("speed", "limit"), [(1e-7, "rubbery"), (1e9, "glassy")])
 def test_a_tire_that_remembers_on_layers(speed, limit):
     """Rolling slowly and fast it is one of its elastic limits, on layers that make a third of the compliance."""

@@ -53,7 +53,7 @@ def test_files_of_others(tmp_path):
 @pytest.mark.parametrize(
     ("text", "word"),
     [
-        ('[a]\nkind = "maxwell"\n', "a: no material of the kind 'maxwell'; known are elastic, "),
+        ('[a]\nkind = "maxwell"\n', "a: no material of the kind 'maxwell'; known are 2s2p1d, .*elastic, "),
         ('[a]\nkind = "prony"\nmodulus = 1e9\npoisson = 0.3\n', "'a.terms' is missing"),
         ('[a]\nkind = "prony"\nmodulus = 1e9\nterms = [[0.5]]\npoisson = 0.3\n', "'a.terms.0.1' is missing"),
         ('[a]\nkind = "prony"\nmodulus = -1\nterms = [[0.5, 1]]\npoisson = 0.3\n', "a: modulus must be"),
