@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 
 import treadload as tl
 from treadload.plots import new_figure, save
-from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
+from treadload.plots.kit.style import CASES, MUTED, open_axes, styled
 
 HERE = Path(__file__).parent
 PLACES = {"motorway": "Motorway", "exit_curve": "Exit curve", "bus_stop": "Bus stop"}
@@ -107,9 +107,8 @@ def depths(results: dict[tuple[str, str], tl.LifeResult]) -> Figure:
     axes[0].invert_yaxis()
     axes[0].set_ylabel("depth of the crack (mm)")
     axes[-1].legend(loc="lower right", frameon=False)
-    headline(
-        figure, "How deep a crack from the surface is", "half of the roads; shaded: 5 to 95 %; dotted: design life"
-    )
+    told = "half of the roads, shaded 5 to 95 %, dotted the design life"
+    figure.suptitle(f"How deep a crack from the surface is: {told}", x=0.01, ha="left", fontweight="bold")
     return figure
 
 

@@ -167,9 +167,16 @@ def test_a_strain_above_five_per_cent_is_told():
 
 
 @pytest.mark.slow
-def test_a_road_that_does_not_come_to_rest_says_so_with_the_load_that_would():
+def test_a_road_that_does_not_come_to_rest_says_so_with_the_load_that_would(monkeypatch):
     perfect = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, VonMises(0.2e6)))
-    done = tl.roll_passes(DISC, perfect, passes=3, spacing=0.04, layers=5)
+    # By means over cells every pass of this road settles, on 0.025 and 0.02 m as well: it yields as much each time
+    # and is left with less and less.
+    assert tl.roll_passes(DISC, perfect, passes=3, spacing=0.04, layers=5).verdict == "cyclic"
+    with monkeypatch.context() as hasty:
+        # Given up after three rounds it does not.
+        hasty.setattr("treadload.response.passes.steady._PATIENCE", 3)
+        hasty.setattr("treadload.response.passes.steady._FAR", 1e-9)
+        done = tl.roll_passes(DISC, perfect, passes=3, spacing=0.04, layers=5)
     assert done.verdict == "ratchetting"
     (text,) = [text for text in done.warnings if "no steady state" in text]
     factor = done.dataset.attrs["shakedown_load_factor"]
