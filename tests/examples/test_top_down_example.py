@@ -3,6 +3,7 @@
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import treadload as tl
@@ -21,6 +22,20 @@ def test_top_down(tmp_path, capsys):
     assert {path.name for path in tmp_path.iterdir()} == written
     opened = tl.open_results(tmp_path / "bus_stop_belt.nc")
     assert opened.growth.years_to(0.04) == pytest.approx(results["bus_stop", "belt"].growth.years_to(0.04), rel=1e-12)
+
+
+@pytest.mark.slow
+def test_a_kinked_crack_below_twelve_profiles_starts_in_the_nearest_season_solved():
+    changes = ["spacing=0.024", "climate.parts_of_day=1", 'growth.path="kinked"', "growth.steps=3"]
+    case = tl.LifeCase.from_toml(EXAMPLE / "bus_stop.toml", changes=changes)
+    result = tl.run_life(case, workers=1)
+    assert len(result.life.climate.seasons) == 12
+    # Eight of them are solved for each of four classes.
+    assert result.growth.stats["responses"] == 32
+    years = result.growth.dataset["reach_years"].to_numpy()
+    assert (np.diff(years) > 0).all()
+    # A climate of profiles has no one temperature.
+    assert np.isnan(result.equivalents.dataset["equivalent_temperature"]).all()
 
 
 @pytest.mark.parametrize("place", ["motorway", "exit_curve", "bus_stop"])
