@@ -101,12 +101,13 @@ def depths(results: dict[tuple[str, str], tl.LifeResult]) -> Figure:
         years = results[place, "belt"].life.traffic.years
         axis.axvline(years, color=MUTED, linewidth=0.8, linestyle=":")
         axis.set_xscale("log")
-        axis.set_xlim(0.3, 1000)
+        axis.set_xlim(5, 1000)
+        axis.xaxis.set_major_formatter("{x:g}")
         axis.set_title(PLACES[place], loc="left")
         axis.set_xlabel("years from the opening")
     axes[0].invert_yaxis()
     axes[0].set_ylabel("depth of the crack (mm)")
-    axes[-1].legend(loc="lower right", frameon=False)
+    axes[-1].legend(loc="lower left", frameon=False)
     told = "half of the roads, shaded 5 to 95 %, dotted the design life"
     figure.suptitle(f"How deep a crack from the surface is: {told}", x=0.01, ha="left", fontweight="bold")
     return figure
