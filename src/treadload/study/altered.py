@@ -48,11 +48,6 @@ def stiffer(road: Pavement, number: int, factor: float) -> Pavement:
     return Pavement(layers, rigid_base=road.rigid_base)
 
 
-def warmer(climate: Climate, degrees: float) -> Climate:
-    """The climate with all its seasons warmer by so many degrees."""
-    return climate.warmer(degrees)
-
-
 def names_of(road: Pavement) -> list[str]:
     """What tables call the layers: their names, with their numbers where several have one."""
     names = [layer.name or f"layer {k}" for k, layer in enumerate(road.layers, start=1)]

@@ -62,7 +62,7 @@ def nodes_of_climate(warmth: Array | None, count: int) -> list[int]:
     return sorted(kept)
 
 
-def in_seasons(warmth: Array | None, nodes: list[int], ranges: Array) -> Array:
+def over_seasons(warmth: Array | None, nodes: list[int], ranges: Array) -> Array:
     """Ranges in all roads (road, ...), from those (nodes, ...) that were solved."""
     if warmth is None or len(nodes) == len(warmth):
         return ranges

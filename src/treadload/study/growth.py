@@ -41,9 +41,9 @@ from treadload.study.contacts import Contacts, Counter, Progress
 from treadload.study.crossings import (
     between_rows,
     distances_to,
-    in_seasons,
     lines,
     nodes_of_climate,
+    over_seasons,
     stresses,
 )
 from treadload.study.seasons import Warm, Warmed, roads_of
@@ -150,7 +150,7 @@ def grow_cracks(
         own = np.stack([between_rows(rows[row, one], y, found[row, one]) for one in nodes])
         largest[row] = own.max(axis=(0, -1)).transpose(0, 2, 1)
         roads = warm.by_class[row]
-        every_road = in_seasons(warmth_of(seasons, [one.road for one in roads]), nodes, own)
+        every_road = over_seasons(warmth_of(seasons, [one.road for one in roads]), nodes, own)
         for season, number_of in zip(seasons, warm.where, strict=True):
             told, share = every_road[number_of], classes[row].share * season.share
             for k in range(len(solved)):

@@ -23,7 +23,7 @@ from treadload.kernels.arrays import Array
 from treadload.materials import Mix
 from treadload.materials.kinds import AnyElastic
 from treadload.pavement import Pavement
-from treadload.study.altered import Question, Solver, in_seasons, most, names_of, stiffer, thicker, warmer
+from treadload.study.altered import Question, Solver, in_seasons, most, names_of, stiffer, thicker
 from treadload.study.contacts import Contacts, Progress
 from treadload.tire import Tire
 
@@ -198,7 +198,7 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
         else:
             skipped.append(f"modulus of {label}: it is viscoelastic")
     if any(layer.depends_on_temperature for layer in road.layers):
-        changes[TEMPERATURE] = lambda sign: (road, traffic, warmer(climate, sign * _DEGREES))
+        changes[TEMPERATURE] = lambda sign: (road, traffic, climate.warmer(sign * _DEGREES))
     return changes, skipped
 
 

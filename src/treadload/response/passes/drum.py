@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -39,7 +39,17 @@ from treadload.response.passes.dents import Dents
 from treadload.response.passes.fields import cautions, passes_dataset
 from treadload.response.passes.solution import Passes
 from treadload.response.passes.steady import Pass, Track, roll, taken
-from treadload.response.passes.stepping import GROWN, GROWTHS, REACHED, Record, follow, verdict_of
+from treadload.response.passes.stepping import (
+    GROWN,
+    GROWTHS,
+    REACHED,
+    Record,
+    check_depth,
+    follow,
+    grown,
+    too_far,
+    verdict_of,
+)
 from treadload.response.several import Question, answers
 from treadload.tire import Tire
 
@@ -226,26 +236,14 @@ def _grown(
             continue
         if not (ends > REACHED).any():
             return records, rolled, told, attrs
-        if ends[4] > REACHED and question.depth is not None:
-            raise InputError(
-                f"the plastic zone reaches the depth of the box, {question.depth:g} m: the last row takes "
-                f"{100 * ends[4]:.0f} % of the largest plastic strain; raise depth, or leave it out"
-            )
+        check_depth(question, ends)
         if fixed and (ends[:4] > REACHED).any():
             raise InputError(
                 f"the plastic zone reaches the sides of the height map, {box.nx * box.dx * 1e3:.0f} x "
                 f"{box.ny * box.dy * 1e3:.0f} mm; give a larger one, NaN where there is no material"
             )
-        reached = np.where(ends > REACHED, GROWN, 0.0)
-        box = box.grown(*reached[:4].tolist())
-        if reached[4]:
-            top = question.courses[0].top
-            deeper = top + (box.edges[-1] - top) * (1 + GROWN)
-            box = replace(box, edges=row_edges(question.courses, 0.8 * box.dx, deeper, question.layers))
-    raise InputError(
-        f"the plastic zone reaches the sides of a box of {box} and grew with it {GROWTHS} times: this load is far "
-        "above what the road bears; lower it, or give a stronger law"
-    )
+        box = grown(question, box, ends, box.dx)
+    raise too_far(box)
 
 
 def _rolled(question: Asked, drum: Tire, pair: Pair, box: Box, load: float) -> _Rolled:

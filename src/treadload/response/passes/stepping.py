@@ -61,18 +61,34 @@ def by_steps(question: Asked, passes: int, tolerance: float) -> tuple[Box, list[
         records, ends, told = _run(question, track, passes, tolerance)
         if not (ends > REACHED).any():
             return box, records, told
-        if ends[4] > REACHED and question.depth is not None:
-            raise InputError(
-                f"the plastic zone reaches the depth of the box, {question.depth:g} m: the last row takes "
-                f"{100 * ends[4]:.0f} % of the largest plastic strain; raise depth, or leave it out"
-            )
-        reached = np.where(ends > REACHED, GROWN, 0.0)
-        box = box.grown(*reached[:4].tolist())
-        if reached[4]:
-            top = question.courses[0].top
-            deeper = top + (box.edges[-1] - top) * (1 + GROWN)
-            box = replace(box, edges=row_edges(question.courses, 0.8 * question.spacing, deeper, question.layers))
-    raise InputError(
+        check_depth(question, ends)
+        box = grown(question, box, ends, question.spacing)
+    raise too_far(box)
+
+
+def check_depth(question: Asked, ends: Array) -> None:
+    """Raise InputError where the plastic zone reaches the depth that was asked for. ends: see `Pass`."""
+    if ends[4] > REACHED and question.depth is not None:
+        raise InputError(
+            f"the plastic zone reaches the depth of the box, {question.depth:g} m: the last row takes "
+            f"{100 * ends[4]:.0f} % of the largest plastic strain; raise depth, or leave it out"
+        )
+
+
+def grown(question: Asked, box: Box, ends: Array, cell: float) -> Box:
+    """The box, larger on the sides that the plastic zone reaches. ends: see `Pass`. cell: that sets its rows, m."""
+    reached = np.where(ends > REACHED, GROWN, 0.0)
+    box = box.grown(*reached[:4].tolist())
+    if not reached[4]:
+        return box
+    top = question.courses[0].top
+    deeper = top + (box.edges[-1] - top) * (1 + GROWN)
+    return replace(box, edges=row_edges(question.courses, 0.8 * cell, deeper, question.layers))
+
+
+def too_far(box: Box) -> InputError:
+    """What to raise where a box grew as often as it may."""
+    return InputError(
         f"the plastic zone reaches the sides of a box of {box} and grew with it {GROWTHS} times: this load is far "
         "above what the road bears; lower it, or give a stronger law"
     )

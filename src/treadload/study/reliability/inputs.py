@@ -16,7 +16,7 @@ from treadload.materials.kinds import AnyElastic
 from treadload.materials.plastic import elastic_part
 from treadload.pavement import Pavement
 from treadload.pavement.asphalt import is_bituminous
-from treadload.study.altered import Question, names_of, stiffer, thicker, warmer
+from treadload.study.altered import Question, names_of, stiffer, thicker
 
 ASPHALT, TEMPERATURE = "thickness of the asphalt", "temperature"
 TRAFFIC, FATIGUE, INTERPOLATION = "traffic", "fatigue", "interpolation"
@@ -49,7 +49,7 @@ def inputs_of(road: Pavement, scatter: Scatter) -> tuple[tuple[Input, ...], tupl
                     TEMPERATURE,
                     f"{deviation:g} °C",
                     math.nan,
-                    lambda road, climate, z: (road, warmer(climate, z * deviation)),
+                    lambda road, climate, z: (road, climate.warmer(z * deviation)),
                 )
             )
         else:
