@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -56,14 +57,14 @@ def criteria(
         ('what a criterion can read: reads = "…"', quantities_listed()),
         ('by which laws: law = "…"; numbers in brackets may be left out, or are the layer\'s own', laws_listed()),
     )
-    heads = ("unit", "what it is and asks for", "source", "calibrated")
     for title, rows in parts:
-        table = Table(shell.names(), *heads, title=title, title_justify="left", show_lines=True)
+        shell.out.print(Text(title, style="bold underline"))
         for one in rows:
-            called = f"{one.name} ({one.package})" if one.package else one.name
-            told = f"{one.words}. Asks for: {one.asks}" + (f". Damage 1: {one.ends}" if one.ends else "")
-            table.add_row(*map(Text, (called, one.unit or "–", told, one.source, one.calibrated)))
-        shell.out.print(table)
+            named, *told = str(one).splitlines()
+            shell.out.print(Text(named, style="bold"))
+            for line in told:  # no table: five columns of sentences are not read in a terminal of 80 characters
+                shell.out.print(Padding.indent(Text(line.strip()), 4), soft_wrap=False)
+        shell.out.print()
 
 
 def _kinds() -> Table:
