@@ -24,6 +24,7 @@ _COORDINATES = {
 _CONTACT = {
     "initial_gap": ("m", "separation before loading"),
     "gap": ("m", "separation after loading"),
+    "road_height": ("m", "height of the road's surface above its plane, up positive"),
     "pressure": ("Pa", "contact pressure"),
     "traction_x": ("Pa", "shear exerted by the tire on the road along travel"),
     "traction_y": ("Pa", "shear exerted by the tire on the road to the right"),

@@ -28,7 +28,7 @@ class Contact(BaseResult, group="contact"):
             "pressure traction_x traction_y state": "y x",
             "approach normal_load tractive_force lateral_force aligning_moment creepage_x creepage_y spin": "",
         },
-        maybe={"friction_work_total friction_power_total": "", "flash_temperature": "y x"},
+        maybe={"friction_work_total friction_power_total": "", "flash_temperature road_height": "y x"},
         numbers="dx dy",
         positive="dx dy",
         stats=("road_share layer_share layers_solved",),

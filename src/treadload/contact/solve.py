@@ -16,6 +16,7 @@ from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.layers import RoadShare, half_space_share, road_share
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
+from treadload.contact.relief import above, doubts_of, heights_on
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.coupling import Coupled, Progress, Start, solve_coupled
@@ -25,6 +26,7 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.materials import Anisotropic, TransverselyIsotropic
 from treadload.pavement import Pavement
+from treadload.pavement.relief import Relief
 from treadload.pavement.stack import stack_of
 from treadload.tire import Tire
 
@@ -53,6 +55,7 @@ def solve_contact(
     spacing: float | None = None,
     tolerance: float = 1e-6,
     road_compliance: RoadCompliance = "half_space",
+    relief: Relief | None = None,
     start: Contact | None = None,
     progress: Progress | None = None,
 ) -> Contact:
@@ -64,6 +67,8 @@ def solve_contact(
     serves every soft tire, or as the "layers" do, which a steel wheel or a plate needs. The stats say how much
     of the compliance is the road's (road_share) and what its layers change (layer_share); a warning says when
     layers left out matter. An elastic tire and elastic layers only.
+    relief: how far the road's surface rises above its plane, as a `pavement.Texture` or any `pavement.Relief`; None
+    for a plane. The approach is then counted from the plane, and the dataset has `road_height`.
     spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
     tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp,
     and of the coupling between them. start: a contact near this one: its grid serves again where it
@@ -88,10 +93,11 @@ def solve_contact(
         bodies.both.check_shear()
     tell("locating the contact")
     # A tire that remembers makes its largest contact where it rolls slowly.
+    over = tire if relief is None else above(tire, relief)
     if start is None:
-        grid, gap = place(tire, rolling, bodies.both, spacing)
+        grid, gap = place(over, rolling, bodies.both, spacing)
     else:
-        grid, gap = _same_place(tire, rolling, bodies.both, start, spacing)
+        grid, gap = _same_place(over, rolling, bodies.both, start, spacing)
     near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start)
     while True:
         scene = Scene(tire, road, bodies, grid, gap)
@@ -114,9 +120,9 @@ def solve_contact(
             if wider is None:
                 raise
             # Shear of dissimilar bodies has carried the contact beyond its grid.
-            grid, gap, near = wider, tire.height_map(wider), None
+            grid, gap, near = wider, over.height_map(wider), None
         else:
-            return _contact(scene, rolling, pair, road_compliance, time.perf_counter() - began)
+            return _contact(scene, rolling, pair, road_compliance, relief, time.perf_counter() - began)
 
 
 def place(tire: Tire, rolling: Rolling, bodies: Body, spacing: float | None) -> tuple[Grid, Array]:
@@ -224,7 +230,12 @@ def check_border(pressure: Array, grid: Grid) -> None:
 
 
 def _contact(
-    scene: Scene, rolling: Rolling, pair: Coupled, road_compliance: RoadCompliance, seconds: float
+    scene: Scene,
+    rolling: Rolling,
+    pair: Coupled,
+    road_compliance: RoadCompliance,
+    relief: Relief | None,
+    seconds: float,
 ) -> Contact:
     tire, road, grid = scene.tire, scene.road, scene.grid
     normal, slipping, tangential = pair.normal, pair.slipping, pair.slipping.tangential
@@ -251,6 +262,8 @@ def _contact(
         with np.errstate(over="ignore"):
             planes["friction_power"] = work * rolling.speed
             scalars["friction_power_total"] = lost * rolling.speed
+    if relief is not None:
+        planes["road_height"] = heights_on(relief, grid)
     if slipping.temperature is not None:
         planes["flash_temperature"] = slipping.temperature
     data = contact_dataset(
@@ -276,6 +289,7 @@ def _contact(
         *cautions.of_tire(tire),
         *cautions.of_rolling(tire, rolling),
         *cautions.of_numbers(tire, rolling, grid),
+        *(() if relief is None else doubts_of(relief, grid)),
     ]
     if pair.splitting:
         warnings.append(f"Newton's method stalled and went on after {pair.splitting} steps of the slower splitting")

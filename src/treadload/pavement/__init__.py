@@ -6,6 +6,7 @@ from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, Bo
 from treadload.pavement.catalogue import Structure
 from treadload.pavement.heating import Heat, RoadTemperatures, bells, road_temperatures
 from treadload.pavement.layer import Layer
+from treadload.pavement.relief import Relief
 from treadload.pavement.rows import LayerRow, layer_rows, road_in_words
 from treadload.pavement.structure import Pavement
 from treadload.pavement.sublayers import divided
@@ -25,6 +26,7 @@ __all__ = [
     "LayerRow",
     "Parted",
     "Pavement",
+    "Relief",
     "RoadTemperatures",
     "ShearTest",
     "Structure",
