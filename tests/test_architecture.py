@@ -165,7 +165,10 @@ def test_a_circle_would_be_seen():
     assert not circles({"a": {"b", "c"}, "b": {"c"}, "c": set()})
 
 
-@pytest.mark.parametrize("package", ["kernels", "contact", "damage", "plots", "results", "catalogue", "study"])
+INNER = ["kernels", "contact", "damage", "plots", "results", "catalogue", "study", "tire"]
+
+
+@pytest.mark.parametrize("package", INNER)
 def test_inner_rooms_form_no_circle(package):
     """An inner room, or a module beside the inner rooms, is one node."""
 

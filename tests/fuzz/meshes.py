@@ -13,13 +13,13 @@ from unittest import mock
 
 import numpy as np
 
-import treadload.tire.axis
-import treadload.tire.scan
-import treadload.tire.scan_surface
+import treadload.tire.scan.axis
+import treadload.tire.scan.pipeline
+import treadload.tire.scan.surface
 from fuzz.runner import REFUSED, TAKEN, Refusal, WrongAnswer, ask
 from treadload.tire import Tire
-from treadload.tire.axis import sample_surface
-from treadload.tire.rays import revolved
+from treadload.tire.scan.axis import sample_surface
+from treadload.tire.scan.rays import revolved
 
 # A small wheel: the rays that a scan takes go with its width.
 _RADIUS, _WIDTH = 0.3, 0.12
@@ -63,10 +63,10 @@ def attack(rng: random.Random, folder: Path) -> str:
 def _sparse() -> Iterator[None]:
     few = functools.partial(sample_surface, count=2000)
     with (
-        mock.patch.object(treadload.tire.scan, "sample_surface", few),
-        mock.patch.object(treadload.tire.axis, "SMOOTHING_NEIGHBOURS", 10),
-        mock.patch.object(treadload.tire.scan_surface, "revolved", functools.partial(revolved, step=np.pi / 36)),
-        mock.patch.object(treadload.tire.scan_surface, "STANDARD_SPACING", 12e-3),
+        mock.patch.object(treadload.tire.scan.pipeline, "sample_surface", few),
+        mock.patch.object(treadload.tire.scan.axis, "SMOOTHING_NEIGHBOURS", 10),
+        mock.patch.object(treadload.tire.scan.surface, "revolved", functools.partial(revolved, step=np.pi / 36)),
+        mock.patch.object(treadload.tire.scan.surface, "STANDARD_SPACING", 12e-3),
     ):
         yield
 

@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from treadload.grid import Grid
 from treadload.tire import Tire, example_mesh
-from treadload.tire.axis import fit_axis, sample_surface
-from treadload.tire.mesh_file import read_mesh
+from treadload.tire.scan.axis import fit_axis, sample_surface
+from treadload.tire.scan.mesh_file import read_mesh
 
 trimesh = pytest.importorskip("trimesh")
 

@@ -10,7 +10,7 @@ from tire_meshes import RIB_TREAD, pose, tire_mesh, write
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.tire import Tire, example_mesh
-from treadload.tire.axis import fit_axis, sample_surface
+from treadload.tire.scan.axis import fit_axis, sample_surface
 
 trimesh = pytest.importorskip("trimesh")
 

@@ -13,7 +13,7 @@ from tire_meshes import RIB_TREAD, lugged_mesh, stick_out, tire_mesh, write
 from treadload.cli import app
 from treadload.errors import GeometryError, InputError
 from treadload.tire import Tire, example_mesh
-from treadload.tire.noise import roughness, smoothing_length
+from treadload.tire.scan.noise import roughness, smoothing_length
 
 MESHES = Path(__file__).parents[1] / "data" / "tire_meshes"
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))

@@ -29,7 +29,7 @@ def scan(
     from treadload.results import height_map
     from treadload.results.exports import check_output, write
     from treadload.tire import Tire
-    from treadload.tire.scan_options import revolve_choice, smooth_choice
+    from treadload.tire.scan.options import revolve_choice, smooth_choice
     from treadload.units import quantity
 
     if output is not None:

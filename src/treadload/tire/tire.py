@@ -174,8 +174,8 @@ class Tire:
         Raises InputError (file, units, trimesh missing) and GeometryError (no tire in it).
         """
         # Reading a scan needs trimesh, which is an extra.
-        from treadload.tire.scan import read_scan
-        from treadload.tire.scan_options import ScanOptions
+        from treadload.tire.scan.options import ScanOptions
+        from treadload.tire.scan.pipeline import read_scan
 
         options = ScanOptions(
             units=units,

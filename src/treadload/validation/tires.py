@@ -84,8 +84,8 @@ def mesh_checks() -> Iterator[Check]:
 
 def axis_error() -> float:
     """Angle in degrees between the axle fitted to the example mesh and the one it was turned to."""
-    from treadload.tire.axis import fit_axis, sample_surface
-    from treadload.tire.mesh_file import read_mesh
+    from treadload.tire.scan.axis import fit_axis, sample_surface
+    from treadload.tire.scan.mesh_file import read_mesh
 
     mesh = read_mesh(example_mesh())
     a, b = 0.7, -0.4

@@ -12,9 +12,9 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.tire.meridian import row_quantile
-from treadload.tire.mesh_file import Mesh
 from treadload.tire.quality import Outlier
+from treadload.tire.scan.meridian import row_quantile
+from treadload.tire.scan.mesh_file import Mesh
 
 Indices = NDArray[np.int64]
 

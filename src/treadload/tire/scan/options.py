@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 
 from treadload.errors import InputError
-from treadload.tire.scan_surface import Choice
-from treadload.tire.scan_units import POSSIBLE_DIAMETERS, unit_name
+from treadload.tire.scan.surface import Choice
+from treadload.tire.scan.units import POSSIBLE_DIAMETERS, unit_name
 from treadload.units import quantity
 
 Smooth = Literal[False, "auto"] | float

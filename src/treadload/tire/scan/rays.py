@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from treadload.errors import InputError, how_to_install
 from treadload.kernels.arrays import Array
-from treadload.tire.mesh_file import import_trimesh
+from treadload.tire.scan.mesh_file import import_trimesh
 
 
 class Caster:

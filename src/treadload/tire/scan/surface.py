@@ -14,10 +14,10 @@ from scipy import ndimage
 from treadload.errors import GeometryError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.tire import meridian as unrolling
 from treadload.tire.crown import arc_radius
 from treadload.tire.quality import ScanQuality
-from treadload.tire.rays import Caster, revolved, vertical
+from treadload.tire.scan import meridian as unrolling
+from treadload.tire.scan.rays import Caster, revolved, vertical
 from treadload.tire.surface import fingerprint
 from treadload.tire.tread import EXTENT_HEIGHT, EXTENT_MARGIN
 

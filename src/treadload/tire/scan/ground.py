@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from treadload.tire.axis import sample_surface
-from treadload.tire.mesh_file import FEWEST_FACES, Mesh
+from treadload.tire.scan.axis import sample_surface
+from treadload.tire.scan.mesh_file import FEWEST_FACES, Mesh
 
 TRIALS = 400
 THICKNESS = 0.004  # of the floor over the size of the scan

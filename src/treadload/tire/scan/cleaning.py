@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from treadload.tire.noise import ROUGH, roughness, smoothing_length
-from treadload.tire.scan_options import Smooth
-from treadload.tire.scan_surface import Choice
+from treadload.tire.scan.noise import ROUGH, roughness, smoothing_length
+from treadload.tire.scan.options import Smooth
+from treadload.tire.scan.surface import Choice
 
 LARGEST_SAG = 0.1e-3  # facets that cut this deep raise the peak pressure by 3 to 4 %
 LARGEST_NOISE = 0.05e-3  # noise of this size raises the peak pressure by 5 to 7 % on points 3 to 5 mm apart

@@ -11,18 +11,18 @@ from scipy import ndimage
 
 from treadload.errors import GeometryError, InputError
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.tire import meridian as unrolling
-from treadload.tire import outliers as sticking
-from treadload.tire.axis import Axis, across, fit_axis, sample_surface
-from treadload.tire.cleaning import decide_revolve, decide_smoothing
-from treadload.tire.ground import without_ground
-from treadload.tire.mesh_file import Mesh, read_mesh
-from treadload.tire.noise import BAND, apart, radial_noise, smoothed, unrolled
 from treadload.tire.quality import Outlier, ScanQuality
-from treadload.tire.rays import Caster, radial
-from treadload.tire.scan_options import ScanOptions
-from treadload.tire.scan_surface import DEEPEST, EXTENT_DROP, SECTOR, SMALL_HOLES, ScanSurface
-from treadload.tire.scan_units import check_diameter, scale_of
+from treadload.tire.scan import meridian as unrolling
+from treadload.tire.scan import outliers as sticking
+from treadload.tire.scan.axis import Axis, across, fit_axis, sample_surface
+from treadload.tire.scan.cleaning import decide_revolve, decide_smoothing
+from treadload.tire.scan.ground import without_ground
+from treadload.tire.scan.mesh_file import Mesh, read_mesh
+from treadload.tire.scan.noise import BAND, apart, radial_noise, smoothed, unrolled
+from treadload.tire.scan.options import ScanOptions
+from treadload.tire.scan.rays import Caster, radial
+from treadload.tire.scan.surface import DEEPEST, EXTENT_DROP, SECTOR, SMALL_HOLES, ScanSurface
+from treadload.tire.scan.units import check_diameter, scale_of
 
 POSSIBLE_PROPORTIONS = (0.1, 0.8)  # width over outer diameter
 LUG_WINDOW = math.radians(30)  # the next lug is nearer than this
