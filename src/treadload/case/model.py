@@ -11,11 +11,13 @@ from treadload.case.choices import TIRE_MATERIAL
 from treadload.case.file import FilePart
 from treadload.case.loading import FootprintPart
 from treadload.case.passes import PassesPart
+from treadload.case.pressing import DrumPart, IndentationPart
 from treadload.case.response import ResponsePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
 from treadload.contact import Rolling
 from treadload.contact.bodies.choose import RoadCompliance, surface_of
+from treadload.contact.indentation import check_indented
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.kernels.layers.depths import same_depth
@@ -61,10 +63,13 @@ class Case(FilePart):
     half-space. tire: its surface and what it is made of. pavement: the road. rolling: load, friction, forces.
     footprint: recorded contact stress in place of tire and rolling. response: where the road is read. damage: what it
     does to the surface. passes: how often it rolls over a road that yields.
-    aggregates: stones in the mortar of the top layer, in a window.
+    aggregates: stones in the mortar of the top layer, in a window. indentation, drum: in place of rolling and what
+    follows, a body that dents its road, which `treadload.study.run_dents` and `treadload run` solve.
     """
 
-    own_tables: ClassVar = ("rolling", "footprint", "response", "damage", "passes", "aggregates")
+    own_tables: ClassVar = (
+        "rolling", "footprint", "response", "damage", "passes", "aggregates", "indentation", "drum",
+    )  # fmt: skip
     how_to_run: ClassVar = "the case of a wheel: use `treadload run {name}`, in Python Case"
 
     spacing: Length | None = None
@@ -78,6 +83,8 @@ class Case(FilePart):
     damage: DamagePart | None = None
     passes: PassesPart | None = None
     aggregates: AggregatesPart | None = None
+    indentation: IndentationPart | None = None
+    drum: DrumPart | None = None
 
     @model_validator(mode="after")
     def _buildable(self) -> Case:
@@ -85,6 +92,9 @@ class Case(FilePart):
             raise ValueError(f"tolerance must lie in [1e-12, 1e-2], got {self.tolerance:g}; 1e-6 is the default")
         # Building what is cheap to build finds wrong values before any file is read.
         road = self.pavement.build()
+        if self.dents:
+            self._check_dents(road)
+            return self
         self._check_loading(road)
         if road.is_viscoelastic and self.speed is None:
             raise ValueError("the road is viscoelastic: give the speed in [rolling] or [response]")
@@ -93,12 +103,8 @@ class Case(FilePart):
                 f"response.depths reach {max(self.response.depths):g} m, below the rigid base at "
                 f"{road.interfaces[-1]:g} m"
             )
-        yields = any(isinstance(layer.material, ElastoPlastic) for layer in road.layers)
-        if self.passes is not None and not yields:
-            raise ValueError(
-                "[passes] need a layer that can yield: give one of the layers a plasticity, "
-                'such as { kind = "mohr-coulomb", cohesion = "100 kPa", friction_angle = "35 deg" }'
-            )
+        if self.passes is not None:
+            _check_yields("[passes] need", road)
         if self.aggregates is not None:
             self.aggregates.road(road)
         if self.damage is not None:
@@ -109,6 +115,24 @@ class Case(FilePart):
                     f"{list(self.response.depths)} m; add it there"
                 )
         return self
+
+    def _check_dents(self, road: Pavement) -> None:
+        """Of a body pressed into its road, or rolled over its track."""
+        name = "drum" if self.indentation is None else "indentation"
+        takes = {"title", "tire", "pavement", name}
+        stray = sorted(self.model_fields_set & set(type(self).model_fields) - takes - {"folder"})
+        if stray:
+            raise ValueError(
+                f"[{name}] stands in place of [rolling] and what follows, with cells and a tolerance of its own; "
+                f"leave out {stray[0]}"
+            )
+        if self.tire is None:
+            raise ValueError(f"'tire' is missing: the body of [{name}], such as a profile with a material of steel")
+        if self.tire.belt is not None:
+            raise ValueError(f"[{name}] takes an elastic body; give tire.material in place of belt")
+        _check_yields(f"[{name}] needs", road)
+        if self.indentation is not None:
+            check_indented(road)
 
     def _check_loading(self, road: Pavement) -> None:
         if self.footprint is not None:
@@ -126,6 +150,11 @@ class Case(FilePart):
             raise ValueError('a belt carries by its inflation: give tire.inflation_pressure, such as "8.2 bar"')
         if self.tire.material is not None:
             surface_of(TIRE_MATERIAL.build(self.tire.material), is_tire=True, speed=self.rolling.speed)
+
+    @property
+    def dents(self) -> bool:
+        """True for a body that is pressed into its road, or rolls over its own track, in place of a wheel."""
+        return self.indentation is not None or self.drum is not None
 
     @property
     def speed(self) -> float | None:
@@ -148,6 +177,15 @@ class Case(FilePart):
     def build_rolling(self) -> Rolling:
         """The rolling state. Raises InputError for a case of a recorded footprint."""
         if self.rolling is None:
-            raise InputError("this case has a recorded footprint and no rolling state")
+            held = "a recorded footprint" if not self.dents else "an [indentation] or a [drum]"
+            raise InputError(f"this case has {held} and no rolling state")
         rolling: Rolling = self.rolling.build(self.folder)
         return rolling
+
+
+def _check_yields(who: str, road: Pavement) -> None:
+    if not any(isinstance(layer.material, ElastoPlastic) for layer in road.layers):
+        raise ValueError(
+            f"{who} a layer that can yield: give one of the layers a plasticity, "
+            'such as { kind = "mohr-coulomb", cohesion = "100 kPa", friction_angle = "35 deg" }'
+        )

@@ -23,11 +23,11 @@ def run(
     """Compute a case and write its result."""
     from treadload.case import Case
     from treadload.results.exports import write
-    from treadload.study import plan_case, run_case
+    from treadload.study import plan_case, run_case, run_dents
 
     def solve(question: Case, path: Path) -> tuple[HasSummary, tuple[Path, ...]]:
         with stages(shell.err, quiet=quiet) as tell:
-            result = run_case(question, progress=tell)
+            result = run_dents(question, progress=tell) if question.dents else run_case(question, progress=tell)
             tell(f"writing {path}")
             return result, write(result.to_tree(), path)
 

@@ -222,11 +222,15 @@ def solve_indentation(
     return Indentation(data, stats, warnings, tire, road, tuple(steps))
 
 
-def _checked(
-    road: Pavement, loads: Sequence[float], depth: float | None, layers: int, tolerance: float
-) -> tuple[ElastoPlastic, list[float]]:
+def check_indented(road: Pavement) -> ElastoPlastic:
+    """The material of a road that can be dented. Raises InputError for a road that this solver does not know."""
     material = road.layers[0].material
-    if not road.is_homogeneous or not isinstance(material, ElastoPlastic):
+    if not road.is_homogeneous:
+        raise InputError(
+            f"a road of {len(road.layers)} layers cannot be dented yet: stress and dent of plastic strain are those "
+            "of a half-space here; give Pavement.half_space of the layer that yields, or roll a drum, which knows layers"
+        )
+    if not isinstance(material, ElastoPlastic):
         raise InputError(
             "an indentation needs a half-space that yields: Pavement.half_space(ElastoPlastic(elastic, law))"
         )
@@ -235,6 +239,13 @@ def _checked(
             f"{type(material.law).__name__} follows time or passes, and a step of an indentation has neither; give "
             "VonMises, MohrCoulomb or DruckerPrager"
         )
+    return material
+
+
+def _checked(
+    road: Pavement, loads: Sequence[float], depth: float | None, layers: int, tolerance: float
+) -> tuple[ElastoPlastic, list[float]]:
+    material = check_indented(road)
     steps = [float(one) for one in np.atleast_1d(np.asarray(loads, dtype=float))]
     if not steps or not np.isfinite(steps).all() or min(steps) < 0 or max(steps) <= 0:
         raise InputError(f"loads must be numbers >= 0 N with one above, got {list(loads)}; 0 lifts the body off")

@@ -54,6 +54,8 @@ CITATIONS = {
     "asphalt pavements. Bull. Lab. Ponts Chaussées 258-259, 89-103.",
     "eigenstrain": "Chiu, Y. P. (1978). On the stress field and surface deformation in a half space with a cuboidal "
     "zone in which initial strains are uniform. J. Appl. Mech. 45, 302-306.",
+    "dents": "Jacq, C., Nélias, D., Lormand, G., Girodin, D. (2002). Development of a three-dimensional "
+    "semi-analytical elastic-plastic contact code. J. Tribol. 124, 653-667.",
     "passes": "Dang Van, K., Maitournam, M. H. (1993). Steady-state flow in classical elastoplasticity: applications "
     "to repeated rolling and sliding contact. J. Mech. Phys. Solids 41, 1691-1710.",
     "inclusions": "Zhou, K., Keer, L. M., Wang, Q. J. (2011). Semi-analytic solution for multiple interacting "
@@ -130,6 +132,14 @@ def _of_the_road(road: Pavement | None) -> list[str]:
 def passes_citations() -> list[str]:
     """References of the methods that passes over a road that yields use beside those of its response."""
     return [CITATIONS[key] for key in ("eigenstrain", "passes", "mixing")]
+
+
+def dents_citations() -> list[str]:
+    """References of the methods that a body in a road that yields uses."""
+    return [
+        CITATIONS[key]
+        for key in ("influence", "convolution", "normal", "preconditioner", "eigenstrain", "dents", "mixing")
+    ]
 
 
 def stones_citations() -> list[str]:

@@ -21,14 +21,21 @@ from treadload._version import __version__
 from treadload.case import Case
 from treadload.case.file import FilePart
 from treadload.composing import BaseResult
-from treadload.contact import Contact
+from treadload.contact import Contact, Indentation
 from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.pavement import LayerRow, Pavement, layer_rows, road_in_words
 from treadload.pavement.sublayers import middle_temperatures
 from treadload.response import GridLoad, Heterogeneous, Passes, Response
-from treadload.results.cite import case_citations, citations, life_citations, passes_citations, stones_citations
+from treadload.results.cite import (
+    case_citations,
+    citations,
+    dents_citations,
+    life_citations,
+    passes_citations,
+    stones_citations,
+)
 from treadload.results.dataset import Fields
 from treadload.results.questions import Writer
 from treadload.results.roads import rows_of
@@ -101,6 +108,8 @@ def to_tree(
     used = life_citations(road) if life is not None and contact is None else []
     used = case_citations(asked_case) if asked_case is not None and not used else used
     used = used or citations(contact, _last(own, Response), road)
+    if any(isinstance(part, Indentation) or getattr(part, "drum", None) is not None for part in own):
+        used = list(dict.fromkeys([*used, *dents_citations()]))
     if any(isinstance(part, Passes) for part in own):
         used = list(dict.fromkeys([*used, *passes_citations()]))
     if any(isinstance(part, Heterogeneous) for part in own):

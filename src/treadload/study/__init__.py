@@ -2,6 +2,7 @@
 
 from treadload.study.calibration import Calibration, calibrate
 from treadload.study.delamination import BondComparison, compare_bonds, solve_interfaces
+from treadload.study.dents import Dents, run_dents
 from treadload.study.designing import ThicknessDesign, design_thickness
 from treadload.study.equivalents import Equivalents, life_equivalents
 from treadload.study.growth import grow_cracks
@@ -24,6 +25,7 @@ __all__ = [
     "BondComparison",
     "Calibration",
     "CalibrationResult",
+    "Dents",
     "Equivalents",
     "LifeResult",
     "Morris",
@@ -54,6 +56,7 @@ __all__ = [
     "plan_life",
     "run_calibration",
     "run_case",
+    "run_dents",
     "run_life",
     "sampled",
     "shakedown_map",

@@ -17,6 +17,7 @@ from treadload.pavement import Pavement
 from treadload.response import GridLoad
 from treadload.response.doubts import question_doubts, road_doubts
 from treadload.results import road_in_rows
+from treadload.study.dents import plan_dents
 from treadload.study.doubts import traffic_doubts
 from treadload.study.reliability import roads_asked
 from treadload.study.run import map_grid, slice_depths
@@ -30,6 +31,8 @@ def plan_case(case: Case) -> str:
     Reads the tire, or the footprint, and finds where the contact lies. Raises the errors of reading, and those of
     forces that friction cannot carry.
     """
+    if case.dents:
+        return plan_dents(case)
     road, asked = case.pavement.build(), case.response
     lines: list[str] = []
     said: list[str] = []

@@ -16,6 +16,7 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact, solve_contact
 from treadload.damage import Verdict, assess
 from treadload.describing import first_line
+from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
@@ -199,6 +200,11 @@ def load_case(case: Case, tell: Progress, *, start: Contact | None = None, conta
 
     start: a contact near that of the case, see `solve_contact`. contact: that of the case, where it is known already.
     """
+    if case.dents:
+        raise InputError(
+            "this case dents its road, and has no wheel whose response could be read; solve it by "
+            "treadload.study.run_dents(case), or by `treadload run`"
+        )
     road, footprint = case.pavement.build(), None
     if case.footprint is None:
         contact = contact_of(case, road, tell, start=start) if contact is None else contact

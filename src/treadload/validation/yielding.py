@@ -8,14 +8,16 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from treadload.contact import solve_indentation
 from treadload.grid import Grid
 from treadload.kernels.eigenstrain.operator import moved_by_endless
 from treadload.kernels.plasticity.state import State
 from treadload.materials import Elastic, ElastoPlastic, MohrCoulomb, VonMises
 from treadload.pavement import Layer, Pavement
-from treadload.response import GridLoad, roll_passes
+from treadload.response import GridLoad, roll_drum, roll_passes
 from treadload.response.passes.box import Box
 from treadload.response.passes.surface import surface_profile
+from treadload.tire import Tire, TreadProfile
 from treadload.validation.check import Check, absolute, relative
 
 _ELASTIC = Elastic(1e9, 0.3)
@@ -37,6 +39,8 @@ def yielding_checks() -> Iterator[Check]:
         yield absolute("return maps", f"{name}: yield function over strength", worst, 0, 1e-12, "consistency")
     yield _first_yield()
     yield _surface()
+    yield from _pressed()
+    yield from _drum()
 
 
 def _first_yield() -> Check:
@@ -51,6 +55,46 @@ def _first_yield() -> Check:
     road = Pavement.half_space(ElastoPlastic(_ELASTIC, VonMises(1e6)))
     found = roll_passes(load, road, passes=1, spacing=0.05).dataset.attrs["elastic_load_factor"]
     return relative("rolling sphere", "peak pressure over yield stress at first yield", found, exact, 0.01, "Hertz")
+
+
+def _pressed() -> Iterator[Check]:
+    """A rigid sphere in an almost perfectly plastic half-space."""
+    soft, strength, radius, source = Elastic(1000.0, 0.3), 2.0, 100.0, "Kogut and Etsion (2002)"
+    peak = (0.454 + 0.41 * soft.poisson) * 2.8 * strength
+    first = (math.pi * peak * (1 - soft.poisson**2) / (2 * soft.modulus)) ** 2 * radius
+    load = 2 / 3 * peak * math.pi * first * radius
+    road, times = Pavement.half_space(ElastoPlastic(soft, VonMises(strength, hardening=1.0))), (3.0, 5.0)
+    size, cells = math.sqrt(first * radius) * times[-1] ** (1 / 3), 24
+    cell = 2.7 * size / cells
+    across = (np.arange(cells) - (cells - 1) / 2) * cell
+    ball = Tire.from_height_map(
+        (across[None] ** 2 + across[:, None] ** 2) / (2 * radius), cell, material=Elastic(1e9, 0.3)
+    )
+    done = solve_indentation(ball, road, [one * load for one in times], depth=2 * size, layers=10).dataset
+    for one, deep in zip(times, done["approach"].to_numpy() / first, strict=True):
+        # Their fits of finite elements are good to 2 or 3 %.
+        what = f"load over that of first yield at the depth found under {one:g}"
+        yield relative("indentation", what, one, 1.03 * deep**1.425, 0.04, source)
+
+
+def _drum() -> Iterator[Check]:
+    """A rigid ball that rolls just below the load of first yield: Hertz' contact, and no rut."""
+    radius, soil = 1.0, Elastic(100e6, 0.35)
+    road = Pavement.half_space(ElastoPlastic(soil, VonMises(0.4e6)))
+    ball = Tire.from_profile(
+        TreadProfile(rolling_radius=radius, crown_radius=radius, width=0.06), material=Elastic(1e15, 0.3)
+    )
+    plane = soil.modulus / (1 - soil.poisson**2)
+    peak = 1.55 * 0.4e6
+    load = (math.pi * peak) ** 3 * radius**2 / (6 * plane**2)
+    done = roll_drum(ball, road, load, passes=1, spacing=(2e-3, 2e-3), layers=6).dataset
+    sinks = (9 * load**2 / (16 * radius * plane**2)) ** (1 / 3)
+    # On twelve cells of contact.
+    yield relative("rolling drum", "peak pressure, Pa", float(done["peak_pressure"][0]), peak, 0.01, "Hertz")
+    yield relative("rolling drum", "approach, m", float(done["approach"][0]), sinks, 0.01, "Hertz")
+    yield absolute(
+        "rolling drum", "rut below first yield, m", float(done["rut_depth"][0]), 0, 0, "first yield at 1.60 Y"
+    )
 
 
 def _surface() -> Check:
