@@ -75,7 +75,7 @@ ONLY_IN = {
     "rich": ("cli",),
     "jinja2": ("reporting",),
     "nicegui": ("app",),
-    "plotly": ("app",),
+    "plotly": ("app", "plots"),
 }
 NUMBERS = ("numpy", "scipy", "xarray", "pandas")
 

@@ -16,12 +16,13 @@ from treadload.plots import profile as profiles
 from treadload.plots import response as response_figures
 from treadload.plots import rose as roses
 from treadload.plots import verdict as verdict_figures
+from treadload.plots.interactive import LinkedView, contact_view, response_view, verdict_view
 from treadload.plots.response import Strain
 
 
 @offers("plot", "Contact", "Footprint")
 class ContactPlots:
-    """Figures of a contact, or of its dataset. Each returns a matplotlib Figure."""
+    """Figures of a contact, or of its dataset. Each returns a matplotlib Figure but `interactive`, a page."""
 
     def __init__(self, contact: Source) -> None:
         self._contact = contact
@@ -45,6 +46,13 @@ class ContactPlots:
     def profile(self) -> Figure:
         """Pressure and shear along travel and across it, kPa."""
         return contact_figures.profile(self._contact)
+
+    def interactive(self, *, measured: Source | None = None, theme: str = "light") -> LinkedView:
+        """Pressure and shear as linked maps, profiles along a line to drag, the tread in space; shows itself.
+
+        measured: a footprint to lay over them. theme: "light" or "dark". `.write_html(path)` keeps it as one file.
+        """
+        return contact_view(self._contact, measured=measured, theme=theme)
 
 
 @offers("plot", "Response")
@@ -98,6 +106,13 @@ class ResponsePlots:
         """Strains against depth under the tire's centre, a rib's middle and edge, or places given, microstrain."""
         return profiles.strain_profiles(self._response, places, strains=strains, contact=contact, epsilon_6=epsilon_6)
 
+    def interactive(self, *, contact: Source | None = None, theme: str = "light") -> LinkedView:
+        """Largest extension and its directions depth by depth, profiles along a line to drag; shows itself.
+
+        contact: gives the outline. theme: "light" or "dark". `.write_html(path)` keeps it as one file.
+        """
+        return response_view(self._response, contact=contact, theme=theme)
+
 
 @offers("plot", "Verdict")
 class VerdictPlots:
@@ -121,3 +136,7 @@ class VerdictPlots:
     def rose(self, *, threshold: float | None = None, classes: int = 18) -> Figure:
         """Rose of the cracks' traces, by area of road beyond a threshold of strain, a fifth of the largest."""
         return roses.rose_of(self._verdict, threshold=threshold, classes=classes)
+
+    def interactive(self, *, theme: str = "light") -> LinkedView:
+        """Damage with the traces of cracks beside the extension that was read, linked; shows itself."""
+        return verdict_view(self._verdict, theme=theme)

@@ -1,0 +1,67 @@
+"""Places that a verdict names, as marks on a map, and where to look from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from treadload.composing import Source
+from treadload.plots.kit.plan import KPA, MICRO, MM, fields_of, peak_of, plane
+from treadload.plots.kit.style import measure
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place that a result names. x, y, depth: m; x or depth None where it names none. text: what is there."""
+
+    x: float | None
+    y: float
+    text: str
+    depth: float | None = None
+
+    def view(self, span: float = 0.12) -> dict[str, list[float]]:
+        """Ranges of the axes of linked maps around the place, mm, for `Plotly.relayout`. span: m, of the view."""
+        x, y, half = MM * (self.x or 0.0), MM * self.y, MM * span / 2
+        # Seen from above: y points down the page.
+        return {"xaxis.range": [x - half, x + half], "yaxis.range": [y + half, y - half]}
+
+
+def places_of(source: Source) -> list[Place]:
+    """Places that a result, or its dataset, names: its worst point, largest value, or worst line along travel.
+
+    Of a verdict its worst point; of a contact the largest pressure; of a response the largest extension, in space and
+    in the plane, at every depth; of a life the worst y of every criterion, which has no x.
+    """
+    data = fields_of(source)
+    held: dict[str, Any] = {str(name): one for name, one in data.variables.items()}
+    if "worst_x" in held and "worst_strain" in held:
+        strain = float(held["worst_strain"]) * MICRO
+        passes = float(held["worst_passes"])
+        x, y, depth = (float(held[f"worst_{name}"]) for name in ("x", "y", "depth"))
+        return [Place(x, y, f"worst point: {measure(strain)} microstrain, {passes:.2g} passes", depth)]
+    if "worst_y" in held and "criterion" in held:
+        years = data["life_years"].to_numpy() if "life_years" in held else np.full(data.sizes["criterion"], np.nan)
+        return [Place(None, float(y), f"{name}: {measure(float(one))} years")
+                for name, y, one in zip(data["criterion"].to_numpy().tolist(), data["worst_y"].to_numpy(), years,
+                                        strict=True)]  # fmt: skip
+    if not {"x", "y"} <= set(held):
+        return []
+    across, down = (np.atleast_1d(data[name].to_numpy()) for name in ("x", "y"))
+    if "pressure" in held:
+        row, column = peak_of(values := plane(data, "pressure"))
+        return [
+            Place(
+                float(across[column]), float(down[row]), f"largest pressure: {measure(KPA * values[row, column])} kPa"
+            )
+        ]
+    made = []
+    for name, words in (("principal_strain_1", "in space"), ("in_plane_strain_1", "in the horizontal plane")):
+        for number in range(data.sizes.get("depth", 0) if name in held else 0):
+            row, column = peak_of(values := plane(data.isel(depth=number), name))
+            depth = float(data["depth"][number])
+            most = measure(MICRO * values[row, column])
+            told = f"largest extension {words}, {MM * depth:g} mm deep: {most} microstrain"
+            made.append(Place(float(across[column]), float(down[row]), told, depth))
+    return made

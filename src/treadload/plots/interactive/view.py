@@ -1,0 +1,243 @@
+"""Linked maps of a result as one page: shown in a notebook, or written as a file that needs no network."""
+
+from __future__ import annotations
+
+import base64
+import functools
+import html
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from treadload.composing import Source
+from treadload.errors import InputError
+from treadload.files import check_suffix, replacing
+from treadload.kernels.arrays import Array
+from treadload.plots.interactive.cut import Cut, profiles
+from treadload.plots.interactive.drawing import figure
+from treadload.plots.interactive.field import (
+    Field,
+    choices,
+    damage_field,
+    extension_field,
+    field_of,
+    pressure_field,
+    shear_field,
+    with_outline,
+)
+from treadload.plots.interactive.maps import WIDTH, laid_out, linked_maps
+from treadload.plots.interactive.places import places_of
+from treadload.plots.interactive.solid import tread
+from treadload.plots.interactive.theme import FONT, Theme, theme_of
+from treadload.plots.kit.plan import KPA, MICRO, MM, Plan, fields_of, plane
+from treadload.plots.response import VARIABLE
+
+PAGE = {".html": "a page", ".htm": "a page"}
+CONFIG = {
+    "responsive": True, "displaylogo": False, "scrollZoom": True,
+    "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
+}  # fmt: skip
+"""What plotly is told of every figure of a page."""
+
+
+@dataclass(frozen=True, eq=False)
+class LinkedView:
+    """Linked maps, what lies along a line on them, and more, as figures of plotly on one page.
+
+    figures: "maps", "profile" and "tread" where there is one. A notebook shows it at the end of a cell.
+    """
+
+    title: str
+    figures: Mapping[str, Any]
+    theme: Theme
+    load: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def height(self) -> int:
+        """Of the page, pixels."""
+        return int(sum(one.layout.height for one in self.figures.values()) + 60 + 40 * len(self.warnings))
+
+    def to_html(self) -> str:
+        """The whole page with all that it needs inside."""
+        look = self.theme
+        parts = "".join(
+            one.to_html(full_html=False, include_plotlyjs=False, config=CONFIG, div_id=f"tl-{name}")
+            for name, one in self.figures.items()
+        )
+        said = "".join(f'<p class="warning">Warning: {html.escape(text)}</p>' for text in self.warnings)
+        below = 'document.getElementById("tl-profile")' if "profile" in self.figures else "null"
+        load = json.dumps({"ink": look.ink, "fields": [], **self.load}).replace("<", "\\u003c")
+        return (
+            f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(self.title)}</title>'
+            f"<style>body{{margin:0;padding:8px 12px;background:{look.paper};color:{look.ink};font:14px {FONT}}}"
+            f"h1{{font-size:16px;margin:2px 0 6px}}.warning{{border-left:3px solid {look.slip};padding:2px 8px;"
+            f"margin:4px 0;font-size:13px}}</style><script>{plotly_script()}</script></head><body>"
+            f"<h1>{html.escape(self.title)}</h1>{said}{parts}<script>{link_script()}"
+            f'window.treadloadLink(document.getElementById("tl-maps"),{below},{load});</script></body></html>'
+        )
+
+    def write_html(self, path: str | os.PathLike[str]) -> Path:
+        """Write the page as one file that opens without a network; it appears whole or not at all. Returns the path.
+
+        Raises InputError for another suffix than .html, and for a path that cannot be written.
+        """
+        check_suffix(path, PAGE, "a page")
+        with replacing(path) as temporary:
+            temporary.write_text(self.to_html(), encoding="utf-8")
+        return Path(path)
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.to_html(), quote=True)
+        return (
+            f'<iframe srcdoc="{page}" sandbox="allow-scripts" style="width:100%;height:{self.height}px;border:0" '
+            f'title="{html.escape(self.title, quote=True)}"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return f"<LinkedView: {self.title}; {', '.join(self.figures)}; write_html(path) keeps it>"
+
+
+@functools.cache
+def plotly_script() -> str:
+    """The library that draws in the browser, as text. Raises InputError where plotly is not installed."""
+    figure([], {}, theme_of("light"))
+    from plotly.offline import get_plotlyjs
+
+    return str(get_plotlyjs()).replace("</script", "<\\/script")
+
+
+@functools.cache
+def link_script() -> str:
+    """The script that links maps: defines `treadloadLink(maps, below, load)` in the browser."""
+    return resources.files("treadload.plots.interactive").joinpath("page.js").read_text(encoding="utf-8")
+
+
+def contact_view(
+    contact: Source, *, measured: Source | None = None, cut: Cut | None = None, theme: str | Theme = "light"
+) -> LinkedView:
+    """Pressure and shear of a contact as linked maps, the profile along a line that can be dragged, and the tread.
+
+    contact: a contact, a footprint or its dataset. measured: a footprint whose outline is drawn on the pressure and
+    whose pressure is drawn along the line. cut: of the line; left out, along travel through the largest pressure.
+    theme: "light" or "dark".
+    """
+    look, data = theme_of(theme), fields_of(contact, "pressure")
+    line = cut or Cut.along(data)
+    fields = [pressure_field(data)]
+    if {"traction_x", "traction_y"} <= set(data.variables):
+        fields.append(shear_field(data))
+    if measured is not None:
+        fields[0] = with_outline(fields[0], measured)
+    over = {"measured": measured} if measured is not None else None
+    figures = {
+        "maps": linked_maps(fields, cut=line, theme=look),
+        "profile": profiles(data, line, overlaid=over, theme=look),
+    }
+    if "initial_gap" in data:
+        figures["tread"] = tread(data, theme=look)
+    plan = Plan.of(data)
+    curves = _contact_curves(data)
+    if measured is not None:
+        over_data = fields_of(measured, "pressure")
+        if over_data["x"].equals(data["x"]) and over_data["y"].equals(data["y"]):
+            curves.append(np.nan_to_num(plane(over_data, "pressure")) * KPA)
+    load = _load(plan, curves, smooth=False, step=plan.cell / 4)
+    return LinkedView("Contact", figures, look, load, tuple(getattr(contact, "warnings", ())))
+
+
+def response_view(
+    response: Source, *, contact: Source | None = None, cut: Cut | None = None, theme: str | Theme = "light"
+) -> LinkedView:
+    """Largest extension with its directions, in space and in the plane, at every depth; profiles along a line.
+
+    response: over (depth, y, x). contact: gives the outline. A slider goes through the depths. theme: as before.
+    """
+    look, data = theme_of(theme), fields_of(response, *VARIABLE.values(), "depth")
+    line = cut or Cut.along(data)
+    depths = [float(depth) for depth in data["depth"].to_numpy()]
+    by_depth = [
+        [extension_field(data, depth=depth, strain="principal", contact=contact),
+         extension_field(data, depth=depth, strain="in-plane", contact=contact)]
+        for depth in depths
+    ]  # fmt: skip
+    figures = {
+        "maps": _through(by_depth, [f"{MM * depth:g} mm" for depth in depths], line, look),
+        "profile": profiles(data, line, theme=look),
+    }
+    plan = Plan.of(data)
+    curves = [plane(data.isel(depth=row), name) * MICRO for name in VARIABLE.values() for row in range(len(depths))]
+    load = _load(plan, curves, smooth=True, step=plan.cell / 2)
+    return LinkedView("Response of the road", figures, look, load, tuple(getattr(response, "warnings", ())))
+
+
+def verdict_view(verdict: Source, *, theme: str | Theme = "light") -> LinkedView:
+    """Damage of one passage with the traces of cracks beside the extension that was read, and the worst point."""
+    look, data = theme_of(theme), fields_of(verdict, "allowable_passes", "extension_strain")
+    fields = [damage_field(data), field_of(data, "extension_strain")]
+    figures = {"maps": linked_maps(fields, places=places_of(data), theme=look)}
+    return LinkedView("Verdict", figures, look, {}, tuple(getattr(verdict, "warnings", ())))
+
+
+def any_view(source: Source, names: Sequence[str] = (), *, theme: str | Theme = "light") -> LinkedView:
+    """Linked maps of whatever a result holds over x and y. names: of `choices`; left out, the first two."""
+    look, known = theme_of(theme), list(choices(source))
+    if not known:
+        raise InputError("this result holds nothing over x and y that a map could show")
+    fields = [field_of(source, name) for name in (names or known[:2])]
+    return LinkedView("Maps", {"maps": linked_maps(fields, theme=look)}, look)
+
+
+def _through(stages: Sequence[Sequence[Field]], words: Sequence[str], cut: Cut, look: Theme) -> Any:
+    """Linked maps with a slider through stages, each with maps of its own."""
+    room = 58.0 if len(stages) > 1 else 0.0
+    traces: list[dict[str, Any]] = []
+    owner: list[int] = []
+    told = []
+    layout: dict[str, Any] = {}
+    for number, fields in enumerate(stages):
+        own, page = laid_out(fields, theme=look, width=WIDTH, cut=cut, below=room)
+        layout = layout or page
+        told.append(page["annotations"])
+        traces += [{**trace, "visible": number == 0} for trace in own]
+        owner += [number] * len(own)
+    if len(stages) > 1:
+        layout["margin"]["b"] += room
+        steps = [
+            {"label": label, "method": "update",
+             "args": [{"visible": [one == number for one in owner]}, {"annotations": told[number]}]}
+            for number, label in enumerate(words)
+        ]  # fmt: skip
+        layout["sliders"] = [{"steps": steps, "active": 0, "currentvalue": {"prefix": "depth "}, "pad": {"t": 38},
+                              "len": 0.5, "font": {"size": 11}}]  # fmt: skip
+    return figure(traces, layout, look)
+
+
+def _contact_curves(data: Any) -> list[Array]:
+    """What `profiles` draws of a contact, as fields, kPa."""
+    pressure = np.nan_to_num(plane(data, "pressure")) * KPA
+    curves = [pressure]
+    if "friction_coefficient" in data or "friction" in data:
+        mu = plane(data, "friction_coefficient") if "friction_coefficient" in data else float(data["friction"])
+        curves.append(np.nan_to_num(mu) * pressure)
+    if "traction_x" in data and "traction_y" in data:
+        shear = np.hypot(*(np.nan_to_num(plane(data, name)) for name in ("traction_x", "traction_y"))) * KPA
+        curves.append(shear)
+        if "state" in data:
+            curves.append(np.where(plane(data, "state") == 2, shear, np.nan))
+    return curves
+
+
+def _load(plan: Plan, curves: Sequence[Array], *, smooth: bool, step: float) -> dict[str, Any]:
+    """What the page samples along a line that is dragged."""
+    return {
+        "x": [round(float(one), 4) for one in plan.x], "y": [round(float(one), 4) for one in plan.y],
+        "smooth": smooth, "step": step,
+        "fields": [base64.b64encode(one.astype("<f4").tobytes()).decode() for one in curves],
+    }  # fmt: skip
