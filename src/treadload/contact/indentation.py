@@ -228,7 +228,8 @@ def check_indented(road: Pavement) -> ElastoPlastic:
     if not road.is_homogeneous:
         raise InputError(
             f"a road of {len(road.layers)} layers cannot be dented yet: stress and dent of plastic strain are those "
-            "of a half-space here; give Pavement.half_space of the layer that yields, or roll a drum, which knows layers"
+            "of a half-space here; give Pavement.half_space of the layer that yields, or roll a drum, which knows "
+            "layers"
         )
     if not isinstance(material, ElastoPlastic):
         raise InputError(
