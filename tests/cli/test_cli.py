@@ -43,6 +43,7 @@ def refused(result, code, *words):
         assert word in result.stderr
 
 
+@pytest.mark.slow
 def test_run_then_report(case, tmp_path):
     ran = call("run", case)
     assert ran.exit_code == 0, ran.output
@@ -151,6 +152,7 @@ def test_names_of_the_catalogue_stay_whole_in_a_narrow_window(monkeypatch):
         assert name in result.stdout
 
 
+@pytest.mark.slow
 def test_run_shows_the_road_at_its_temperature(case, tmp_path):
     start, end = COARSE_CASE.index("[[pavement.layers]]"), COARSE_CASE.index("[rolling]")
     road = '[pavement]\nstructure = "6 BBSG3 / 15 GB3 / PF3"\ntemperature = 15\n\n'

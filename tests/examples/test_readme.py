@@ -16,6 +16,7 @@ def run(number, folder, monkeypatch):
     return made
 
 
+@pytest.mark.slow
 def test_the_first_python_of_the_readme(tmp_path, monkeypatch, capsys):
     run(0, tmp_path, monkeypatch)
     assert "allowable passes" in capsys.readouterr().out

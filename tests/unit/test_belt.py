@@ -77,6 +77,7 @@ def test_the_string_holds_a_uniform_load_by_its_foundation():
     [pytest.param(BELT, marks=pytest.mark.slow), tl.Belt(tread=tl.Elastic(5e6, 0.5), arm=0.0)],
     ids=["whole", "no arm"],
 )
+@pytest.mark.slow
 def test_the_operator_is_symmetric_and_positive(belt):
     n, cell = 16, 8e-3
     influence = Influence((n, n), cell, cell, belt_surface(inflated(belt)))

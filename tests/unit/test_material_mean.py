@@ -98,6 +98,7 @@ def response(driving):
     return solve_response(driving, HALF, depths=[0.0, 0.0025, 0.02])
 
 
+@pytest.mark.slow
 def test_the_verdict_is_the_worst_of_all_depths_and_says_which(driving, response):
     verdict = assess(response, LINE)
     data = verdict.dataset

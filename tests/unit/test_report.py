@@ -182,6 +182,7 @@ def test_text_of_the_user_is_escaped(results, tmp_path):
     assert "Warning" in page.words
 
 
+@pytest.mark.slow
 def test_absent_groups_are_left_out(results, tmp_path):
     tree = results["driving"].to_tree()
     for kept in (["contact"], ["response"], ["damage"]):
@@ -200,6 +201,7 @@ def test_measured_footprint_with_pressure_only(results, tmp_path):
     assert "peak shear" not in page.words
 
 
+@pytest.mark.slow
 def test_verdict_without_sentence_is_composed(results, tmp_path):
     damage = results["driving"].to_tree()["damage"].to_dataset()
     del damage.attrs["sentence"]
@@ -314,6 +316,7 @@ def test_energy_is_drawn_where_it_is_lost(moving):
         dissipated_energy(across.drop_vars("dissipated_energy"))
 
 
+@pytest.mark.slow
 def test_report_of_objects(results, tmp_path):
     result = results["driving"]
     path = report([result.contact, result.verdict], tmp_path / "r.html", title="By hand")

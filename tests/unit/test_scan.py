@@ -82,6 +82,7 @@ def test_the_map_of_a_scan_is_that_of_the_tread(tmp_path, noise):
     assert abs(tire.surface.first_contact - 0.538) < 0.1e-3
 
 
+@pytest.mark.slow
 def test_revolving_removes_noise(tmp_path):
     vertices, faces = tire_mesh(noise=0.3e-3)
     path = write(tmp_path / "tire.ply", vertices, faces)
@@ -367,6 +368,7 @@ def test_options_out_of_bounds_are_refused(options):
         Tire.from_scan(example_mesh(), **options)
 
 
+@pytest.mark.slow
 def test_scans_compare_by_content_and_travel(tmp_path):
     path = write(tmp_path / "tire.ply", *tire_mesh(around=180, across=60))
     a, b = Tire.from_scan(path), Tire.from_scan(path)

@@ -79,6 +79,7 @@ def test_a_truck_tire_with_lugs_carries_5_kn(tmp_path):
     assert y.max() > 0.04
 
 
+@pytest.mark.slow
 def test_voids_deeper_than_grooves_are_no_holes(tmp_path):
     path, _ = lugged(tmp_path, radius=0.8, width=0.5, depth=0.055)
     quality = Tire.from_scan(path, units="m").quality
@@ -88,6 +89,7 @@ def test_voids_deeper_than_grooves_are_no_holes(tmp_path):
     assert np.nanmin(gap) < 2e-3
 
 
+@pytest.mark.slow
 def test_an_oval_wheel_says_how_to_take_it_as_it_is(tmp_path):
     vertices, faces, _ = lugged_mesh(around=600, across=41)
     oval = write(tmp_path / "oval.ply", vertices * np.array([1.06, 1, 1]), faces)
@@ -112,6 +114,7 @@ def test_the_command_reads_lugs(tmp_path):
     assert tl.Tire.from_height_map(tmp_path / "h.nc").fixed_grid.ny * 0.01 > 0.24
 
 
+@pytest.mark.slow
 def test_a_case_takes_every_option_of_a_scan(tmp_path):
     path, _ = lugged(tmp_path)
     text = f"""

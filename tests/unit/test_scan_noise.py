@@ -50,6 +50,7 @@ def test_a_mesh_without_noise_has_none(tmp_path):
         assert not any("noise" in text for text in quality.warnings)
 
 
+@pytest.mark.slow
 def test_noise_that_a_scanner_smoothed_is_measured_as_well(tmp_path):
     vertices, faces = tire_mesh(replace(RIB_TREAD, grooves=()), around=1500, across=70)
     # The same error on three points in a row, 2.2 mm apart: neighbours agree and the tread does not.
@@ -76,6 +77,7 @@ def test_noise_is_told_by_the_contact_and_auto_takes_it_out(tmp_path):
     assert any("0.30 mm of noise: the tread is its meridian revolved instead" in text for text in warnings)
 
 
+@pytest.mark.slow
 def test_smoothing_leaves_lugs_as_they_are(tmp_path):
     load = 5e3
     still = contact_of(Tire.from_scan(lugs(tmp_path, 0.0), inflation_pressure=300e3), load)
@@ -122,6 +124,7 @@ _SLOW = pytest.mark.slow
 
 
 @pytest.mark.parametrize("height", [0.7e-3, 5e-3, pytest.param(0.1, marks=_SLOW), pytest.param(1e9, marks=_SLOW)])
+@pytest.mark.slow
 def test_a_point_that_sticks_out_is_named_and_put_back(tmp_path, height):
     vertices, faces = tire_mesh(around=300, across=60)
     below = (0.0, 0.02, -0.538)
@@ -145,6 +148,7 @@ def test_a_point_that_sticks_out_is_named_and_put_back(tmp_path, height):
         assert any("left in it" in text for text in kept.quality.warnings)
 
 
+@pytest.mark.slow
 def test_a_clump_and_a_speck_beside_the_tire_are_outliers(tmp_path):
     vertices, faces = tire_mesh(around=300, across=60)
     clump = stick_out(vertices, 4e-3, near=(0.0, 0.02, -0.538), count=4)
@@ -170,6 +174,7 @@ def test_nothing_of_a_clean_tire_is_taken(tmp_path):
         assert Tire.from_scan(path).quality.outliers == (), path
 
 
+@pytest.mark.slow
 def test_a_stone_in_a_groove_and_a_stud_on_a_sidewall_stay(tmp_path):
     vertices, faces = tire_mesh(around=300, across=60)
     groove = RIB_TREAD.grooves[1].centre
@@ -181,6 +186,7 @@ def test_a_stone_in_a_groove_and_a_stud_on_a_sidewall_stay(tmp_path):
     assert Tire.from_scan(write(tmp_path / "letter.ply", letter, faces)).quality.outliers == ()
 
 
+@pytest.mark.slow
 def test_many_places_are_refused_unless_they_belong(tmp_path):
     vertices, faces = tire_mesh(around=300, across=60)
     r = np.hypot(vertices[:, 0], vertices[:, 2])
@@ -224,6 +230,7 @@ def test_facets_are_revolved_by_default_and_print_no_zigzag(tmp_path):
 
 
 @pytest.mark.parametrize("across", [3e-3, 10e-3])
+@pytest.mark.slow
 def test_grooves_across_the_tread_are_never_revolved_away(tmp_path, across):
     """Few and narrow, they cover 1 to 3 % of the tread."""
     vertices, faces = tire_mesh(replace(RIB_TREAD, grooves=()), around=700, across=40)

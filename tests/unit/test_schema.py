@@ -170,6 +170,7 @@ def test_a_format_that_is_no_whole_number(tree, tmp_path, odd):
         open_results(save_results(wrong, tmp_path / "odd.nc"))
 
 
+@pytest.mark.slow
 def test_passes_beyond_all_that_is_drawn_leave_a_sentence(tree, tmp_path):
     far = tree["damage"].to_dataset().assign(worst_passes=1e300)
     page = write_report({"odd": with_group(tree, "damage", far)}, tmp_path / "r.html").read_text()

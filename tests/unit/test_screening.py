@@ -166,6 +166,7 @@ def test_tornado_goes_to_both_ends_of_every_input(stand_in):
     )
 
 
+@pytest.mark.slow
 def test_tornado_of_a_real_case_is_its_finite_difference():
     case = tl.Case.from_text(SMALL)
     ranges = {"normal_load": ("32.2 kN", "32.8 kN"), "rolling.tractive_force": ("10 kN", "40 kN")}

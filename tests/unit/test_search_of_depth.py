@@ -38,6 +38,7 @@ search_to = "1 mm"
 """
 
 
+@pytest.mark.slow
 def test_a_life_reads_the_largest_down_to_a_depth_and_says_where():
     """Shear between the vertical and the horizontal grows with depth below a free rolling tire."""
     life = tl.study.run_life(LifeCase.from_text(ONE_AXLE + SHEARED), sensitivity=False).life

@@ -51,6 +51,7 @@ ROADS = (
 
 
 @pytest.mark.parametrize(("side", "mean_over"), [("above", None), ("below", 0.01)])
+@pytest.mark.slow
 def test_every_pair_is_what_it_is_alone(side, mean_over):
     questions = [
         Question(loads, one, np.array([0.003, float(one.interfaces[0]) if len(one.interfaces) else 0.1]))

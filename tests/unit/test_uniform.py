@@ -83,6 +83,7 @@ def test_the_summary_and_the_figure_hold_every_load(compared):
     assert np.asarray(axes[0].lines[0].get_xdata()) == pytest.approx(1e6 * values)
 
 
+@pytest.mark.slow
 def test_default_depths_hold_the_surface_and_the_interfaces(driving):
     at = compare_uniform(driving, ROAD).dataset["depth"].to_numpy()
     assert at[0] == 0

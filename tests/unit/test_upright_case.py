@@ -26,6 +26,7 @@ GRAINED = COARSE_CASE[:START] + LAYERS + COARSE_CASE[COARSE_CASE.index("[rolling
 MIX, STONE = list(MATERIALS.values())[:2]
 
 
+@pytest.mark.slow
 def test_a_case_is_read_and_a_response_written_and_opened(tmp_path):
     case = tl.Case.from_text(GRAINED)
     road = case.pavement.build()

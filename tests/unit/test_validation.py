@@ -10,7 +10,10 @@ from treadload.validation import table as table_module
 from treadload.validation.check import absolute, relative
 
 # More than a second each on one core.
-SLOW = {"conditions", "contact on layers", "disc", "iterations", "layers", "mesh", "moving", "strain", "traffic"}
+SLOW = {
+    *("conditions", "contact on layers", "disc", "histories", "iterations", "layers", "mesh", "moving", "stones"),
+    *("strain", "traffic", "yielding"),
+}
 
 
 @pytest.mark.parametrize(

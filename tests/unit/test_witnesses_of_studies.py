@@ -48,6 +48,7 @@ def driving():
 
 
 @pytest.mark.parametrize("depths", [[0.02], [0.15]])
+@pytest.mark.slow
 def test_uniform_loads_are_read_wherever_the_wheels_stand(driving, depths):
     """A wheel elsewhere reads the same; so do two that are far from each other."""
     asked = {"depths": depths, "mean_over": None}
@@ -140,6 +141,7 @@ def test_damage_of_a_changed_question_is_that_of_its_life():
     assert (solver.solved, solver.responses) == (1, 2)
 
 
+@pytest.mark.slow
 def test_elasticities_of_one_layer_on_nothing_else_have_closed_forms():
     """On a half-space under a soft tire strain goes as 1/E: life goes as E to the power of -1/slope."""
     traffic = Traffic((ONE,), 1e5)
