@@ -68,6 +68,7 @@ ONLY_IN = {
     "pyarrow": ("results",),
     "trimesh": ("tire",),
     "embreex": ("tire",),
+    "skimage": ("tire",),
     "pint": ("units",),
     "pydantic": ("read", "case"),
     "openpyxl": ("results",),

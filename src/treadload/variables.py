@@ -57,6 +57,17 @@ _CONTACT = {
     "flash_temperature": ("K", "rise of the interface's temperature by sliding above that of the bodies"),
 }
 
+_FRINGES = {
+    "row": ("1", "row of a picture, from its top, 0 the first"),
+    "column": ("1", "column of a picture, from its left, 0 the first"),
+    "gap_deviation": ("m", "standard deviation of the initial gap by noise of the measurement"),
+    "fringe_phase": ("rad", "phase of the finest fringes, counted from the edge of the projector"),
+    "fringe_modulation": ("1", "half the range of a pixel under the finest fringes, grey levels"),
+    "fringe_brightness": ("1", "mean of a pixel under the finest fringes, grey levels"),
+    "fringe_height": ("m", "height towards the camera, of the pixels that are kept"),
+    "fringe_deviation": ("m", "standard deviation of a pixel's height by noise of the pictures"),
+}
+
 _HISTORY = {
     "step": ("1", "number of the step, 0 before the first"),
     "distance": ("m", "distance rolled since the start"),
@@ -412,6 +423,7 @@ _HETEROGENEOUS = {
 VARIABLES: Mapping[str, tuple[str, str]] = {
     **_COORDINATES,
     **_CONTACT,
+    **_FRINGES,
     **_HISTORY,
     **_RESPONSE,
     **_MOVING,
@@ -439,7 +451,7 @@ _ORDER = (
     "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
     "input", "risk", "year", "crack_depth", "solved_depth",
     "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth",
-    "profile_depth", "sublayer", "point", "y", "across", "x", "component", "orientation",
+    "profile_depth", "sublayer", "point", "row", "column", "y", "across", "x", "component", "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
 

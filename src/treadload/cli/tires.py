@@ -10,9 +10,15 @@ import typer
 from treadload.cli import shell
 from treadload.cli.progress import stages
 
+# Options of a scan that a measurement with fringes states in its own file.
+_OF_MESHES = (
+    "units", "nominal_diameter", "rotation", "camber", "revolve", "smooth", "outliers", "roundness", "spacing",
+)  # fmt: skip
+
 
 def scan(
-    mesh: Annotated[Path, typer.Argument(help="OBJ, PLY, STL, GLB or OFF file of a tire.")],
+    context: typer.Context,
+    mesh: Annotated[Path, typer.Argument(help="OBJ, PLY, STL, GLB or OFF file of a tire; or a TOML of fringes.")],
     output: shell.Output = None,
     units: Annotated[str | None, typer.Option(help="Unit of the file: m, cm, mm or inch.")] = None,
     nominal_diameter: Annotated[str | None, typer.Option(help='Outer diameter, e.g. "1076 mm".')] = None,
@@ -23,9 +29,14 @@ def scan(
     outliers: Annotated[str, typer.Option(help="Points that stick out: remove, refuse or keep.")] = "remove",
     roundness: Annotated[float, typer.Option(help="Share of the radius by which it may vary.")] = 0.02,
     spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
+    figure: Annotated[
+        Path | None,
+        typer.Option(help="Picture of a measurement with fringes: .png, .svg or .pdf.", show_default=False),
+    ] = None,
     quiet: shell.Quiet = False,
 ) -> None:
-    """Read a tire mesh, report its quality, and write its height map."""
+    """Read a tire mesh, or pictures of fringes, report the quality, and write the height map."""
+    from treadload.errors import InputError
     from treadload.results import height_map
     from treadload.results.exports import check_output, write
     from treadload.tire import Tire
@@ -34,6 +45,15 @@ def scan(
 
     if output is not None:
         check_output(output)
+    if mesh.suffix.lower() == ".toml":
+        sources = {name: context.get_parameter_source(name) for name in _OF_MESHES}
+        given = [name for name, source in sources.items() if source is not None and source.name != "DEFAULT"]
+        if given:
+            option = given[0].replace("_", "-")
+            raise InputError(f"--{option} belongs to a mesh; {mesh} has its own keys, see docs/howto/fringes.md")
+        return _fringes(mesh, output, figure, quiet=quiet)
+    if figure is not None:
+        raise InputError(f"--figure belongs to a measurement with fringes, a TOML file; {mesh} is not one")
     with stages(shell.err, quiet=quiet) as tell:
         tell(f"reading {mesh}")
         tire = Tire.from_scan(
@@ -52,6 +72,28 @@ def scan(
             files = write(height_map(tire, quantity(spacing, "m")), output)
     shell.out.print(str(tire.quality), markup=False)
     if output is not None:
+        shell.written(files)
+
+
+def _fringes(file: Path, output: Path | None, figure: Path | None, *, quiet: bool) -> None:
+    """Evaluate the pictures that a file names."""
+    from treadload.files import check_writable
+    from treadload.results.exports import write
+    from treadload.tire.fringes import read_fringes
+
+    if figure is not None:
+        check_writable(figure)
+    with stages(shell.err, quiet=quiet) as tell:
+        tell(f"evaluating the pictures of {file}")
+        found = read_fringes(file)
+        files = list(write(found.dataset, output)) if output is not None else []
+        if figure is not None:
+            from treadload.plots import fringe_scan, save
+
+            tell("drawing")
+            files.append(save(fringe_scan(found.pixels), figure))
+    shell.out.print(found.summary(), markup=False)
+    if files:
         shell.written(files)
 
 

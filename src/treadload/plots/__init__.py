@@ -11,6 +11,7 @@ from treadload.plots.energy import dissipated_energy
 from treadload.plots.equivalents import standard_axles
 from treadload.plots.first import first_places
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
+from treadload.plots.fringes import fringe_scan
 from treadload.plots.growth import crack_depth, crack_intensity
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
@@ -113,6 +114,7 @@ __all__ = [
     "drum_contact",
     "fatigue_line",
     "first_places",
+    "fringe_scan",
     "indentation",
     "life_damage",
     "life_inputs",
