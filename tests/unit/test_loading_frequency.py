@@ -14,7 +14,7 @@ from treadload.damage.frequency import LoadingFrequency, contact_radius
 from treadload.errors import InputError
 from treadload.materials import GlobalAging
 from treadload.pavement import Pavement, TemperatureProfile
-from treadload.study.seasons import frequencies, warmed
+from treadload.study.seasons import frequencies, laws_of, layer_temperatures, roads_of, warmed
 
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 
@@ -97,3 +97,41 @@ def test_the_life_says_what_its_frequencies_change():
     assert own.years("base") < plain.years("base")
     assert f"{own.years('base'):.3g} years with these frequencies, {plain.years('base'):.3g} without" in own.summary()
     assert np.isfinite(own.years("base"))
+
+
+INSTITUTE = '\n[[criteria]]\nname = "base"\nlaw = "asphalt-institute"\nlayer = "EB-GB3"\n'
+
+
+def test_a_law_by_modulus_reads_the_modulus_that_is_solved():
+    """Of the part of an old course at its depth's temperature, at the frequency of the class."""
+    (criterion,) = LifeCase.from_text(ONE_AXLE + INSTITUTE).build_criteria()
+    season = Season("noon", 1.0, TemperatureProfile((0.0, 0.2), (30.0, 25.0)), ageing=GlobalAging(8.0, 12.0))
+    fast = AxleClass("a", 1.0, 40e3, 8e5, speed=25.0, frequency=LoadingFrequency())
+    classes = (fast, replace(fast, speed=2.0), replace(fast, frequency=None))
+    roads = roads_of(ROAD, (criterion,), (season,), classes)
+    laws = laws_of(roads, layer_temperatures(ROAD, (criterion,), (season,)))[0]
+    solved = [own[0].road.layers[5].elastic.modulus for own in roads.by_class]
+    assert [row[0].modulus for row in laws] == solved
+    assert solved[0] > 1.3 * solved[1]
+    # As given: young, at 10 Hz.
+    given = criterion.law_at(float(layer_temperatures(ROAD, (criterion,), (season,))[0, 0]))
+    assert solved[2] > 1.05 * given.modulus
+
+
+@pytest.mark.slow
+def test_a_slow_class_is_judged_by_the_law_of_its_soft_mix():
+    from treadload.study.run_life import run_life
+
+    text = ONE_AXLE.replace("passes_per_year = 1e5", 'passes_per_year = 1e5\nfrequency = "mepdg"').replace(
+        'name = "axle"', 'name = "axle"\nspeed = "10 km/h"'
+    )
+    life = run_life(LifeCase.from_text(text + INSTITUTE), sensitivity=False).life
+    ((law,),) = life.class_laws[0]
+    given = life.criteria[0].law_at(15.0)
+    assert law.modulus < 0.8 * given.modulus
+    reading = float(life.dataset["class_reading"][0, 0, 0])
+    # One axle that does not wander, in one season: Miner's sum by hand, with E^-0.854.
+    assert float(life.dataset["life_passes"][0]) == pytest.approx(float(law.allowable_passes(reading)), rel=1e-9)
+    before = float(given.allowable_passes(reading))
+    assert float(life.dataset["life_passes"][0]) == pytest.approx(before * (law.modulus / given.modulus) ** -0.854)
+    print(law.modulus, given.modulus, life.dataset["life_passes"].values, before)

@@ -24,6 +24,7 @@ from treadload.damage.quantity import (
 )
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.materials.kinds import AnyElastic, upright
 from treadload.pavement import Pavement
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.material import check_length
@@ -133,6 +134,19 @@ class Criterion:
     def law_at(self, temperature: float) -> FatigueLaw:
         """The law at a temperature of the layer, °C."""
         return self.law(temperature) if callable(self.law) else self.law
+
+    def law_on(self, road: Pavement, temperature: float) -> FatigueLaw:
+        """The law on a road as it is solved; a law by the layer's modulus takes that of the part which it reads.
+
+        road: of a season and a class, divided, aged and at its frequency where the criterion is. temperature: of the
+        layer, °C.
+        """
+        by_modulus = getattr(self.law, "at_modulus", None)
+        material = road.layers[self.number(road)].resolved
+        if by_modulus is None or not isinstance(material, AnyElastic):
+            return self.law_at(temperature)
+        law: FatigueLaw = by_modulus(upright(material)[0])
+        return law
 
     @property
     def side(self) -> Side:

@@ -43,7 +43,8 @@ class Life(BaseResult, group="life"):
     weather day_temperature (month, hour, profile_depth); where courses are divided sublayer_modulus and
     sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young. criteria,
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
-    season. stats: solves and errors behind the readings. warnings: sentences for the user.
+    season, of the first class of axles. by_class: (criterion, axle_class, season), where classes meet other moduli.
+    stats: solves and errors behind the readings. warnings: sentences for the user.
     """
 
     holds: ClassVar[Holds] = Holds(
@@ -72,6 +73,12 @@ class Life(BaseResult, group="life"):
     laws: tuple[tuple[FatigueLaw, ...], ...]
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    by_class: tuple[tuple[tuple[FatigueLaw, ...], ...], ...] = ()
+
+    @property
+    def class_laws(self) -> tuple[tuple[tuple[FatigueLaw, ...], ...], ...]:
+        """A law for each criterion, class of axles and season."""
+        return self.by_class or tuple((row,) * len(self.traffic.classes) for row in self.laws)
 
     @property
     def governing(self) -> str:
@@ -136,6 +143,7 @@ def miner(
     y: Array | None = None,
     layer_temperatures: Array | None = None,
     cracks: tuple[Array, Array] | None = None,
+    laws: Sequence[Sequence[Sequence[FatigueLaw]]] | None = None,
 ) -> Life:
     """Life of a road by Miner's sum, D = Σ n / N, over classes of axles and seasons, after wander.
 
@@ -144,7 +152,9 @@ def miner(
     peak, valley, peak, ... of a group of axles, zeros behind the last; a valley takes back what the rise to the next
     peak does not do again, D = Σ 1/N(peak) - Σ 1/N(valley). y: evenly spaced, m; left out, the coordinate of
     readings. layer_temperatures: (criterion, season), °C, for laws that depend on it; left out, the seasons' one
-    temperature. cracks: angle of the trace and dip, rad, (criterion, axle_class, season, y), NaN for none. Wander
+    temperature. cracks: angle of the trace and dip, rad, (criterion, axle_class, season, y), NaN for none. laws:
+    (criterion, axle_class, season), where they hold for the moduli that classes meet; left out, those of
+    layer_temperatures. Wander
     counts for laws that do not include it (`includes_wander`); with those that do, such as the French ones whose k_c
     was fitted to roads on which wheels wander, it would count twice: a warning gives both lives. The years are those
     after which the damage at the worst place is 1. Raises InputError for wrong shapes.
@@ -165,7 +175,9 @@ def miner(
             raise InputError("seasons with several temperatures need layer_temperatures (criterion, season)")
         one = [season.temperatures[0] for season in climate.seasons]
         layer_temperatures = np.tile(one, (len(criteria), 1))
-    laws = [[c.law_at(float(t)) for t in row] for c, row in zip(criteria, layer_temperatures, strict=True)]
+    if laws is None:
+        warm = zip(criteria, layer_temperatures, strict=True)
+        laws = [[[c.law_at(float(t)) for t in row]] * len(traffic.classes) for c, row in warm]
     damage = damage_of(values, laws, traffic, climate)
     spacing = float(at[1] - at[0])
     still = damage.sum(axis=(1, 2))
@@ -173,7 +185,8 @@ def miner(
     margin = (wandering.shape[-1] - len(at)) // 2
     wide = at[0] + spacing * (np.arange(wandering.shape[-1]) - margin)
     still = np.pad(still, [(0, 0), (margin, margin)])
-    wanders = [wander_of(row[0], traffic) for row in laws]
+    firsts = [row[0][0] for row in laws]
+    wanders = [wander_of(one, traffic) for one in firsts]
     yearly = np.where([[wander != traffic.wander] for wander in wanders], still, wandering)
     worst = np.array([_worst(one, read, margin) for one, read in zip(yearly, values, strict=True)])
     peak = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
@@ -223,7 +236,7 @@ def miner(
         fields |= _cracks(damage, cracks, wanders, spacing, columns, peak)
         coordinates["orientation"] = list(ORIENTATIONS)
     doubts = [
-        "; ".join(filter(None, (row[0].doubt, one.quantity.doubt))) for row, one in zip(laws, criteria, strict=True)
+        "; ".join(filter(None, (law.doubt, one.quantity.doubt))) for law, one in zip(firsts, criteria, strict=True)
     ]
     dataset = variables.dataset(
         fields,
@@ -236,10 +249,10 @@ def miner(
         laws=json.dumps([str(criterion.law_at(15.0)) for criterion in criteria], ensure_ascii=False),
         sources=json.dumps([criterion.law_at(15.0).source for criterion in criteria], ensure_ascii=False),
         doubts=json.dumps(doubts, ensure_ascii=False),
-        ends=json.dumps([row[0].end_of_life for row in laws], ensure_ascii=False),
+        ends=json.dumps([law.end_of_life for law in firsts], ensure_ascii=False),
         reads=json.dumps([criterion.quantity.about for criterion in criteria], ensure_ascii=False),
         proposed=json.dumps(
-            [_proposed(one, row[0]) for one, row in zip(criteria, laws, strict=True)], ensure_ascii=False
+            [_proposed(one, law) for one, law in zip(criteria, firsts, strict=True)], ensure_ascii=False
         ),
         places=json.dumps([criterion.place for criterion in criteria]),
     )
@@ -261,7 +274,16 @@ def miner(
     places = {name: coordinates[name] for name in ("criterion", "axle_class", "season")}
     kept = xr.DataArray(values, dims=dims, coords={**places, "y": at})
     return Life(
-        dataset, tuple(criteria), traffic, climate, kept, tuple(map(tuple, laws)), warnings=tuple(dict.fromkeys(said))
+        dataset,
+        tuple(criteria),
+        traffic,
+        climate,
+        kept,
+        tuple(tuple(row[0]) for row in laws),
+        warnings=tuple(dict.fromkeys(said)),
+        by_class=tuple(tuple(map(tuple, row)) for row in laws)
+        if any(row[0] != one for row in laws for one in row)
+        else (),
     )
 
 
@@ -278,7 +300,7 @@ def _worst(yearly: Array, readings: Array, margin: int) -> int:
     return margin + int(readings.max(axis=(0, 1, 2)).argmax())
 
 
-def _utilisation(laws: Sequence[FatigueLaw], readings: Array, traffic: Traffic) -> float:
+def _utilisation(laws: Sequence[Sequence[FatigueLaw]], readings: Array, traffic: Traffic) -> float:
     """Largest reading (axle_class, season, turn, y) over what its law allows for the passes of the design life.
 
     Of the first year where there is no design life.
@@ -287,8 +309,14 @@ def _utilisation(laws: Sequence[FatigueLaw], readings: Array, traffic: Traffic) 
     passes = traffic.passes_per_year * (1.0 if years is None else growth_factor(years, traffic.growth, traffic.kind))
     if not passes > 0:
         return 0.0
-    largest = readings.max(axis=(0, 2, 3))
-    return float(max(value / law.allowable_strain(passes) for value, law in zip(largest, laws, strict=True)))
+    largest = readings.max(axis=(2, 3))
+    return float(
+        max(
+            value / law.allowable_strain(passes)
+            for own, row in zip(laws, largest, strict=True)
+            for law, value in zip(own, row, strict=True)
+        )
+    )
 
 
 def wander_of(law: FatigueLaw, traffic: Traffic) -> Wander:
@@ -296,10 +324,12 @@ def wander_of(law: FatigueLaw, traffic: Traffic) -> Wander:
     return Wander.none() if law.includes_wander else traffic.wander
 
 
-def damage_of(readings: Array, laws: Sequence[Sequence[FatigueLaw]], traffic: Traffic, climate: Climate) -> Array:
+def damage_of(
+    readings: Array, laws: Sequence[Sequence[Sequence[FatigueLaw]]], traffic: Traffic, climate: Climate
+) -> Array:
     """Damage of the first year (criterion, axle_class, season, y), without wander, from readings with turns.
 
-    laws: one for each criterion and season.
+    laws: one for each criterion, class of axles and season.
     """
     cycles = (
         traffic.passes_per_year
@@ -308,11 +338,10 @@ def damage_of(readings: Array, laws: Sequence[Sequence[FatigueLaw]], traffic: Tr
     )
     damage = np.empty(np.delete(readings.shape, 3))
     sign = np.where(np.arange(readings.shape[3]) % 2, -1.0, 1.0)[:, None]
-    for k, row in enumerate(laws):
-        for s, law in enumerate(row):
-            each = (sign / np.asarray(law.allowable_passes(readings[k, :, s]))).sum(axis=1)
-            # Where axles merge into one peak, round-off may leave less than nothing.
-            damage[k, :, s] = cycles[:, s, None] * np.maximum(each, 0.0)
+    for (k, c, s), cycle in np.ndenumerate(np.broadcast_to(cycles, damage.shape[:3])):
+        each = (sign / np.asarray(laws[k][c][s].allowable_passes(readings[k, c, s]))).sum(axis=0)
+        # Where axles merge into one peak, round-off may leave less than nothing.
+        damage[k, c, s] = cycle * np.maximum(each, 0.0)
     return damage
 
 
@@ -373,10 +402,11 @@ def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
     ]
 
 
-def _warnings(laws: Sequence[FatigueLaw], values: Array, shares: Array) -> list[str]:
+def _warnings(laws: Sequence[Sequence[FatigueLaw]], values: Array, shares: Array) -> list[str]:
     """Sentences on a criterion: of the season that does most, and of that which is read largest."""
     seasons = dict.fromkeys([int(shares.sum(axis=0).argmax()), int(values.max(axis=(0, 2, 3)).argmax())])
-    return [text for season in seasons for text in warnings_of(laws[season], values[:, season])]
+    heaviest = int(values.max(axis=(1, 2, 3)).argmax())
+    return [text for season in seasons for text in warnings_of(laws[heaviest][season], values[:, season])]
 
 
 def _years_to(traffic: Traffic, damage: float) -> float:

@@ -125,6 +125,9 @@ class Solver:
         for (row, season), (_, found) in zip(self.pairs, solved, strict=True):
             values[0, row, season] = found[0, : task.turns]
         warmth = layer_temperatures(road, (self.criterion,), climate.seasons)[0]
-        laws = [self.criterion.law_at(float(t)) for t in warmth]
+        laws = [[self.criterion.law_at(float(t)) for t in warmth] for _ in traffic.classes]
+        for (row, season), (passing, _) in zip(self.pairs, solved, strict=True):
+            warm = passing.warm
+            laws[row][season] = warm.criteria[0].law_on(warm.road, float(warmth[season]))
         damage = damage_of(values, [laws], traffic, climate).sum(axis=(0, 1, 2))
-        return float(wander_of(laws[0], traffic).spread(damage, float(task.y[1] - task.y[0])).max())
+        return float(wander_of(laws[0][0], traffic).spread(damage, float(task.y[1] - task.y[0])).max())

@@ -121,10 +121,10 @@ def life_equivalents(road: Pavement, life: Life, *, workers: int | None = None) 
     harm = _of_the_axle(road, life, sorted(set(seasons)), workers)
     standard = np.full(shares.shape[:2], np.nan)
     for k, season in enumerate(seasons):
-        law = life.laws[k][season]
-        alone = _harm(law, harm[season][k, :1])
+        laws = [row[season] for row in life.class_laws[k]]
+        alone = _harm(life.laws[k][season], harm[season][k, :1])
         if alone > 0:
-            standard[k] = [_harm(law, readings[k, number, season]) / alone for number in range(len(classes))]
+            standard[k] = [_harm(law, readings[k, n, season]) / alone for n, law in enumerate(laws)]
     loads = [_axle_load(row) for row in classes]
     axles = np.array([len({x for x, _ in row.wheels}) for row in classes])
     factors = np.array([GROUP_FACTORS["bituminous"].get(int(count), math.nan) for count in axles])

@@ -48,7 +48,7 @@ def group_factors(road: Pavement, life: Life, passages: Passages, workers: int |
         solved = solve_passings(tasks, pool, Counter(len(tasks), None))
     for number, season, alone in zip(several, seasons, solved, strict=True):
         group = readings[:, number, season]
-        for k, law in enumerate(row[season] for row in life.laws):
+        for k, law in enumerate(row[number][season] for row in life.class_laws):
             together, single = (_harm(law.allowable_passes(values)).max() for values in (group[k], alone[k, :1]))
             if single > 0:
                 factors[k, number] = together / (axles[number] * single)

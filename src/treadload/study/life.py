@@ -64,6 +64,7 @@ def solve_life(
         climate,
         layer_temperatures=passages.layer_temperatures,
         cracks=(passages.crack_angle, passages.crack_dip),
+        laws=passages.laws,
     )
     depths = ("criterion", _read_depths(life, passages), variables.attributes("read_depth"))
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))

@@ -13,6 +13,7 @@ import xarray as xr
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
+from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.miner import wander_of
 from treadload.damage.traffic import Traffic
 from treadload.errors import InputError
@@ -23,7 +24,7 @@ from treadload.study.climate import nodes, over_the_climate, warmth_of
 from treadload.study.contacts import Contacts, Counter, Progress
 from treadload.study.doubts import bond_doubts
 from treadload.study.passage import Passing, solve_passings
-from treadload.study.seasons import layer_temperatures, roads_of
+from treadload.study.seasons import laws_of, layer_temperatures, roads_of
 from treadload.study.wheels import Wheels, across, check_speed, states_of, wheels_of
 from treadload.tire import Tire
 
@@ -39,7 +40,8 @@ class Passages:
     layer_temperatures: (criterion, season), °C. contacts, responses: how many were really solved.
     interpolation_error: the largest that interpolation over the climate does, measured on the heaviest class: the
     relative error of its largest reading that would move damage as much; 0 if nothing was interpolated. moved: how
-    far a wheel was moved to stand on the common cells, m. warnings: sentences for the user.
+    far a wheel was moved to stand on the common cells, m. laws: (criterion, axle_class, season), of the moduli that
+    were solved. warnings: sentences for the user.
     """
 
     readings: xr.DataArray
@@ -52,6 +54,7 @@ class Passages:
     interpolation_error: float
     moved: float
     wheels: tuple[Wheels, ...]
+    laws: tuple[tuple[tuple[FatigueLaw, ...], ...], ...]
     warnings: tuple[str, ...] = ()
 
     @property
@@ -166,6 +169,7 @@ def solve_passages(
         max(errors),
         max(one.moved for one in wheels),
         tuple(wheels),
+        laws_of(warm, temperatures),
         tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads))
         + road_doubts(distinct[0].road)
         + bond_doubts(criteria, distinct, wheels),

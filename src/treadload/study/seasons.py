@@ -10,6 +10,7 @@ import numpy as np
 from treadload.damage.climate import Season
 from treadload.damage.criterion import Criterion
 from treadload.damage.frequency import contact_radius
+from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.traffic import AxleClass
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -94,6 +95,17 @@ def layer_temperatures(road: Pavement, criteria: Sequence[Criterion], seasons: S
     Within the data of a mix, to which laws go no further.
     """
     return np.array([[_at_layer(c, road, season) for season in seasons] for c in criteria])
+
+
+def laws_of(warm: Warmed, temperatures: Array) -> tuple[tuple[tuple[FatigueLaw, ...], ...], ...]:
+    """Laws (criterion, axle_class, season) of the roads as they are solved. temperatures: (criterion, season), °C."""
+    return tuple(
+        tuple(
+            tuple(own[n].criteria[k].law_on(own[n].road, float(t)) for n, t in zip(warm.where, row, strict=True))
+            for own in warm.by_class
+        )
+        for k, row in enumerate(temperatures)
+    )
 
 
 def frequencies(road: Pavement, season: Season, row: AxleClass) -> tuple[list[float], list[float]]:

@@ -146,14 +146,14 @@ def _without_solves(life: Life, number: int, growth: float) -> dict[str, float]:
     readings = life.readings.to_numpy()[number : number + 1]
     y = life.readings["y"].to_numpy()
     elasticity = {"passes": -growth}
-    laws = life.laws[number]
+    laws = life.class_laws[number]
 
     def peak(values: Array, wander: Wander) -> float:
         damage = damage_of(values, [laws], traffic, climate).sum(axis=(0, 1, 2))
         return float(wander.spread(damage, float(y[1] - y[0])).max())
 
     apart = math.log((1 + _STEP) / (1 - _STEP))
-    own = wander_of(laws[0], traffic)
+    own = wander_of(laws[0][0], traffic)
     stronger, weaker = (peak(readings / (1 + sign * _STEP), own) for sign in (1, -1))
     elasticity[f"strength of {criterion.name}"] = -growth * math.log(stronger / weaker) / apart
     if own.deviation:

@@ -61,6 +61,25 @@ class OnLayer:
         return {**own, **{name: value for name, value in given.items() if value is not None}}
 
 
+class OfModulus:
+    """A law that waits for the modulus of its layer. kind: of law. told: its other numbers. material: of the layer.
+
+    Called with a temperature, °C, it takes the modulus of the mix as given; `at_modulus` takes another, Pa: that of
+    an aged part of the layer, or at the frequency of a class of axles.
+    """
+
+    def __init__(self, kind: Callable[..., FatigueLaw], told: Mapping[str, Any], material: Mix) -> None:
+        self._kind, self._told, self._material = kind, told, material
+
+    def __call__(self, temperature: float) -> FatigueLaw:
+        """The law with the modulus of the mix at a temperature, °C."""
+        return self.at_modulus(self._material.modulus(temperature))
+
+    def at_modulus(self, modulus: float) -> FatigueLaw:
+        """The law with a modulus, Pa."""
+        return self._kind(**self._told, modulus=modulus)
+
+
 def law_of_layer(
     kind: Callable[..., FatigueLaw], at: OnLayer, given: Mapping[str, Any], needed: tuple[str, ...]
 ) -> Law:
@@ -78,7 +97,7 @@ def law_of_layer(
     if "modulus" in needed and "modulus" not in told:
         if isinstance(material, Mix):
             at.needed(told, *rest)
-            return lambda temperature: kind(**told, modulus=material.modulus(temperature))
+            return OfModulus(kind, told, material)
         if isinstance(material, Elastic):
             told["modulus"] = material.modulus
     at.needed(told, *needed)
