@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from treadload._version import __version__
-from treadload.cli import cases, compare, design, program, results, shell, studies, sweep, tires
+from treadload.cli import cases, compare, design, exports, program, results, shell, studies, sweep, tires
 
 __all__ = ["app", "main"]
 
@@ -27,11 +27,13 @@ for _command in (
     cases.init,
     cases.schema,
     results.report,
+    exports.export,
+    exports.as_python,
+    exports.cite,
     compare.compare,
     tires.scan,
     tires.card,
     program.catalogue,
-    program.criteria,
     program.criteria,
     program.demo,
     program.validate,

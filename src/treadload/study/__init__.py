@@ -1,5 +1,6 @@
 """From a case to its results, from a traffic to a life."""
 
+from treadload.study.as_python import case_as_python
 from treadload.study.calibration import Calibration, calibrate
 from treadload.study.delamination import BondComparison, compare_bonds, solve_interfaces
 from treadload.study.dents import Dents, run_dents
@@ -10,7 +11,7 @@ from treadload.study.life import solve_life
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.plan import plan_case, plan_life
 from treadload.study.reliability import Reliability, life_reliability
-from treadload.study.run import Result, run_case
+from treadload.study.run import Result, map_grid, run_case
 from treadload.study.run_calibration import CalibrationResult, plan_calibration, run_calibration
 from treadload.study.run_life import LifeResult, design_case, run_life
 from treadload.study.screening import Morris, Sobol, Tornado, morris, sobol, tornado
@@ -41,6 +42,7 @@ __all__ = [
     "UniformComparison",
     "assess_on_two_grids",
     "calibrate",
+    "case_as_python",
     "compare_bonds",
     "compare_uniform",
     "design_case",
@@ -49,6 +51,7 @@ __all__ = [
     "life_equivalents",
     "life_reliability",
     "life_sensitivity",
+    "map_grid",
     "morris",
     "open_sweep",
     "plan_calibration",

@@ -1,0 +1,122 @@
+"""`treadload export`, `cite` and `as-python`: what is taken to other programs, papers and scripts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from treadload.cli import shell
+
+
+def export(
+    results: Annotated[Path, typer.Argument(help="A result file, .nc.")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output", "-o",
+            help=".vts, .vtr or .vtu (ParaView), .dat (contact stresses for finite elements), .csv, .xlsx or "
+            ".parquet (tables).",
+        ),
+    ],
+    part: Annotated[
+        str, typer.Option(help="Of the results, by name; left out, the contact or the response that fits.")
+    ] = "",
+    units: Annotated[str, typer.Option(help="Of a .dat file: SI (m, Pa) or mm (mm, MPa).")] = "SI",
+    discs: Annotated[
+        int | None, typer.Option(help="Write so many equivalent discs of the contact, as .csv.", show_default=False)
+    ] = None,
+) -> None:  # fmt: skip
+    """Write a result, or a part of it, for another program; the suffix says which."""
+    from treadload.errors import InputError
+    from treadload.files import TABLE, check_suffix
+    from treadload.results import open_results
+    from treadload.results.discs import equivalent_discs
+    from treadload.results.exports import TABLES, write
+    from treadload.results.tractions import TRACTIONS, write_tractions
+    from treadload.results.vtk import VTK, write_vtk
+
+    suffix = check_suffix(output, {**TABLES, **VTK, **TRACTIONS} if discs is None else TABLE, "results")
+    opened = open_results(results)
+
+    def chosen(*kinds: str) -> Any:
+        name = part or next((kind for kind in kinds if kind in opened), "")
+        if not name:
+            raise InputError(
+                f"{results} holds no {' and no '.join(kinds)}; it holds {', '.join(opened) or 'nothing'}"
+            )
+        return opened[name]
+
+    if discs is not None:
+        made = equivalent_discs(chosen("contact"), discs)
+        shell.out.print(made.summary(), markup=False)
+        files: tuple[Path, ...] = (made.write_csv(output),)
+    elif suffix in VTK:
+        kinds = ("response",) if suffix == ".vtr" else ("contact", "response")
+        files = (write_vtk(chosen(*kinds), output),)
+    elif suffix in TRACTIONS:
+        files = (write_tractions(chosen("contact"), output, units=units),)
+    else:
+        files = write(opened.tree if not part else opened[part].dataset, output)
+    shell.written(files)
+
+
+def cite(
+    source: Annotated[
+        Path | None,
+        typer.Argument(help="A case, .toml, or a result, .nc; left out, the program itself.", show_default=False),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="File to write, .bib; else it is printed.", show_default=False),
+    ] = None,
+) -> None:
+    """BibTeX of the program and of the methods that a case or a result really uses."""
+    from treadload.files import check_suffix, replacing
+    from treadload.results.bibtex import bibtex, citations_of
+    from treadload.results.cite import CITATIONS
+
+    if output is not None:
+        check_suffix(output, {".bib": "BibTeX"}, "citations")
+    if source is None:
+        used = [CITATIONS["chain"]]
+    elif source.suffix.lower() == ".toml":
+        from treadload.case.schema import read_case
+
+        used = citations_of(read_case(source))
+    else:
+        from treadload.results import open_results
+
+        used = citations_of(open_results(source).tree)
+    text = bibtex(used)
+    if output is None:
+        print(text, end="")
+        return
+    with replacing(output) as path:
+        path.write_text(text, encoding="utf-8")
+    shell.written([output])
+
+
+def as_python(
+    case: Annotated[Path, typer.Argument(help="The case of a wheel or of a life, a TOML file.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="File to write, .py; else it is printed.", show_default=False),
+    ] = None,
+    changes: shell.Changes = None,
+) -> None:
+    """A case as the Python that gives the same numbers."""
+    from treadload.case.schema import read_case
+    from treadload.files import check_suffix, replacing
+    from treadload.study import case_as_python
+
+    if output is not None:
+        check_suffix(output, {".py": "Python"}, "a script")
+    text = case_as_python(read_case(case, changes=changes or ()))
+    if output is None:
+        print(text, end="")
+        return
+    with replacing(output) as path:
+        path.write_text(text, encoding="utf-8")
+    shell.written([output])

@@ -1,0 +1,97 @@
+"""Citations as BibTeX."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable
+from typing import Any
+
+import xarray as xr
+
+from treadload._version import __version__
+from treadload.case.file import FilePart
+from treadload.results.cite import CITATIONS, case_citations
+from treadload.results.schema import read_json
+
+# "Love, A. E. H. (1929). The stress produced ... Phil. Trans. R. Soc. A 228, 377-420."
+_WHOLE = re.compile(r"(?P<who>.+?) \((?P<year>\d{4})\)\. (?P<title>.+?)(?:\. (?P<where>.+?))?\.?$")
+_JOURNAL = re.compile(r"(?P<journal>.+?),? (?P<volume>\d+(?:-\d+)?), (?P<pages>[\w-]+)$")
+_PUBLISHED = re.compile(r"(?:.*\. )?(?P<publisher>[^.:]*?(?:Press|Kluwer|Holden-Day|Wiley|Springer)[^.:,]*)")
+_AUTHOR = re.compile(r"[^,]+, (?:[A-ZÀ-Ý]\.[ -]?)+")
+_CHAIN = {
+    "title": "Approach of Pavement Surface Layer Degradation Caused by Tire Contact Using Semi-Analytical Model",
+    "journal": "Materials", "volume": "14", "number": "9", "pages": "2117", "year": "2021",
+    "doi": "10.3390/ma14092117",
+}  # fmt: skip
+
+
+def bibtex(citations: Iterable[str]) -> str:
+    """BibTeX of citations as results hold them, behind that of the program itself. Each key once, in order."""
+    taken: set[str] = set()
+    entries = [_entry("software", "treadload", {
+        "title": "{treadload: what a tire does to a road}", "author": "{The treadload developers}",
+        "version": __version__, "year": "2026",
+    })]  # fmt: skip
+    for text in dict.fromkeys(citations):
+        kind, fields = _parsed(text)
+        key = _key(fields)
+        while key in taken:
+            key += "b"
+        taken.add(key)
+        entries.append(_entry(kind, key, fields))
+    return "\n\n".join(entries) + "\n"
+
+
+def citations_of(source: FilePart | xr.DataTree) -> list[str]:
+    """Citations of the methods that a case will use, or that the tree of a result says it used."""
+    if isinstance(source, FilePart):
+        return case_citations(source)
+    held = read_json(source.attrs.get("citations", "[]"), [])
+    return [str(one) for one in held]
+
+
+def _parsed(text: str) -> tuple[str, dict[str, str]]:
+    """Kind of entry and its fields; what cannot be told apart stands whole in a note."""
+    if text == CITATIONS["chain"]:
+        return "article", dict(_CHAIN)
+    match = _WHOLE.match(text)
+    if match is None:
+        return "misc", {"note": text}
+    title, where = match["title"], match["where"] or ""
+    # A title ends at its first point; the rest is where it was published.
+    fields = {"author": _authors(match["who"]), "year": match["year"], "title": f"{{{title}}}"}
+    journal = _JOURNAL.match(where)
+    if journal is not None:
+        pages = journal["pages"].replace("-", "--")
+        return "article", {**fields, "journal": journal["journal"], "volume": journal["volume"], "pages": pages}
+    published = _PUBLISHED.match(where)
+    if published is not None:
+        rest = where[published.end("publisher") :].lstrip(",.: ")
+        return "book", {**fields, "publisher": published["publisher"].strip(), **({"note": rest} if rest else {})}
+    return "misc", {**fields, **({"note": where} if where else {})}
+
+
+def _authors(who: str) -> str:
+    names = [one.strip(" ,") for one in _AUTHOR.findall(who)]
+    return " and ".join(names) if names else f"{{{who}}}"
+
+
+def _key(fields: dict[str, str]) -> str:
+    first = fields.get("author", fields.get("journal", fields.get("note", "source"))).strip("{}")
+    words = re.findall(r"[a-z]+", _plain(first.split(",")[0]).lower()) or ["source"]
+    return "".join(words[:3])[:24] + fields.get("year", "")
+
+
+def _plain(text: str) -> str:
+    return unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
+
+
+def _entry(kind: str, key: str, fields: dict[str, Any]) -> str:
+    lines = "".join(f"  {name} = {{{_safe(str(value))}}},\n" for name, value in fields.items())
+    return f"@{kind}{{{key},\n{lines}}}"
+
+
+def _safe(text: str) -> str:
+    """Letters that TeX reads as commands."""
+    return re.sub(r"(?<!\\)([&%#$_])", r"\\\1", text) if "10.3390" not in text else text

@@ -1,0 +1,73 @@
+"""Contact stresses as a plain table for programs of finite elements: x, y, p, qx, qy of every loaded cell."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from treadload.composing import Source, dataset_of
+from treadload.errors import InputError
+from treadload.files import check_suffix, replacing
+from treadload.kernels.arrays import Array
+
+TRACTIONS = {".dat": "contact stresses for finite elements", ".txt": "contact stresses for finite elements"}
+"""Suffixes of tables of contact stresses."""
+
+# Units of length and stress, and their factors from SI. N, mm, MPa belong together as m, N, Pa do.
+_UNITS = {"SI": ("m", 1.0, "Pa", 1.0), "mm": ("mm", 1e3, "MPa", 1e-6)}
+
+
+def write_tractions(
+    contact: Source, path: str | os.PathLike[str], *, units: str = "SI", everywhere: bool = False
+) -> Path:
+    """Write the stresses on the road, a row a cell, columns x y p qx qy, blanks between, under a header of comments.
+
+    contact: a contact or a footprint, with pressure (y, x), Pa; traction_x, traction_y, zero where they are missing.
+    units: "SI" (m, Pa) or "mm" (mm, MPa), which go with N. everywhere: True to write cells without load, too, so that
+    the rows form a full grid, x fastest. The header, lines that begin with "#", states axes, signs, units, the size
+    of the cells, over each of which the stress is uniform, and the forces that the rows add up to. Returns the path.
+    Raises InputError for unknown units, a contact without pressure, and uneven cells.
+    """
+    check_suffix(path, TRACTIONS, "contact stresses")
+    if units not in _UNITS:
+        raise InputError(f"units of contact stresses are 'SI' (m, Pa) or 'mm' (mm, MPa), got {units!r}")
+    data = dataset_of(contact)
+    if "pressure" not in data or not {"x", "y"} <= set(data["pressure"].dims):
+        raise InputError(f"cannot write {path}: contact stresses need the pressure of a contact over x and y")
+    x, y = (data[name].to_numpy().astype(float) for name in ("x", "y"))
+    dx, dy = _step(x, "x"), _step(y, "y")
+    p, qx, qy = (
+        np.nan_to_num(data[name].transpose("y", "x").to_numpy().astype(float)) if name in data
+        else np.zeros((len(y), len(x)))
+        for name in ("pressure", "traction_x", "traction_y")
+    )  # fmt: skip
+    length, per_m, stress, per_pa = _UNITS[units]
+    forces = [float(one.sum() * dx * dy) for one in (p, qx, qy)]
+    across, down = np.meshgrid(x, y)
+    loaded = np.full(p.shape, True) if everywhere else (p != 0) | (qx != 0) | (qy != 0)
+    rows = np.stack([per_m * across, per_m * down, per_pa * p, per_pa * qx, per_pa * qy], axis=-1)[loaded]
+    head = [
+        "contact stresses on the road, written by treadload",
+        f"columns: x y p qx qy; x, y in {length}; p, qx, qy in {stress}",
+        "x: direction of travel. y: to the right of travel, seen from above. z would point down, into the road.",
+        "p: pressure on the road, positive, acts along +z (down). qx, qy: shear exerted by the tire on the road,",
+        "positive along +x, +y. A driving wheel has a negative sum of qx.",
+        f"x, y: centres of cells of {per_m * dx:.9g} by {per_m * dy:.9g} {length}; the stress is uniform over each.",
+        f"cells: {len(rows)}{'' if everywhere else ', those with load'}; rows run along x first.",
+        f"sum over the cells, N: p {forces[0]:.9g}, qx {forces[1]:.9g}, qy {forces[2]:.9g}",
+    ]
+    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as stream:
+        stream.writelines(f"# {line}\n" for line in head)
+        np.savetxt(stream, rows, fmt="%.9e")
+    return Path(path)
+
+
+def _step(values: Array, name: str) -> float:
+    steps = np.diff(values)
+    if not len(steps) or np.ptp(steps) > 1e-6 * abs(steps.mean()):
+        raise InputError(
+            f"contact stresses need cells of one size, those along {name} differ; interpolate them first"
+        )
+    return float(steps.mean())
