@@ -68,6 +68,20 @@ _FRINGES = {
     "fringe_deviation": ("m", "standard deviation of a pixel's height by noise of the pictures"),
 }
 
+_TEXTURE = {
+    "mean_pressure": ("Pa", "mean pressure on a patch of texture"),
+    "local_pressure": ("Pa", "local pressure on a patch of texture"),
+    "texture_height": ("m", "height of a road's texture, up positive"),
+    "real_area_ratio": ("1", "share of the area that really touches"),
+    "mean_gap": ("m", "mean separation of rubber and texture"),
+    "persson_area_ratio": ("1", "share of the area that touches after Persson's theory"),
+    "asperity_area_ratio": ("1", "share of the area that touches where asperities do not feel each other"),
+    "load_share_above": ("1", "share of the load that is carried by pressures above a local one"),
+    "area_share_above": ("1", "share of the area that is under pressures above a local one"),
+    "reference_pressure": ("Pa", "mean pressure of the fields on the texture"),
+    "real_area": ("m^2", "area of the wheel's contact that really touches the texture"),
+}
+
 _HISTORY = {
     "step": ("1", "number of the step, 0 before the first"),
     "distance": ("m", "distance rolled since the start"),
@@ -424,6 +438,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_COORDINATES,
     **_CONTACT,
     **_FRINGES,
+    **_TEXTURE,
     **_HISTORY,
     **_RESPONSE,
     **_MOVING,
@@ -449,7 +464,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
     "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
-    "input", "risk", "year", "crack_depth", "solved_depth",
+    "input", "risk", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure",
     "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth",
     "profile_depth", "sublayer", "point", "row", "column", "y", "across", "x", "component", "orientation",
 )  # fmt: skip

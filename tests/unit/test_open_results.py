@@ -54,6 +54,11 @@ def response():
     return tl.solve_response(contact(), ROAD, depths=[0.0, 0.08], x=AT, y=AT)
 
 
+def on_texture():
+    made = {"hurst": 0.8, "shortest": 8e-3, "rms_height": 2e-4}
+    return tl.contact.solve_texture(tl.pavement.texture.self_affine(0.05, 0.05 / 32, **made), RUBBER, contact())
+
+
 def bonds():
     strength = tl.damage.InterfaceStrength(cohesion=3e5, friction_angle=0.6, doubt="made up")
     fields = tl.study.solve_interfaces(contact(), ROAD, x=AT, y=AT)
@@ -260,6 +265,8 @@ MADE = {
     "Passes": passes,
     "Indentation": dented,
     "Heterogeneous": heterogeneous,
+    "TextureContact": on_texture,
+    "Enveloped": lambda: tl.contact.envelop(contact(), 0.03),
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
 FIGURES = {
@@ -270,6 +277,7 @@ FIGURES = {
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",
+    "TextureContact": "patch", "Enveloped": "pressure",
     "Sweep": lambda plot: plot.curve("worst_strain"), "Tornado": "tornado", "Sobol": "sobol", "Morris": "morris",
 }  # fmt: skip
 

@@ -14,6 +14,7 @@ from treadload.case.passes import PassesPart
 from treadload.case.pressing import DrumPart, IndentationPart
 from treadload.case.response import ResponsePart
 from treadload.case.road import PavementPart
+from treadload.case.texture import TexturePart
 from treadload.case.tire import TirePart
 from treadload.contact import Rolling
 from treadload.contact.bodies.choose import RoadCompliance, surface_of
@@ -64,11 +65,12 @@ class Case(FilePart):
     footprint: recorded contact stress in place of tire and rolling. response: where the road is read. damage: what it
     does to the surface. passes: how often it rolls over a road that yields.
     aggregates: stones in the mortar of the top layer, in a window. indentation, drum: in place of rolling and what
-    follows, a body that dents its road, which `treadload.study.run_dents` and `treadload run` solve.
+    follows, a body that dents its road, which `treadload.study.run_dents` and `treadload run` solve. texture: of the
+    road, which the tread touches.
     """
 
     own_tables: ClassVar = (
-        "rolling", "footprint", "response", "damage", "passes", "aggregates", "indentation", "drum",
+        "rolling", "footprint", "response", "damage", "passes", "aggregates", "texture", "indentation", "drum",
     )  # fmt: skip
     how_to_run: ClassVar = "the case of a wheel: use `treadload run {name}`, in Python Case"
 
@@ -83,6 +85,7 @@ class Case(FilePart):
     damage: DamagePart | None = None
     passes: PassesPart | None = None
     aggregates: AggregatesPart | None = None
+    texture: TexturePart | None = None
     indentation: IndentationPart | None = None
     drum: DrumPart | None = None
 
@@ -107,6 +110,8 @@ class Case(FilePart):
             _check_yields("[passes] need", road)
         if self.aggregates is not None:
             self.aggregates.road(road)
+        if self.texture is not None:
+            self.texture.check(has_tire=self.tire is not None, speed=self.speed)
         if self.damage is not None:
             depth = self.damage.depth
             if depth is not None and not same_depth(self.response.depths, depth).any():

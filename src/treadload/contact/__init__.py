@@ -1,10 +1,12 @@
 """Contact of tire and road: pressure, shear, stick and slip."""
 
 from treadload.contact.curve import CreepCurve, creep_curve
+from treadload.contact.enveloped import Enveloped, envelop
 from treadload.contact.indentation import Indentation, solve_indentation
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.contact.resistance import RollingResistance, rolling_resistance
 from treadload.contact.rolling_state import Rolling
+from treadload.contact.rough import TextureContact, solve_texture
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
 from treadload.contact.transient import TransientResult, solve_transient
@@ -14,16 +16,20 @@ __all__ = [
     "STRAIGHT",
     "Contact",
     "CreepCurve",
+    "Enveloped",
     "Indentation",
     "Maneuver",
     "Rolling",
     "RollingResistance",
+    "TextureContact",
     "TransientResult",
     "TurnResult",
     "creep_curve",
+    "envelop",
     "rolling_resistance",
     "solve_contact",
     "solve_indentation",
+    "solve_texture",
     "solve_transient",
     "turn_on_the_spot",
 ]

@@ -20,8 +20,8 @@ from scipy import fft as _scipy
 from scipy.fft import fftfreq, next_fast_len, rfftfreq
 
 __all__ = [
-    "cosine2", "cosines", "device", "fft", "fftfreq", "ifft", "irfft", "irfft2", "namespace", "next_fast_len", "on",
-    "portions", "rfft", "rfft2", "rfftfreq", "sines", "to_device", "to_host",
+    "cosine2", "cosines", "device", "fft", "fftfreq", "ifft", "irfft", "irfft2", "mirrored_waves", "namespace",
+    "next_fast_len", "on", "portions", "rfft", "rfft2", "rfftfreq", "sines", "to_device", "to_host",
 ]  # fmt: skip
 
 # Numbers that are transformed at once: what a processor's cache holds, what a GPU keeps busy with.
@@ -128,6 +128,11 @@ def irfft2(x: Any, s: tuple[int, int]) -> Any:
 def cosine2(quadrant: Any) -> Any:
     """The transform (ny, nx) of what is even both ways about both ends of a quadrant (ny, nx), of which it is one."""
     return _scipy.dctn(quadrant, type=1)
+
+
+def mirrored_waves(field: Any, *, back: bool = False) -> Any:
+    """The cosine waves (ny, nx) of a field (ny, nx) that is mirrored in the borders of its cells; back: the field."""
+    return _scipy.idctn(field, type=2) if back else _scipy.dctn(field, type=2)
 
 
 def cosines(half: Any, n: int, axis: int = -1) -> Any:

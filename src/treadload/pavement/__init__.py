@@ -11,6 +11,7 @@ from treadload.pavement.rows import LayerRow, layer_rows, road_in_words
 from treadload.pavement.structure import Pavement
 from treadload.pavement.sublayers import divided
 from treadload.pavement.temperature import TemperatureProfile
+from treadload.pavement.texture import Texture
 from treadload.pavement.weather import Weather, read_weather
 
 __all__ = [
@@ -32,6 +33,7 @@ __all__ = [
     "Structure",
     "TemperatureProfile",
     "TestedBond",
+    "Texture",
     "Weather",
     "bells",
     "bituminous_thickness",

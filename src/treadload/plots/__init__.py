@@ -27,6 +27,7 @@ from treadload.plots.others import (
     BondVerdictPlots,
     CalibrationPlots,
     CreepCurvePlots,
+    EnvelopedPlots,
     EquivalentsPlots,
     FieldsPlots,
     FootprintComparisonPlots,
@@ -41,6 +42,7 @@ from treadload.plots.others import (
     SensitivityPlots,
     SobolPlots,
     SweepPlots,
+    TexturePlots,
     ThicknessDesignPlots,
     TireCardPlots,
     TornadoPlots,
@@ -58,6 +60,7 @@ from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_
 from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
 from treadload.plots.tearing import tearing
+from treadload.plots.texture import enveloped_pressure, texture_contact
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 from treadload.plots.verdict import fatigue_line
@@ -69,6 +72,7 @@ __all__ = [
     "CalibrationPlots",
     "ContactPlots",
     "CreepCurvePlots",
+    "EnvelopedPlots",
     "EquivalentsPlots",
     "FieldsPlots",
     "FootprintComparisonPlots",
@@ -84,6 +88,7 @@ __all__ = [
     "SensitivityPlots",
     "SobolPlots",
     "SweepPlots",
+    "TexturePlots",
     "ThicknessDesignPlots",
     "TireCardPlots",
     "TornadoPlots",
@@ -112,6 +117,7 @@ __all__ = [
     "design_thicknesses",
     "dissipated_energy",
     "drum_contact",
+    "enveloped_pressure",
     "fatigue_line",
     "first_places",
     "fringe_scan",
@@ -149,6 +155,7 @@ __all__ = [
     "study_multiples",
     "study_slip_curve",
     "tearing",
+    "texture_contact",
     "tire_card",
     "tornado_bars",
     "trace_rose",

@@ -28,6 +28,7 @@ from treadload.plots.stones import stones_in_mortar
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
+from treadload.plots.texture import enveloped_pressure, texture_contact
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 from treadload.plots.works import life_works
@@ -108,6 +109,24 @@ class HeterogeneousPlots(_Plots):
     def section(self, *, along: Literal["travel", "across"] = "across", at: float | None = None) -> Figure:
         """Largest tension in a vertical section with stones and without, and how it is spread. at: m."""
         return stones_in_mortar(self._result, along=along, at=at)
+
+
+@offers("plot", "TextureContact")
+class TexturePlots(_Plots):
+    """Figures of rubber on a texture."""
+
+    def patch(self) -> Figure:
+        """Texture, pressure on its peaks, area against mean pressure, and which pressures carry the load."""
+        return texture_contact(self._result)
+
+
+@offers("plot", "Enveloped")
+class EnvelopedPlots(_Plots):
+    """Figures of an enveloped pressure."""
+
+    def pressure(self, before: Source | None = None) -> Figure:
+        """The enveloped pressure in plan. before: the contact itself, to be drawn beside it on its own scale."""
+        return enveloped_pressure(self._result, before)
 
 
 @offers("plot", "Sensitivity")

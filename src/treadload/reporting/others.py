@@ -10,6 +10,7 @@ from treadload.plots import (
     CalibrationPlots,
     ContactPlots,
     CreepCurvePlots,
+    EnvelopedPlots,
     EquivalentsPlots,
     FieldsPlots,
     FootprintComparisonPlots,
@@ -23,6 +24,7 @@ from treadload.plots import (
     RollingResistancePlots,
     SensitivityPlots,
     SobolPlots,
+    TexturePlots,
     ThicknessDesignPlots,
     TireCardPlots,
     TornadoPlots,
@@ -43,6 +45,8 @@ HEADINGS = {
     "creep_curve": "Creep curve",
     "growth": "A crack that grows",
     "indentation": "Indentation",
+    "texture": "Rubber on texture",
+    "enveloped": "Enveloped pressure",
     "sensitivity": "What the life depends on",
     "equivalents": "Standard axles and equivalent temperature",
     "design": "Design of a thickness",
@@ -139,6 +143,15 @@ def _pictures(other: Other) -> list[Picture]:
         case "indentation":
             caption = "Pressure under the body, and what the surface keeps of it, step by step."
             return picture("Pressure and dent", caption, IndentationPlots(data).dent, wide=True)
+        case "texture":
+            caption = (
+                "A patch that stands for the road: its heights, the pressure on its peaks, how much of it touches, "
+                "and which pressures carry the load."
+            )
+            return picture("Rubber on texture", caption, TexturePlots(data).patch, wide=True)
+        case "enveloped":
+            caption = "The pressure on peaks, filtered over the enveloping length, with the same load."
+            return picture("Enveloped pressure", caption, EnvelopedPlots(data).pressure)
         case "passes":
             plots_of_passes = PassesPlots(data)
             caption = "Displacement of the surface that passes leave, down; the same all along travel."

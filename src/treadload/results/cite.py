@@ -56,6 +56,10 @@ CITATIONS = {
     "zone in which initial strains are uniform. J. Appl. Mech. 45, 302-306.",
     "dents": "Jacq, C., Nélias, D., Lormand, G., Girodin, D. (2002). Development of a three-dimensional "
     "semi-analytical elastic-plastic contact code. J. Tribol. 124, 653-667.",
+    "endless": "Stanley, H. M., Kato, T. (1997). An FFT-based method for rough surface contact. Journal of Tribology "
+    "119(3), 481-485.",
+    "persson": "Persson, B. N. J. (2001). Theory of rubber friction and contact mechanics. The Journal of Chemical "
+    "Physics 115(8), 3840-3861.",
     "passes": "Dang Van, K., Maitournam, M. H. (1993). Steady-state flow in classical elastoplasticity: applications "
     "to repeated rolling and sliding contact. J. Mech. Phys. Solids 41, 1691-1710.",
     "inclusions": "Zhou, K., Keer, L. M., Wang, Q. J. (2011). Semi-analytic solution for multiple interacting "
@@ -145,6 +149,11 @@ def dents_citations() -> list[str]:
 def stones_citations() -> list[str]:
     """References of the methods that stones in mortar use beside those of the response."""
     return [CITATIONS[key] for key in ("equivalence", "inclusions", "eigenstrain")]
+
+
+def texture_citations() -> list[str]:
+    """References of the methods that rubber on texture uses."""
+    return [CITATIONS[key] for key in ("endless", "normal", "persson")]
 
 
 # Of every case that is solved whole.

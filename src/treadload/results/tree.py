@@ -21,7 +21,7 @@ from treadload._version import __version__
 from treadload.case import Case
 from treadload.case.file import FilePart
 from treadload.composing import BaseResult
-from treadload.contact import Contact, Indentation
+from treadload.contact import Contact, Indentation, TextureContact
 from treadload.damage import Life, Season, Verdict
 from treadload.errors import InputError
 from treadload.footprint import Footprint
@@ -35,6 +35,7 @@ from treadload.results.cite import (
     life_citations,
     passes_citations,
     stones_citations,
+    texture_citations,
 )
 from treadload.results.dataset import Fields
 from treadload.results.questions import Writer
@@ -114,6 +115,8 @@ def to_tree(
         used = list(dict.fromkeys([*used, *passes_citations()]))
     if any(isinstance(part, Heterogeneous) for part in own):
         used = list(dict.fromkeys([*used, *stones_citations()]))
+    if any(isinstance(part, TextureContact) for part in own):
+        used = list(dict.fromkeys([*used, *texture_citations()]))
     root = {
         "title": title or (case.title if case is not None else ""),
         "case": case.to_toml() if case is not None else "",

@@ -13,7 +13,7 @@ import xarray as xr
 from treadload.case import Case
 from treadload.case.model import DamagePart
 from treadload.composing import BaseResult
-from treadload.contact import Contact, solve_contact
+from treadload.contact import Contact, TextureContact, solve_contact, solve_texture
 from treadload.damage import Verdict, assess
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -69,6 +69,7 @@ class Result(Study):
     verdict: Verdict | None
     passes: Passes | None = None
     heterogeneous: Heterogeneous | None = None
+    texture: TextureContact | None = None
 
     @property
     def parts(self) -> Mapping[str, BaseResult]:
@@ -77,7 +78,7 @@ class Result(Study):
         parts = {
             "contact": load, "response": self.response, "slice_along": self.slice_along,
             "slice_across": self.slice_across, "bowl": self.bowl, "damage": self.verdict,
-            "passes": self.passes, "heterogeneous": self.heterogeneous,
+            "passes": self.passes, "heterogeneous": self.heterogeneous, "texture": self.texture,
         }  # fmt: skip
         return {name: part for name, part in parts.items() if part is not None}
 
@@ -89,9 +90,8 @@ class Result(Study):
         """One screen: contact, road, response, verdict."""
         parts = self.parts
         told = [parts["contact"].summary(), road_in_rows(self.road, self.case), self.response.summary()]
-        return "\n\n".join(
-            [*told, *(one.summary() for one in (self.verdict, self.passes, self.heterogeneous) if one is not None)]
-        )
+        rest = (self.verdict, self.passes, self.heterogeneous, self.texture)
+        return "\n\n".join([*told, *(one.summary() for one in rest if one is not None)])
 
     __repr__ = first_line
 
@@ -133,7 +133,22 @@ def read_loaded(load: Loaded) -> Result:
         bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
     passes = None if case.passes is None else passes_of(case, load)
     stones = None if case.aggregates is None else stones_of(case, load)
-    return Result(case, road, load.contact, load.footprint, response, along, across, bowl, verdict, passes, stones)
+    rough = None if case.texture is None else texture_of(case, load)
+    return Result(
+        case, road, load.contact, load.footprint, response, along, across, bowl, verdict, passes, stones, rough
+    )
+
+
+def texture_of(case: Case, load: Loaded) -> TextureContact:
+    """The tread's rubber on the texture that a case names, under the pressures of its contact."""
+    asked = case.texture
+    assert asked is not None
+    if load.contact is None:
+        raise InputError("[texture] needs the contact of a tire, and this case has a recorded footprint")
+    return solve_texture(
+        asked.build(case.folder), asked.build_rubber(), load.contact, thickness=asked.thickness,
+        speed=case.speed, wave=asked.wave, progress=load.tell,
+    )  # fmt: skip
 
 
 def passes_of(case: Case, load: Loaded) -> Passes:

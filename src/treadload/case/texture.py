@@ -1,0 +1,105 @@
+"""The texture of a case's road, and the rubber that touches it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import model_validator
+
+from treadload.errors import positive
+from treadload.materials import Elastic, Prony
+from treadload.pavement import Texture
+from treadload.pavement import texture as made
+from treadload.read import Choice, Table
+from treadload.registry import MATERIALS
+from treadload.units import Length, Number
+
+RUBBER = Choice(MATERIALS, "rubber of the tread", only=(Elastic, Prony))
+_SPECTRUM = ("size", "hurst", "roll_off", "rms_height", "rms_slope", "seed")
+
+
+class TexturePart(Table):
+    """`[texture]`: the road's texture below the tread, see `treadload.contact.solve_texture`.
+
+    rubber: of the tread, its own; a viscoelastic one is read at the speed over `wave`. thickness: of the tread on its
+    belt; left out, deep. wave: by which a speed becomes a frequency; left out, the texture's mean one.
+    file: a texture as it was measured; its drop-outs are filled, its outliers taken out, and it is levelled. units:
+    of a matrix of heights, "mm". spacing: of the points of a matrix, or of a spectrum. outliers: slope of a step that
+    is a spike, 3 if left out; 0 keeps all. longest: wave of a file that stays. shortest: wave that stays, or that a
+    spectrum has. size: of a patch made of a spectrum, not a file. hurst: exponent of the spectrum. roll_off:
+    wave beyond which the spectrum is flat; left out, size. rms_height: of the patch. rms_slope: of the patch, in
+    place of rms_height. seed: of the phases. See `treadload.pavement.texture.self_affine`.
+    """
+
+    rubber: Annotated[Any, RUBBER]
+    thickness: Length | None = None
+    wave: Length | None = None
+    file: Path | None = None
+    units: str | None = None
+    spacing: Length | None = None
+    outliers: Number = 3.0
+    shortest: Length | None = None
+    longest: Length | None = None
+    size: Length | None = None
+    hurst: Number | None = None
+    roll_off: Length | None = None
+    rms_height: Length | None = None
+    rms_slope: Number | None = None
+    seed: int = 0
+
+    @model_validator(mode="after")
+    def _one_source(self) -> TexturePart:
+        given = [name for name in _SPECTRUM if name in self.model_fields_set]
+        if self.file is not None and given:
+            raise ValueError(f"{given[0]} is of a spectrum, and file of a measurement: give one of them")
+        if self.outliers < 0:
+            raise ValueError(f"outliers must be a slope > 0, or 0 to keep all, got {self.outliers:g}")
+        for name in ("thickness", "wave", "spacing"):
+            value = getattr(self, name)
+            if value is not None:
+                positive(name, value, "metres", "leave it out for the default")
+        if self.file is None:
+            stray = [name for name in ("units", "longest", "outliers") if name in self.model_fields_set]
+            if stray:
+                raise ValueError(f"{stray[0]} is of a file, and there is none; leave it out")
+            missing = [name for name in ("size", "spacing", "hurst", "shortest") if getattr(self, name) is None]
+            if missing:
+                raise ValueError(f"'{missing[0]}' is missing: give a file, or size, spacing, hurst and shortest")
+            self._spectrum()
+        return self
+
+    def check(self, *, has_tire: bool, speed: float | None) -> None:
+        """Refuse what does not fit the rest of the case."""
+        if not has_tire:
+            raise ValueError("[texture] needs the contact of a tire, and this case has a recorded footprint")
+        if isinstance(self.build_rubber(), Prony) and speed is None:
+            raise ValueError("the rubber of [texture] is viscoelastic: give the speed in [rolling] or [response]")
+
+    def build_rubber(self) -> Elastic | Prony:
+        """The rubber."""
+        rubber: Elastic | Prony = RUBBER.build(self.rubber)
+        return rubber
+
+    def build(self, folder: Path | None) -> Texture:
+        """The texture, read and treated, or made. folder: of the case, from which its file is found."""
+        if self.file is None:
+            return self._spectrum()
+        path = self.file if folder is None else folder / self.file
+        found = made.read_texture(path, spacing=self.spacing, units=self.units)
+        if self.outliers:
+            found = made.remove_outliers(found, slope=self.outliers)
+        found = made.level(made.fill_dropouts(found, most=0.5))
+        if self.shortest is not None or self.longest is not None:
+            found = made.band_pass(found, shortest=self.shortest, longest=self.longest)
+        return found
+
+    def _spectrum(self) -> Texture:
+        assert self.size is not None
+        assert self.spacing is not None
+        assert self.hurst is not None
+        assert self.shortest is not None
+        return made.self_affine(
+            self.size, self.spacing, hurst=self.hurst, shortest=self.shortest, roll_off=self.roll_off,
+            rms_height=self.rms_height, rms_slope=self.rms_slope, seed=self.seed,
+        )  # fmt: skip

@@ -1,0 +1,314 @@
+"""Rubber on a road's texture: a patch that stands for all of it, under mean pressures.
+
+A texture has waves far below the cells on which a wheel is solved. So the two scales are solved apart: the wheel on a
+plane gives the mean pressure, and here a patch of texture, repeated or mirrored for ever, is pressed by it into the
+rubber. Pressure p ≥ 0 minimises ½ p·A p + p·h at a mean; A is one factor for every wave of the patch.
+
+Sources: Stanley & Kato (1997), J. Tribol. 119, 481-485; Polonsky & Keer (1999), Wear 231, 206-219; Yastrebov,
+Anciaux & Molinari (2017), J. Mech. Phys. Solids 107, 469-493, for the area that cells at the rims of the contact have
+too much (its factor from memory, to verify).
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+import xarray as xr
+
+from treadload.composing import BaseResult, Holds
+from treadload.contact.friction.laws import PressureDependent
+from treadload.contact.rough_theory import asperity_area, persson_area
+from treadload.contact.solution import Contact
+from treadload.contact.tread_layer import TreadRubber, wave_that_matters
+from treadload.describing import first_line
+from treadload.errors import ConvergenceError, InputError, positive
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.complementarity import projected_cg
+from treadload.kernels.gridding.periodic import Endless
+from treadload.materials import Elastic, Prony
+from treadload.pavement.texture.description import Texture
+from treadload.variables import dataset
+
+# Of the rim of the contact, in cells, that the cells count too much: (π - 1 + ln 2)/24.
+_RIM = (math.pi - 1 + math.log(2)) / 24
+_MOST_CELLS, _MOST_STEPS, _MOST_PRESSURES = 4_200_000, 3000, 64
+# Classes of local pressure, of the peak.
+_CLASSES, _LOWEST = 60, 1e-3
+# Where a warning is due: slopes that are no longer small, and waves of the mean that a patch must hold.
+_STEEP, _FEW = 0.5, 6
+# Of the pressures of a wheel, from its largest down, and how many.
+_OF_PEAK, _STEPS = 0.05, 7
+
+
+@dataclass(frozen=True, eq=False)
+class TextureContact(BaseResult, group="texture"):
+    """Rubber on a patch of texture under several mean pressures.
+
+    dataset: over mean_pressure the share of the area that touches (real_area_ratio), the mean gap, the peak pressure,
+    and what Persson's theory and independent asperities say; over local_pressure as well the share of the load that
+    pressures above it carry, and of the area under them; texture_height and pressure over (y, x) at
+    reference_pressure. stats: iterations, seconds. warnings: sentences. texture, rubber: the question.
+    """
+
+    holds: ClassVar[Holds] = Holds(
+        {
+            "mean_pressure": "mean_pressure", "local_pressure": "local_pressure", "y": "y", "x": "x",
+            "real_area_ratio mean_gap peak_pressure persson_area_ratio asperity_area_ratio": "mean_pressure",
+            "load_share_above area_share_above": "mean_pressure local_pressure",
+            "texture_height pressure": "y x",
+            "reference_pressure": "",
+        },
+        maybe={"real_area contact_area": ""},
+        known="real_area_ratio pressure texture_height mean_pressure",
+        numbers="dx dy modulus poisson rms_slope rms_height",
+        texts="rubber",
+        positive="dx dy modulus mean_pressure",
+        sizes={"mean_pressure": (1, np.inf)},
+    )  # fmt: skip
+
+    dataset: xr.Dataset
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    def area_ratio(self, pressure: Array) -> Array:
+        """Share of the area that touches at mean pressures, Pa, of any shape: along the curve, proportional below it.
+
+        Raises InputError above the largest mean pressure that was solved.
+        """
+        p, ratio = (self.dataset[name].to_numpy() for name in ("mean_pressure", "real_area_ratio"))
+        asked = np.asarray(pressure, dtype=float)
+        if asked.size and not float(np.nanmax(asked)) <= p[-1] * (1 + 1e-9):
+            raise InputError(
+                f"the texture was solved up to {p[-1] / 1e3:.4g} kPa, and {float(np.nanmax(asked)) / 1e3:.4g} kPa is "
+                "asked for; give solve_texture larger pressures"
+            )
+        return np.asarray(np.interp(asked, [0.0, *p], [0.0, *ratio]))
+
+    def friction_law(self, shear_strength: float) -> PressureDependent:
+        """An effective law of friction on this texture: shear_strength, Pa, on the area that really touches.
+
+        μ(p) = strength · A(p)/(A₀ p), fitted by μ_ref (p/p_ref)^(-n) over the pressures that were solved. Adhesion on
+        the real area alone: the loss in rubber that texture kneads is not in it. For `Rolling(friction=...)`.
+        """
+        positive("shear_strength", shear_strength, "Pa", "dry rubber has some 1e6")
+        p, ratio = (self.dataset[name].to_numpy() for name in ("mean_pressure", "real_area_ratio"))
+        friction = shear_strength * ratio / p
+        middle = math.exp(float(np.log(p).mean()))
+        slope = float(np.polyfit(np.log(p / middle), np.log(friction), 1)[0]) if p.size > 1 else 0.0
+        reference = math.exp(float(np.log(friction).mean()))
+        exponent = min(max(-slope, 0.0), 1 / 3)
+        return PressureDependent(reference, middle, exponent, upper=max(float(friction.max()), reference))
+
+    def summary(self) -> str:
+        """The texture, the rubber, and area, gap and peak pressure by mean pressure."""
+        d, a = self.dataset, self.dataset.attrs
+        lines = [
+            f"texture       rms height {a['rms_height'] * 1e3:.3g} mm, rms slope {a['rms_slope']:.3g}, "
+            f"{d.sizes['x']} x {d.sizes['y']} cells of {a['dx'] * 1e3:.3g} x {a['dy'] * 1e3:.3g} mm",
+            f"rubber        {a['rubber']}",
+            "mean kPa   touches %   Persson %   peak MPa   mean gap mm",
+        ]
+        for row in range(d.sizes["mean_pressure"]):
+            one = d.isel(mean_pressure=row)
+            lines.append(
+                f"{float(one.mean_pressure) / 1e3:<8.4g} {100 * float(one.real_area_ratio):>10.3g} "
+                f"{100 * float(one.persson_area_ratio):>11.3g} {float(one.peak_pressure) / 1e6:>10.3g} "
+                f"{float(one.mean_gap) * 1e3:>13.3g}"
+            )
+        if "real_area" in d and "contact_area" in d:
+            part = float(d.real_area / d.contact_area)
+            lines.append(f"wheel         {float(d.real_area) * 1e6:.0f} mm² touch, {100 * part:.3g} % of its contact")
+        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+
+    __repr__ = first_line
+
+
+def solve_texture(
+    texture: Texture,
+    rubber: Elastic | Prony,
+    pressures: Sequence[float] | Contact,
+    *,
+    thickness: float | None = None,
+    speed: float | None = None,
+    wave: float | None = None,
+    reference: float | None = None,
+    tolerance: float = 1e-4,
+    progress: Callable[[str], None] | None = None,
+) -> TextureContact:
+    """Rubber pressed on a texture: how much of the area touches, under what pressure.
+
+    texture: a patch that stands for the road, filled and levelled; one that continues at its ends is repeated, any
+    other mirrored. A profile is taken as ridges across. rubber: of the tread, its own modulus, not that of a
+    half-space that stands for the tire; a Prony is read at frequency speed over wave, |E*|. The road is rigid beside
+    it. pressures: mean ones, Pa; or a Contact, whose pressures from a twentieth of the peak to the peak serve, and
+    whose real area is then given. thickness: of the tread on its belt, m; None: deep. wave: m, left out
+    `texture.mean_wave`. reference: the one of the pressures, Pa, whose fields are kept; left out, the mean of a
+    Contact or the middle of the list. tolerance: of the gap where it should be closed, relative to the approach.
+    No friction, no adhesion, no water. Raises InputError for drop-outs and pressures that are none,
+    ConvergenceError with the residual reached.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda text: None)
+    heights = texture.whole("the contact with a texture")
+    if heights.size > _MOST_CELLS:
+        raise InputError(
+            f"the patch of texture has {heights.size} points, more than {_MOST_CELLS:.1e}; cut a smaller one, "
+            "pavement.texture.cut"
+        )
+    if not np.ptp(heights) > 0:
+        raise InputError("the texture is flat: all its heights are the same, and everything touches")
+    if not 1e-10 <= tolerance <= 1e-2:
+        raise InputError(f"tolerance must lie in [1e-10, 1e-2], got {tolerance:g}; 1e-4 is the default")
+    wheel = pressures if isinstance(pressures, Contact) else None
+    steps, kept = _steps(pressures, reference)
+    tread = TreadRubber.of(rubber, thickness, speed, wave_that_matters(texture.mean_wave, wave))
+    cells = Endless(heights.shape, texture.dx, texture.dy, mirrored=not texture.periodic)
+    compliance = tread.compliance(cells.waves)
+    stiffness = np.divide(1.0, compliance, out=np.zeros_like(compliance), where=compliance > 0)
+    # A mean residual must not be lost where all cells touch.
+    stiffness[0, 0] = stiffness[stiffness > 0].min()
+    product, inverse = cells.operator(compliance), cells.operator(stiffness)
+    below = heights.max() - heights
+    start = np.where(below <= np.quantile(below, 0.1), 1.0, 0.0)
+    rows: list[dict[str, float]] = []
+    pressed: dict[float, Array] = {}
+    iterations, residual = 0, 0.0
+    for mean in steps:
+        tell(f"rubber on texture under {mean / 1e3:.4g} kPa")
+        found = projected_cg.solve(
+            product, below, start, total=mean * heights.size, precondition=inverse, tolerance=tolerance,
+            max_iterations=_MOST_STEPS,
+        )  # fmt: skip
+        if not found.converged:
+            raise ConvergenceError(
+                f"rubber on texture under {mean / 1e3:.4g} kPa stopped after {found.iterations} iterations with a "
+                f"residual of {found.residual:.2e}, above the tolerance of {tolerance:.2e}; raise the tolerance, or "
+                "take short waves out of the texture (band_pass)",
+                found.residual,
+            )
+        start = found.pressure
+        iterations, residual = iterations + found.iterations, max(residual, found.residual)
+        gap = below + found.compliance - found.level
+        pressed[mean] = found.pressure
+        rows.append(
+            {
+                "real_area_ratio": _touching(found.pressure > 0, cells.mirrored),
+                "mean_gap": max(float(gap.mean()), 0.0),
+                "peak_pressure": float(found.pressure.max()),
+            }
+        )
+    data = _dataset(texture, tread, steps, rows, pressed, kept)
+    if wheel is not None:
+        p = wheel.dataset["pressure"].to_numpy()
+        ratio = np.interp(p, [0.0, *steps], [0.0, *(row["real_area_ratio"] for row in rows)])
+        data = data.assign(dataset({
+            "real_area": ((), float(ratio.sum()) * wheel.cell_area), "contact_area": ((), wheel.area),
+        }, {}).data_vars)  # fmt: skip
+    stats = {
+        "iterations": iterations,
+        "residual": residual,
+        "cells": heights.size,
+        "seconds": time.perf_counter() - began,
+    }
+    return TextureContact(data, stats, tuple(_doubts(texture, tread, rows)))
+
+
+def _steps(pressures: Sequence[float] | Contact, reference: float | None) -> tuple[list[float], float]:
+    """The mean pressures, rising, and the one whose fields are kept."""
+    if isinstance(pressures, Contact):
+        p = pressures.dataset["pressure"].to_numpy()
+        peak, mean = float(p.max()), float(p[p > 0].mean())
+        wanted = [*np.geomspace(_OF_PEAK * peak, peak, _STEPS), mean if reference is None else reference]
+        kept = wanted[-1]
+    else:
+        wanted = [float(one) for one in np.atleast_1d(np.asarray(pressures, dtype=float))]
+        if not wanted or len(wanted) > _MOST_PRESSURES or not np.isfinite(wanted).all() or min(wanted) <= 0:
+            raise InputError(
+                f"pressures must be 1 to {_MOST_PRESSURES} numbers of Pa above 0, got "
+                f"{list(np.atleast_1d(pressures))[:4]}"
+            )
+        kept = sorted(wanted)[len(wanted) // 2] if reference is None else float(reference)
+    steps = sorted({float(one) for one in wanted})
+    if kept not in steps:
+        raise InputError(f"reference must be one of the pressures, got {kept:g} Pa; they are {steps} Pa")
+    return steps, kept
+
+
+def _touching(touches: BoolArray, mirrored: bool) -> float:
+    """Share of the cells that touch, less what the cells at the rim have too much."""
+    ny, nx = touches.shape
+    rims = 0
+    for axis in (0, 1):
+        if touches.shape[axis] > 1:
+            rims += int((touches ^ np.roll(touches, 1, axis)).sum())
+            if mirrored:
+                rims -= int((np.take(touches, 0, axis) ^ np.take(touches, -1, axis)).sum())
+    # Of ridges, a rim is a point and no corner is rounded: the cells count it right on the mean.
+    taken = _RIM * rims if min(ny, nx) > 1 else 0.0
+    return max(float(touches.sum()) - taken, 0.0) / touches.size
+
+
+def _dataset(
+    texture: Texture,
+    tread: TreadRubber,
+    steps: Sequence[float],
+    rows: Sequence[Mapping[str, float]],
+    pressed: Mapping[float, Array],
+    kept: float,
+) -> xr.Dataset:
+    peak = max(row["peak_pressure"] for row in rows)
+    classes = np.concatenate([[0.0], np.geomspace(_LOWEST * peak, peak, _CLASSES - 1)])
+    load, area = np.zeros((len(steps), _CLASSES)), np.zeros((len(steps), _CLASSES))
+    for number, mean in enumerate(steps):
+        sorted_p = np.sort(pressed[mean].ravel())
+        from_above = np.concatenate([np.cumsum(sorted_p[::-1])[::-1], [0.0]])
+        first = np.searchsorted(sorted_p, classes, side="right")
+        load[number] = from_above[first] / sorted_p.sum()
+        area[number] = (sorted_p.size - first) / sorted_p.size
+    over = ("mean_pressure",)
+    p = np.array(steps)
+    modulus, slope = tread.plane_modulus, texture.rms_slope
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+        **{name: (over, np.array([row[name] for row in rows])) for name in rows[0]},
+        "persson_area_ratio": (over, persson_area(p, modulus, slope)),
+        "asperity_area_ratio": (over, np.minimum(asperity_area(p, modulus, slope), 1.0)),
+        "load_share_above": ((*over, "local_pressure"), load),
+        "area_share_above": ((*over, "local_pressure"), area),
+        "texture_height": (("y", "x"), texture.heights),
+        "pressure": (("y", "x"), pressed[kept]),
+        "reference_pressure": ((), kept),
+    }
+    places = {"mean_pressure": p, "local_pressure": classes, "y": texture.y, "x": texture.x}
+    return dataset(
+        fields, places, dx=texture.dx, dy=texture.dy, modulus=tread.modulus, poisson=tread.poisson,
+        rms_slope=slope, rms_height=texture.rms_height, rubber=str(tread), texture=texture.summary(),
+    )  # fmt: skip
+
+
+def _doubts(texture: Texture, tread: TreadRubber, rows: Sequence[Mapping[str, float]]) -> list[str]:
+    said = []
+    if texture.rms_slope > _STEEP:
+        said.append(
+            f"the texture has an rms slope of {texture.rms_slope:.3g}, and slopes are taken as small (below "
+            f"{_STEEP:g}): area and peak pressure are those of linear theory; take short waves out "
+            "(band_pass) and say which"
+        )
+    waves = texture.length / texture.mean_wave
+    if waves < _FEW:
+        said.append(
+            f"the patch of {texture.length * 1e3:.4g} mm holds {waves:.2g} of the texture's mean waves of "
+            f"{texture.mean_wave * 1e3:.3g} mm: it may not stand for the road; take a longer one"
+        )
+    if texture.is_profile:
+        said.append("the texture is a profile, taken as ridges across: stones touch less, and give way more easily")
+    if rows[-1]["peak_pressure"] > tread.modulus:
+        said.append(
+            f"the peak pressure of {rows[-1]['peak_pressure'] / 1e6:.3g} MPa lies above the modulus of the rubber, "
+            f"{tread.modulus / 1e6:.3g} MPa: linear elasticity is beyond its range there"
+        )
+    return said
