@@ -159,3 +159,13 @@ def test_lists_of_a_life_are_lists_of_texts(tmp_path):
         tree["life"].attrs[name] = told
         with pytest.raises(InputError, match=f"the attribute {name} must"):
             write_report({"life": tree}, tmp_path / "life.html")
+
+
+def test_the_table_of_works_prints_no_noise_of_a_wheel_that_rolls_freely():
+    from treadload.reporting.life import _works
+
+    data = with_works([[2e-10, 1e-10], [3e-3, 2e-4]])
+    free, driven = _works(data)
+    assert free[2:] == ("0", "–")
+    assert driven[2] == "0.003"
+    assert _works(data.assign(largest_polishing_work=data["largest_polishing_work"] * 0 + 3e-12))[0][1] == "0"

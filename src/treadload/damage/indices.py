@@ -24,6 +24,10 @@ from treadload.pavement import Pavement, bituminous_thickness
 TEXTURE_DEPTH = 1e-3
 """Texture depth of a wearing course, m: what a sand patch finds on a usual asphalt, 0.5 to 1.5 mm; from memory."""
 
+NO_WORK = 1e-8
+"""Works below it are none, J/m²: shear of some 0.1 kPa, a few ten-thousandths of μp, and the slip of as little, which
+a solution to its tolerance leaves of a wheel that rolls freely."""
+
 _INCH = 0.0254
 _FEWEST = 3
 _DOUBTS = (

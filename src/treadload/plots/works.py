@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
+from treadload.damage.indices import NO_WORK
 from treadload.errors import InputError
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
@@ -19,8 +20,6 @@ from treadload.plots.kit.style import INK, PAPER, RULE, headline, plain, sequent
 _LETTERS = 22
 # Works below this part of the largest are those of a wheel that rolls freely: drawn as nothing.
 _LEAST = 1e-4
-# No work of tearing at all, J/m²: shear of some 0.1 kPa, what a solution leaves of a wheel that rolls freely.
-_FREE = 1e-8
 # More seasons than this are not written into their cells, nor all of them named.
 _MANY = 16
 
@@ -92,7 +91,7 @@ def life_works(life: Source) -> Figure:
 def shears(data: xr.Dataset) -> bool:
     """True where a class of axles of a life does work of tearing that can be drawn."""
     needed = {"largest_polishing_work", "largest_tearing_work"}
-    return needed <= set(data) and float(np.nanmax(data["largest_tearing_work"].to_numpy(), initial=0.0)) > _FREE
+    return needed <= set(data) and float(np.nanmax(data["largest_tearing_work"].to_numpy(), initial=0.0)) > NO_WORK
 
 
 def _number(value: float, most: float) -> str:

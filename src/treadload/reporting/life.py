@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from treadload.damage.indices import NO_WORK
 from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years
@@ -76,12 +77,18 @@ def _works(data: xr.Dataset) -> tuple[tuple[str, ...], ...]:
     for k, name in enumerate(data["axle_class"].to_numpy()):
         polishing, tearing = (data[f"largest_{what}_work"][k].to_numpy() for what in ("polishing", "tearing"))
         if np.isnan(tearing).all():
-            rows.append((str(name), f"{float(polishing):.3g}", "–", "–"))
+            rows.append((str(name), _work(float(polishing)), "–", "–"))
             continue
         most = int(np.nanargmax(tearing))
         season = str(data["season"].to_numpy()[most])
-        rows.append((str(name), f"{float(polishing):.3g}", f"{tearing[most]:.3g}", season))
+        torn = float(tearing[most])
+        rows.append((str(name), _work(float(polishing)), _work(torn), season if torn >= NO_WORK else "–"))
     return tuple(rows)
+
+
+def _work(value: float) -> str:
+    """A work, J/m²; 0 where it is what a solution leaves of a wheel that rolls freely."""
+    return f"{value:.3g}" if not value < NO_WORK else "0"
 
 
 def sentence(data: xr.Dataset) -> str:
