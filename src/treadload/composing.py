@@ -124,7 +124,11 @@ class BaseResult(ABC):
 
     def _repr_html_(self) -> str:
         """What a notebook shows."""
-        return as_html(type(self).__name__, self.summary(), self.warnings, self.dataset)
+        try:
+            picture = offered("thumbnail", self)
+        except AttributeError:
+            picture = None
+        return as_html(type(self).__name__, self.summary(), self.warnings, self.dataset, picture)
 
 
 Source = xr.Dataset | HasDataset
