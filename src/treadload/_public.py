@@ -76,8 +76,6 @@ def _unknown(name: str) -> str:
 
 # Results offer figures; the figures are loaded when they are first asked for.
 accessors.found_in("plot", lambda: named("plots"))
-# Small pictures of results for a notebook are there, too.
-accessors.found_in("thumbnail", lambda: named("plots"))
 # Colour maps by their names, which pictures of footprints are read with, are there, too.
 accessors.found_in("colour_map", lambda: named("plots"))
 # So do classes of results that a file names.

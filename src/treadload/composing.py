@@ -124,11 +124,7 @@ class BaseResult(ABC):
 
     def _repr_html_(self) -> str:
         """What a notebook shows."""
-        try:
-            picture = offered("thumbnail", self)
-        except AttributeError:
-            picture = None
-        return as_html(type(self).__name__, self.summary(), self.warnings, self.dataset, picture)
+        return as_html(type(self).__name__, self.summary(), self.warnings, self.dataset)
 
 
 Source = xr.Dataset | HasDataset

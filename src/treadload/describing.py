@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import dataclasses
 import html
 import math
@@ -24,8 +23,6 @@ _STYLE = (
     ".tl-result table.tl-rows th,.tl-result table.tl-rows td{border:0;background:transparent;padding:1px 14px 1px 0;"
     "text-align:left;vertical-align:top;font-size:13px;color:inherit;white-space:normal}"
     ".tl-result table.tl-rows th{font-weight:400;opacity:.7;white-space:nowrap}"
-    ".tl-result img.tl-picture{float:right;width:200px;height:auto;margin:2px 0 6px 14px;border-radius:3px}"
-    ".tl-result .tl-warning,.tl-result details{clear:right}"
     ".tl-result .tl-warning{border-left:3px solid #d55e00;background:rgba(213,94,0,.12);padding:2px 8px;"
     "margin:3px 0}"
     ".tl-result details{margin:2px 0}.tl-result summary{cursor:pointer;opacity:.8}"
@@ -64,13 +61,10 @@ def first_line(result: HasSummary) -> str:
     return f"<{kind}: {_cut(said, 2 * _LINE)}>"
 
 
-def as_html(
-    kind: str, summary: str, warnings: Sequence[str], dataset: Any = None, picture: bytes | None = None
-) -> str:
-    """A result as a notebook shows it: main numbers, picture, warnings, and folded the whole summary and the dataset.
+def as_html(kind: str, summary: str, warnings: Sequence[str], dataset: Any = None) -> str:
+    """A result as a notebook shows it: its main numbers, warnings, and folded the whole summary and the dataset.
 
-    kind: of the result. dataset: with a `_repr_html_` of its own, None for none. picture: a small PNG. All texts are
-    escaped.
+    kind: of the result. dataset: with a `_repr_html_` of its own, None for none. All texts are escaped.
     """
     lines = [line.strip() for line in summary.splitlines() if line.strip() and not line.startswith("warning: ")]
     said = next((line.removeprefix("Verdict: ") for line in lines if line.startswith("Verdict: ")), "")
@@ -85,9 +79,6 @@ def as_html(
     page.append(
         f'<div class="tl-title">{escape(kind)}<span class="tl-said">{escape(_cut(said, 3 * _LINE))}</span></div>'
     )
-    if picture:
-        source = base64.b64encode(picture).decode()
-        page.append(f'<img class="tl-picture" alt="{escape(kind)}" src="data:image/png;base64,{source}">')
     if rows:
         cells = [
             f"<tr><th>{escape(key)}</th><td>{escape(_cut(value, 3 * _LINE))}</td></tr>"

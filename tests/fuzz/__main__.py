@@ -37,7 +37,7 @@ from pathlib import Path
 
 from fuzz.runner import Tally, batch
 
-KINDS = ("cases", "meshes", "tables", "results", "footprints")
+KINDS = ("cases", "meshes", "tables", "results", "footprints", "textures")
 _BATCH = 200
 
 

@@ -13,6 +13,7 @@ from fuzz.runner import attack_of, run
         ("meshes", 20),
         pytest.param("results", 40, marks=pytest.mark.slow),
         ("footprints", 150),
+        ("textures", 200),
     ],
 )
 def test_nothing_breaks(kind, count):

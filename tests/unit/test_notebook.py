@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import ast
-import base64
 import io
-import re
 from pathlib import Path
 
 import numpy as np
@@ -60,26 +58,6 @@ def test_a_picture_is_shown_once_and_leaves_no_trace(contact, tmp_path):
     figure.savefig(tmp_path / "pressure.png")
     assert Image.open(tmp_path / "pressure.png").width == pytest.approx(100 * figure.get_figwidth(), abs=1)
     assert figure._repr_png_()[0] == first
-
-
-def test_a_result_stands_in_a_notebook_with_a_small_picture(contact, response):
-    verdict = tl.assess(response, tl.FatigueLine(120e-6, -0.2))
-    for result in (contact, response, verdict):
-        page = result._repr_html_()
-        (coded,) = re.findall(r'src="data:image/png;base64,([^"]+)"', page)
-        picture = Image.open(io.BytesIO(base64.b64decode(coded)))
-        assert picture.format == "PNG"
-        assert 150 <= picture.width <= 640
-        assert np.asarray(picture).std() > 0
-        # A notebook of fifty results stays a file that opens.
-        assert len(coded) < 80_000
-
-
-def test_a_result_that_cannot_be_drawn_keeps_its_words(contact):
-    points = tl.solve_response(contact, ROAD, depths=[0.01], points=[(0.0, 0.0), (0.01, 0.0)])
-    page = points._repr_html_()
-    assert "<img" not in page
-    assert "largest extension" in page
 
 
 def test_every_figure_of_the_house_is_one_that_shows():

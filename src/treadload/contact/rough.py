@@ -131,7 +131,7 @@ class TextureContact(BaseResult, group="texture"):
 def solve_texture(
     texture: Texture,
     rubber: Elastic | Prony,
-    pressures: Sequence[float] | Contact,
+    pressures: Sequence[float] | Array | Contact,
     *,
     thickness: float | None = None,
     speed: float | None = None,
@@ -218,7 +218,7 @@ def solve_texture(
     return TextureContact(data, stats, tuple(_doubts(texture, tread, rows)))
 
 
-def _steps(pressures: Sequence[float] | Contact, reference: float | None) -> tuple[list[float], float]:
+def _steps(pressures: Sequence[float] | Array | Contact, reference: float | None) -> tuple[list[float], float]:
     """The mean pressures, rising, and the one whose fields are kept."""
     if isinstance(pressures, Contact):
         p = pressures.dataset["pressure"].to_numpy()

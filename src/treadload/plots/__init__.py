@@ -61,7 +61,6 @@ from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
 from treadload.plots.tearing import tearing
 from treadload.plots.texture import enveloped_pressure, texture_contact
-from treadload.plots.thumbnails import thumbnail
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 from treadload.plots.verdict import fatigue_line
@@ -157,7 +156,6 @@ __all__ = [
     "study_slip_curve",
     "tearing",
     "texture_contact",
-    "thumbnail",
     "tire_card",
     "tornado_bars",
     "trace_rose",
