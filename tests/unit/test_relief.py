@@ -62,3 +62,13 @@ def test_relief_is_checked():
         tl.solve_contact(tire(1.0), ROAD, WHEEL, relief=Holes())
     with pytest.raises(InputError, match=r"heights of shape \(1, 2\) for a grid of \(2, 2\)"):
         heights_on(type("Wrong", (), {"height": lambda self, x, y: np.zeros((1, 2))})(), Grid(2, 2, 1, 1, 0, 0))
+
+
+def test_a_contact_on_relief_is_saved_and_opened_again(tmp_path):
+    found = tl.solve_contact(tire(0.25), ROAD, WHEEL, relief=Ball(0.75, 1e-3))
+    opened = tl.open_results(tl.save_results(found, tmp_path / "c.nc")).contact
+    np.testing.assert_array_equal(opened.dataset.road_height, found.dataset.road_height)
+    assert opened.tire == found.tire
+    # The gap that was solved is that of the tread less the road's height.
+    gap = tire(0.25).height_map(Grid(61, 61, 1e-3, 1e-3, -30e-3, -30e-3)) - found.dataset.road_height.to_numpy()
+    np.testing.assert_allclose(opened.dataset.initial_gap, gap, atol=1e-15)

@@ -120,6 +120,10 @@ def test_laser_profile_as_it_was_measured():
         (lambda lines: [*lines[:14], "x\ty\tz", *lines[15:]], "expected number, distance and height in mm"),
         (lambda lines: [*lines[:14], *lines[400:]], "do not rise in even steps"),
         (lambda lines: lines[:11], "has 0 points below"),
+        (
+            lambda lines: [line.replace("*****DATA*****", "x*****DATA*****") for line in lines],
+            "not on a line of its own",
+        ),
     ],
 )
 def test_laser_profile_that_lies_is_refused(tmp_path, change, told):

@@ -71,7 +71,9 @@ def _laser(path: Path) -> Texture:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except UnicodeDecodeError as error:
         raise InputError(f"{path.name!r} is no text: {one_line(str(error))}") from error
-    start = next(number for number, line in enumerate(lines) if line.strip() == _LASER)
+    start = next((number for number, line in enumerate(lines) if line.strip() == _LASER), None)
+    if start is None:
+        raise InputError(f"{path.name!r} names {_LASER}, but not on a line of its own, below which its points begin")
     rows = [
         (number, line.split("\t")) for number, line in enumerate(lines[start + 2 :], start=start + 3) if line.strip()
     ]
