@@ -25,7 +25,7 @@ from treadload.reporting.others import other_report
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.road import COLUMNS, road_tables
 from treadload.reporting.tables import result_table, statistics_table
-from treadload.results import Study, as_tree, to_tree
+from treadload.results import Study, as_tree, bibtex, to_tree
 
 _TITLE = "What a tire does to a road"
 
@@ -129,6 +129,7 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
         "results": result_table(cases),
         "statistics": statistics_table(cases),
         "citations": list(dict.fromkeys(text for case in cases for text in case.citations)),
+        "bibtex": bibtex(text for case in cases for text in case.citations),
         "warnings": [(case.label, text) for case in cases for text in case.warnings],
         "version": __version__,
         "written": datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d %H:%M UTC"),
