@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from treadload._version import __version__
-from treadload.cli import cases, compare, design, exports, program, results, shell, studies, sweep, tires
+from treadload.cli import cases, compare, design, exports, page, program, results, shell, studies, sweep, tires
 
 __all__ = ["app", "main"]
 
@@ -35,6 +35,7 @@ for _command in (
     tires.card,
     program.catalogue,
     program.criteria,
+    page.app,
     program.demo,
     program.validate,
 ):

@@ -1,0 +1,24 @@
+"""A page to play with tire and road, served to browsers on this machine: `treadload app`."""
+
+from __future__ import annotations
+
+from treadload.errors import InputError, how_to_install
+
+__all__ = ["serve"]
+
+
+def serve(*, host: str = "127.0.0.1", port: int = 0, open_browser: bool = True) -> None:
+    """Serve the page until it is interrupted.
+
+    host: that it listens on; another than that of this machine lets others in who have the token. port: 0 takes a
+    free one. open_browser: show the page at once. Raises InputError without the packages of the extra "app", and for
+    a port that is taken.
+    """
+    try:
+        import nicegui  # noqa: F401
+        import plotly  # noqa: F401
+    except ImportError as error:
+        raise InputError(f"the page needs {error.name}, which is not installed; {how_to_install('app')}") from error
+    from treadload.app.server import run
+
+    run(host, port, open_browser=open_browser)

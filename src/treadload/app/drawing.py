@@ -1,0 +1,149 @@
+"""Which figures the page shows of a result, in the words that a browser sends: names, indices, a theme."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from treadload.composing import BaseResult
+from treadload.errors import InputError
+from treadload.plots import interactive
+from treadload.plots.interactive import Cut, Field
+
+Parts = Mapping[str, BaseResult]
+# What is offered of each part, the plainest first: its maps by their names.
+_DRAWN = ("contact", "response", "damage")
+# Pixels: below this the bar of a map has no room for words. Its unit stands in brackets.
+_WIDE, _UNIT = 1000.0, re.compile(r"\(([^()]*)\)")
+# Just below an interface, m, and the first depth of a block, as a part of the whole.
+_BELOW, _FIRST = 1e-6, 0.02
+
+
+def choices_of(parts: Parts) -> dict[str, str]:
+    """Maps that can be drawn: "part/name" → words."""
+    made: dict[str, str] = {}
+    for part in _DRAWN:
+        if part in parts:
+            for name, words in interactive.choices(parts[part]).items():
+                made[f"{part}/{name}"] = words
+    return made
+
+
+def depths_of(parts: Parts) -> list[float]:
+    """Depths of the maps of the road, m."""
+    response = parts.get("response")
+    return [] if response is None else [float(one) for one in response.dataset["depth"].to_numpy()]
+
+
+def maps(
+    parts: Parts,
+    *,
+    theme: str,
+    left: str = "contact/pressure",
+    right: str = "response/principal_strain_1",
+    depth: int = 0,
+    width: float = 1100.0,
+    line: Sequence[float] | None = None,
+) -> dict[str, Any]:
+    """Two linked maps with the line of the slice, and the profile along it.
+
+    left, right: of `choices_of`; one that is not there yet gives way to the plainest. depth: number of the depth.
+    line: x and y of its start, then of its end, m; left out, along travel through the largest pressure.
+    """
+    known = choices_of(parts)
+    if not known:
+        raise InputError("this result holds no map that the page could show")
+    first = left if left in known else next(iter(known))
+    beside = [name for name in (right, "contact/shear", *known) if name in known and name != first]
+    chosen = [first, *beside[:1]]
+    fields = [field_of(parts, name, depth) for name in chosen]
+    cut = cut_of(parts, line)
+    places = interactive.places_of(parts["damage"]) if "damage" in parts and worst(parts) else []
+    figure = _narrowed(interactive.linked_maps(fields, cut=cut, places=places, theme=theme, width=width), width)
+    return {"maps": figure, **along(parts, None, line, theme=theme)}
+
+
+def _narrowed(figure: Any, width: float) -> Any:
+    """The figure, its colour bars named by their units alone where there is no room for words."""
+    if width < _WIDE:
+        for trace in figure.data:
+            title: Any = getattr(getattr(trace, "colorbar", None), "title", None)
+            told = _UNIT.search(title.text or "") if title is not None else None
+            if told:
+                beyond = "; the peak lies beyond" if "peak" in title.text else ""
+                title.text = f"{told[1]}{beyond}"
+    return figure
+
+
+def worst(parts: Parts) -> bool:
+    """True where the verdict names a place."""
+    return float(parts["damage"].dataset["worst_strain"]) > 0 if "worst_strain" in parts["damage"].dataset else False
+
+
+def field_of(parts: Parts, name: str, depth: int = 0) -> Field:
+    """The map of a name of `choices_of`."""
+    part, _, inner = name.partition("/")
+    if part not in parts:
+        raise InputError(f"this result has no part {part!r}; it holds {', '.join(parts)}")
+    depths = depths_of(parts) if part == "response" else []
+    at = depths[min(max(depth, 0), len(depths) - 1)] if depths else None
+    return interactive.field_of(parts[part], inner, depth=at, contact=parts.get("contact"))
+
+
+def cut_of(parts: Parts, line: Sequence[float] | None) -> Cut:
+    """The line of the slice."""
+    source = parts.get("contact") or next(iter(parts.values()))
+    return Cut.along(source) if line is None else Cut((line[0], line[1]), (line[2], line[3]))
+
+
+def along(
+    parts: Parts,
+    block: BaseResult | None,
+    line: Sequence[float] | None,
+    *,
+    theme: str,
+    name: str = "",
+    over: BaseResult | None = None,
+) -> dict[str, Any]:
+    """The profile along the line, and the section below it where the road is known at several depths.
+
+    name: variable of the section. over: another contact, or a measured footprint, whose pressure is drawn as well.
+    """
+    cut = cut_of(parts, line)
+    overlaid = None if over is None else {"the other": over}
+    source = parts.get("contact") or next(iter(parts.values()))
+    made = {"profile": interactive.profiles(source, cut, overlaid=overlaid, theme=theme)}
+    if block is not None:
+        made["section"] = interactive.depth_slice(block, cut, name or "principal_strain_1", theme=theme)
+    return made
+
+
+def difference(
+    one: Parts, other: Parts, name: str, *, theme: str, width: float, labels: Sequence[str]
+) -> dict[str, Any]:
+    """Two results and what sets them apart, on one scale."""
+    part, _, inner = name.partition("/")
+    for parts, label in zip((one, other), labels, strict=True):
+        if part not in parts:
+            raise InputError(f"{label} has no part {part!r}; it holds {', '.join(parts)}")
+    figure = interactive.difference_map(
+        one[part], other[part], inner, labels=(labels[0], labels[1]), theme=theme, width=width
+    )
+    return {"maps": _narrowed(figure, 0.0)}
+
+
+def tread(parts: Parts, *, theme: str) -> dict[str, Any]:
+    """The tread in space with the pressure on it."""
+    if "contact" not in parts:
+        raise InputError("this result has no contact, so there is no tread to draw")
+    return {"tread": interactive.tread(parts["contact"], theme=theme)}
+
+
+def block_depths(bottom: float, interfaces: Sequence[float], count: int) -> list[float]:
+    """Depths of the block of road that slices are cut from: closer to each other near the surface, m."""
+    share = (1 / _FIRST) ** (1 / (count - 2))
+    graded = [0.0, *(bottom * _FIRST * share**number for number in range(count - 1))]
+    faces = [one for one in interfaces if one < bottom]
+    below = [one + _BELOW for one in faces]
+    return sorted({round(one, 7) for one in (*graded, *faces, *below)})

@@ -1,0 +1,157 @@
+"""Processes that solve and draw, one for each browser, and one kept warm for the next."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+import json
+import os
+import sys
+from collections.abc import AsyncIterator
+from pathlib import Path
+from typing import Any
+
+# A figure of many cells is one line.
+_LONGEST_LINE = 2**28
+_ENDS = ("done", "error", "stopped")
+# How long a solve may take to stop of itself, s; then its process ends.
+_PATIENCE = 0.4
+
+
+class EngineLost(Exception):
+    """The process ended before it answered."""
+
+
+class Engine:
+    """A process, see `treadload.app.engine`. Questions and answers are told apart by numbers."""
+
+    def __init__(self, process: asyncio.subprocess.Process) -> None:
+        self._process = process
+        self._numbers = itertools.count(1)
+        self._waiting: dict[int, asyncio.Queue[dict[str, Any] | None]] = {0: asyncio.Queue()}
+        self._reading = asyncio.create_task(self._read())
+
+    @classmethod
+    async def start(cls) -> Engine:
+        """A process that has loaded what it needs."""
+        process = await asyncio.create_subprocess_exec(
+            sys.executable, "-P", "-m", "treadload.app.engine", limit=_LONGEST_LINE,
+            stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
+            env={**os.environ, "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS", "1")},
+        )  # fmt: skip
+        engine = cls(process)
+        if await engine._waiting[0].get() is None:
+            raise EngineLost("the process that solves did not start; its reason stands in the terminal")
+        return engine
+
+    @property
+    def lives(self) -> bool:
+        """False once it ended."""
+        return self._process.returncode is None and not self._reading.done()
+
+    @property
+    def pid(self) -> int:
+        """Of the process."""
+        return self._process.pid
+
+    async def ask(self, do: str, **told: Any) -> AsyncIterator[dict[str, Any]]:
+        """Answers as they come; the last holds "done", "error" or "stopped". Raises EngineLost."""
+        number, queue = next(self._numbers), asyncio.Queue[dict[str, Any] | None]()
+        self._waiting[number] = queue
+        try:
+            await self._send({"id": number, "do": do, **told})
+            while True:
+                answer = await queue.get()
+                if answer is None:
+                    raise EngineLost("the process that solves has ended")
+                yield answer
+                if any(end in answer for end in _ENDS):
+                    return
+        finally:
+            del self._waiting[number]
+
+    async def last(self, do: str, **told: Any) -> dict[str, Any]:
+        """The last answer to a question."""
+        answer: dict[str, Any] = {}
+        async for answer in self.ask(do, **told):  # noqa: B007
+            pass
+        return answer
+
+    async def stop(self) -> bool:
+        """Ask for the end of what is being solved; False, and no process any more, where that takes too long."""
+        solving = [number for number in self._waiting if number]
+        if not solving or not self.lives:
+            return self.lives
+        await self._send({"id": 0, "do": "stop"})
+        for _ in range(20):
+            await asyncio.sleep(_PATIENCE / 20)
+            if not any(number in self._waiting for number in solving):
+                return True
+        self.kill()
+        return False
+
+    def kill(self) -> None:
+        """End the process at once."""
+        with contextlib.suppress(ProcessLookupError):
+            self._process.kill()
+
+    async def _send(self, told: dict[str, Any]) -> None:
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(json.dumps(told).encode() + b"\n")
+            await self._process.stdin.drain()
+        except (ConnectionError, RuntimeError) as error:
+            raise EngineLost("the process that solves has ended") from error
+
+    async def _read(self) -> None:
+        assert self._process.stdout is not None
+        try:
+            while line := await self._process.stdout.readline():
+                answer = json.loads(line)
+                queue = self._waiting.get(answer["id"])
+                if queue is not None:
+                    queue.put_nowait(answer)
+        finally:
+            for queue in self._waiting.values():
+                queue.put_nowait(None)
+            with contextlib.suppress(ProcessLookupError):
+                self._process.kill()
+            await self._process.wait()
+
+
+class Engines:
+    """Starts processes ahead of need."""
+
+    def __init__(self) -> None:
+        self._spare: asyncio.Task[Engine] | None = None
+        self._all: list[Engine] = []
+
+    def warm(self) -> None:
+        """Have one ready for whoever asks next."""
+        if self._spare is None:
+            self._spare = asyncio.create_task(self._start())
+
+    async def _start(self) -> Engine:
+        engine = await Engine.start()
+        self._all = [one for one in self._all if one.lives] + [engine]
+        return engine
+
+    async def take(self, folder: Path) -> Engine:
+        """A process for the browser with this folder."""
+        self.warm()
+        assert self._spare is not None
+        spare, self._spare = self._spare, None
+        engine = await spare
+        if not engine.lives:
+            engine = await self._start()
+        await engine.last("folder", folder=str(folder))
+        self.warm()
+        return engine
+
+    def close(self) -> None:
+        """End all processes."""
+        if self._spare is not None:
+            self._spare.cancel()
+        for engine in self._all:
+            engine.kill()

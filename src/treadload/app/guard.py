@@ -1,0 +1,262 @@
+"""Who may speak to the page: one layer around every route and socket.
+
+A token in the first address is exchanged for a cookie that names a session of one browser. Everything else is refused
+with a sentence: another host name (a page elsewhere that was made to resolve to this machine), another origin (a page
+elsewhere that calls this one), no cookie, a page of another session, too many bytes.
+"""
+
+from __future__ import annotations
+
+import hmac
+import re
+import secrets
+from collections.abc import Awaitable, Callable, MutableMapping
+from dataclasses import dataclass, field
+from http.cookies import CookieError, SimpleCookie
+from typing import Any
+from urllib.parse import parse_qs
+
+Scope = MutableMapping[str, Any]
+Message = MutableMapping[str, Any]
+Receive = Callable[[], Awaitable[Message]]
+Send = Callable[[Message], Awaitable[None]]
+Asgi = Callable[[Scope, Receive, Send], Awaitable[None]]
+
+MOST_UPLOADED = 64 * 2**20
+"""Bytes of a file that is uploaded."""
+MOST_SENT = 2**20
+"""Bytes of any other request."""
+SESSION = "treadload.session"
+"""Key of a request's scope under which its session stands."""
+
+# Of one server; a browser whose cookies are wiped makes a new one.
+_MOST_SESSIONS = 32
+# What a form adds around a file.
+_AROUND = 2**16
+_CLIENT = re.compile(r"^/_nicegui/client/([^/]+)/")
+_UPLOAD = re.compile(r"^/_nicegui/client/[^/]+/upload/[0-9]+$")
+_SOCKET = "/_nicegui_ws/"
+# The page is made by scripts in it; none of them, no picture and no call comes from elsewhere.
+_POLICY = (
+    "default-src 'self' data: blob:; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:; "
+    "style-src 'self' 'unsafe-inline'; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+)
+_HEADERS = {
+    "content-security-policy": _POLICY,
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "referrer-policy": "no-referrer",
+    "x-content-type-options": "nosniff",
+    "x-frame-options": "DENY",
+}
+_ENTER = "open the address that `treadload app` printed when it started; it carries the token of this server"
+
+
+@dataclass
+class Keys:
+    """What opens one server: its token, the names it answers to, and the browsers that came with the token.
+
+    host: that it listens on. sessions: secret of a cookie → name of the session. owners: page of a browser → session.
+    """
+
+    host: str
+    port: int
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(32), repr=False)
+    sessions: dict[str, str] = field(default_factory=dict, repr=False)
+    owners: dict[str, str] = field(default_factory=dict, repr=False)
+
+    @property
+    def cookie(self) -> str:
+        """Name of the cookie; a browser sends those of one host to all its ports."""
+        return f"treadload_{self.port}"
+
+    @property
+    def hosts(self) -> frozenset[str]:
+        """Values of the header Host that are answered, in small letters."""
+        names = {"127.0.0.1", "localhost", "[::1]"}
+        if self.host not in ("0.0.0.0", "::"):
+            names.add(f"[{self.host}]" if ":" in self.host else self.host.lower())
+        ports = {f"{name}:{self.port}" for name in names}
+        return frozenset(ports | names if self.port == 80 else ports)
+
+    @property
+    def address(self) -> str:
+        """Where the page is, with its token."""
+        shown = "127.0.0.1" if self.host in ("0.0.0.0", "::") else self.host
+        shown = f"[{shown}]" if ":" in shown else shown
+        return f"http://{shown}:{self.port}/?token={self.token}"
+
+    def opens(self, token: str) -> bool:
+        """True for the token of the server."""
+        return hmac.compare_digest(token.encode(), self.token.encode())
+
+    def enter(self) -> str:
+        """The secret of a new session."""
+        secret = secrets.token_urlsafe(32)
+        self.sessions[secret] = secrets.token_hex(8)
+        while len(self.sessions) > _MOST_SESSIONS:
+            del self.sessions[next(iter(self.sessions))]
+        return secret
+
+    def session_of(self, cookies: str) -> str | None:
+        """Name of the session whose secret is among the cookies of a request."""
+        try:
+            jar = SimpleCookie(cookies)
+        except CookieError:
+            return None
+        morsel = jar.get(self.cookie)
+        if morsel is None:
+            return None
+        return next((name for one, name in self.sessions.items() if _same(one, morsel.value)), None)
+
+    def may_use(self, client: str, session: str) -> bool:
+        """True where a page belongs to a session."""
+        owner = self.owners.get(client)
+        return owner is not None and hmac.compare_digest(owner, session)
+
+
+def _same(one: str, other: str) -> bool:
+    return hmac.compare_digest(one.encode(), other.encode("utf-8", "replace"))
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why a request is not answered."""
+
+    status: int
+    why: str
+
+
+class Guard:
+    """The layer, as ASGI. app: what it protects."""
+
+    def __init__(self, app: Asgi, keys: Keys) -> None:
+        self._app, self._keys = app, keys
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer, refuse, or hand on."""
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        session = self._keys.session_of(_header(scope, "cookie"))
+        refused = self._wrong_caller(scope)
+        if refused is None and scope["type"] == "http" and scope["path"] == "/":
+            token = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token")
+            if token is not None:
+                await self._enter(token[-1], session, send)
+                return
+        if refused is None:
+            refused = self._wrong_session(scope, session)
+        if refused is not None:
+            await _refuse(scope, receive, send, refused)
+            return
+        scope[SESSION] = session
+        if scope["type"] == "http":
+            await self._app(scope, _Counted(receive, _most(scope["path"])), _with_headers(send))
+        else:
+            await self._app(scope, receive, send)
+
+    def _wrong_caller(self, scope: Scope) -> Refusal | None:
+        """What is wrong with host, origin or size, before anybody is asked for."""
+        keys = self._keys
+        hosts = [value.lower() for name, value in _headers(scope) if name == "host"]
+        if len(hosts) != 1 or hosts[0] not in keys.hosts:
+            return Refusal(421, f"this server answers to {', '.join(sorted(keys.hosts))} only, got {hosts}")
+        origins = [value.lower() for name, value in _headers(scope) if name == "origin"]
+        allowed = {f"http://{host}" for host in keys.hosts}
+        if any(origin not in allowed for origin in origins):
+            return Refusal(403, f"a page of another origin may not call this one, got {origins}")
+        reads = scope["type"] == "http" and scope["method"] in ("GET", "HEAD")
+        if not reads and not origins:
+            return Refusal(403, "a request that changes something, or a socket, has to name its origin")
+        site, mode = _header(scope, "sec-fetch-site"), _header(scope, "sec-fetch-mode")
+        if site in ("cross-site", "same-site") and mode != "navigate":
+            return Refusal(403, "a page elsewhere may not read from this one")
+        length = _header(scope, "content-length")
+        most = _most(scope["path"])
+        if length and (not length.isascii() or not length.isdigit() or int(length) > most):
+            return Refusal(413, _too_long(most))
+        return None
+
+    def _wrong_session(self, scope: Scope, session: str | None) -> Refusal | None:
+        if session is None:
+            return Refusal(403, _ENTER)
+        client = _CLIENT.match(scope["path"])
+        named = [client[1]] if client else []
+        if scope["path"].startswith(_SOCKET):
+            query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
+            named += query.get("client_id", [])
+        if any(not self._keys.may_use(one, session) for one in named):
+            return Refusal(403, "this page belongs to another browser, or the server was started anew; load it again")
+        return None
+
+    async def _enter(self, token: str, session: str | None, send: Send) -> None:
+        """Exchange the token for a cookie, and send the browser to the address without it."""
+        if not self._keys.opens(token):
+            await _answer(send, Refusal(403, f"this is not the token of this server; {_ENTER}"))
+            return
+        headers = [(b"location", b"/"), (b"cache-control", b"no-store"), (b"content-length", b"0")]
+        if session is None:
+            said = f"{self._keys.cookie}={self._keys.enter()}; Path=/; HttpOnly; SameSite=Strict"
+            headers.append((b"set-cookie", said.encode()))
+        await send({"type": "http.response.start", "status": 303, "headers": headers + _extra()})
+        await send({"type": "http.response.body", "body": b""})
+
+
+class _Counted:
+    """The body of a request, as long as it stays below a bound; past it the caller is gone."""
+
+    def __init__(self, receive: Receive, most: int) -> None:
+        self._receive, self._most, self._seen = receive, most, 0
+
+    async def __call__(self) -> Message:
+        message = await self._receive()
+        self._seen += len(message.get("body", b""))
+        return message if self._seen <= self._most else {"type": "http.disconnect"}
+
+
+def _most(path: str) -> int:
+    return MOST_UPLOADED + _AROUND if _UPLOAD.match(path) else MOST_SENT
+
+
+def _too_long(most: int) -> str:
+    return f"this is more than {most // 2**20} MB, which is the most that this server takes at once"
+
+
+def _headers(scope: Scope) -> list[tuple[str, str]]:
+    return [(name.decode("latin-1").lower(), value.decode("latin-1")) for name, value in scope.get("headers", ())]
+
+
+def _header(scope: Scope, wanted: str) -> str:
+    joint = "; " if wanted == "cookie" else ", "
+    return joint.join(value for name, value in _headers(scope) if name == wanted)
+
+
+def _extra() -> list[tuple[bytes, bytes]]:
+    return [(name.encode(), value.encode()) for name, value in _HEADERS.items()]
+
+
+def _with_headers(send: Send) -> Send:
+    async def sent(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            own = [one for one in message.get("headers", ()) if not one[0].lower().startswith(b"access-control-")]
+            message = {**message, "headers": [*own, *_extra()]}
+        await send(message)
+
+    return sent
+
+
+async def _refuse(scope: Scope, receive: Receive, send: Send, refusal: Refusal) -> None:
+    if scope["type"] == "websocket":
+        await receive()
+        await send({"type": "websocket.close", "code": 1008, "reason": refusal.why[:120]})
+        return
+    await _answer(send, refusal)
+
+
+async def _answer(send: Send, refusal: Refusal) -> None:
+    body = f"treadload: {refusal.why}\n".encode()
+    headers = [(b"content-type", b"text/plain; charset=utf-8"), (b"cache-control", b"no-store")]
+    headers += [(b"content-length", str(len(body)).encode()), (b"connection", b"close")]
+    await send({"type": "http.response.start", "status": refusal.status, "headers": headers + _extra()})
+    await send({"type": "http.response.body", "body": body})

@@ -1,0 +1,78 @@
+"""The verdict on the right of the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+
+from treadload.app.left import plain
+
+_GROUPS = {"contact": "Contact", "road": "Road", "solver": "Solver"}
+_HOME = {"nc": "NetCDF", "html": "report", "csv": "tables, CSV"}
+
+
+class Right:
+    """Rows of the verdict, warnings, and what can be taken home. fly: called with a place, m. take: with a kind."""
+
+    def __init__(self, fly: Callable[[float, float], Any], take: Callable[[str], Any]) -> None:
+        self._fly, self._take = fly, take
+
+    def build(self) -> None:
+        """Put the empty verdict on the page."""
+        self._all = ui.element("div").props('id="verdict"')
+        self._program = ui.dialog()
+
+    def show(self, rows: list[dict[str, Any]], warnings: list[str], run: str, *, done: bool) -> None:
+        """Show the verdict of a run. done: False while the rest is being solved."""
+        self._all.clear()
+        with self._all:
+            for group, title in _GROUPS.items():
+                own = [row for row in rows if row["group"] == group]
+                if own:
+                    ui.element("h2").props(f'innerHTML="{title}"')
+                    self._table(own)
+            for text in warnings:
+                ui.label(text).classes("warning")
+            if not done:
+                ui.label("the rest is being solved").classes("note")
+                return
+            ui.element("h2").props('innerHTML="Take home"')
+            with ui.element("div").classes("home"):
+                plain("TOML", lambda: self._take("toml"), label="take the case home as TOML")
+                plain("copy as Python", lambda: self._take("python"))
+                for kind, words in _HOME.items():
+                    with ui.element("a").props(f'href="/take/{run}/{kind}" download data-take="{kind}"'):
+                        ui.html(words, sanitize=False)
+            ui.label("NetCDF and report hold what `treadload run` gives; they take some seconds.").classes("note")
+
+    def _table(self, rows: list[dict[str, Any]]) -> None:
+        with ui.element("table").classes("rows"):
+            for row in rows:
+                with ui.element("tr"):
+                    with ui.element("td"):
+                        ui.label(row["label"]).style("display:inline")
+                    with ui.element("td").props(f'data-row="{row["key"]}"') as cell:
+                        if row.get("x") is not None:
+                            x, y = float(row["x"]), float(row["y"])
+                            with ui.element("button").classes("go").props('type="button"') as go:
+                                ui.label(row["value"]).style("display:inline")
+                            go.on("click", lambda x=x, y=y: self._fly(x, y)).tooltip("show it on the maps")
+                        else:
+                            ui.label(row["value"]).style("display:inline")
+                if row.get("note"):
+                    cell.tooltip(row["note"])
+
+    def program(self, text: str) -> None:
+        """Show a program that was copied."""
+        self._program.clear()
+        with self._program, ui.card().style("max-width:760px"):
+            ui.label("Copied. The same as a program:")
+            ui.html(f'<pre class="said">{_escaped(text)}</pre>', sanitize=False)
+            plain("Close", self._program.close)
+        self._program.open()
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

@@ -1,0 +1,138 @@
+"""The server: routes and sockets behind the guard, a session for each browser, and their processes."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import socket
+import sys
+import webbrowser
+from collections.abc import Callable
+from typing import Any
+
+from fastapi import Request
+from fastapi.responses import FileResponse, PlainTextResponse, Response
+from nicegui import app, core, ui
+
+from treadload.app.engines import EngineLost, Engines
+from treadload.app.guard import SESSION, Guard, Keys
+from treadload.app.page import LOOK, build
+from treadload.app.session import Session
+from treadload.app.takehome import KINDS
+from treadload.errors import InputError
+
+_ICON = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32"><rect width="32" height="32" rx="6" fill="#14181d"/>'
+    '<circle cx="16" cy="14" r="9" fill="none" stroke="#56b4e9" stroke-width="4"/>'
+    '<path d="M3 27h26" stroke="#ff9d45" stroke-width="3"/></svg>'
+)
+
+
+def free_port(host: str, port: int) -> int:
+    """The port, or a free one for 0. Raises InputError where it cannot be listened on."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    with socket.socket(family, socket.SOCK_STREAM) as probe:
+        if sys.platform != "win32":
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((host, port))
+        except OSError as error:
+            raise InputError(
+                f"cannot listen on {host}, port {port}: {error.strerror or error}; give another --port"
+            ) from error
+        return int(probe.getsockname()[1])
+
+
+def run(host: str, port: int, *, open_browser: bool) -> None:
+    """Serve until interrupted."""
+    keys = Keys(host, free_port(host, port))
+    engines = Engines()
+    sessions: dict[str, Session] = {}
+    prepare(keys, engines, sessions)
+
+    def ready() -> None:
+        engines.warm()
+        print(f"treadload app: {keys.address}", flush=True)
+        if open_browser:
+            webbrowser.open(keys.address)
+
+    def over() -> None:
+        engines.close()
+        for session in sessions.values():
+            session.close()
+
+    app.on_startup(ready)
+    app.on_shutdown(over)
+    ui.run(
+        host=host, port=keys.port, show=False, reload=False, title="treadload", favicon=_ICON, dark=None,
+        tailwind=False, show_welcome_message=False, language="en-US", reconnect_timeout=10.0, on_air=None,
+        proxy_headers=False, server_header=False, binding_refresh_interval=None, access_log=False,
+    )  # fmt: skip
+
+
+def prepare(keys: Keys, engines: Engines, sessions: dict[str, Session]) -> None:
+    """Put the page and its guard into the application."""
+    logging.getLogger("nicegui").setLevel(logging.ERROR)
+
+    def session_of(request: Request) -> Session:
+        name = request.scope[SESSION]
+        if name not in sessions:
+            sessions[name] = Session(engines)
+        return sessions[name]
+
+    @ui.page("/", title="treadload", response_timeout=30.0)
+    async def bench(request: Request) -> None:
+        client = ui.context.client
+        keys.owners[client.id] = request.scope[SESSION]
+        client.on_delete(lambda: keys.owners.pop(client.id, None))
+        build(session_of(request))
+
+    @app.get("/take/{run}/{kind}")
+    async def take(request: Request, run: str, kind: str) -> Response:
+        session = session_of(request)
+        held = session.runs.get(run)
+        if held is None or kind not in KINDS:
+            return PlainTextResponse("treadload: this browser has no such result\n", status_code=404)
+        try:
+            answer = await session.last("export", run=run, kind=kind)
+        except EngineLost as error:
+            return PlainTextResponse(f"treadload: {error}\n", status_code=503)
+        if "file" not in answer:
+            return PlainTextResponse(f"treadload: {answer.get('error', 'stopped')}\n", status_code=422)
+        path = (session.folder / answer["file"]).resolve()
+        if path.parent != session.folder.resolve():
+            return PlainTextResponse("treadload: no such file\n", status_code=404)
+        return FileResponse(path, filename=f"treadload_{KINDS[kind]}", headers={"cache-control": "no-store"})
+
+    app.add_static_files("/look", LOOK, max_cache_age=0)
+    _own_events(keys)
+    _around_everything(keys)
+
+
+def _around_everything(keys: Keys) -> None:
+    """The guard as the outermost layer: nicegui adds its own when it starts, and the last one added is outermost."""
+    built: Callable[[], Any] = app.build_middleware_stack
+
+    def guarded() -> Any:
+        return Guard(built(), keys)
+
+    app.build_middleware_stack = guarded  # type: ignore[method-assign]
+
+
+def _own_events(keys: Keys) -> None:
+    """Let a socket speak for pages of its own session only."""
+    for event in ("event", "javascript_response", "ack", "log", "handshake"):
+        inner = core.sio.handlers["/"][event]
+
+        def checked(sid: str, message: Any, inner: Any = inner) -> Any:
+            with contextlib.suppress(KeyError, TypeError):
+                session = core.sio.get_environ(sid)["asgi.scope"][SESSION]
+                if keys.may_use(str(message["client_id"]), session):
+                    return inner(sid, message)
+            return False
+
+        async def waited(sid: str, message: Any, checked: Any = checked) -> Any:
+            made = checked(sid, message)
+            return await made if hasattr(made, "__await__") else made
+
+        core.sio.on(event, waited)

@@ -1,0 +1,114 @@
+"""What the server keeps of one browser: its form, its runs, its uploaded files, its process. No other sees them."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import re
+import secrets
+import shutil
+import tempfile
+from collections.abc import AsyncIterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from treadload.app.engines import Engine, Engines
+from treadload.app.form import Form
+from treadload.errors import InputError
+
+# Files and runs that one browser keeps; the oldest go.
+_MOST_FILES, _MOST_RUNS = 24, 40
+_MOST_BYTES = 512 * 2**20
+MESHES = (".obj", ".ply", ".stl", ".glb", ".off")
+MAPS = (".nc", ".csv", ".npy", ".npz")
+FOOTPRINTS = (".csv", ".nc", ".asf", ".txt")
+
+
+@dataclass
+class Run:
+    """A solved case. rows: of the verdict. thumb: a small picture, as data URL."""
+
+    name: str
+    title: str
+    form: Form | None
+    rows: list[dict[str, Any]] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    ready: bool = False
+    thumb: str = ""
+
+
+@dataclass
+class Session:
+    """One browser. folder: private, emptied with the server. files: name the user knows → name of the kept file."""
+
+    engines: Engines
+    folder: Path = field(default_factory=lambda: Path(tempfile.mkdtemp(prefix="treadload-app-")))
+    form: Form = field(default_factory=Form.first)
+    runs: dict[str, Run] = field(default_factory=dict)
+    files: dict[str, str] = field(default_factory=dict)
+    _engine: Engine | None = None
+    _lock: asyncio.Lock = field(default_factory=asyncio.Lock)
+
+    async def engine(self) -> Engine:
+        """The process of this browser."""
+        async with self._lock:
+            if self._engine is None or not self._engine.lives:
+                self._engine = await self.engines.take(self.folder)
+            return self._engine
+
+    async def ask(self, do: str, **told: Any) -> AsyncIterator[dict[str, Any]]:
+        """Answers of the process, see `Engine.ask`."""
+        engine = await self.engine()
+        async for answer in engine.ask(do, **told):
+            yield answer
+
+    async def last(self, do: str, **told: Any) -> dict[str, Any]:
+        """The last answer of the process."""
+        return await (await self.engine()).last(do, **told)
+
+    async def stop(self) -> None:
+        """End what is being solved; what was finished stays."""
+        if self._engine is not None:
+            await self._engine.stop()
+
+    def new_run(self, form: Form | None, title: str) -> Run:
+        """A run with a name that nobody guesses."""
+        run = Run(secrets.token_hex(16), title, form)
+        self.runs[run.name] = run
+        while len(self.runs) > _MOST_RUNS:
+            oldest = next(iter(self.runs))
+            del self.runs[oldest]
+            (self.folder / f"{oldest}.nc").unlink(missing_ok=True)
+        return run
+
+    def keep(self, name: str, content: bytes, suffixes: tuple[str, ...]) -> str:
+        """Keep an uploaded file under a name of ours; returns that name. Raises InputError for another suffix."""
+        shown = re.split(r"[/\\]", name)[-1][:120]
+        suffix = os.path.splitext(shown)[1].lower()
+        if suffix not in suffixes:
+            raise InputError(f"{shown} is none of the files that go here: {', '.join(suffixes)}")
+        held = sum(one.stat().st_size for one in self.folder.iterdir() if one.is_file())
+        if len(self.files) >= _MOST_FILES or held + len(content) > _MOST_BYTES:
+            raise InputError(f"this page keeps {_MOST_FILES} files and {_MOST_BYTES // 2**20} MB; restart the server")
+        kept = f"upload_{secrets.token_hex(8)}{suffix}"
+        (self.folder / kept).write_bytes(content)
+        self.files[shown] = kept
+        return kept
+
+    def known_as(self, kept: str) -> str:
+        """The name under which the user knows a file."""
+        return next((shown for shown, name in self.files.items() if name == kept), kept)
+
+    def to_toml(self, form: Form) -> str:
+        """The case of a form as the user would write it, with the names of their own files."""
+        text = form.to_toml()
+        for shown, kept in self.files.items():
+            text = text.replace(kept, shown)
+        return text
+
+    def close(self) -> None:
+        """End its process and remove its files."""
+        if self._engine is not None:
+            self._engine.kill()
+        shutil.rmtree(self.folder, ignore_errors=True)

@@ -1,0 +1,55 @@
+"""What a user takes home of a run: files that treadload writes, and the same as Python."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from treadload.composing import BaseResult
+from treadload.errors import InputError
+from treadload.reporting import report
+from treadload.results import save_results
+from treadload.results.exports import write_csv
+
+KINDS = {"nc": "result.nc", "html": "report.html", "csv": "tables.zip"}
+"""What the process of a browser writes, and how the file is called at home."""
+
+
+def write_export(
+    parts: Mapping[str, BaseResult], whole: Callable[[], Any], kind: str, folder: Path, run: str, view: dict[str, Any]
+) -> str:
+    """Write a file of a run in the folder; returns its name.
+
+    parts: what the page shows. whole: makes what `treadload run` gives, slices and all. Raises InputError.
+    """
+    if kind not in KINDS:
+        raise InputError(f"there is nothing called {kind!r} to take home; there are {', '.join(KINDS)}")
+    path = folder / f"{run}_{KINDS[kind]}"
+    if path.exists():
+        return path.name
+    if kind == "nc":
+        save_results(whole(), path)
+    elif kind == "html":
+        report(whole(), path)
+    else:
+        written = write_csv(dict(parts), folder / f"{run}_tables.csv")
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+            for file in written:
+                archive.write(file, file.name.removeprefix(f"{run}_"))
+                file.unlink()
+    return path.name
+
+
+def as_python(toml: str) -> str:
+    """A program that computes a case, from its TOML text."""
+    quotes = "'''" if "'''" not in toml else '"""'
+    return (
+        "import treadload as tl\n\n"
+        f"case = tl.Case.from_text(r{quotes}\n{toml}{quotes})\n"
+        "result = tl.run_case(case)\n"
+        "print(result.summary())\n"
+        'tl.save_results(result, "result.nc")\n'
+        'tl.report(result, "report.html")\n'
+    )

@@ -1,0 +1,106 @@
+"""What the page says of a result in words: the rows of the verdict, and where each of them happens."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from treadload.composing import BaseResult
+from treadload.contact import Contact
+from treadload.damage import Verdict
+from treadload.plots.interactive import places_of
+
+Row = dict[str, Any]
+"""label, value with its unit, group; x, y, m, where it happens; note, a sentence for those who ask."""
+
+
+def rows_of(parts: Mapping[str, BaseResult]) -> list[Row]:
+    """The verdict, row by row, in the digits of the summaries."""
+    rows: list[Row] = []
+    contact, response, verdict = (parts.get(name) for name in ("contact", "response", "damage"))
+    if contact is not None:
+        rows += contact_rows(contact)
+    if isinstance(verdict, Verdict):
+        rows += verdict_rows(verdict)
+    elif response is not None:
+        rows += response_rows(response)
+    if contact is not None:
+        rows += solver_rows(contact)
+    return rows
+
+
+def contact_rows(contact: Any) -> list[Row]:
+    """Of a contact, or of a measured footprint in its place."""
+    data = contact.dataset
+    pressure = data["pressure"]
+    peak = places_of(contact)[0]
+    area = float((pressure > 0).sum()) * data.attrs["dx"] * data.attrs["dy"]
+    load = float(pressure.sum()) * data.attrs["dx"] * data.attrs["dy"]
+    mean = load / area / 1e3 if area else 0.0
+    rows = [
+        _row("load", "Load", f"{load / 1e3:.3f} kN"),
+        _row("area", "Contact area", f"{area * 1e6:.0f} mm²"),
+        _row("mean", "Mean pressure", f"{mean:.0f} kPa"),
+        _row("peak", "Peak pressure", f"{float(pressure.max()) / 1e3:.0f} kPa", x=peak.x, y=peak.y),
+    ]
+    if isinstance(contact, Contact):
+        shear = (data["traction_x"] ** 2 + data["traction_y"] ** 2) ** 0.5
+        at = shear.argmax(dim=("y", "x"))
+        x, y = float(data["x"][at["x"]]), float(data["y"][at["y"]])
+        rows += [
+            _row("shear", "Peak shear", f"{float(shear.max()) / 1e3:.0f} kPa", x=x, y=y),
+            _row("slip", "Slip share", f"{100 * contact.slip_fraction:.1f} %"),
+            _row("approach", "Approach", f"{float(data['approach']) * 1e3:.2f} mm"),
+            _row("along", "Force along travel", f"{float(data['tractive_force']):z.1f} N"),
+            _row("aside", "Force aside", f"{float(data['lateral_force']):z.1f} N"),
+            _row("creepage_x", "Creepage along", f"{float(data['creepage_x']):z.5f}"),
+            _row("creepage_y", "Creepage aside", f"{float(data['creepage_y']):z.5f}"),
+        ]  # fmt: skip
+    return rows
+
+
+def response_rows(response: BaseResult) -> list[Row]:
+    """Of a response without a verdict."""
+    return [
+        _row(f"extension{number}", "Largest extension", place.text.partition(": ")[2], group="road", x=place.x,
+             y=place.y, depth=place.depth, note=place.text)
+        for number, place in enumerate(places_of(response))
+    ]  # fmt: skip
+
+
+def verdict_rows(verdict: Verdict) -> list[Row]:
+    """Of a verdict."""
+    data = verdict.dataset
+    strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
+    sentence = verdict.summary().splitlines()[-1].removeprefix("Verdict: ")
+    if not strain > 0:
+        return [_row("verdict", "Life", "no crack", group="road", note=sentence)]
+    x, y, depth = (float(data[f"worst_{name}"]) for name in ("x", "y", "depth"))
+    at = {"x": x, "y": y, "depth": depth}
+    where = f"x {x * 1e3:.1f}, y {y * 1e3:.1f}, {depth * 1e3:g} mm deep"
+    return [
+        _row("extension", "Largest extension", f"{strain * 1e6:.1f} microstrain", group="road", **at),
+        _row("place", "Where", where, group="road", **at),
+        _row("crack", "Crack", verdict.orientation, group="road", note=verdict.summary().splitlines()[4], **at),
+        _row("passes", "Passes", f"{passes:.3g}", group="road", note=f"{verdict.line}. {sentence}", **at),
+    ]
+
+
+def solver_rows(contact: Any) -> list[Row]:
+    """How the contact was solved."""
+    stats = contact.stats
+    told = []
+    if "normal_residual" in stats:
+        told.append(_row("normal", "Normal contact", f"residual {stats['normal_residual']:.1e}", group="solver",
+                         note=f"{stats['normal_iterations']} iterations"))  # fmt: skip
+    if "rolling_residual" in stats:
+        told.append(_row("rolling", "Rolling", f"residual {stats['rolling_residual']:.1e}", group="solver",
+                         note=f"{stats['newton_iterations']} Newton steps"))  # fmt: skip
+    data = contact.dataset
+    size = f"{data.attrs['dx'] * 1e3:g} × {data.attrs['dy'] * 1e3:g} mm"
+    return [*told, _row("cells", "Cells", f"{data.sizes['x']} × {data.sizes['y']}", group="solver"),
+            _row("size", "Cell size", size, group="solver")]  # fmt: skip
+
+
+def _row(key: str, label: str, value: str, *, group: str = "contact", **more: Any) -> Row:
+    return {"key": key, "label": label, "value": value, "group": group, **more}

@@ -1,0 +1,32 @@
+"""`treadload app`: the page."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from treadload.cli import shell
+
+_HERE = "127.0.0.1"
+
+
+def app(
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port; a free one if left out.")] = 0,
+    host: Annotated[
+        str, typer.Option(help="Address to listen on; another than this machine's own lets others in with the token.")
+    ] = _HERE,
+    open_browser: Annotated[
+        bool, typer.Option("--open/--no-open", help="Show the page in a browser at once.")
+    ] = True,
+) -> None:
+    """Play with tire and road on a page in your browser, served on this machine only."""
+    from treadload.app import serve
+
+    if host not in (_HERE, "localhost", "::1"):
+        shell.err.print(
+            f"listening on {host}: whoever reaches this machine and has the token of the address below can solve "
+            "cases on it; what is sent is not encrypted",
+            style="bold", markup=False,
+        )  # fmt: skip
+    serve(host=host, port=port, open_browser=open_browser)

@@ -1,0 +1,189 @@
+"""Who may speak to the page: each way around the guard is tried."""
+
+import asyncio
+
+import pytest
+from starlette.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from treadload.app import guard
+from treadload.app.guard import Guard, Keys
+
+HERE = "http://127.0.0.1:8137"
+WIRE = "ws://127.0.0.1:8137"
+
+
+async def behind(scope, receive, send):
+    """What the guard protects: says who asked, and reads the body of a request."""
+    if scope["type"] == "websocket":
+        await receive()
+        await send({"type": "websocket.accept"})
+        await send({"type": "websocket.send", "text": scope[guard.SESSION]})
+        return
+    size = 0
+    while True:
+        message = await receive()
+        if message["type"] == "http.disconnect":
+            size = -1
+            break
+        size += len(message.get("body", b""))
+        if not message.get("more_body"):
+            break
+    body = f"{scope[guard.SESSION]} {size}".encode()
+    headers = [(b"access-control-allow-origin", b"*")]
+    await send({"type": "http.response.start", "status": 200, "headers": headers})
+    await send({"type": "http.response.body", "body": body})
+
+
+@pytest.fixture
+def keys():
+    return Keys("127.0.0.1", 8137)
+
+
+def visitor(keys, **more):
+    return TestClient(Guard(behind, keys), base_url=HERE, follow_redirects=False, **more)
+
+
+def entered(keys):
+    browser = visitor(keys)
+    assert browser.get(f"/?token={keys.token}").status_code == 303
+    return browser
+
+
+def test_the_token_opens_once_and_leaves_the_address(keys):
+    browser = visitor(keys)
+    answer = browser.get(f"/?token={keys.token}")
+    assert answer.headers["location"] == "/"
+    cookie = answer.headers["set-cookie"]
+    assert "HttpOnly" in cookie
+    assert "SameSite=Strict" in cookie
+    assert keys.token not in cookie
+    first = browser.get("/").text
+    # Who comes with the token again stays who they are; another browser is another.
+    browser.get(f"/?token={keys.token}")
+    assert browser.get("/").text == first
+    assert entered(keys).get("/").text != first
+
+
+@pytest.mark.parametrize(
+    "path", ["/", "/take/abc/nc", "/_nicegui/x/static/nicegui.js", "/look/bench.js", "/?token=", "/?token=x"]
+)
+def test_without_the_token_there_is_nothing(keys, path):
+    answer = visitor(keys).get(path)
+    assert answer.status_code == 403
+    assert "token" in answer.text
+    assert "set-cookie" not in answer.headers
+
+
+def test_a_made_up_cookie_opens_nothing(keys):
+    browser = visitor(keys, cookies={keys.cookie: "guessed"})
+    assert browser.get("/").status_code == 403
+    assert visitor(keys, headers={"cookie": f"{keys.cookie}=x; ;;=;[]"}).get("/").status_code == 403
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:8137", "127.0.0.1", "127.0.0.1:80", "127.0.0.1:8137.evil.example", ""]
+)
+def test_another_host_is_not_answered_even_with_the_token(keys, host):
+    browser = entered(keys)
+    for path in ("/", f"/?token={keys.token}"):
+        answer = browser.get(path, headers={"host": host})
+        assert answer.status_code == 421
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:9999", "https://127.0.0.1:8137"])
+def test_another_origin_is_not_answered(keys, origin):
+    browser = entered(keys)
+    assert browser.get("/", headers={"origin": origin}).status_code == 403
+    assert browser.post("/_nicegui_ws/socket.io/", headers={"origin": origin}).status_code == 403
+    with (
+        pytest.raises(WebSocketDisconnect),
+        browser.websocket_connect(f"{WIRE}/_nicegui_ws/socket.io/", headers={"origin": origin}),
+    ):
+        pass
+
+
+def test_what_changes_something_names_its_origin(keys):
+    browser = entered(keys)
+    assert browser.post("/", content=b"x").status_code == 403
+    assert browser.post("/", content=b"x", headers={"origin": HERE}).status_code == 200
+
+
+def test_a_page_of_the_same_machine_does_not_read(keys):
+    """Pages of other ports of this machine are of the same site, and cookies are sent with what they ask for."""
+    browser = entered(keys)
+    asked = {"sec-fetch-site": "same-site", "sec-fetch-mode": "no-cors"}
+    assert browser.get("/take/x/nc", headers=asked).status_code == 403
+    assert browser.get("/", headers={**asked, "sec-fetch-mode": "navigate"}).status_code == 200
+
+
+def test_a_socket_needs_the_cookie_and_the_origin(keys):
+    path = f"{WIRE}/_nicegui_ws/socket.io/?EIO=4"
+    with (
+        pytest.raises(WebSocketDisconnect) as refused,
+        visitor(keys).websocket_connect(path, headers={"origin": HERE}),
+    ):
+        pass
+    assert refused.value.code == 1008
+    browser = entered(keys)
+    with pytest.raises(WebSocketDisconnect), browser.websocket_connect(path):
+        pass
+    with browser.websocket_connect(path, headers={"origin": HERE}) as socket:
+        assert socket.receive_text() in keys.sessions.values()
+
+
+def test_the_pages_of_another_browser_are_out_of_reach(keys):
+    one, other = entered(keys), entered(keys)
+    keys.owners["page-of-one"] = one.get("/").text.split()[0]
+    upload = "/_nicegui/client/page-of-one/upload/7"
+    assert one.post(upload, content=b"x", headers={"origin": HERE}).status_code == 200
+    assert other.post(upload, content=b"x", headers={"origin": HERE}).status_code == 403
+    assert one.post("/_nicegui/client/unknown/upload/7", content=b"x", headers={"origin": HERE}).status_code == 403
+    socket = f"{WIRE}/_nicegui_ws/socket.io/?client_id=page-of-one"
+    with one.websocket_connect(socket, headers={"origin": HERE}) as mine:
+        assert mine.receive_text() == keys.owners["page-of-one"]
+    with pytest.raises(WebSocketDisconnect), other.websocket_connect(socket, headers={"origin": HERE}):
+        pass
+
+
+def test_what_is_sent_is_bounded(keys, monkeypatch):
+    monkeypatch.setattr(guard, "MOST_UPLOADED", 1000)
+    monkeypatch.setattr(guard, "_AROUND", 0)
+    monkeypatch.setattr(guard, "MOST_SENT", 100)
+    browser = entered(keys)
+    name = browser.get("/").text.split()[0]
+    keys.owners["p"] = name
+    upload, origin = "/_nicegui/client/p/upload/7", {"origin": HERE}
+    assert browser.post(upload, content=b"x" * 1000, headers=origin).text == f"{name} 1000"
+    assert browser.post(upload, content=b"x" * 1001, headers=origin).status_code == 413
+    assert browser.post("/", content=b"x" * 101, headers=origin).status_code == 413
+    # Without a length said in advance the body is cut, and the caller taken for gone.
+    assert browser.post(upload, content=iter([b"x" * 600, b"x" * 600]), headers=origin).text == f"{name} -1"
+    assert browser.post(upload, content=b"x", headers={**origin, "content-length": "-1"}).status_code == 413
+
+
+def test_every_answer_carries_its_policy(keys):
+    browser = entered(keys)
+    for answer in (browser.get("/"), visitor(keys).get("/"), browser.get("/", headers={"host": "x"})):
+        assert "frame-ancestors 'none'" in answer.headers["content-security-policy"]
+        assert answer.headers["x-content-type-options"] == "nosniff"
+        # No page elsewhere is told that it may read.
+        assert "access-control-allow-origin" not in answer.headers
+
+
+def test_a_server_for_others_answers_to_its_name():
+    keys = Keys("192.0.2.7", 80)
+    assert {"192.0.2.7", "192.0.2.7:80", "127.0.0.1:80"} <= keys.hosts
+    assert Keys("::1", 5).address.startswith("http://[::1]:5/?token=")
+    assert keys.token not in repr(keys)
+    assert not keys.opens("")
+
+
+def test_the_guard_lets_the_server_begin_and_end(keys):
+    seen = []
+
+    async def inner(scope, receive, send):
+        seen.append(scope["type"])
+
+    asyncio.run(Guard(inner, keys)({"type": "lifespan"}, None, None))
+    assert seen == ["lifespan"]
