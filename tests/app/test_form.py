@@ -4,12 +4,10 @@ import tomllib
 
 import pytest
 
-import treadload as tl
 from treadload.app import fields as keys
 from treadload.app.engines import Engines
 from treadload.app.form import Form
 from treadload.app.session import MESHES, Session
-from treadload.app.takehome import as_python
 from treadload.case import Case
 from treadload.errors import InputError
 
@@ -161,19 +159,3 @@ def test_two_browsers_share_nothing():
     finally:
         one.close()
         other.close()
-
-
-def test_the_same_as_python_is_the_same_case(monkeypatch):
-    """The program runs `run_case` on an equal case; solving it is not this test's matter."""
-    asked = []
-
-    class Solved:
-        def summary(self):
-            return ""
-
-    monkeypatch.setattr(tl, "run_case", lambda case: asked.append(case) or Solved())
-    monkeypatch.setattr(tl, "save_results", lambda result, path: None)
-    monkeypatch.setattr(tl, "report", lambda result, path: None)
-    form = Form.first().with_text(keys.LOAD, "40")
-    exec(compile(as_python(form.to_toml()), "program", "exec"), {})
-    assert asked == [Case.from_dict(dict(form.table))]

@@ -11,9 +11,9 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
-from tire_meshes import tire_mesh, write
 
 import treadload as tl
+from tire_meshes import tire_mesh, write
 from treadload.app.form import Form
 from treadload.case import Case
 from treadload.errors import TreadloadError
@@ -309,9 +309,22 @@ def test_two_users_do_not_see_each_other(chromium, address, visit):
         assert visit.verdict() == verdict
         base = other.page.url
         assert visit.context.request.get(f"{base}take/{mine}/csv").status == 200
-        for run, kind in ((mine, "csv"), (mine, "nc"), ("../" + mine, "csv"), (mine + ".nc", "csv"), (theirs, "../nc")):
+        for run, kind in (
+            (mine, "csv"),
+            (mine, "nc"),
+            ("../" + mine, "csv"),
+            (mine + ".nc", "csv"),
+            (theirs, "../nc"),
+        ):
             assert other.context.request.get(f"{base}take/{run}/{kind}").status in (403, 404), (run, kind)
-        for path in ("look/../page.py", "look/%2e%2e/page.py", "look/..%2fpage.py", "take/%2e%2e%2f%2e%2e/nc", "docs", "openapi.json"):
+        for path in (
+            "look/../page.py",
+            "look/%2e%2e/page.py",
+            "look/..%2fpage.py",
+            "take/%2e%2e%2f%2e%2e/nc",
+            "docs",
+            "openapi.json",
+        ):
             assert other.context.request.get(f"{base}{path}").status == 404, path
     finally:
         other.context.close()
@@ -354,10 +367,12 @@ NAMELESS = """() => [...document.querySelectorAll('input, button, a, [role=slide
   .filter((one) => !(one.ariaLabel || one.labels?.length || one.innerText?.trim() || one.alt || one.closest('label')))
   .map((one) => one.outerHTML.slice(0, 160))"""
 PALE = """() => { const light = (c) => { const v = c.match(/[0-9.]+/g).slice(0, 3).map((x) => { x /= 255;
-    return x <= 0.03928 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4 }); return 0.2126*v[0] + 0.7152*v[1] + 0.0722*v[2] };
+    return x <= 0.03928 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4 });
+    return 0.2126*v[0] + 0.7152*v[1] + 0.0722*v[2] };
   const under = (e) => { for (; e; e = e.parentElement) { const c = getComputedStyle(e).backgroundColor;
     if (!/, 0\\)$|transparent/.test(c)) return c } return 'rgb(255, 255, 255)' };
-  const bad = []; for (const e of document.querySelectorAll('h1, h2, label, button, a, td, .note, .warning, .stage, input')) {
+  const bad = [];
+  for (const e of document.querySelectorAll('h1, h2, label, button, a, td, .note, .warning, .stage, input')) {
     if (!e.offsetParent || e.disabled || e.closest('.js-plotly-plot, .q-uploader')) continue;
     const a = light(getComputedStyle(e).color), b = light(under(e));
     const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);

@@ -9,7 +9,6 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, Self
 
 import tomli_w
-from pydantic import ValidationError
 
 from treadload.app.fields import SURFACES, Field
 from treadload.case import Case
@@ -17,7 +16,7 @@ from treadload.case.changes import changed, set_key
 from treadload.case.first import first_case
 from treadload.errors import InputError
 from treadload.files import parse_toml
-from treadload.read import in_words
+from treadload.read import by_key
 from treadload.tire import TreadProfile
 
 # Texts that are never the path of a file.
@@ -112,10 +111,7 @@ class Form:
             _settle(self.table, None)
             return Checked(Case.from_dict(dict(self.table), folder=folder, name="case"), {})
         except InputError as error:
-            cause = error.__cause__
-            if isinstance(cause, ValidationError):
-                return Checked(None, _by_path(cause))
-            return Checked(None, {"": str(error).removeprefix("case: ")})
+            return Checked(None, by_key(error) or {"": str(error).removeprefix("case: ")})
 
     def to_toml(self) -> str:
         """The case as a TOML file, as it was typed."""
@@ -262,20 +258,6 @@ def _paths(table: Any, before: str = "") -> Iterator[str]:
             yield from _paths(value, f"{path}.")
         else:
             yield path
-
-
-def _by_path(error: ValidationError) -> dict[str, str]:
-    """What was said, by the path of its key."""
-    told: dict[str, str] = {}
-    for one in error.errors():
-        path = ".".join(str(part) for part in one["loc"])
-        said = one["msg"].removeprefix("Value error, ")
-        if one["type"] == "missing":
-            said = "this is missing"
-        elif one["type"] == "extra_forbidden":
-            said = f"unknown key; {said}"
-        told[path] = f"{told[path]}; {said}" if path in told else said
-    return told or {"": in_words(error)}
 
 
 def _settle(table: Any, files: Mapping[str, str] | None) -> None:

@@ -16,9 +16,10 @@ from treadload.app.form import Form
 from treadload.app.left import Left, plain
 from treadload.app.right import Right
 from treadload.app.session import Run, Session
-from treadload.app.takehome import as_python
+from treadload.case import Case
 from treadload.plots.interactive import link_script
 from treadload.plots.interactive.view import CONFIG
+from treadload.study.as_python import case_as_python
 
 LOOK = Path(__file__).parent / "look"
 _NOWHERE = {"visible": False}
@@ -467,7 +468,7 @@ class Bench:
             if kind == "toml":
                 ui.download.content(toml, "case.toml", "application/toml")
             else:
-                program = as_python(toml)
+                program = case_as_python(Case.from_text(toml))
                 self._right.program(program)
                 ui.run_javascript(f"treadloadCopy({json.dumps(program)})")
 

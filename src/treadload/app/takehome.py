@@ -1,4 +1,4 @@
-"""What a user takes home of a run: files that treadload writes, and the same as Python."""
+"""What a user takes home of a run: files that treadload writes."""
 
 from __future__ import annotations
 
@@ -40,16 +40,3 @@ def write_export(
                 archive.write(file, file.name.removeprefix(f"{run}_"))
                 file.unlink()
     return path.name
-
-
-def as_python(toml: str) -> str:
-    """A program that computes a case, from its TOML text."""
-    quotes = "'''" if "'''" not in toml else '"""'
-    return (
-        "import treadload as tl\n\n"
-        f"case = tl.Case.from_text(r{quotes}\n{toml}{quotes})\n"
-        "result = tl.run_case(case)\n"
-        "print(result.summary())\n"
-        'tl.save_results(result, "result.nc")\n'
-        'tl.report(result, "report.html")\n'
-    )

@@ -236,6 +236,21 @@ def in_words(error: ValidationError) -> str:
     return "; ".join([*told, f"and {len(errors) - _TOLD} more"] if len(errors) > _TOLD else told)
 
 
+def by_key(error: BaseException) -> dict[str, str]:
+    """What the reader said, by the path of the key that it is about; "" of the whole. Empty for another error."""
+    cause = error.__cause__
+    told: dict[str, str] = {}
+    for one in cause.errors() if isinstance(cause, ValidationError) else ():
+        path = ".".join(map(str, one["loc"]))
+        said = _plainly(one).removeprefix("Value error, ")
+        if one["type"] == "missing":
+            said = "this is missing"
+        elif one["type"] == "extra_forbidden":
+            said = f"unknown key; {said}"
+        told[path] = f"{told[path]}; {said}" if path in told else said
+    return told
+
+
 def _one_error(item: Any) -> str:
     place = ".".join(map(str, item["loc"]))
     message = _plainly(item).removeprefix("Value error, ")
