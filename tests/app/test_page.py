@@ -176,7 +176,7 @@ def test_a_changed_load_gives_what_python_gives(visit):
 def test_a_wrong_value_is_told_at_its_field(visit):
     before = visit.solves()
     visit.set("rolling.normal_load", "3 mm")
-    told = visit.page.locator(".q-field--error .q-field__messages").first
+    told = visit.page.locator(".q-field--error [role=alert]").first
     told.wait_for()
     with pytest.raises(TreadloadError) as same:
         Case.from_dict(dict(Form.first().with_values({"rolling.normal_load": "3 mm"}).table))
