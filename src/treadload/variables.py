@@ -264,6 +264,8 @@ _LIFE = {
     "largest_tearing_work": ("J/m^2", "largest elastic work of a wheel's shear in a skin as deep as the texture"),
     "tearing_work": ("J/m^2", "largest elastic work of a passage's shear in a skin as deep as the texture"),
     "distortion_work": ("J/m^2", "distortion energy of a passage in a layer, per area of road"),
+    "rut_depth": ("m", "rut that a layer adds, where the rut of all is deepest"),
+    "rut_layer": ("1", "number of a layer that ruts, from the surface, 0 the top one"),
     "asphalt_rut": ("m", "rut of the bituminous layers by the permanent strain of NCHRP 1-37A"),
     "design_utilisation": (
         "1",
@@ -464,7 +466,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
     "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
-    "input", "risk", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure",
+    "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure",
     "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth",
     "profile_depth", "sublayer", "point", "row", "column", "y", "across", "x", "component", "orientation",
 )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 from pydantic import model_validator
 
@@ -17,8 +17,10 @@ from treadload.case.traffic import TrafficPart
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage import Climate, Traffic
 from treadload.damage.criterion import Criterion as Judge
+from treadload.damage.rutting import Rutting
 from treadload.pavement import Pavement
 from treadload.pavement.sublayers import middle_temperatures
+from treadload.read import As, Made
 from treadload.tire import Tire
 from treadload.units import Length, Number
 
@@ -40,9 +42,9 @@ class LifeCase(FilePart):
     Numbers are SI; in a TOML file a quoted number carries its unit. title: of summaries and reports. tire: of the
     classes of axles that bring none. pavement: the road. traffic: what passes. climate: how warm the road is over the
     year. ageing: how old its mixes are. criteria: what ends its life. spacing: of the contact's cells, 3 mm if left
-    out: surface lives move by less than 5 % on finer ones, and by half on cells of 6 mm. tolerance: of
-    readings interpolated over the climate. growth: of a crack; left out, none grows. reliability: what scatters; left
-    out, no probabilities.
+    out: surface lives move by less than 5 % on finer ones, and by half on cells of 6 mm. tolerance: of readings
+    interpolated over the climate. rutting: how a rut is counted; left out, none is. growth: of a crack; left out,
+    none grows. reliability: what scatters; left out, no probabilities.
     """
 
     own_tables: ClassVar = ("traffic", "climate", "ageing", "criteria")
@@ -56,6 +58,7 @@ class LifeCase(FilePart):
     climate: ClimatePart
     ageing: AgeingPart | None = None
     criteria: tuple[Criterion, ...]
+    rutting: Annotated[Made, As(Rutting)] | None = None
     growth: GrowthPart | None = None
     reliability: ReliabilityPart | None = None
 

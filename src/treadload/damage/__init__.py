@@ -44,6 +44,7 @@ from treadload.damage.quantities import (
 )
 from treadload.damage.quantity import Quantity
 from treadload.damage.ratios import EnergyDemand, OctahedralRatio
+from treadload.damage.rutting import Rutting
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.damage.verdict import Verdict, assess
 
@@ -90,6 +91,7 @@ __all__ = [
     "PowerLine",
     "PrincipalTension",
     "Quantity",
+    "Rutting",
     "Season",
     "ShearFatigue",
     "ShellFatigue",

@@ -41,7 +41,8 @@ class Life(BaseResult, group="life"):
     first_crack_angle, first_crack_dip
     (criterion), of the class and season that do most, and orientation_damage (criterion, orientation); below a
     weather day_temperature (month, hour, profile_depth); where courses are divided sublayer_modulus and
-    sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young. criteria,
+    sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young; with rutting
+    rut_depth (rut_layer, year), and rut_names, rut_limit and rut_years in its attributes. criteria,
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
     season, of the first class of axles. by_class: (criterion, axle_class, season), where classes meet other moduli.
     stats: solves and errors behind the readings. warnings: sentences for the user.
@@ -59,6 +60,9 @@ class Life(BaseResult, group="life"):
             "profile_depth": "profile_depth",
             "sublayer_top sublayer_bottom sublayer_layer": "sublayer",
             "sublayer_temperature sublayer_modulus sublayer_modulus_young": "season sublayer",
+            "rut_depth": "rut_layer year",
+            "rut_layer": "rut_layer",
+            "year": "year",
         },
         labels={"criterion": "criterion", "axle_class": "axle_class", "season": "season"},
         each={"criterion": "criteria"},
@@ -119,7 +123,11 @@ class Life(BaseResult, group="life"):
                 f"damage 1 means {law.end_of_life}"
             )
         lines += [f"  {text}" for text in json.loads(data.attrs.get("groups", "[]"))]
-        if math.isinf(self.years(self.governing)):
+        rut = rut_in_words(data)
+        lines += [f"  {rut}"] if rut else []
+        if float(data.attrs.get("rut_years", math.inf)) < self.years(self.governing):
+            lines.append(f"Verdict: the rut governs, after {_years(float(data.attrs['rut_years']))}.")
+        elif math.isinf(self.years(self.governing)):
             lines.append("Verdict: no criterion ever fails under this traffic.")
         else:
             lines.append(f"Verdict: {self.governing} governs, after {_years(self.years(self.governing))}.")
@@ -132,6 +140,21 @@ class Life(BaseResult, group="life"):
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
     __repr__ = first_line
+
+
+def rut_in_words(data: xr.Dataset) -> str:
+    """The rut of a life, layer by layer, and when it reaches its limit; empty without one."""
+    if "rut_depth" not in data:
+        return ""
+    last = 1e3 * data["rut_depth"].to_numpy()[:, -1]
+    names = json.loads(data.attrs["rut_names"])
+    by = ", ".join(f"{name} {depth:.2g}" for name, depth in zip(names, last, strict=True) if depth > 0)
+    told = f"rut after {float(data['year'][-1]):g} years: {last.sum():.3g} mm ({by})"
+    if "rut_limit" not in data.attrs:
+        return told
+    when = float(data.attrs["rut_years"])
+    reached = "is never reached" if math.isinf(when) else f"is reached after {_years(when)}"
+    return f"{told}; the limit of {1e3 * float(data.attrs['rut_limit']):g} mm {reached}"
 
 
 def miner(

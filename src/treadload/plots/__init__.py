@@ -55,6 +55,7 @@ from treadload.plots.plain import losses, plain_map
 from treadload.plots.reliability import reliability_inputs, reliability_years
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
+from treadload.plots.ruts import life_rut
 from treadload.plots.stones import stones_in_mortar
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
@@ -124,6 +125,7 @@ __all__ = [
     "indentation",
     "life_damage",
     "life_inputs",
+    "life_rut",
     "life_shares",
     "life_works",
     "life_years",

@@ -24,6 +24,7 @@ from treadload.plots.life import life_damage, life_inputs, life_shares, life_yea
 from treadload.plots.passes import drum_contact, plastic_strain, residual_stress, rut_profile
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.reliability import reliability_inputs, reliability_years
+from treadload.plots.ruts import life_rut
 from treadload.plots.stones import stones_in_mortar
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
@@ -60,6 +61,10 @@ class LifePlots(_Plots):
     def works(self) -> Figure:
         """Polishing by class of axles, and tearing by class and season."""
         return life_works(self._result)
+
+    def rut(self) -> Figure:
+        """Rut against years, layer on layer, with its limit."""
+        return life_rut(self._result)
 
     def temperatures(self, months: Sequence[int] = (1, 4, 7, 10)) -> Figure:
         """Temperature over depth and hour on the mean day of months, below a weather. months: January is 1."""

@@ -12,9 +12,11 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.indices import NO_WORK
+from treadload.damage.miner import rut_in_words
 from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years
+from treadload.plots.ruts import life_rut
 from treadload.plots.works import life_works, shears
 from treadload.reporting.first import FirstPage, first_of_life, which_way
 from treadload.reporting.pictures import Picture, picture
@@ -95,9 +97,13 @@ def sentence(data: xr.Dataset) -> str:
     """The verdict in a sentence."""
     row = _governing(data)
     name, years = str(row["criterion"].item()), float(row["life_years"])
+    design = data.attrs.get("design_years")
+    rutted = float(data.attrs.get("rut_years", math.inf))
+    if rutted < years:
+        early = "" if design is None or rutted >= design else f", of a design life of {float(design):g} years"
+        return f"the rut governs and ends the road's life after {measure(rutted)} years{early}."
     if math.isinf(years):
         return "no criterion ever fails under this traffic."
-    design = data.attrs.get("design_years")
     said = f"{name} governs and ends the road's life after {measure(years)} years"
     if design is None:
         return f"{said}."
@@ -111,7 +117,8 @@ def sentence(data: xr.Dataset) -> str:
 def exhausted(data: xr.Dataset) -> bool:
     """True where the road fails before its design life is over."""
     design = data.attrs.get("design_years")
-    return design is not None and float(data["life_years"].min()) < float(design)
+    ends = min(float(data["life_years"].min()), float(data.attrs.get("rut_years", math.inf)))
+    return design is not None and ends < float(design)
 
 
 def _governing(data: xr.Dataset) -> xr.Dataset:
@@ -247,6 +254,17 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
                 wide=True,
             )
             if shears(data)
+            else []
+        ),
+        *(
+            picture(
+                "Rut against years",
+                f"R{rut_in_words(data)[1:]}. Where it is deepest, with lateral wander; from memory in part, see the "
+                "warnings.",
+                lambda: life_rut(data),
+                wide=True,
+            )
+            if "rut_depth" in data
             else []
         ),
         *(

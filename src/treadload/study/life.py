@@ -17,6 +17,7 @@ from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.interface import interface_in_words
 from treadload.damage.miner import Life, miner
+from treadload.damage.rutting import Rutting
 from treadload.damage.traffic import Traffic
 from treadload.pavement import Pavement, lift_below
 from treadload.study.contacts import Contacts, Progress
@@ -24,6 +25,7 @@ from treadload.study.doubts import beyond_tables, traffic_doubts
 from treadload.study.groups import group_factors, in_words
 from treadload.study.layered_climate import climate_fields
 from treadload.study.passages import Passages, solve_passages
+from treadload.study.rutting import rut_fields
 from treadload.study.seasons import frequencies
 from treadload.study.surface_works import surface_works
 from treadload.tire import Tire
@@ -41,11 +43,13 @@ def solve_life(
     workers: int | None = None,
     progress: Progress | None = None,
     contacts: Contacts | None = None,
+    rutting: Rutting | None = None,
 ) -> Life:
     """How many years a road lasts, by every criterion.
 
     Arguments as in `solve_passages`: what each law reads as every class of axle passes in every season; then
-    Miner's sum after wander, see `miner`, and how the axles of a group interact, see `study.groups`.
+    Miner's sum after wander, see `miner`, and how the axles of a group interact, see `study.groups`. rutting: how a
+    rut is counted, see `study.rutting`; left out, none is.
     stats of the result: contacts and responses solved, combinations that they serve, the largest relative error of
     readings interpolated over the climate, how far wheels were moved onto the common cells (m), seconds.
     Raises InputError, and ConvergenceError of a contact.
@@ -84,6 +88,10 @@ def solve_life(
     told = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
     dataset = life.dataset.assign(told).assign_attrs(about)
     life = replace(life, dataset=dataset.merge(climate_fields(road, climate), combine_attrs="override"))
+    rut: tuple[str, ...] = ()
+    if rutting is not None:
+        fields_of_rut, rut = rut_fields(road, traffic, climate, passages.wheels, rutting)
+        life = replace(life, dataset=life.dataset.merge(fields_of_rut, combine_attrs="no_conflicts"))
     stats = {
         "contacts": passages.contacts,
         "responses": passages.responses + int((axles > 1).sum()),
@@ -94,7 +102,7 @@ def solve_life(
     }
     said = (
         *_lifts(road, criteria), *traffic_doubts(tire, traffic, climate), *climate.warnings,
-        *beyond_tables(road, climate), *passages.warnings,
+        *beyond_tables(road, climate), *passages.warnings, *rut,
     )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *said))
 

@@ -88,6 +88,7 @@ def run_life(
         case.build_climate(),
         case.build_criteria(),
         tolerance=case.tolerance,
+        rutting=None if case.rutting is None else case.rutting.build(),
         **shared,
     )
     ends = np.isfinite(life.years(life.governing))

@@ -1,0 +1,167 @@
+"""The rut of a life: permanent strain of every layer under all classes and seasons, year by year."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.optimize import brentq
+
+from treadload import variables
+from treadload.damage.climate import Climate, Season
+from treadload.damage.indices import depth_factor
+from treadload.damage.laws.equivalence import growth_factor
+from treadload.damage.rutting import COLDEST, DOUBT, SOIL, UNBOUND, WARMEST, Rutting
+from treadload.damage.traffic import Traffic
+from treadload.kernels.arrays import Array
+from treadload.materials import PassesPowerLaw, Unbound
+from treadload.materials.plastic import elastic_part
+from treadload.pavement import Pavement, TemperatureProfile, bituminous_thickness
+from treadload.response import solve_response
+from treadload.study.seasons import warmed
+from treadload.study.wheels import Wheels
+
+# Parts of a course over depth, m, at whose middles it is read; depth of soil that counts, and its parts, which grow.
+_PART, _DEEP, _BELOW = 0.03, 2.0, 8
+# Points across, m apart, and so many under an axle, along.
+_ACROSS, _ALONG = 0.02, 5
+# Years of the curve where the traffic has no design life, and the longest that a limit is looked for.
+_USUAL, _LONGEST = 20, 1000.0
+
+
+def rut_fields(
+    road: Pavement, traffic: Traffic, climate: Climate, wheels: Sequence[Wheels], asked: Rutting
+) -> tuple[xr.Dataset, tuple[str, ...]]:
+    """Rut of a life, m, over (rut_layer, year) where it is deepest, and sentences for the user.
+
+    wheels: of each class. One response is solved for each class and each road that differs. Bituminous layers,
+    unbound ones of the catalogue and the last layer rut; others are stiff and do not. Attributes: rut_names,
+    rut_years, until the limit, inf if never, rut_limit. Raises InputError for a road without asphalt at its surface.
+    """
+    whole = bituminous_thickness(road, 0)
+    depths, thick, owner = _parts(road)
+    asphalt = depths <= whole
+    soft = np.array([_is_unbound(road, int(number)) for number in owner])
+    y = _places(wheels)
+    rate: Array = np.zeros((len(depths), len(y)))
+    strain: Array = np.zeros((len(depths), len(y)))
+    known: dict[int, Array] = {}
+    roads: list[Any] = []
+    axles = np.array([len(one.x) for one in wheels])
+    power = PassesPowerLaw.asphalt(COLDEST).exponent
+    deep = depth_factor(depths, whole)
+    for k, (row, own) in enumerate(zip(traffic.classes, wheels, strict=True)):
+        known.clear()
+        roads.clear()
+        for season in climate.seasons:
+            warm = warmed(road, (), season, row).road
+            if warm not in roads:
+                roads.append(warm)
+                known[len(roads) - 1] = _compression(own, warm, depths, y)
+            found = known[roads.index(warm)]
+            part = row.share * season.share * axles[k]
+            factor = np.array(
+                [PassesPowerLaw.asphalt(one).factor for one in _temperatures(road, season, depths, owner)]
+            )
+            rate += part * (found * (factor * deep)[:, None]) ** (1 / power)
+            strain += part * found
+    step = float(y[1] - y[0])
+    rate, strain = (traffic.wander.spread(one, step) for one in (rate, strain))
+    mean = float(np.sum(axles * [row.share for row in traffic.classes]))
+    calibrated = np.where(owner == len(road.layers) - 1, SOIL, UNBOUND)
+
+    def rut(years: float) -> Array:
+        """Of every layer across, (layer, y), m."""
+        passes = traffic.passes_per_year * growth_factor(years, traffic.growth, traffic.kind)
+        each = np.where(asphalt[:, None], (rate * passes) ** power, 0.0)
+        # The mean strain of an axle times the curve at the number of all of them.
+        each = each + np.where(
+            soft[:, None], (calibrated * asked.soil_ratio(passes * mean))[:, None] * strain / mean, 0.0
+        )
+        each = asked.calibration * each * thick[:, None]
+        return np.array([each[owner == number].sum(axis=0) for number in range(len(road.layers))])
+
+    end = math.ceil(traffic.years or _USUAL)
+    years = np.arange(1, end + 1, dtype=float)
+    worst = int(rut(float(end)).sum(axis=0).argmax())
+    depth = np.array([rut(float(year))[:, worst] for year in years]).T
+    names = [layer.name or f"layer {number}" for number, layer in enumerate(road.layers, start=1)]
+    limit = asked.limit
+    attrs: dict[str, Any] = {"rut_names": json.dumps(names, ensure_ascii=False)}
+    if limit is not None:
+        attrs |= {"rut_limit": limit, "rut_years": _until(lambda n: float(rut(n)[:, worst].sum()) - limit)}
+    places = {"rut_layer": np.arange(len(names)), "year": years}
+    data = variables.dataset({"rut_depth": (("rut_layer", "year"), depth)}, places, **attrs)
+    said = [f"rut: {DOUBT}"]
+    cold = [one.name for one in climate.seasons if _coldest(road, one, depths, owner) < COLDEST]
+    if cold:
+        said.append(
+            f"rut: asphalt below {COLDEST:g} °C counts as if at {COLDEST:g} °C, where its data end: {cold[0]}"
+        )
+    return data, tuple(said)
+
+
+def _until(over: Any) -> float:
+    low, high = 1e-3, _LONGEST
+    if over(low) >= 0:
+        return low
+    return float(brentq(over, low, high, rtol=1e-6)) if over(high) > 0 else math.inf
+
+
+def _parts(road: Pavement) -> tuple[Array, Array, Array]:
+    """Middles of the parts of all layers, their thicknesses, m, and the number of their layer."""
+    middles, thick, owner = [], [], []
+    top = 0.0
+    for number, layer in enumerate(road.layers):
+        if layer.thickness is None:
+            edges = top + np.geomspace(0.05, _DEEP + 0.05, _BELOW + 1) - 0.05
+        else:
+            count = max(1, math.ceil(layer.thickness / _PART - 1e-9))
+            edges = np.linspace(top, top + layer.thickness, count + 1)
+            top += layer.thickness
+        middles += (0.5 * (edges[1:] + edges[:-1])).tolist()
+        thick += np.diff(edges).tolist()
+        owner += [number] * (len(edges) - 1)
+    return np.array(middles), np.array(thick), np.array(owner)
+
+
+def _is_unbound(road: Pavement, number: int) -> bool:
+    return number == len(road.layers) - 1 or isinstance(elastic_part(road.layers[number].material), Unbound)
+
+
+def _places(wheels: Sequence[Wheels]) -> Array:
+    """Points across, from beside the outermost wheel to the other side, m."""
+    half = max(float(np.abs(load.grid.y).max()) for one in wheels for load in one.loads) + 0.2
+    count = math.ceil(half / _ACROSS)
+    return _ACROSS * np.arange(-count, count + 1)
+
+
+def _compression(wheels: Wheels, road: Pavement, depths: Array, y: Array) -> Array:
+    """Largest vertical compression under an axle, (depth, y), >= 0."""
+    axle = wheels.x[len(wheels.x) // 2]
+    x = np.linspace(axle[0], axle[-1], _ALONG)
+    speed = wheels.speed if road.is_viscoelastic else None
+    data = solve_response(wheels.joined, road, depths=depths, x=x, y=y, speed=speed).dataset
+    found: Array = np.maximum(-data["strain_zz"].transpose("depth", "y", "x").to_numpy(), 0.0).max(axis=-1)
+    return found
+
+
+def _given(road: Pavement, season: Season, depths: Array, owner: Array) -> list[float]:
+    """Temperature at the depths, °C."""
+    profile, given = season.profile, season.temperature
+    if profile is not None:
+        return [profile.temperature_at(float(one), extrapolate=True) for one in depths]
+    assert not isinstance(given, TemperatureProfile)
+    return [given[int(number)] if isinstance(given, tuple) else given for number in owner]
+
+
+def _temperatures(road: Pavement, season: Season, depths: Array, owner: Array) -> Array:
+    return np.clip(_given(road, season, depths, owner), COLDEST, WARMEST)
+
+
+def _coldest(road: Pavement, season: Season, depths: Array, owner: Array) -> float:
+    return min(_given(road, season, depths, owner))

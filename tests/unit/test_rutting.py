@@ -1,0 +1,113 @@
+"""The rut of a life: its laws by hand, what adds up, the case, the figure, what is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.cases import ONE_AXLE
+
+import treadload as tl
+from treadload.case import LifeCase
+from treadload.damage import Climate, asphalt_rut
+from treadload.damage.rutting import Rutting
+from treadload.errors import InputError
+from treadload.grid import Grid
+from treadload.plots.ruts import life_rut
+from treadload.response import GridLoad, solve_response
+from treadload.study.rutting import rut_fields
+from treadload.study.wheels import Wheels
+
+CASE = ONE_AXLE.replace("temperature = 15", "temperature = 30") + (
+    '[rutting]\nlimit = "10 mm"\n[[criteria]]\nname = "soil"\nlaw = "french-subgrade"\n'
+)
+
+
+def test_the_curve_of_soil_runs_between_its_two_ratios():
+    """0.15 at the first pass and 20 at the 10⁹th; beta and rho by hand for a water content of 10 %."""
+    soil = Rutting(water_content=0.1)
+    assert soil.soil_ratio(1.0) == pytest.approx(0.15, rel=1e-12)
+    assert soil.soil_ratio(1e9) == pytest.approx(20.0, rel=1e-12)
+    beta = 10 ** (-0.61119 - 0.17638)
+    rho = 1e9 * (np.log(0.15 / 20) / (1 - 1e9**beta)) ** (1 / beta)
+    start = 0.5 * (np.exp(rho**beta) * 0.15 + np.exp((rho / 1e9) ** beta) * 20)
+    assert soil.soil_ratio(1e6) == pytest.approx(start * np.exp(-((rho / 1e6) ** beta)), rel=1e-9)
+
+
+@pytest.fixture(scope="module")
+def asked():
+    case = LifeCase.from_text(CASE)
+    grid = Grid.centred(0.2, 0.2, 0.02)
+    wheels = Wheels((GridLoad(grid, np.full(grid.shape, 0.7e6)),), grid.x[None], None, "one", 0.0)
+    return case.build_road(), case.build_traffic(), case.build_climate(), wheels
+
+
+def test_the_asphalt_ruts_as_one_load_does_and_with_the_power_of_the_years(asked):
+    road, traffic, climate, wheels = asked
+    data, said = rut_fields(road, traffic, climate, [wheels], Rutting())
+    years = data["rut_depth"].sel(year=[5.0, 20.0]).to_numpy()
+    np.testing.assert_allclose(years[:2, 1] / years[:2, 0], 4**0.4791, rtol=1e-9)
+    warm = road.at_temperature(30.0)
+    depths = np.linspace(0.001, 0.209, 27)
+    response = solve_response(wheels.loads[0], warm, depths=depths, x=wheels.x[0], y=[-0.02, 0.0, 0.02])
+    one = asphalt_rut(response, warm, 30.0, 20 * traffic.passes_per_year, thickness=0.21)
+    # By the middles of 3 cm here, by trapezoids of 8 mm there.
+    assert years[:2, 1].sum() == pytest.approx(float(one.max()), rel=0.05)
+    assert any("from memory" in text for text in said)
+
+
+def test_what_is_divided_adds_up_to_the_whole(asked):
+    """The same axle as two classes in two seasons of one temperature; strain hardening keeps no order."""
+    road, traffic, _, wheels = asked
+    half = replace(traffic.classes[0], share=0.5)
+    two = replace(traffic, classes=(half, replace(half, name="other")))
+    whole, _ = rut_fields(road, traffic, Climate.equal_parts([30.0]), [wheels], Rutting())
+    parts, _ = rut_fields(road, two, Climate.equal_parts([30.0, 30.0]), [wheels, wheels], Rutting())
+    np.testing.assert_allclose(parts["rut_depth"], whole["rut_depth"], rtol=1e-12)
+    # A hot summer ruts more than its mean temperature.
+    hot, _ = rut_fields(road, traffic, Climate.equal_parts([20.0, 40.0]), [wheels], Rutting())
+    assert float(hot["rut_depth"][0, -1]) > 1.1 * float(whole["rut_depth"][0, -1])
+    cold = rut_fields(road, traffic, Climate.equal_parts([-5.0, 30.0]), [wheels], Rutting())[1]
+    assert any("below 5 °C counts as if at 5 °C" in text for text in cold)
+
+
+def test_the_limit_is_reached_when_the_curve_meets_it(asked):
+    road, traffic, climate, wheels = asked
+    free, _ = rut_fields(road, traffic, climate, [wheels], Rutting())
+    at_seven = float(free["rut_depth"].sel(year=7.0).sum())
+    data, _ = rut_fields(road, traffic, climate, [wheels], Rutting(limit=at_seven))
+    assert data.attrs["rut_years"] == pytest.approx(7.0, rel=1e-5)
+    assert rut_fields(road, traffic, climate, [wheels], Rutting(limit=0.19))[0].attrs["rut_years"] > 100
+    figure = life_rut(data)
+    assert len(figure.axes[0].collections) == 3
+
+
+@pytest.mark.slow
+def test_a_case_tells_its_rut_and_a_file_keeps_it(tmp_path):
+    result = tl.run_life(LifeCase.from_text(CASE), sensitivity=False)
+    said = result.summary()
+    assert "Verdict: the rut governs" in said
+    assert "the limit of 10 mm is reached after" in said
+    opened = tl.open_results(tl.save_results(result, tmp_path / "r.nc"))
+    assert opened.life.summary() == result.life.summary()
+    page = tl.report(opened, tmp_path / "r.html").read_text()
+    assert "the limit of 10 mm is reached after" in page
+    assert "the rut governs and ends the road" in page
+    assert "could not be drawn" not in page
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"limit": -1.0}, "limit must be a positive number"),
+        ({"limit": 15.0}, "limit is the depth of a rut in m, at most 0.2, got 15; 15 mm is 0.015"),
+        (
+            {"water_content": 10.0},
+            r"water_content must be a share of the dry mass in \(0, 0.4\], got 10; 10 % is",
+        ),
+        ({"calibration": 0.0}, "calibration must be a positive number"),
+    ],
+)
+def test_what_cannot_be_is_refused(wrong, said):
+    with pytest.raises(InputError, match=said) as caught:
+        Rutting(**wrong)
+    assert len(str(caught.value).splitlines()) == 1
