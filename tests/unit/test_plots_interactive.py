@@ -272,3 +272,9 @@ def test_plotly_waits_for_the_first_figure():
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Import | ast.ImportFrom):
                 assert not re.match(r"(from|import) plotly", ast.unparse(node)), path.name
+
+
+def test_lines_can_be_dragged_and_labels_know_their_maps():
+    """A browser showed both: without these a line needs a click first, and a second map's label has no axes."""
+    assert interactive.CONFIG["edits"] == {"shapePosition": True}
+    assert "Plotly.Fx.hover(maps, others, subplots)" in interactive.link_script()

@@ -34,7 +34,9 @@ window.treadloadLink = function (maps, below, load) {
       .filter(({ trace }) => trace.type === "heatmap" && trace.visible === true)
       .map(({ number }) => ({ curveNumber: number, xval: point.x, yval: point.y }));
     hovering = true;
-    try { Plotly.Fx.hover(maps, others); } finally { hovering = false; }
+    const subplots = [...new Set(others.map(({ curveNumber: n }) =>
+      (maps._fullData[n].xaxis || "x") + (maps._fullData[n].yaxis || "y")))];
+    try { Plotly.Fx.hover(maps, others, subplots); } finally { hovering = false; }
   });
   maps.on("plotly_unhover", () => { if (!hovering) cursor(null); });
 
@@ -83,10 +85,11 @@ window.treadloadLink = function (maps, below, load) {
   }
   let busy = false;
   maps.on("plotly_relayout", (change) => {
-    if (busy || !Object.keys(change).some((key) => key.startsWith("shapes["))) return;
-    const shapes = maps.layout.shapes, cut = shapes[0], moved = {};
+    const key = Object.keys(change).find((one) => one.startsWith("shapes["));
+    if (busy || !key) return;
+    const from = parseInt(key.slice(7), 10), shapes = maps.layout.shapes, cut = shapes[from], moved = {};
     shapes.forEach((shape, n) => {
-      if (n && shape.name === "cut") for (const key of ["x0", "y0", "x1", "y1"]) moved[`shapes[${n}].${key}`] = cut[key];
+      if (n !== from && shape.name === "cut") for (const key of ["x0", "y0", "x1", "y1"]) moved[`shapes[${n}].${key}`] = cut[key];
     });
     busy = true;
     Plotly.relayout(maps, moved).finally(() => { busy = false; });

@@ -40,7 +40,7 @@ from treadload.plots.response import VARIABLE
 
 PAGE = {".html": "a page", ".htm": "a page"}
 CONFIG = {
-    "responsive": True, "displaylogo": False, "scrollZoom": True,
+    "responsive": True, "displaylogo": False, "edits": {"shapePosition": True}, "scrollZoom": True,
     "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
 }  # fmt: skip
 """What plotly is told of every figure of a page."""
