@@ -25,15 +25,16 @@ BELT = As(str | Belt)
 class TirePart(Table):
     """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of.
 
-    scan: a mesh, OBJ, PLY, STL, GLB, OFF or a format that another package reads, or "example", the mesh that ships
-    with treadload. profile: a name of the library, a TOML file, or a table. height_map: a file of the initial gap.
+    scan: a mesh, OBJ, PLY, STL, GLB, OFF, a cloud of points, PLY, text, LAS, LAZ, E57, a format that another package
+    reads, or "example", the mesh that ships with treadload. profile: a name of the library, a TOML file, or a table.
+    height_map: a file of the initial gap.
     units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names no unit.
     cell: of a height map without coordinates. decimal: "." or ",", of a height map as text. inflation_pressure: gives
     the modulus where there is no material. material: of the tread's half-space. belt: in its place, a name of the
     catalogue or a table; inflation carries it. Of a scan: nominal_diameter: outer, from which the unit follows.
     rotation: about the axle. camber: lean to the right. revolve: the meridian in place of the facets. fill_holes: of
     the tread. smooth: length to smooth noise over, or "auto". outliers: "remove", "refuse" or "keep" points that
-    stick out. roundness: share of the radius by which it may vary.
+    stick out. roundness: share of the radius by which it may vary. scale: m per unit of the file.
     """
 
     one_of: ClassVar = ("scan", "profile", "height_map")
@@ -51,6 +52,7 @@ class TirePart(Table):
     smooth: Literal[False, "auto"] | Length = False
     outliers: Literal["remove", "refuse", "keep"] = "remove"
     roundness: Number = 0.02
+    scale: Number | None = None
     cell: Length | None = None
     inflation_pressure: Pressure | None = None
     material: TireMaterial | None = None
@@ -73,7 +75,7 @@ class TirePart(Table):
             raise ValueError(f"decimal belongs to a height_map; this tire is a {given[0]}")
         only_scan = {
             *("nominal_diameter", "rotation", "camber", "revolve", "fill_holes"),
-            *("smooth", "outliers", "roundness"),
+            *("smooth", "outliers", "roundness", "scale"),
         }
         stray = sorted(only_scan & self.model_fields_set) if self.scan is None else []
         if stray:
@@ -109,6 +111,7 @@ class TirePart(Table):
                 smooth=self.smooth,
                 outliers=self.outliers,
                 roundness=self.roundness,
+                scale=self.scale,
                 **body,
             )
         if self.height_map is not None:

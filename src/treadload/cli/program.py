@@ -70,7 +70,7 @@ def criteria(
 def _kinds() -> Table:
     """What a table of a case can be, by its kind, and which package brings it where it is not treadload."""
     import treadload.case  # its rooms register what they have
-    import treadload.tire.scan.mesh_file  # noqa: F401
+    import treadload.tire.scan.cloud_file  # noqa: F401
     from treadload.registry import ALL
 
     table = Table("key", "names", title="what a table of a case can be", title_justify="left")

@@ -13,15 +13,21 @@ from treadload.cli.progress import stages
 # Options of a scan that a measurement with fringes states in its own file.
 _OF_MESHES = (
     "units", "nominal_diameter", "rotation", "camber", "revolve", "smooth", "outliers", "roundness", "spacing",
+    "known_length", "reference",
 )  # fmt: skip
 
 
 def scan(
     context: typer.Context,
-    mesh: Annotated[Path, typer.Argument(help="OBJ, PLY, STL, GLB or OFF file of a tire; or a TOML of fringes.")],
+    mesh: Annotated[
+        Path, typer.Argument(help="Mesh (OBJ, PLY, STL, GLB, OFF), cloud (PLY, XYZ, LAS, E57), or a TOML of fringes.")
+    ],
     output: shell.Output = None,
     units: Annotated[str | None, typer.Option(help="Unit of the file: m, cm, mm or inch.")] = None,
     nominal_diameter: Annotated[str | None, typer.Option(help='Outer diameter, e.g. "1076 mm".')] = None,
+    known_length: Annotated[
+        str | None, typer.Option(help='A known length: its measure in the file and itself, "0.8123 = 1000 mm".')
+    ] = None,
     rotation: Annotated[str, typer.Option(help="Angle of the wheel about its axle.")] = "0 deg",
     camber: Annotated[str, typer.Option(help="Lean to the right.")] = "0 deg",
     revolve: Annotated[str, typer.Option(help="Revolve the meridian, not the facets: yes, no or auto.")] = "auto",
@@ -29,18 +35,22 @@ def scan(
     outliers: Annotated[str, typer.Option(help="Points that stick out: remove, refuse or keep.")] = "remove",
     roundness: Annotated[float, typer.Option(help="Share of the radius by which it may vary.")] = 0.02,
     spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
+    reference: Annotated[
+        Path | None, typer.Option(help="An earlier scan of the same tire: what was worn off.", show_default=False)
+    ] = None,
     figure: Annotated[
-        Path | None,
-        typer.Option(help="Picture of a measurement with fringes: .png, .svg or .pdf.", show_default=False),
+        Path | None, typer.Option(help="Picture of what was read and done: .png, .svg or .pdf.", show_default=False)
     ] = None,
     quiet: shell.Quiet = False,
 ) -> None:
-    """Read a tire mesh, or pictures of fringes, report the quality, and write the height map."""
+    """Read a scan of a tire, or pictures of fringes, report the quality, draw it, and write the height map."""
     from treadload.errors import InputError
+    from treadload.files import check_writable
     from treadload.results import height_map
     from treadload.results.exports import check_output, write
+    from treadload.results.scanned import scan_fields, scan_wear
     from treadload.tire import Tire
-    from treadload.tire.scan.options import revolve_choice, smooth_choice
+    from treadload.tire.scan.options import revolve_choice, scale_choice, smooth_choice
     from treadload.units import quantity
 
     if output is not None:
@@ -53,7 +63,7 @@ def scan(
             raise InputError(f"--{option} belongs to a mesh; {mesh} has its own keys, see docs/howto/fringes.md")
         return _fringes(mesh, output, figure, quiet=quiet)
     if figure is not None:
-        raise InputError(f"--figure belongs to a measurement with fringes, a TOML file; {mesh} is not one")
+        check_writable(figure)
     with stages(shell.err, quiet=quiet) as tell:
         tell(f"reading {mesh}")
         tire = Tire.from_scan(
@@ -66,11 +76,24 @@ def scan(
             smooth=smooth_choice(smooth),
             outliers=outliers,  # type: ignore[arg-type]  # checked where it is used
             roundness=roundness,
+            scale=None if known_length is None else scale_choice(known_length),
         )
+        earlier = None
+        if reference is not None:
+            tell(f"reading {reference}")
+            earlier = Tire.from_scan(reference, units=units, smooth=smooth_choice(smooth))
+        if figure is not None:
+            from treadload.plots import save
+            from treadload.plots.scan import scan as drawn
+
+            tell("drawing")
+            save(drawn(scan_fields(tire, earlier)), figure)
         if output is not None:
             tell("casting rays")
             files = write(height_map(tire, quantity(spacing, "m")), output)
     shell.out.print(str(tire.quality), markup=False)
+    if earlier is not None:
+        shell.out.print(str(scan_wear(tire, earlier)), markup=False)
     if output is not None:
         shell.written(files)
 

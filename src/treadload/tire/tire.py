@@ -154,19 +154,22 @@ class Tire:
         smooth: Literal[False, "auto"] | float = False,
         outliers: Literal["remove", "refuse", "keep"] = "remove",
         roundness: float = 0.02,
+        scale: float | None = None,
         material: TireMaterial | None = None,
         inflation_pressure: float | None = None,
         name: str = "",
         belt: Belt | None = None,
     ) -> Tire:
-        """Tire of a scanned mesh in any pose.
+        """Tire of a scan in any pose, of the whole turn or of a part of it from 45° on.
 
-        path: OBJ, PLY, STL, GLB or OFF. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter: outer, m;
-        without either, the unit is the one that gives a diameter between 0.4 and 1.6 m. rotation: rad, brings the
+        path: a mesh, OBJ, PLY, STL, GLB or OFF, or a cloud of points, PLY, text (XYZ, TXT, CSV, ASC, PTS), LAS, LAZ
+        or E57. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter: outer, m; scale: m per unit of the
+        file, a known length over its measure there; without any, the unit is the one that gives a diameter between
+        0.4 and 1.6 m. rotation: rad, brings the
         tread that much ahead down to the road. camber: rad, positive when the top leans to the right.
         revolve: replace the facets by their revolved meridian; "auto": when they cut deeper than 0.1 mm under the
         circle and the tread does not depend on the angle, so that ribs are revolved and lugs and blocks are not.
-        fill_holes: by the median round the tire; "auto": when they are at most 2 %.
+        fill_holes: by the median round the tire; "auto": in grooves round the tire, elsewhere up to 2 %.
         smooth: length, m, over which noise is smoothed (standard deviation of the window); "auto": as far as the
         noise asks, when it is above 0.05 mm. outliers: points that stick out of the tread further than noise takes
         them are put back ("remove"), end in an error ("refuse") or stay ("keep").
@@ -187,6 +190,7 @@ class Tire:
             smooth=smooth,
             outliers=outliers,
             roundness=roundness,
+            scale=scale,
         )
         surface = read_scan(Path(path), options)
         return cls(surface, material, inflation_pressure, name or Path(path).stem, belt)

@@ -1,17 +1,21 @@
-"""The floor that a tire stood on when it was scanned."""
+"""What is in a scan beside the tire: the floor that it stood on, pieces apart from it."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
+from treadload.errors import GeometryError
 from treadload.tire.scan.axis import sample_surface
-from treadload.tire.scan.mesh_file import FEWEST_FACES, Mesh
+from treadload.tire.scan.mesh_file import FEWEST_FACES, Mesh, renumbered
 
 TRIALS = 400
 THICKNESS = 0.004  # of the floor over the size of the scan
 SMALLEST_SHARE = 0.1
+ANOTHER = 0.4  # of the largest piece's area: a second tire
 
 
 def without_ground(mesh: Mesh) -> Mesh | None:
@@ -43,5 +47,33 @@ def without_ground(mesh: Mesh) -> Mesh | None:
     keep = rest[mesh.faces].any(axis=1)
     if keep.sum() < FEWEST_FACES or keep.all():
         return None
-    used, faces = np.unique(mesh.faces[keep], return_inverse=True)
-    return replace(mesh, vertices=mesh.vertices[used], faces=faces.reshape(-1, 3), watertight=False)
+    used, faces = renumbered(mesh.faces[keep], len(mesh.vertices))
+    return replace(mesh, vertices=mesh.vertices[used], faces=faces, watertight=False)
+
+
+def largest_piece(mesh: Mesh, name: str) -> tuple[Mesh, int]:
+    """The largest connected piece of a mesh, by area, and how many others there were.
+
+    Raises GeometryError when another piece is nearly as large and lies beside it: a second tire.
+    """
+    faces, count = mesh.faces, len(mesh.vertices)
+    links = coo_array((np.ones(2 * len(faces)), (faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel())), (count, count))
+    number, piece = connected_components(links, directed=False)
+    if number == 1:
+        return mesh, 0
+    corner = mesh.vertices[faces]
+    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
+    of_face = piece[faces[:, 0]]
+    sizes = np.bincount(of_face, area, number)
+    first, second = np.argsort(sizes)[::-1][:2]
+    if sizes[second] > ANOTHER * sizes[first]:
+        boxes = [mesh.vertices[piece == one] for one in (first, second)]
+        low, high = np.maximum(*(box.min(axis=0) for box in boxes)), np.minimum(*(box.max(axis=0) for box in boxes))
+        if (low > high).any():
+            raise GeometryError(
+                f"{name!r} holds two pieces of like size beside each other, {sizes[second] / sizes[first]:.0%} of "
+                "the area of the larger; a scan holds one tire: cut the other out of it"
+            )
+    used, faces = renumbered(faces[of_face == first], count)
+    others = int((sizes > 0).sum()) - 1
+    return replace(mesh, vertices=mesh.vertices[used], faces=faces, watertight=False), others

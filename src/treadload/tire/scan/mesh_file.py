@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from treadload.errors import GeometryError, InputError, TreadloadError, how_to_install
 from treadload.kernels.arrays import Array
 from treadload.registry import OURS, READERS, Entry
+from treadload.tire.scan.cloud import mesh_of_points
 
 Triangles = tuple[Array, NDArray[np.int64]]
 FEWEST_FACES = 100
@@ -44,9 +45,10 @@ def import_trimesh() -> ModuleType:
 
 
 def read_mesh(path: str | Path) -> Mesh:
-    """Mesh of a file, vertices merged and degenerate faces dropped.
+    """Mesh of a file, vertices merged and degenerate faces dropped; through points without triangles one is laid.
 
-    path: OBJ, PLY, STL, GLB or OFF, or a format that another package reads, see `treadload.registry.READERS`.
+    path: OBJ, PLY, STL, GLB or OFF, a cloud as PLY, text, LAS, LAZ or E57, or a format that
+    another package reads, see `treadload.registry.READERS`.
     Raises InputError for a missing, unknown or unreadable file, GeometryError for one without usable triangles.
     """
     path = Path(path)
@@ -61,8 +63,10 @@ def read_mesh(path: str | Path) -> Mesh:
     if path.stat().st_size == 0:
         raise InputError(f"scan file {path.name!r} is empty (0 bytes); export or copy it again")
     vertices, faces = _read(READERS.find(suffix[1:]), path)
-    if len(faces) == 0:
-        raise GeometryError(_no_faces(path))
+    if vertices.ndim == 2 and len(vertices) and not faces.size:
+        faces = faces.reshape(0, 3)
+    if not len(vertices):
+        raise GeometryError(f"scan file {path.name!r} has no points and no triangles; export it again")
     if vertices.shape[1:] != (3,) or faces.shape[1:] != (3,):
         raise InputError(
             f"scan file {path.name!r} has {vertices.shape[-1]} numbers per vertex and {faces.shape[-1]} vertices "
@@ -74,6 +78,10 @@ def read_mesh(path: str | Path) -> Mesh:
             f"scan file {path.name!r} has {bad} of {len(vertices)} vertices that are NaN or infinite; "
             "remove them in the scanning software"
         )
+    if len(faces) == 0:
+        vertices, faces = mesh_of_points(_of_possible_size(vertices, path), path.name)
+        if len(faces) == 0:
+            raise GeometryError(f"the points of {path.name!r} lie too far apart to make a surface; scan it denser")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise InputError(
             f"scan file {path.name!r} has faces that name vertex {int(faces.max()) + 1} of {len(vertices)}; "
@@ -94,7 +102,7 @@ def _read(reader: Entry, path: Path) -> Triangles:
     except TreadloadError:
         raise
     except Exception as error:
-        raise InputError(f"{who}: {_said(error)}; the file or that package is broken") from error
+        raise InputError(f"{who}: {said(error)}; the file or that package is broken") from error
     whole = faces.dtype.kind in "iu" or not faces.size
     if vertices.ndim != 2 or vertices.shape[1] != 3 or (faces.size and faces.shape[1:] != (3,)) or not whole:
         raise InputError(
@@ -110,19 +118,20 @@ def _of_trimesh(path: Path) -> Triangles:
     trimesh = import_trimesh()
     try:
         loaded = trimesh.load_scene(path, process=False, skip_materials=True).to_mesh()
-        return np.array(loaded.vertices, dtype=np.float64), np.array(loaded.faces, dtype=np.int64)
+        if len(loaded.faces):
+            return np.array(loaded.vertices, dtype=np.float64), np.array(loaded.faces, dtype=np.int64)
     except Exception as error:  # trimesh raises whatever its parsers stumble on
-        if _is_cloud(trimesh, path):
-            raise GeometryError(_no_faces(path)) from error
         raise InputError(
-            f"scan file {path.name!r} could not be read as {path.suffix[1:].upper()} ({_said(error)}); "
+            f"scan file {path.name!r} could not be read as {path.suffix[1:].upper()} ({said(error)}); "
             "it may be truncated, export or copy it again"
         ) from error
+    points = _points_of(trimesh, path)
+    return (np.zeros((0, 3)) if points is None else points), np.zeros((0, 3), dtype=np.int64)
 
 
 def _clean(trimesh: ModuleType, path: Path, vertices: Array, faces: NDArray[np.int64]) -> Mesh:
     # A few points may lie absurdly far away: the size is that of nine tenths, and they end on its horizon.
-    used = vertices[np.unique(faces)]
+    used = vertices[_named(faces, len(vertices))]
     middle = np.median(used, axis=0)
     with np.errstate(over="ignore", invalid="ignore"):
         away = np.abs(used - middle).max(axis=1)
@@ -150,36 +159,62 @@ def _clean(trimesh: ModuleType, path: Path, vertices: Array, faces: NDArray[np.i
             f"scan file {path.name!r} has {len(faces)} usable triangles, fewer than the {FEWEST_FACES} that a tire "
             "needs; is it the right file?"
         )
-    used, faces = np.unique(faces, return_inverse=True)
-    faces = faces.reshape(-1, 3)
-    merged = merged[used]
+    whole, faces = renumbered(faces, len(merged))
+    merged = merged[whole]
     near = merged[np.abs(merged).max(axis=1) <= 2]
     if len(near) < 4 or np.linalg.svd(near - near.mean(axis=0), compute_uv=False)[2] < 0.5e-3 * np.sqrt(len(near)):
         raise GeometryError(
             f"the {len(merged)} points of {path.name!r} lie on a plane; a tire needs three dimensions"
         )
-    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    shared = np.bincount(np.unique(edges[:, 0] * len(merged) + edges[:, 1], return_inverse=True)[1])
-    return Mesh(merged * size + middle, faces, bool((shared == 2).all()), dropped)
+    a, b = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    first, last = np.minimum(a, b), np.maximum(a, b)
+    # Closed: every edge twice and none a third time.
+    key = np.sort(first * len(merged) + last)
+    closed = len(key) % 2 == 0 and bool((key[::2] == key[1::2]).all() and (key[1:-1:2] != key[2::2]).all())
+    return Mesh(merged * size + middle, faces, closed, dropped)
 
 
-def _said(error: Exception) -> str:
+def _named(faces: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+    """Indices of the vertices that faces name, each once."""
+    seen = np.zeros(count, dtype=bool)
+    seen[faces.ravel()] = True
+    return np.flatnonzero(seen)
+
+
+def renumbered(faces: NDArray[np.int64], count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Indices of the vertices that faces (m, 3) name, of `count`, and the faces over these alone."""
+    used = _named(faces, count)
+    place = np.zeros(count, dtype=np.int64)
+    place[used] = np.arange(len(used))
+    return used, place[faces]
+
+
+def said(error: BaseException) -> str:
     """An error of the parser in one short line."""
     words = " ".join(str(error).split())
     return f"{type(error).__name__}: {words if len(words) < 120 else words[:117] + '...'}"
 
 
-def _is_cloud(trimesh: ModuleType, path: Path) -> bool:
-    """True when the file holds points without faces."""
+def _points_of(trimesh: ModuleType, path: Path) -> Array | None:
+    """(n, 3) points of a file that holds no faces; None where it holds any, or cannot be read."""
     try:
-        scene = trimesh.load_scene(path, process=False, skip_materials=True)
-        return bool(scene.geometry) and not any(hasattr(part, "faces") for part in scene.geometry.values())
+        parts = list(trimesh.load_scene(path, process=False, skip_materials=True).geometry.values())
+        if not parts or any(hasattr(part, "faces") for part in parts):
+            return None
+        return np.concatenate([np.array(part.vertices, dtype=np.float64).reshape(-1, 3) for part in parts])
     except Exception:
-        return False
+        return None
 
 
-def _no_faces(path: Path) -> str:
-    return (
-        f"scan file {path.name!r} has no triangles; mesh the points first "
-        "(for example by Poisson reconstruction) and export the mesh"
-    )
+def _of_possible_size(points: Array, path: Path) -> Array:
+    """Points without those absurdly far off; raises GeometryError for one place only, or no place a tire can be."""
+    middle = np.median(points, axis=0)
+    with np.errstate(over="ignore", invalid="ignore"):
+        away = np.abs(points - middle).max(axis=1)
+        size = 2 * float(np.quantile(away, 0.9))
+    if not SMALLEST < size < LARGEST:
+        raise GeometryError(
+            f"the {len(points)} points of {path.name!r} are {size:.3g} wide, no tire in any unit; export it again"
+        )
+    kept: Array = points[away < 4 * size]
+    return kept

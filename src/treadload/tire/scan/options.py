@@ -33,6 +33,7 @@ class ScanOptions:
     smooth: Smooth = False
     outliers: Outliers = "remove"
     roundness: float = ROUNDNESS
+    scale: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "units", unit_name(self.units))
@@ -42,6 +43,16 @@ class ScanOptions:
                 f"nominal_diameter must lie between {POSSIBLE_DIAMETERS[0]} and {POSSIBLE_DIAMETERS[1]} m, "
                 f"got {diameter:g}; give it in m, a 315/80R22.5 has 1.076"
             )
+        if self.scale is not None:
+            if isinstance(self.scale, bool) or not (math.isfinite(self.scale) and self.scale > 0):
+                raise InputError(
+                    f"scale must be a positive number of m per unit of the file, got {self.scale!r}: a known length "
+                    "in m over what it measures in the file"
+                )
+            if self.units is not None:
+                raise InputError(
+                    f"give either units ({self.units!r}) or scale, not both: each says how long a unit is"
+                )
         if not math.isfinite(self.rotation):
             raise InputError(f"rotation must be a finite angle in rad, got {self.rotation}")
         if not abs(self.camber) <= math.radians(15):
@@ -81,3 +92,17 @@ def smooth_choice(word: str) -> Smooth:
     if plain in ("no", "false"):
         return False
     return "auto" if plain == "auto" else quantity(word, "m")
+
+
+def scale_choice(words: str) -> float:
+    """M per unit of the file, from "0.8123 = 1000 mm": what a length measures in the file, and what it is."""
+    measured, mark, true = words.partition("=")
+    try:
+        length = float(measured.strip().replace(",", "."))
+    except ValueError:
+        length = math.nan
+    if not mark or not (math.isfinite(length) and length > 0):
+        raise InputError(
+            f'a reference length is its measure in the file and its length, "0.8123 = 1000 mm", got {words!r}'
+        )
+    return quantity(true.strip(), "m") / length

@@ -74,16 +74,24 @@ def _links(mesh: Mesh) -> csr_array:
 def _needles(mesh: Mesh, ignore: BoolArray) -> BoolArray:
     """(n,) True for tips of needles: far from the closed ring of their neighbours, as measured by its width."""
     n = len(mesh.vertices)
-    corner = mesh.vertices[mesh.faces]
-    near, wide = np.full(n, np.inf), np.zeros(n)
     fan = np.bincount(mesh.faces.ravel(), minlength=n)
+    corner = mesh.vertices[mesh.faces]
+    sides = [np.linalg.norm(corner[:, (k + 1) % 3] - corner[:, k], axis=1) for k in range(3)]
+    maybe = (fan >= 3) & ~ignore
+    legs = [np.minimum(sides[k], sides[k - 1]) for k in range(3)]
     for k in range(3):
-        tip, a, b = mesh.faces[:, k], corner[:, (k + 1) % 3], corner[:, (k + 2) % 3]
-        legs = np.minimum(np.linalg.norm(a - corner[:, k], axis=1), np.linalg.norm(b - corner[:, k], axis=1))
-        np.minimum.at(near, tip, legs)
+        # One triangle whose far side is long enough clears its tip: few are left to be summed over.
+        maybe[mesh.faces[legs[k] <= 0.5 * NEEDLE * sides[(k + 1) % 3], k]] = False
+    if not maybe.any():
+        return maybe
+    near, wide = np.full(n, np.inf), np.zeros(n)
+    for k in range(3):
+        some = maybe[mesh.faces[:, k]]
+        tip = mesh.faces[some, k]
+        np.minimum.at(near, tip, legs[k][some])
         # A ring is at most half as wide as it is long; one that holds its point is no nearer to it than that.
-        np.add.at(wide, tip, 0.5 * np.linalg.norm(a - b, axis=1))
-    maybe = (near > NEEDLE * wide) & (fan >= 3) & ~ignore
+        np.add.at(wide, tip, 0.5 * sides[(k + 1) % 3][some])
+    maybe &= near > NEEDLE * wide
     if not maybe.any():
         return np.asarray(maybe, dtype=bool)
     closed = np.diff(_links(mesh).indptr) == fan

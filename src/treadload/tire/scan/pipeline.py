@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,11 +13,12 @@ from scipy import ndimage
 from treadload.errors import GeometryError, InputError
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire.quality import Outlier, ScanQuality
+from treadload.tire.scan import cloud_file  # noqa: F401  # its readers register themselves
 from treadload.tire.scan import meridian as unrolling
 from treadload.tire.scan import outliers as sticking
 from treadload.tire.scan.axis import Axis, across, fit_axis, sample_surface
-from treadload.tire.scan.cleaning import decide_revolve, decide_smoothing
-from treadload.tire.scan.ground import without_ground
+from treadload.tire.scan.cleaning import LARGEST_NOISE, decide_revolve, decide_smoothing
+from treadload.tire.scan.ground import largest_piece, without_ground
 from treadload.tire.scan.mesh_file import Mesh, read_mesh
 from treadload.tire.scan.noise import BAND, apart, radial_noise, smoothed, unrolled
 from treadload.tire.scan.options import ScanOptions
@@ -25,6 +27,9 @@ from treadload.tire.scan.surface import DEEPEST, EXTENT_DROP, SECTOR, SMALL_HOLE
 from treadload.tire.scan.units import check_diameter, scale_of
 
 POSSIBLE_PROPORTIONS = (0.1, 0.8)  # width over outer diameter
+SMALLEST_ARC, WARNED_ARC = 45, 90  # of the turn, degrees
+CORNERS, CORNER = 3, 20  # so many gaps, so many degrees wide, are between the corners of something else
+APART, LIKE = 0.03, 0.3  # two treads lie so far apart, m, and the narrower is so wide over the wider
 LUG_WINDOW = math.radians(30)  # the next lug is nearer than this
 LEVEL = 0.5  # what rises more is a wall or the end of the tread
 BESIDE_WALLS = 0.001  # points this near to walls may be on them, m
@@ -49,16 +54,27 @@ def read_scan(path: str | Path, options: ScanOptions | None = None) -> ScanSurfa
         return _build(mesh, name, options, [])
     except (GeometryError, InputError):
         # With a floor the axle is not found; what is wrong then may look like wrong units.
-        rest = without_ground(mesh)
-        if rest is None:
-            raise
-        dropped = len(mesh.faces) - len(rest.faces)
-        note = f"a flat floor of {dropped} triangles was removed; the tread that stood on it may be flattened"
-        try:
-            return _build(rest, name, options, [note])
-        except (GeometryError, InputError):
-            pass
+        for rest, notes in _without_clutter(mesh, name):
+            try:
+                return _build(rest, name, options, notes)
+            except (GeometryError, InputError):
+                pass
         raise
+
+
+def _without_clutter(mesh: Mesh, name: str) -> Iterator[tuple[Mesh, list[str]]]:
+    """The mesh without its floor, without small pieces, without both, and what to say of it. Raises GeometryError."""
+    notes: list[str] = []
+    rest = without_ground(mesh)
+    if rest is not None:
+        dropped = len(mesh.faces) - len(rest.faces)
+        notes = [f"a flat floor of {dropped} triangles was removed; the tread that stood on it may be flattened"]
+        yield rest, notes
+    rest = mesh if rest is None else rest
+    main, number = largest_piece(rest, name)
+    if number:
+        dropped = len(rest.faces) - len(main.faces)
+        yield main, [*notes, f"{number} pieces of {dropped} triangles apart from the tire were left out"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +87,7 @@ class _Unrolled:
     top: Array
     sag: float
     crown: float
+    caster: Caster
 
     @classmethod
     def of(cls, mesh: Mesh, outer: float) -> _Unrolled:
@@ -79,15 +96,18 @@ class _Unrolled:
         y = 0.5 * (low + high) + (high - low) / cells * (np.arange(cells) - 0.5 * (cells - 1))
         # Off the whole degrees, where drawn meshes have their edges.
         theta = np.arange(0.013, 2 * np.pi, math.radians(1))
-        turn = radial(Caster(mesh.vertices, mesh.faces), theta, y, 1.5 * outer, outer - 2 * DEEPEST)
+        floor = outer - 2 * DEEPEST
+        # What lies deeper is no tread, and counts as nothing met.
+        high = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2]) > floor
+        caster = Caster(mesh.vertices, mesh.faces[high[mesh.faces].any(axis=1)])
+        turn = radial(caster, theta, y, 1.5 * outer, floor)
         top = unrolling.top_meridian(turn)
         sag = unrolling.facet_sag(mesh.vertices, mesh.faces, unrolling.beside(mesh.vertices, y, top))
-        return cls(theta, y, turn, top, sag, unrolling.crown(top, sag))
+        return cls(theta, y, turn, top, sag, unrolling.crown(top, sag), caster)
 
     def scaled(self, factor: float) -> _Unrolled:
-        return _Unrolled(
-            self.theta, self.y * factor, self.turn * factor, self.top * factor, self.sag * factor, self.crown * factor
-        )
+        lengths = {name: getattr(self, name) * factor for name in ("y", "turn", "top", "sag", "crown")}
+        return replace(self, **lengths)
 
 
 def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> ScanSurface:
@@ -95,7 +115,7 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     mesh, far = sticking.without_needles(mesh)
     axis = fit_axis(*sample_surface(mesh.vertices, mesh.faces))
     _check_tire(mesh, axis, name)
-    label, scale, warnings = scale_of(2 * axis.radius, options.units, options.nominal_diameter, name)
+    label, scale, warnings = scale_of(2 * axis.radius, options.units, options.nominal_diameter, name, options.scale)
     warnings += notes
     frame = _frame(mesh.vertices - axis.origin, axis, options.rotation)
     mesh = replace(mesh, vertices=scale * (mesh.vertices - axis.origin) @ frame)
@@ -111,8 +131,16 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
         _check_seen(seen, name)
         noise, flat, tread = _noise(mesh, seen)
     _check_round(seen, options.roundness, name)
+    arc = _degrees(seen)
+    if arc < WARNED_ARC:
+        warnings.append(
+            f"the scan has tread on {arc:.0f}° of the turn, less than {WARNED_ARC}°: its axle may be 0.1° and "
+            "0.3 mm off, several times that with 1 mm of noise or more; scan more of the turn"
+        )
+    rescaled = False
     if label == "scaled" and options.nominal_diameter is not None:
         factor = 0.5 * options.nominal_diameter / seen.crown
+        rescaled = True
         scale, mesh, seen = scale * factor, replace(mesh, vertices=mesh.vertices * factor), seen.scaled(factor)
         noise, flat = noise * factor, flat * factor
     # The axle was fitted to most of the points; the tread is what rays from around met.
@@ -124,12 +152,15 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     steady = unrolling.is_steady(seen.turn, meridian, rows, seen.sag, noise)
     turning, why = decide_revolve(options.revolve, options.smooth, steady, seen.sag, noise)
     warnings += why
-    grooves = unrolling.find_grooves(y, unrolling.high_meridian(seen.turn, DEEP_GROOVE), crown)
+    # Noise raises what is high on most of the turn; where nothing changes round it the middle will do.
+    part = 0.5 if steady and noise > LARGEST_NOISE else DEEP_GROOVE
+    grooves = unrolling.find_grooves(y, unrolling.high_meridian(seen.turn, part), crown)
     if turning:
         meridian = envelope = meridian + 0.75 * seen.sag
         crown = crown if steady else unrolling.crown(meridian, 0.0)
     over = unrolling.scatter(seen.turn, meridian)[rows]
-    length, why = decide_smoothing(options.smooth, turning, steady, noise, apart(flat, tread))
+    spacing = apart(flat, tread) if options.smooth is not False else math.nan
+    length, why = decide_smoothing(options.smooth, turning, steady, noise, spacing)
     warnings += why
     if length > 0:
         use = (flat[:, 2] > crown - DEEPEST) & (np.abs(flat[:, 0]) < (SECTOR + 3 * length / crown) * crown)
@@ -161,6 +192,8 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     surface = ScanSurface(
         vertices, mesh.faces, float(options.camber), y, meridian, envelope, quality, options.fill_holes, name
     )
+    if not (turning or length > 0 or rescaled or (outliers and options.outliers == "keep")):
+        surface.__dict__["_caster"] = seen.caster.moved(np.array([0.0, y[0] - seen.y[0], 0.0]))
     coverage, holes = surface.coverage
     if coverage < 1 - SMALL_HOLES:
         warnings.append(f"{1 - coverage:.1%} of the tread over the road was not scanned ({holes} holes)")
@@ -221,11 +254,19 @@ def _noise(mesh: Mesh, seen: _Unrolled) -> tuple[float, Array, BoolArray]:
 
 def _check_seen(seen: _Unrolled, name: str) -> None:
     """Rays from around must meet a tread."""
-    known = np.asarray(np.isfinite(seen.turn).any(axis=0))
-    if known.sum() < len(known) * 30 / 360 or not seen.crown - seen.sag > 0:
+    if _degrees(seen) < SMALLEST_ARC or not seen.crown - seen.sag > 0:
         raise GeometryError(
-            f"{name!r} has tread on {known.mean() * 360:.0f}° of the turn, at least 30° are needed; "
-            "scan more of the tire, or check that the file holds one"
+            f"{name!r} has tread on {_degrees(seen):.0f}° of the turn, at least {SMALLEST_ARC}° are needed for its "
+            "axle; scan more of the tire, or check that the file holds one"
+        )
+    # A box reaches its outer radius with its corners only; a tire that was scanned in parts has few of them.
+    holes, count = ndimage.label(~np.tile(np.isfinite(seen.turn).any(axis=0), 2))
+    gaps = [one[0] for one in ndimage.find_objects(holes, max_label=count)]
+    corners = sum(one.stop - one.start > CORNER for one in gaps if 0 < one.start < seen.turn.shape[1])
+    if corners >= CORNERS:
+        raise GeometryError(
+            f"{name!r} is not round: it reaches its outer radius in {corners} places with more than {CORNER}° "
+            "between them; check that the file holds one tire and nothing else (no rim, ground or fixture)"
         )
     with np.errstate(invalid="ignore"):
         if not (seen.top > seen.crown - EXTENT_DROP).any():
@@ -233,6 +274,22 @@ def _check_seen(seen: _Unrolled, name: str) -> None:
                 f"the facets of {name!r} cut {seen.sag * 1e3:.0f} mm under the circle through their corners and "
                 f"hide its tread of {EXTENT_DROP * 1e3:.0f} mm; export the mesh finer"
             )
+        high = np.asarray(seen.top > seen.crown - EXTENT_DROP)
+    runs, count = ndimage.label(~high)
+    gaps = [one[0] for one in ndimage.find_objects(runs, max_label=count)]
+    wide = [one for one in gaps if one.start > 0 and one.stop < len(high) and np.ptp(seen.y[one]) > APART]
+    for gap in wide:
+        left, right = high[: gap.start].sum(), high[gap.stop :].sum()
+        if min(left, right) > LIKE * max(left, right):
+            raise GeometryError(
+                f"{name!r} holds two treads side by side, {np.ptp(seen.y[gap]) * 1e3:.0f} mm apart; cut one tire out "
+                "of the scan"
+            )
+
+
+def _degrees(seen: _Unrolled) -> float:
+    """Of the turn that has tread."""
+    return 360 * float(np.isfinite(seen.turn).any(axis=0).mean())
 
 
 def _check_round(seen: _Unrolled, roundness: float, name: str) -> None:

@@ -5,6 +5,8 @@ Frame of the wheel, m: origin on the axle amid the tread, x along travel, y alon
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -19,23 +21,26 @@ class Caster:
     """First hits of rays on a mesh, by Embree when it is installed, else by trimesh itself."""
 
     def __init__(self, vertices: Array, faces: NDArray[np.int64]) -> None:
-        trimesh = import_trimesh()
         corner = vertices[faces]
         self._anchor = corner[:, 0]
         self._normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-        self._ray: Any = trimesh.Trimesh(vertices, faces, process=False, validate=False).ray
+        self._shift = np.zeros(3)
+        self._first: Callable[[Array, Array], NDArray[np.integer[Any]]] = _no_hits
+        if len(faces):
+            self._first = _first_of_embree(vertices, faces) or _first_of_trimesh(vertices, faces)
+
+    def moved(self, shift: Array) -> Caster:
+        """The same mesh moved by a shift (3,), m; nothing is built again."""
+        other = copy(self)
+        other._shift = self._shift + shift
+        return other
 
     def distances(self, origins: Array, directions: Array) -> Array:
         """(n,) distance in m along unit directions (n, 3) from origins (n, 3) to the first hit; NaN for none."""
+        origins = origins - self._shift
         if len(self._anchor) == 0:
             return np.full(len(origins), np.nan)
-        try:
-            face = np.asarray(self._ray.intersects_first(origins, directions), dtype=np.int64)
-        except ModuleNotFoundError as error:  # trimesh's own caster needs rtree
-            raise InputError(
-                f"casting rays needs embreex (or, slower, rtree), but {error.name} is not installed; "
-                f"{how_to_install('scan')}"
-            ) from error
+        face = np.asarray(self._first(origins, directions), dtype=np.int64)
         hit = face >= 0
         normal, anchor = self._normal[face], self._anchor[face]
         # Embree works in single precision: it only chooses the face, the distance is worked out again.
@@ -45,6 +50,44 @@ class Caster:
         out = np.full(len(origins), np.nan)
         out[hit] = across[hit] / along[hit]
         return out
+
+
+def _first_of_embree(vertices: Array, faces: NDArray[np.int64]) -> Callable[[Array, Array], Any] | None:
+    """First faces that rays meet, by Embree itself: trimesh would copy and digest the mesh first. None without it."""
+    try:
+        from embreex.mesh_construction import TriangleMesh
+        from embreex.rtcore_scene import EmbreeScene
+    except ImportError:
+        return None
+    middle = vertices.min(axis=0)
+    # In single precision: a mesh of a hundred units from its corner.
+    unit = 100.0 / max(float(np.linalg.norm(np.ptp(vertices, axis=0))), 1e-300)
+    scene = EmbreeScene()
+    TriangleMesh(scene, ((vertices - middle) * unit).astype(np.float32), faces.astype(np.int32))
+
+    def first(origins: Array, directions: Array) -> Any:
+        return scene.run(((origins - middle) * unit).astype(np.float32), directions.astype(np.float32))
+
+    return first
+
+
+def _first_of_trimesh(vertices: Array, faces: NDArray[np.int64]) -> Callable[[Array, Array], Any]:
+    ray: Any = import_trimesh().Trimesh(vertices, faces, process=False, validate=False).ray
+
+    def first(origins: Array, directions: Array) -> Any:
+        try:
+            return ray.intersects_first(origins, directions)
+        except ModuleNotFoundError as error:  # trimesh's own caster needs rtree
+            raise InputError(
+                f"casting rays needs embreex (or, slower, rtree), but {error.name} is not installed; "
+                f"{how_to_install('scan')}"
+            ) from error
+
+    return first
+
+
+def _no_hits(origins: Array, directions: Array) -> Any:
+    return np.full(len(origins), -1)
 
 
 def vertical(caster: Caster, x: Array, y: Array, radius: float, camber: float, floor: float) -> Array:

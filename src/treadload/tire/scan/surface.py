@@ -127,7 +127,7 @@ class ScanSurface:
 
         The plane of first contact touches the tread without its noise (see first_contact); what stands above it
         counts as gap 0. Hits more than 45 mm below the crown are not tread. Holes take the median over the angle at
-        the same place across, as fill_holes says.
+        the same place across, as fill_holes says; with "auto", those in grooves round the tire always.
         Raises GeometryError when holes remain where the contact will be, or when no cell meets the tread.
         """
         low, missing, predicted = self._cast(grid)
@@ -137,12 +137,20 @@ class ScanSurface:
                 f"no cell of the grid ({grid}) meets the scanned tread, which is {self.extent[1]:.3f} m wide; "
                 "put the grid's origin under the axle"
             )
+        if self.fill_holes == "auto":
+            # A groove is the same all round the tire; what is left are holes in ribs and blocks.
+            floor = missing & self._in_grooves(grid.y)[:, None]
+            low, missing = np.where(floor, predicted, low), missing & ~floor
         share = missing.sum() / max(1, tread.sum())
         if self.fill_holes is True or (self.fill_holes == "auto" and share <= SMALL_HOLES):
             low = np.where(missing, predicted, low)
         else:
             self._refuse_holes(grid, missing, predicted)
         return np.asarray(np.maximum(self.first_contact - low, 0.0), dtype=np.float64)
+
+    def filled(self, grid: Grid) -> BoolArray:
+        """(ny, nx) True where the gap comes from the rest of the turn, as no ray met the scan."""
+        return self._cast(grid)[1]
 
     @cached_property
     def first_contact(self) -> float:
@@ -176,6 +184,11 @@ class ScanSurface:
         tread = np.isfinite(predicted)
         return 1 - float(missing.sum() / max(1, tread.sum())), int(ndimage.label(missing)[1])
 
+    @property
+    def deepest(self) -> float:
+        """Depth below the crown, m, down to which hits of rays are tread."""
+        return self.report.crown_radius - self._floor
+
     @cached_property
     def _floor(self) -> float:
         """Radius below which a hit went through a hole, m; voids of a lugged tread may be deeper than grooves."""
@@ -205,6 +218,16 @@ class ScanSurface:
             return predicted, np.zeros(grid.shape, dtype=bool), predicted
         low = vertical(self._caster, grid.x, grid.y, radius, self.camber, self._floor)
         return low, np.isnan(low) & np.isfinite(predicted), predicted
+
+    def _in_grooves(self, y: Array) -> BoolArray:
+        """(ny,) True where a groove that runs round the tire is deeper than a rib may be uneven."""
+        deep = np.interp(
+            y, self.across, (unrolling.groove_depth(self.across, self.meridian) > RIB_BAND).astype(float)
+        )
+        near = np.zeros(len(y), dtype=bool)
+        for groove in self.report.grooves:
+            near |= np.abs(y - groove.centre) < groove.width
+        return np.asarray(near & (deep > 0.5), dtype=bool)
 
     def _refuse_holes(self, grid: Grid, missing: BoolArray, predicted: Array) -> None:
         grooves = unrolling.groove_depth(self.across, self.meridian) > RIB_BAND

@@ -33,9 +33,22 @@ def unit_name(units: str | None) -> str | None:
     return name
 
 
-def scale_of(diameter: float, unit: str | None, nominal: float | None, name: str) -> tuple[str, float, list[str]]:
-    """Unit, metres per unit of the file and warnings. diameter: outer, in the unit of the file. nominal: m."""
+def scale_of(
+    diameter: float, unit: str | None, nominal: float | None, name: str, scale: float | None = None
+) -> tuple[str, float, list[str]]:
+    """Unit, metres per unit of the file and warnings.
+
+    diameter: outer, in the unit of the file. nominal: m. scale: m per unit, from a length that is known in the scan.
+    """
     warnings = []
+    if scale is not None:
+        if nominal is not None and abs(diameter * scale / nominal - 1) > UNIT_MATCH:
+            warnings.append(
+                f"by the reference length the outer diameter is {diameter * scale:.4g} m and not the nominal "
+                f"{nominal:.4g} m"
+            )
+        check_diameter(diameter * scale, "measure of the reference length", name)
+        return "reference", scale, warnings
     if unit is not None:
         scale = UNITS[unit]
         if nominal is not None and abs(diameter * scale / nominal - 1) > UNIT_MATCH:
@@ -59,7 +72,7 @@ def scale_of(diameter: float, unit: str | None, nominal: float | None, name: str
             raise InputError(
                 f"the units of {name!r} cannot be determined: its outer diameter of {diameter:.4g} would be "
                 f"{diameters}, and {'none' if not fits else 'more than one'} lies between {low} and {high} m; give "
-                "units= or nominal_diameter="
+                "units=, nominal_diameter= or scale="
             )
         unit, scale = fits[0], UNITS[fits[0]]
     check_diameter(diameter * scale, unit, name)
@@ -72,5 +85,5 @@ def check_diameter(diameter: float, unit: str, name: str) -> None:
     if not low <= diameter <= high:
         raise InputError(
             f"in {unit} the tire of {name!r} would have an outer diameter of {diameter:.3g} m, outside "
-            f"{low} to {high} m; give other units= or nominal_diameter="
+            f"{low} to {high} m; give other units=, nominal_diameter= or scale="
         )

@@ -1,0 +1,66 @@
+"""What a scan shows, as a dataset that its figure is drawn from."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from treadload.errors import InputError
+from treadload.grid import Grid
+from treadload.tire import Tire
+from treadload.tire.scan.surface import ScanSurface
+from treadload.tire.scan.wear import STEP, Wear, unroll, wear
+
+
+def scan_wear(new: Tire, earlier: Tire) -> Wear:
+    """What is gone of a scanned tire since an earlier scan of it; see `tire.scan.wear`. Raises InputError."""
+    return wear(_surface(new), _surface(earlier))
+
+
+def scan_fields(tire: Tire, earlier: Tire | None = None, *, spacing: float = 3e-3) -> xr.Dataset:
+    """Depth below the crown unrolled (across, turn), m, median, tops, gap over the road (y, x) and what was filled.
+
+    tire: of a scan. earlier: an earlier scan of it, from which `worn` (across, turn) and `earlier` (across) follow.
+    spacing: of the cells over the road, m. Raises InputError for a tire that was not scanned.
+    """
+    surface = _surface(tire)
+    quality = surface.report
+    crown = quality.crown_radius
+    theta = np.arange(-math.pi, math.pi, STEP) + 0.3 * STEP
+    across = surface.across[:: max(1, len(surface.across) // 400)]
+    depth = crown - unroll(surface, theta, across)
+    grid = Grid.on_lattice(*surface.extent, spacing)
+    tread = np.interp(across, surface.across, surface.envelope) > crown - 0.03
+    tops = np.full(len(theta), np.nan)
+    seen = np.isfinite(depth[tread]).any(axis=0)
+    tops[seen] = np.nanquantile(depth[tread][:, seen], 0.1, axis=0)
+    fields = {
+        "unrolled_depth": (("across", "turn"), depth),
+        "meridian": (("across",), crown - np.interp(across, surface.across, surface.meridian)),
+        "envelope": (("across",), crown - np.interp(across, surface.across, surface.envelope)),
+        "tops": (("turn",), tops),
+        "initial_gap": (("y", "x"), surface.height_map(grid)),
+        "filled": (("y", "x"), surface.filled(grid)),
+    }
+    if earlier is not None:
+        old = _surface(earlier)
+        gone = wear(surface, old)
+        worn = np.where(gone.land[:, None], gone.worn, np.nan)
+        rows = np.clip(np.searchsorted(gone.y, across), 0, len(gone.y) - 1)
+        before = np.interp(across - gone.shift, old.across, old.meridian)
+        fields |= {"worn": (("across", "turn"), worn[rows]), "earlier": (("across",), crown + gone.datum - before)}
+    noise = "noise unknown" if math.isnan(quality.noise) else f"noise {quality.noise * 1e3:.2f} mm"
+    about = {
+        "said": f"crown {crown * 1e3:.1f} mm, tread on {seen.mean() * 360:.0f}°, {noise}",
+        "grooves": [value for g in quality.grooves for value in (g.centre, g.width, g.depth)],
+        "warnings": list(quality.warnings),
+    }
+    return xr.Dataset(fields, {"across": across, "turn": theta, "x": grid.x, "y": grid.y}, about)
+
+
+def _surface(tire: Tire) -> ScanSurface:
+    if not isinstance(tire.surface, ScanSurface):
+        raise InputError(f"{tire.name or 'this tire'} is no scan; read one with Tire.from_scan")
+    return tire.surface

@@ -1,0 +1,264 @@
+"""Clouds of points, scans of a part of the turn, clutter, and what is no tire."""
+
+import math
+import struct
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+
+from tire_meshes import RIB_TREAD, pose, tire_mesh, write
+from treadload.errors import GeometryError, InputError
+from treadload.grid import Grid
+from treadload.tire import Tire
+from treadload.tire.scan.axis import sample_surface
+
+CONTACT = Grid.centred(0.15, 0.25, 3e-3)
+FLOORS = np.array([np.abs(CONTACT.y - g.centre) < 0.5 * g.width - 3e-3 for g in RIB_TREAD.grooves]).any(axis=0)
+
+
+def cloud(points=150_000, noise=0.3e-3, arc=120, seed=7):
+    """Points of a ribbed tire in any pose, m; the tread is RIB_TREAD."""
+    at, _ = sample_surface(*tire_mesh(around=720, arc=math.radians(arc)), points)
+    turn, shift = pose(seed)
+    return (at + np.random.default_rng(seed).normal(scale=noise, size=at.shape)) @ turn.T + shift
+
+
+def las(path, points):
+    laspy = pytest.importorskip("laspy")
+    header = laspy.LasHeader(point_format=0, version="1.2")
+    header.scales, header.offsets = [1e-5] * 3, points.mean(axis=0)
+    file = laspy.LasData(header)
+    file.x, file.y, file.z = points.T
+    file.write(path)
+    return path
+
+
+def e57(path, points):
+    pye57 = pytest.importorskip("pye57")
+    with pye57.E57(str(path), mode="w") as file:
+        file.write_scan_raw({f"cartesian{axis}": points[:, k].copy() for k, axis in enumerate("XYZ")})
+    return path
+
+
+def text(path, points, separator=" ", heading=""):
+    np.savetxt(path, points, fmt="%.6f", delimiter=separator, header=heading, comments="")
+    return path
+
+
+def ply(path, points):
+    trimesh.PointCloud(points).export(path)
+    return path
+
+
+@pytest.mark.slow
+def test_a_cloud_of_a_third_of_a_tire_gives_radius_grooves_and_gap(tmp_path):
+    tire = Tire.from_scan(text(tmp_path / "cloud.xyz", 1e3 * cloud(300_000)), units="mm")
+    quality = tire.quality
+    assert quality.crown_radius == pytest.approx(0.538, abs=0.3e-3)
+    # Floors 8 mm wide under points 2 mm apart, whose noise is 0.3 mm.
+    assert [g.depth for g in quality.grooves] == pytest.approx([0.015] * 4, abs=1e-3)
+    assert [g.centre for g in quality.grooves] == pytest.approx([g.centre for g in RIB_TREAD.grooves], abs=0.5e-3)
+    exact = RIB_TREAD.gap(CONTACT.x, CONTACT.y)
+    edges = np.array([np.abs(np.abs(CONTACT.y - g.centre) - 0.5 * g.width) < 4e-3 for g in RIB_TREAD.grooves])
+    rib = np.isfinite(exact) & (exact < 0.012) & (np.abs(CONTACT.y) < 0.128)[:, None] & ~edges.any(axis=0)[:, None]
+    error = (tire.height_map(CONTACT) - exact)[rib]
+    # The median of two points to a cell has 0.2 mm of noise.
+    assert abs(np.median(error)) < 0.15e-3
+    assert np.sqrt(np.mean(error**2)) < 0.4e-3
+
+
+def test_every_format_of_clouds_gives_the_same_tire(tmp_path):
+    points = cloud(40_000, arc=60)
+    files = [
+        ply(tmp_path / "a.ply", points),
+        text(tmp_path / "a.xyz", points),
+        text(tmp_path / "a.csv", np.hstack([points, points]), ",", "x,y,z,r,g,b"),
+        las(tmp_path / "a.las", points),
+        las(tmp_path / "a.laz", points),
+        e57(tmp_path / "a.e57", points),
+    ]
+    from treadload.registry import READERS
+    from treadload.tire.scan import cloud_file, mesh_file
+
+    assert cloud_file.READERS is READERS
+    for path in files:
+        read, faces = mesh_file._read(READERS.find(path.suffix[1:]), path)
+        assert len(faces) == 0, path.name
+        # A LAS file counts hundredths of a millimetre, PLY of trimesh holds single precision of lengths of 2 m.
+        np.testing.assert_allclose(read, points, atol=1e-5, err_msg=path.name)
+    quality = Tire.from_scan(files[-1], units="m").quality
+    assert quality.crown_radius == pytest.approx(0.538, abs=1.5e-3)
+    assert any("less than 90°" in text for text in quality.warnings)
+
+
+@pytest.mark.parametrize("noise", [0.3e-3, 2e-3])
+def test_less_than_45_degrees_is_refused(tmp_path, noise):
+    vertices, faces = tire_mesh(arc=math.radians(40), noise=noise, flipped=0.3, seed=2)
+    with pytest.raises(GeometryError) as told:
+        Tire.from_scan(write(tmp_path / "tire.ply", vertices, faces), units="m")
+    if noise < 1e-3:
+        assert "at least 45°" in str(told.value)
+
+
+@pytest.mark.slow
+def test_half_of_the_cells_of_grooves_come_back_from_the_same_groove(tmp_path):
+    vertices, faces = tire_mesh(around=720, across=120, noise=0.3e-3, flipped=0.3, arc=math.radians(120), seed=4)
+    at = vertices[faces].mean(axis=1)
+    radius = np.hypot(at[:, 0], at[:, 2])
+    depth = RIB_TREAD.rolling_radius - RIB_TREAD.drop(at[:, 1]).clip(0, 0.01) - radius
+    deep = (depth > 3e-3) & (np.abs(at[:, 1]) < 0.13)
+    along = np.arctan2(at[:, 0], at[:, 2]) * 0.538
+    cell = np.floor(along / 5e-3) * 64 + np.floor(at[:, 1] / 5e-3)
+    _, number = np.unique(cell, return_inverse=True)
+    gone = deep & (np.random.default_rng(1).random(number.max() + 1) < 0.5)[number]
+    path = write(tmp_path / "tire.ply", vertices, faces[~gone])
+    gap = Tire.from_scan(path, units="m").height_map(CONTACT)
+    error = (gap - RIB_TREAD.gap(CONTACT.x, CONTACT.y))[FLOORS]
+    assert np.isfinite(error).all()
+    # The bound of half a millimetre is for the floors; 0.14 mm was measured.
+    assert np.sqrt(np.mean(error**2)) < 0.5e-3
+    raw = Tire.from_scan(path, units="m", fill_holes=True).height_map(CONTACT)
+    np.testing.assert_array_equal(raw, gap)
+
+
+def test_a_known_length_gives_the_scale(tmp_path):
+    vertices, faces = tire_mesh(around=180, across=60)
+    path = write(tmp_path / "tire.ply", 0.7431 * vertices, faces)
+    quality = Tire.from_scan(path, scale=1 / 0.7431).quality
+    assert quality.units == "reference"
+    assert quality.crown_radius == pytest.approx(0.538, rel=3e-4)
+    with pytest.raises(InputError, match="not both"):
+        Tire.from_scan(path, scale=1.0, units="m")
+    with pytest.raises(InputError, match="positive number of m"):
+        Tire.from_scan(path, scale=-1.0)
+
+
+def test_pieces_apart_from_the_tire_are_left_out(tmp_path):
+    vertices, faces = tire_mesh(around=180, across=60)
+    stand = trimesh.creation.box((0.5, 0.3, 0.4)).subdivide().subdivide()
+    stand.apply_translation((0.9, 0.0, 0.2))
+    both = trimesh.util.concatenate([trimesh.Trimesh(vertices, faces, process=False), stand])
+    quality = Tire.from_scan(write(tmp_path / "tire.ply", both.vertices, both.faces), units="m").quality
+    assert quality.crown_radius == pytest.approx(0.538, abs=0.5e-3)
+
+
+@pytest.mark.parametrize("shift", [(0, 0.36, 0), (1.3, 0, 0)])
+def test_two_tires_are_refused(tmp_path, shift):
+    vertices, faces = tire_mesh(around=180, across=60)
+    both = np.concatenate([vertices, vertices + np.array(shift)])
+    path = write(tmp_path / "tires.ply", both, np.concatenate([faces, faces + len(vertices)]))
+    with pytest.raises(GeometryError, match="two pieces of like size beside each other"):
+        Tire.from_scan(path, units="m")
+
+
+@pytest.mark.parametrize("how", [{"units": "m"}, {"nominal_diameter": 1.076}])
+def test_a_car_is_refused(tmp_path, how):
+    body = trimesh.creation.box((4.2, 1.4, 1.8)).subdivide().subdivide().subdivide()
+    roof = trimesh.creation.box((2.0, 0.6, 1.5)).subdivide().subdivide()
+    roof.apply_translation((0, 1.0, 0))
+    wheels = []
+    for x in (-1.3, 1.3):
+        for z in (-0.9, 0.9):
+            wheel = trimesh.creation.cylinder(0.32, 0.2, sections=60)
+            wheel.apply_translation((x, -0.7, z))
+            wheels.append(wheel)
+    car = trimesh.util.concatenate([body, roof, *wheels])
+    with pytest.raises(GeometryError, match="not round"):
+        Tire.from_scan(write(tmp_path / "car.ply", car.vertices, car.faces), **how)
+
+
+def test_files_that_are_not_what_they_say(tmp_path):
+    points = cloud(2_000)
+    good = las(tmp_path / "a.las", points).read_bytes()
+    for name, content, told in [
+        ("half.las", good[: len(good) // 2], "truncated|has"),
+        ("many.las", good[:107] + struct.pack("<I", 2**31) + good[111:], "between 1 and"),
+        ("records.las", good[:100] + struct.pack("<I", 2**31) + good[104:], "header"),
+        ("text.las", b"1 2 3\n" * 500, "does not begin with a LAS header"),
+        ("binary.xyz", good, "is no text"),
+        ("words.xyz", b"hello\nworld\n", "no line of three numbers"),
+        ("comma.xyz", b"1,5 2,5 3,5\n" * 2000, "decimal points|usable|plane|points"),
+        ("cut.xyz", b"1 2 3\n" * 2000 + b"1 2", "no point x y z"),
+        ("few.xyz", b"1 2 3\n" * 20, "fewer than the 1000"),
+        ("text.e57", b"1 2 3\n" * 500, "does not begin with an E57 header"),
+        ("cut.e57", b"ASTM-E57" + bytes(2000), "truncated or damaged"),
+        ("empty.laz", b"", "empty"),
+        ("same.xyz", b"1 2 3\n" * 2000, "no tire in any unit"),
+    ]:
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises((InputError, GeometryError), match=told):
+            Tire.from_scan(tmp_path / name, units="m")
+
+
+def test_meshes_as_photogrammetry_writes_them(tmp_path):
+    """Texture coordinates split at seams, a material that is missing, colours, a scrap apart, any scale."""
+    vertices, faces = tire_mesh(around=180, across=60)
+    turn, shift = pose(5)
+    at = 0.3127 * (vertices @ turn.T + shift)
+    lines = ["mtllib textured.mtl", "usemtl skin"]
+    corners = at[faces].reshape(-1, 3)
+    # Every corner of every triangle is a vertex of its own, as where a texture is cut up wholly.
+    lines += [f"v {x:.7f} {y:.7f} {z:.7f} 0.5 0.4 0.3" for x, y, z in corners]
+    lines += [f"vt {k % 97 / 97:.4f} {k % 89 / 89:.4f}" for k in range(len(corners))]
+    lines += [f"f {k}/{k} {k + 1}/{k + 1} {k + 2}/{k + 2}" for k in range(1, len(corners), 3)]
+    (tmp_path / "textured.obj").write_text("\n".join(lines))
+    textured = Tire.from_scan(tmp_path / "textured.obj", scale=1 / 0.3127).quality
+    scrap = trimesh.creation.icosphere(2, 0.02)
+    scrap.apply_translation(at.mean(axis=0))
+    mesh = trimesh.util.concatenate([trimesh.Trimesh(at, faces, process=False), scrap])
+    mesh.visual.vertex_colors = np.full((len(mesh.vertices), 4), 200, dtype=np.uint8)
+    mesh.export(tmp_path / "coloured.ply")
+    coloured = Tire.from_scan(tmp_path / "coloured.ply", nominal_diameter=1.076).quality
+    for quality in (textured, coloured):
+        # Within 0.03 %: the bound of a scale from one known length.
+        assert quality.crown_radius == pytest.approx(0.538, rel=3e-4)
+        assert len(quality.grooves) == 4
+    assert textured.n_points == len(np.unique(faces))
+
+
+@pytest.mark.slow
+def test_what_was_worn_off(tmp_path):
+    from treadload.plots import save
+    from treadload.plots.scan import scan as drawn
+    from treadload.results.scanned import scan_fields, scan_wear
+
+    worn = 4e-3
+    now = replace(
+        RIB_TREAD,
+        rolling_radius=RIB_TREAD.rolling_radius - worn,
+        grooves=tuple(
+            replace(g, depth=g.depth - worn, width=g.width - 2 * worn * math.tan(g.wall_angle))
+            for g in RIB_TREAD.grooves
+        ),
+    )
+    tires = []
+    for k, (tread, arc) in enumerate([(RIB_TREAD, 360), (now, 150)]):
+        vertices, faces = tire_mesh(tread, noise=0.2e-3, arc=math.radians(arc), around=500)
+        turn, shift = pose(k)
+        tires.append(Tire.from_scan(write(tmp_path / f"{k}.ply", vertices @ turn.T + shift, faces), units="m"))
+    old, new = tires
+    gone = scan_wear(new, old)
+    assert gone.mean == pytest.approx(worn, abs=0.1e-3)
+    assert gone.uneven < 0.2e-3
+    assert abs(gone.datum) < 0.1e-3
+    assert [before - after for _, before, after in gone.grooves] == pytest.approx([worn] * 4, abs=0.2e-3)
+    data = scan_fields(new, old, spacing=6e-3)
+    assert float(data.worn.median()) == pytest.approx(worn, abs=0.1e-3)
+    save(drawn(data), tmp_path / "scan.png")
+    save(drawn(scan_fields(new, spacing=6e-3)), tmp_path / "alone.png")
+    assert (tmp_path / "scan.png").stat().st_size > 30_000
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("triangles", "seconds"), [(500_000, 5.0), (2_000_000, 20.0)])
+def test_large_scans_are_read_in_time(tmp_path, triangles, seconds):
+    import time
+
+    across = round(math.sqrt(triangles / 6.4))
+    vertices, faces = tire_mesh(around=round(triangles / 2 / (across + 55)), across=across, noise=0.3e-3, flipped=0.3)
+    path = write(tmp_path / "tire.ply", vertices, faces)
+    start = time.process_time()
+    Tire.from_scan(path, units="m").height_map(Grid.centred(0.3, 0.3, 3e-3))
+    assert time.process_time() - start < seconds
