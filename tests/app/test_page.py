@@ -13,6 +13,7 @@ import pytest
 import treadload as tl
 from treadload.app.form import Form
 from treadload.case import Case
+from treadload.errors import TreadloadError
 from treadload.study.run import judge, load_case
 
 pytestmark = pytest.mark.browser
@@ -166,4 +167,18 @@ def test_a_changed_load_gives_what_python_gives(visit):
         assert told["verdict"] == "no crack"
     assert visit.page.locator('[data-path="rolling.normal_load"]').count() == 1
     assert "yours" in visit.page.locator(".is-yours").first.inner_text()
+    visit.done()
+
+
+def test_a_wrong_value_is_told_at_its_field(visit):
+    before = visit.solves()
+    visit.set("rolling.normal_load", "3 mm")
+    told = visit.page.locator(".q-field--error [role=alert]").first
+    told.wait_for()
+    with pytest.raises(TreadloadError) as same:
+        Case.from_dict(dict(Form.first().with_values({"rolling.normal_load": "3 mm"}).table))
+    assert told.inner_text() in str(same.value)
+    assert visit.solves() == before
+    visit.set("rolling.normal_load", "36")
+    visit.ready(before + 1)
     visit.done()
