@@ -102,3 +102,11 @@ def test_what_a_page_asks_of_another_host_is_found(tmp_path, monkeypatch):
     )
     (tmp_path / "b.css").write_text("@import 'https://e.org/x.css'; a { src: url('//f.org/x.woff') }")
     assert len(foreign(tmp_path)) == 4
+
+
+def test_the_page_of_validation_has_the_groups_that_are_measured():
+    page = (DOCS / "explanation" / "validation.md").read_text("utf-8")
+    rows = [line.split(" | ") for line in page.splitlines() if line.startswith("| ")][1:]
+    assert len(rows) > 280
+    assert {row[6] for row in rows} == {"yes"}
+    assert f"{len(rows)} of {len(rows)} checks passed" in page

@@ -1,0 +1,1 @@
+"""Laws for treadload that live in a package of their own."""
