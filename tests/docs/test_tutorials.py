@@ -45,7 +45,9 @@ WRITES = {
         "case.nc",
         "case.html",
     },
+    "my_own_scan": {"my_tire.obj", "tread.nc", "tread.png", "pressure.png", "two_tires.png", "scan.nc", "scan.html"},
     "my_own_road": {"section.png", "road.toml", "road.nc"},
+    "my_own_traffic": {"life.toml", "mine.nc", "mine.html", "years.png", "shares.png", "more.nc"},
 }
 
 
