@@ -82,6 +82,18 @@ _TEXTURE = {
     "real_area": ("m^2", "area of the wheel's contact that really touches the texture"),
 }
 
+_CROSSING = {
+    "position": ("m", "place of the axle along the road"),
+    "road_x": ("m", "place along the road, in the direction of travel"),
+    "contact_area": ("m^2", "area of the cells in contact"),
+    "edge_pressure": ("Pa", "largest contact pressure within a cell of an edge of the road"),
+    "share_before": ("1", "share of the load that the road before the first edge carries"),
+    "share_beyond": ("1", "share of the load that the road beyond the last edge carries"),
+    "highest_pressure": ("Pa", "largest contact pressure that a place of the road has borne"),
+    "closing_work": ("J/m^2", "work of pressing tread and road together, per area of the road"),
+    "friction_work_density": ("J/m^2", "work lost by sliding, per area of the road"),
+}
+
 _HISTORY = {
     "step": ("1", "number of the step, 0 before the first"),
     "distance": ("m", "distance rolled since the start"),
@@ -441,6 +453,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_CONTACT,
     **_FRINGES,
     **_TEXTURE,
+    **_CROSSING,
     **_HISTORY,
     **_RESPONSE,
     **_MOVING,
@@ -466,9 +479,10 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
     "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
-    "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure",
-    "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "pass", "interface", "depth",
-    "profile_depth", "sublayer", "point", "row", "column", "y", "across", "x", "component", "orientation",
+    "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure", "mode",
+    "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "position", "pass", "interface",
+    "depth", "profile_depth", "sublayer", "point", "row", "column", "y", "across", "x", "road_x", "component",
+    "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
 

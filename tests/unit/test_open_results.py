@@ -240,6 +240,13 @@ MADE = {
         distances=[CELL, 2 * CELL],
         fields=True,
     ),
+    "Crossing": lambda: tl.contact.cross_obstacle(
+        TIRE,
+        ROAD,
+        tl.Rolling(normal_load=300, friction=0.5),
+        tl.pavement.RoadStep(2e-4),
+        positions=[-CELL, 0.0, CELL],
+    ),
     "TurnResult": lambda: tl.contact.turn_on_the_spot(
         TIRE, ROAD, tl.Rolling(normal_load=300, friction=0.7), angles=[0.005, 0.01], pivot=(0.0, 0.0)
     ),
@@ -278,6 +285,7 @@ FIGURES = {
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",
     "TextureContact": "patch", "Enveloped": "pressure",
+    "Crossing": "history",
     "Sweep": lambda plot: plot.curve("worst_strain"), "Tornado": "tornado", "Sobol": "sobol", "Morris": "morris",
 }  # fmt: skip
 

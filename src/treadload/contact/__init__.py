@@ -1,5 +1,6 @@
 """Contact of tire and road: pressure, shear, stick and slip."""
 
+from treadload.contact.crossing import Crossing, cross_obstacle
 from treadload.contact.curve import CreepCurve, creep_curve
 from treadload.contact.enveloped import Enveloped, envelop
 from treadload.contact.indentation import Indentation, solve_indentation
@@ -16,6 +17,7 @@ __all__ = [
     "STRAIGHT",
     "Contact",
     "CreepCurve",
+    "Crossing",
     "Enveloped",
     "Indentation",
     "Maneuver",
@@ -25,6 +27,7 @@ __all__ = [
     "TransientResult",
     "TurnResult",
     "creep_curve",
+    "cross_obstacle",
     "envelop",
     "rolling_resistance",
     "solve_contact",

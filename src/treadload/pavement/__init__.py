@@ -6,6 +6,7 @@ from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, Bo
 from treadload.pavement.catalogue import Structure
 from treadload.pavement.heating import Heat, RoadTemperatures, bells, road_temperatures
 from treadload.pavement.layer import Layer
+from treadload.pavement.obstacles import RoadJoint, RoadPlate, RoadStep
 from treadload.pavement.relief import Relief
 from treadload.pavement.rows import LayerRow, layer_rows, road_in_words
 from treadload.pavement.structure import Pavement
@@ -28,6 +29,9 @@ __all__ = [
     "Parted",
     "Pavement",
     "Relief",
+    "RoadJoint",
+    "RoadPlate",
+    "RoadStep",
     "RoadTemperatures",
     "ShearTest",
     "Structure",

@@ -5,6 +5,7 @@ from treadload.plots.bowl import deflection_bowl
 from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.compare import compare_pressure, compare_strain
+from treadload.plots.crossing import crossing_contacts, crossing_history
 from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
 from treadload.plots.energy import dissipated_energy
@@ -27,6 +28,7 @@ from treadload.plots.others import (
     BondVerdictPlots,
     CalibrationPlots,
     CreepCurvePlots,
+    CrossingPlots,
     EnvelopedPlots,
     EquivalentsPlots,
     FieldsPlots,
@@ -73,6 +75,7 @@ __all__ = [
     "CalibrationPlots",
     "ContactPlots",
     "CreepCurvePlots",
+    "CrossingPlots",
     "EnvelopedPlots",
     "EquivalentsPlots",
     "FieldsPlots",
@@ -113,6 +116,8 @@ __all__ = [
     "crack_depth",
     "crack_intensity",
     "creep_curves",
+    "crossing_contacts",
+    "crossing_history",
     "day_temperatures",
     "deflection_bowl",
     "design_thicknesses",

@@ -12,6 +12,7 @@ from treadload.accessors import offers
 from treadload.composing import Source, dataset_of
 from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.climate import day_temperatures, season_moduli
+from treadload.plots.crossing import crossing_contacts, crossing_history
 from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
 from treadload.plots.equivalents import standard_axles
@@ -263,6 +264,19 @@ class TransientPlots(_Plots):
     def history(self) -> Figure:
         """Forces and slip against the distance rolled."""
         return transient_history(self._result)
+
+
+@offers("plot", "Crossing")
+class CrossingPlots(_Plots):
+    """Figures of a wheel over an obstacle."""
+
+    def history(self) -> Figure:
+        """Pressures, shares of the load and work along the way."""
+        return crossing_history(self._result)
+
+    def contacts(self) -> Figure:
+        """A strip of contacts."""
+        return crossing_contacts(self._result)
 
 
 @offers("plot", "TurnResult")

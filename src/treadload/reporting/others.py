@@ -10,6 +10,7 @@ from treadload.plots import (
     CalibrationPlots,
     ContactPlots,
     CreepCurvePlots,
+    CrossingPlots,
     EnvelopedPlots,
     EquivalentsPlots,
     FieldsPlots,
@@ -44,6 +45,7 @@ HEADINGS = {
     "comparison": "Computed and measured footprint",
     "creep_curve": "Creep curve",
     "growth": "A crack that grows",
+    "crossing": "A wheel over an obstacle",
     "indentation": "Indentation",
     "texture": "Rubber on texture",
     "enveloped": "Enveloped pressure",
@@ -215,6 +217,11 @@ def _pictures(other: Other) -> list[Picture]:
             return picture("Morris screening", caption, MorrisPlots(data).morris)
         case "life":
             return picture("Life by criterion", "Years until the damage is 1.", LifePlots(data).years)
+        case "crossing":
+            caption = "Peak pressures, shares of the load, and the work that each place of the road takes."
+            drawn = picture("Along the way", caption, CrossingPlots(data).history, wide=True)
+            drawn += picture("Contacts", "Each where it stands on the road.", CrossingPlots(data).contacts, wide=True)
+            return drawn
         case "transient" | "turn":
             history = TransientPlots(data) if other.kind == "transient" else TurnPlots(data)
             what = "distance" if other.kind == "transient" else "angle"

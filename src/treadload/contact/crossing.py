@@ -1,0 +1,368 @@
+"""A wheel over a step, a joint or a plate: a quasi-static history of contacts along the road.
+
+The tire moves forward over a road that stands still: at the position X of its axle the cell at x of the wheel's frame
+stands over the place X + x of the road, whose height is taken from the gap. The pressure is that of frictionless
+contact at every position; where there is friction, shear follows in steps that remember where they stuck, under that
+pressure, so that sliding at the edge costs work where it happens.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+import xarray as xr
+
+from treadload.composing import BaseResult, Holds
+from treadload.contact import cautions
+from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
+from treadload.contact.bodies.influence import Influence
+from treadload.contact.friction.laws import Interface
+from treadload.contact.relief import above, heights_on
+from treadload.contact.rolling_state import Rolling
+from treadload.contact.solve import check_border, place
+from treadload.contact.solvers.coupling import Progress
+from treadload.contact.solvers.marching import Stage, State, march
+from treadload.contact.solvers.normal import NormalSolution, solve_normal
+from treadload.contact.solvers.rolling import rigid_slip
+from treadload.describing import first_line
+from treadload.errors import ConvergenceError, InputError
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.pavement.relief import Relief
+from treadload.tables import finite_list
+from treadload.tire import Tire
+from treadload.variables import dataset
+
+# Positions of a history at most; cells between two where none are given.
+_MOST, _STRIDE = 400, 4
+# Cells that the shortest length of an obstacle needs; Dundurs' β above which shear would change the pressure.
+_FEWEST, _ALIKE = 3, 0.05
+
+
+@dataclass(frozen=True)
+class Moved:
+    """A road's relief as it stands in the frame of a wheel whose axle is at `position`, m along travel."""
+
+    relief: Relief
+    position: float
+
+    def height(self, x: Array, y: Array) -> Array:
+        """(ny, nx), m, at x (nx,) and y (ny,) of the wheel's frame, m."""
+        return self.relief.height(x + self.position, y)
+
+
+@dataclass(frozen=True, eq=False)
+class Crossing(BaseResult, group="crossing"):
+    """A wheel that crosses an obstacle, with the question that was asked.
+
+    dataset: scalars over (position,), pressure over (position, y, x) in the wheel's frame, and over (y, road_x) what
+    the road felt: its height, the largest pressure, the work of closing and of friction. hold: "load" or "axle".
+    stats: iterations, seconds. warnings: sentences for the user.
+    """
+
+    holds: ClassVar[Holds] = Holds(
+        {
+            "normal_load approach contact_area largest_pressure edge_pressure share_before share_beyond": "position",
+            "pressure": "position y x",
+            "road_height highest_pressure closing_work": "y road_x",
+        },
+        maybe={"friction_work_density": "y road_x"},
+        numbers="dx dy",
+        positive="dx dy",
+    )
+
+    dataset: xr.Dataset
+    tire: Tire
+    road: Pavement
+    rolling: Rolling
+    relief: Any
+    hold: str = "load"
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    def summary(self) -> str:
+        """A screenful: the way, the load, peaks of pressure, contact area and work."""
+        d = self.dataset
+        at, peak = d["position"].to_numpy() * 1e3, d["largest_pressure"].to_numpy() / 1e3
+        load, area = d["normal_load"].to_numpy() / 1e3, d["contact_area"].to_numpy() * 1e6
+        high = int(peak.argmax())
+        held = "the load" if self.hold == "load" else "the height of the axle"
+        work = d["closing_work"].to_numpy()
+        lines = [
+            f"crossing      {self.relief}",
+            f"way           {at[0]:.1f} to {at[-1]:.1f} mm in {len(at)} positions, {held} held",
+            f"normal load   {load.min():.3f} to {load.max():.3f} kN",
+            f"contact area  {area.min():.0f} to {area.max():.0f} mm²",
+            f"peak pressure {peak[0]:.0f} kPa before it, {peak[high]:.0f} kPa at {at[high]:.1f} mm",
+            f"at an edge    {float(d['edge_pressure'].max()) / 1e3:.0f} kPa at most",
+            f"closing work  {float(work.max()):.1f} J/m² at most, {float(np.median(work.max(axis=0))):.1f} usual",
+        ]
+        if "friction_work_density" in d:
+            lines.append(f"sliding work  {float(d['friction_work_density'].max()):.2f} J/m² at most")
+        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+
+    __repr__ = first_line
+
+
+@dataclass(frozen=True, eq=False)
+class _Scene:
+    """What stays the same on the way. gap: of the tread above a plane (ny, nx), m; places: of the road (n,), m."""
+
+    tire: Tire
+    relief: Relief
+    rolling: Rolling
+    grid: Grid
+    influence: Influence
+    gap: Array
+    steps: Array
+
+    @property
+    def road_x(self) -> Array:
+        """Places of the road's cells along travel, m."""
+        grid, first, last = self.grid, int(self.steps[0]), int(self.steps[-1])
+        return grid.x0 + grid.dx * (np.arange(grid.nx + last - first) + first)
+
+    def over(self, step: int) -> Array:
+        """(ny, nx) gap between tread and road, m, with the axle so many cells on."""
+        return self.gap - heights_on(Moved(self.relief, step * self.grid.dx), self.grid)
+
+
+def cross_obstacle(
+    tire: Tire,
+    road: Pavement,
+    rolling: Rolling,
+    relief: Relief,
+    *,
+    positions: Sequence[float] | Array | None = None,
+    hold: Literal["load", "axle"] = "load",
+    spacing: float | None = None,
+    tolerance: float = 1e-6,
+    road_compliance: RoadCompliance = "half_space",
+    progress: Progress | None = None,
+) -> Crossing:
+    """A wheel at one position after another over a road that is no plane, without inertia.
+
+    tire, road, spacing, tolerance, road_compliance: as in `solve_contact`; an elastic tire. rolling: the load, and
+    friction with forces or creepages; friction 0 leaves shear out. relief: of the road, such as
+    `pavement.RoadStep`, `RoadJoint` or `RoadPlate`, its middle at x = 0. positions: of the axle along travel, m,
+    ascending, moved to whole cells; left out, from clear of the obstacle to clear of it, every fourth cell. hold:
+    "load" lets the axle rise and sink, "axle" keeps it at the height that the load gives on the plane z = 0.
+    Returns a history with its positions. Raises InputError, GeometryError and ConvergenceError as `solve_contact`.
+    """
+    began = time.perf_counter()
+    tell = progress or (lambda text: None)
+    if hold not in ("load", "axle"):
+        raise InputError(f'hold must be "load" or "axle", got {hold!r}')
+    if not isinstance(relief, Relief):
+        raise InputError(
+            f"relief must be a pavement.RoadStep, RoadJoint, RoadPlate or have a method height(x, y), got {relief!r}"
+        )
+    if rolling.normal_load is None:
+        raise InputError("a wheel over an obstacle needs its normal_load; an approach is that of one position only")
+    if rolling.law.needs_speed:
+        raise InputError(f"friction {rolling.law} falls with slip, and a history does not follow that; give a number")
+    bodies = Pair(surface_of(tire.elastic, is_tire=True), road_surface(road, road_compliance))
+    if rolling.law.largest > 0:
+        bodies.both.check_shear()
+    tell("locating the contact")
+    dx, low, high = _reach(tire, rolling, bodies, spacing, relief)
+    steps = _steps(positions, dx, low, high)
+    grid = _grid(tire, rolling, bodies, spacing, relief, steps, dx)
+    influence = Influence(grid.shape, grid.dx, grid.dy, bodies.both)
+    scene = _Scene(tire, relief, rolling, grid, influence, tire.height_map(grid), steps)
+    approach = None
+    if hold == "axle":
+        approach = solve_normal(influence, scene.gap, load=rolling.normal_load, tolerance=tolerance).approach
+    found: list[NormalSolution] = []
+    for number, step in enumerate(steps):
+        tell(f"position {number + 1} of {len(steps)}")
+        load = rolling.normal_load if approach is None else None
+        normal = solve_normal(influence, scene.over(int(step)), load=load, approach=approach, tolerance=tolerance)
+        check_border(normal.pressure, grid)
+        found.append(normal)
+    rubbed = None
+    if rolling.law.largest > 0:
+        tell("sliding along the way")
+        rubbed = _sliding(scene, found, tolerance)
+    stats = {
+        "positions": len(steps),
+        "normal_iterations": sum(one.iterations for one in found),
+        "normal_residual": max(one.residual for one in found),
+        "dundurs": influence.dundurs,
+        "cells": grid.nx * grid.ny,
+        "seconds": time.perf_counter() - began,
+    }
+    data = _dataset(scene, found, rubbed)
+    warnings = (*cautions.of_tire(tire), *cautions.of_numbers(tire, rolling, grid), *_doubts(scene, hold, data))
+    return Crossing(data, tire, road, rolling, relief, hold, stats, warnings)
+
+
+def _reach(
+    tire: Tire, rolling: Rolling, bodies: Pair, spacing: float | None, relief: Relief
+) -> tuple[float, float, float]:
+    """Cell along travel, and positions at which the contact on a plane is clear of the obstacle, m."""
+    grid, gap = place(tire, rolling, bodies.both, spacing)
+    first = solve_normal(
+        Influence(grid.shape, grid.dx, grid.dy, bodies.both), gap, load=rolling.normal_load, tolerance=1e-2
+    )
+    touching = np.abs(grid.x[np.any(first.pressure > 0, axis=0)]).max(initial=0.0) + 2 * grid.dx
+    edges = getattr(relief, "edges", (0.0,))
+    return grid.dx, min(edges) - 1.25 * touching, max(edges) + 1.25 * touching
+
+
+def _steps(positions: Sequence[float] | Array | None, dx: float, low: float, high: float) -> Any:
+    """Whole numbers of cells, ascending."""
+    if positions is None:
+        # Symmetric about the middle, so that what is mirrored has a mirrored history.
+        half = math.ceil(max(-low, high) / (_STRIDE * dx))
+        whole: Any = _STRIDE * np.arange(-half, half + 1)
+        return _few(whole)
+    given = finite_list(positions, "positions", "m")
+    steps: Any = np.rint(given / dx).astype(int)
+    if (np.diff(steps) <= 0).any():
+        at = int(np.argmax(np.diff(steps) <= 0))
+        raise InputError(
+            f"positions must ascend by a cell of {dx * 1e3:g} mm or more, got {given[at]:g} m and then "
+            f"{given[at + 1]:g} m; take them further apart, or smaller cells"
+        )
+    return _few(steps)
+
+
+def _few(steps: Any) -> Any:
+    if len(steps) > _MOST:
+        raise InputError(f"{len(steps)} positions are more than {_MOST}; give fewer positions, further apart")
+    return steps
+
+
+def _grid(
+    tire: Tire, rolling: Rolling, bodies: Pair, spacing: float | None, relief: Relief, steps: Array, dx: float
+) -> Grid:
+    """The largest of the grids that the contact needs on the plane and at the positions."""
+    grids = [place(tire, rolling, bodies.both, spacing)[0]]
+    if tire.fixed_grid is None:
+        grids += [
+            place(above(tire, Moved(relief, int(step) * dx)), rolling, bodies.both, spacing)[0] for step in steps
+        ]
+    long, wide = (max(getattr(one, name) for one in grids) for name in ("nx", "ny"))
+    first = grids[0]
+    if (first.nx, first.ny) == (long, wide):
+        return first
+    return Grid.on_lattice(long * first.dx, wide * first.dy, first.dx)
+
+
+def _sliding(scene: _Scene, found: Sequence[NormalSolution], tolerance: float) -> list[State]:
+    """Shear, slip and work of a wheel that rolls from its first position to its last under known pressures."""
+    grid, rolling, law = scene.grid, scene.rolling, scene.rolling.law
+
+    def bound(pressure: Array) -> Array:
+        still = np.zeros((2, *pressure.shape))
+        return law.bound(Interface(pressure, still, grid.x, grid.y, grid.dx, rolling.speed))
+
+    def stages() -> Iterator[Stage]:
+        yield Stage(np.zeros((2, 1, 1)), (0.0, 0.0), bound, 0.0, law.axes, pressure=found[0].pressure)
+        slip = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
+        slip[0] += scene.tire.row_slip(grid)
+        for travel, one in zip(np.diff(scene.steps) * grid.dx, found[1:], strict=True):
+            yield Stage(slip * travel, rolling.forces, bound, float(travel), law.axes, pressure=one.pressure)
+
+    try:
+        return list(march(scene.influence, stages(), tolerance=tolerance))
+    except (InputError, ConvergenceError) as error:
+        raise type(error)(f"shear along the way: {error}; or leave it out with friction=0") from error
+
+
+def _dataset(scene: _Scene, found: Sequence[NormalSolution], rubbed: Sequence[State] | None) -> xr.Dataset:
+    grid, steps, place_of = scene.grid, scene.steps, scene.road_x
+    edges = np.asarray(getattr(scene.relief, "edges", (0.0,)), dtype=float)
+    area = grid.cell_area
+    wide = (grid.ny, len(place_of))
+    highest, closing, sliding = np.zeros(wide), np.zeros(wide), np.zeros(wide)
+    before, depth = np.zeros(wide), np.full(wide, -np.inf)
+    rows: dict[str, list[float]] = {name: [] for name in _SCALARS}
+    for number, (step, one) in enumerate(zip(steps, found, strict=True)):
+        at = slice(int(step - steps[0]), int(step - steps[0]) + grid.nx)
+        now, sunk = np.zeros(wide), np.full(wide, -np.inf)
+        now[:, at] = one.pressure
+        sunk[:, at] = np.nan_to_num(one.approach - scene.over(int(step)), nan=-np.inf)
+        np.maximum(highest, now, out=highest)
+        # Where a place comes into contact its two surfaces have closed since they met.
+        grown = np.maximum(sunk, 0.0) - np.maximum(depth, 0.0)
+        closing += 0.5 * (now + before) * np.maximum(grown, 0.0) * (number > 0)
+        before, depth = now, sunk
+        if rubbed is not None:
+            state = rubbed[number].tangential
+            sliding[:, at] += np.maximum(-(state.shear * state.slip).sum(0), 0.0) * (number > 0)
+        here = grid.x + step * grid.dx
+        load = float(one.pressure.sum()) * area
+        along = one.pressure.sum(axis=0) * area
+        near = (np.abs(here[:, None] - edges[None]) <= 1.01 * grid.dx).any(axis=1)
+        for name, value in (
+            ("normal_load", load),
+            ("approach", one.approach),
+            ("contact_area", float((one.pressure > 0).sum()) * area),
+            ("largest_pressure", float(one.pressure.max())),
+            ("edge_pressure", float(one.pressure[:, near].max(initial=0.0))),
+            ("share_before", _share(along, here < edges.min() - _NEAR * grid.dx, load)),
+            ("share_beyond", _share(along, here > edges.max() + _NEAR * grid.dx, load)),
+            ("pressure_centre_x", float(along @ grid.x) / load if load > 0 else math.nan),
+        ):
+            rows[name].append(value)
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+        name: (("position",), np.array(values)) for name, values in rows.items()
+    }
+    fields["pressure"] = (("position", "y", "x"), np.stack([one.pressure for one in found]))
+    road = ("y", "road_x")
+    fields["road_height"] = (road, scene.relief.height(place_of, grid.y))
+    fields["highest_pressure"] = (road, highest)
+    fields["closing_work"] = (road, closing)
+    if rubbed is not None:
+        fields["friction_work_density"] = (road, sliding)
+    coordinates = {"position": steps * grid.dx, "y": grid.y, "x": grid.x, "road_x": place_of}
+    return dataset(fields, coordinates, dx=grid.dx, dy=grid.dy)
+
+
+# Part of a cell by which a cell beside an edge is beyond it.
+_NEAR = 1e-6
+_SCALARS = (
+    "normal_load", "approach", "contact_area", "largest_pressure", "edge_pressure", "share_before", "share_beyond",
+    "pressure_centre_x",
+)  # fmt: skip
+
+
+def _share(along: Array, side: Array, load: float) -> float:
+    return float(along[side].sum()) / load if load > 0 else 0.0
+
+
+def _doubts(scene: _Scene, hold: str, data: xr.Dataset) -> list[str]:
+    said = [
+        "the road below an edge is taken for a half-space, or layers, that go on without end: its own free edge, and "
+        "the stress that gathers there, is not in the pressures",
+        "the wheel crosses without inertia and its pressures stand upright: what a fast wheel adds, and what slopes "
+        "push along travel, is not in them",
+    ]
+    finest = getattr(scene.relief, "finest", None)
+    if finest is not None and finest < _FEWEST * scene.grid.dx:
+        said.append(
+            f"the obstacle is {finest * 1e3:.3g} mm long and the cells {scene.grid.dx * 1e3:.3g} mm: pressures at "
+            f"its edges are those of the cells; use {finest / _FEWEST * 1e3:.2g} mm or less"
+        )
+    apart = int(np.diff(scene.steps).max(initial=1))
+    if apart > _STRIDE:
+        said.append(
+            f"positions stand up to {apart} cells apart: pressures hold at each of them, but works per place ripple "
+            f"between them; take positions {_STRIDE} cells apart or less for work"
+        )
+    if scene.rolling.law.largest > 0 and abs(scene.influence.dundurs) > _ALIKE:
+        said.append(
+            f"tire and road differ so that shear changes the pressure (Dundurs' β = {scene.influence.dundurs:.2f}), "
+            "which a crossing leaves out"
+        )
+    if hold == "axle" and (data["normal_load"].to_numpy() <= 0).any():
+        said.append("the tire leaves the road where it is sunk, since its axle is held")
+    return said

@@ -1,0 +1,84 @@
+"""A wheel over a step, a joint or a plate: pressures along the way, contacts in a row, work at the edge."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from treadload.composing import Source
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import KPA, MM, Limits, colour_bar, fields_of, limits
+from treadload.plots.kit.style import CASES, MUTED, headline, measure, open_axes, sequential, styled
+
+# Contacts that a strip shows.
+_SHOWN = 5
+
+
+@styled
+def crossing_history(crossing: Source) -> Figure:
+    """Largest pressure, at an edge and anywhere, the shares of the load, and work per place of the road.
+
+    crossing: a Crossing or its dataset. Returns the figure.
+    """
+    names = ("largest_pressure", "edge_pressure", "share_before", "share_beyond", "closing_work", "road_height")
+    data = fields_of(crossing, *names, "position", "road_x")
+    at, place = data["position"].to_numpy() * MM, data["road_x"].to_numpy() * MM
+    figure = new_figure(7.4, 7.4)
+    upper, middle, lower = figure.subplots(3, 1)
+    upper.plot(at, data["largest_pressure"] * KPA, color=CASES[0], label="anywhere")
+    upper.plot(at, data["edge_pressure"] * KPA, color=CASES[1], label="at an edge")
+    upper.set_ylabel("largest pressure (kPa)")
+    upper.set_ylim(bottom=0)
+    upper.legend()
+    before, beyond = data["share_before"].to_numpy() * 100, data["share_beyond"].to_numpy() * 100
+    shares = (before, 100 - before - beyond, beyond)
+    for share, label, colour in zip(shares, ("before", "between the edges", "beyond"), CASES, strict=False):
+        middle.plot(at, share, color=colour, label=label)
+    middle.set_ylabel("share of the load (%)")
+    middle.set_xlabel("place of the axle along the road (mm)")
+    middle.legend()
+    work = data["closing_work"].transpose("y", "road_x").to_numpy().max(axis=0)
+    lower.plot(place, work, color=CASES[0], label="closing")
+    if "friction_work_density" in data:
+        rubbed = data["friction_work_density"].transpose("y", "road_x").to_numpy().max(axis=0)
+        lower.plot(place, rubbed, color=CASES[1], label="sliding")
+    lower.set_ylabel("largest work (J/m²)")
+    lower.set_xlabel("place along the road (mm)")
+    lower.legend(loc="upper left")
+    row = int(np.abs(data["y"].to_numpy()).argmin())
+    road = lower.twinx()
+    road.plot(place, data["road_height"].transpose("y", "road_x").to_numpy()[row] * MM, color=MUTED, lw=0.9)
+    road.set_ylabel("height of the road (mm)")
+    open_axes(upper, middle, lower)
+    high = float(data["largest_pressure"].max()) * KPA
+    headline(upper, "Across the obstacle", f"at most {measure(high)} kPa")
+    return figure
+
+
+@styled
+def crossing_contacts(crossing: Source) -> Figure:
+    """A strip of contacts from the first position to the last, kPa, each where it stands on the road.
+
+    crossing: a Crossing or its dataset. Returns the figure.
+    """
+    data = fields_of(crossing, "pressure", "position", "x", "y")
+    x, y = data["x"].to_numpy() * MM, data["y"].to_numpy() * MM
+    at = data["position"].to_numpy() * MM
+    shown = sorted({round(one) for one in np.linspace(0, len(at) - 1, min(_SHOWN, len(at)))})
+    values = data["pressure"].transpose("position", "y", "x").to_numpy()[shown] * KPA
+    scale: Limits = limits(values)
+    figure = new_figure(min(2.1 * len(shown) + 1.2, 12.0), 4.4)
+    axes = np.atleast_1d(figure.subplots(1, len(shown), sharey=True))
+    for ax, number, here in zip(axes, shown, values, strict=True):
+        mesh = ax.pcolormesh(
+            x + at[number], y, np.where(here > 0, here, np.nan), cmap=sequential("pressure"), vmin=scale.low,
+            vmax=scale.high, shading="nearest", rasterized=True,
+        )  # fmt: skip
+        ax.set_aspect("equal")
+        ax.axvline(0, color=MUTED, lw=0.7)
+        headline(ax, f"{at[number]:+.0f} mm", f"peak {measure(float(here.max()))} kPa", 24)
+        ax.set_xlabel("road (mm)")
+    axes[0].invert_yaxis()
+    axes[0].set_ylabel("y, right of travel (mm)")
+    colour_bar(mesh, axes[-1], "contact pressure (kPa)", scale)
+    return figure
