@@ -81,7 +81,7 @@ class Crossing(BaseResult, group="crossing"):
     tire: Tire
     road: Pavement
     rolling: Rolling
-    relief: Any
+    relief: Relief
     hold: str = "load"
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
@@ -175,15 +175,17 @@ def cross_obstacle(
     steps = _steps(positions, dx, low, high)
     grid = _grid(tire, rolling, bodies, spacing, relief, steps, dx)
     influence = Influence(grid.shape, grid.dx, grid.dy, bodies.both)
+    # As sharp as `solve_coupled` presses, whose plain contact this is.
+    tight = tolerance if abs(influence.dundurs) <= tolerance else 0.5 * tolerance
     scene = _Scene(tire, relief, rolling, grid, influence, tire.height_map(grid), steps)
     approach = None
     if hold == "axle":
-        approach = solve_normal(influence, scene.gap, load=rolling.normal_load, tolerance=tolerance).approach
+        approach = solve_normal(influence, scene.gap, load=rolling.normal_load, tolerance=tight).approach
     found: list[NormalSolution] = []
     for number, step in enumerate(steps):
         tell(f"position {number + 1} of {len(steps)}")
         load = rolling.normal_load if approach is None else None
-        normal = solve_normal(influence, scene.over(int(step)), load=load, approach=approach, tolerance=tolerance)
+        normal = solve_normal(influence, scene.over(int(step)), load=load, approach=approach, tolerance=tight)
         check_border(normal.pressure, grid)
         found.append(normal)
     rubbed = None
