@@ -24,6 +24,7 @@ def main() -> None:
     import indentation
     import peers
     import scaling
+    import scans
     import studies
 
     print(f"Python {platform.python_version()}, numpy {numpy.__version__}, scipy {scipy.__version__}, one thread\n")
@@ -33,6 +34,7 @@ def main() -> None:
     belt.main()
     indentation.main()
     scaling.main(peers.main())
+    scans.main()
     studies.main()
     layered.main()
     moving.main()

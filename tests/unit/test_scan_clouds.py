@@ -69,6 +69,7 @@ def test_a_cloud_of_a_third_of_a_tire_gives_radius_grooves_and_gap(tmp_path):
     assert np.sqrt(np.mean(error**2)) < 0.4e-3
 
 
+@pytest.mark.slow
 def test_every_format_of_clouds_gives_the_same_tire(tmp_path):
     points = cloud(40_000, arc=60)
     files = [
@@ -135,6 +136,7 @@ def test_a_known_length_gives_the_scale(tmp_path):
         Tire.from_scan(path, scale=-1.0)
 
 
+@pytest.mark.slow
 def test_pieces_apart_from_the_tire_are_left_out(tmp_path):
     vertices, faces = tire_mesh(around=180, across=60)
     stand = trimesh.creation.box((0.5, 0.3, 0.4)).subdivide().subdivide()
@@ -192,6 +194,7 @@ def test_files_that_are_not_what_they_say(tmp_path):
             Tire.from_scan(tmp_path / name, units="m")
 
 
+@pytest.mark.slow
 def test_meshes_as_photogrammetry_writes_them(tmp_path):
     """Texture coordinates split at seams, a material that is missing, colours, a scrap apart, any scale."""
     vertices, faces = tire_mesh(around=180, across=60)
@@ -252,13 +255,17 @@ def test_what_was_worn_off(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("triangles", "seconds"), [(500_000, 5.0), (2_000_000, 20.0)])
-def test_large_scans_are_read_in_time(tmp_path, triangles, seconds):
-    import time
-
+def test_a_scan_of_half_a_million_triangles_gives_the_map_of_the_tread(tmp_path):
+    """Its time and memory are measured by `benchmarks/scans.py`."""
+    triangles = 500_000
     across = round(math.sqrt(triangles / 6.4))
     vertices, faces = tire_mesh(around=round(triangles / 2 / (across + 55)), across=across, noise=0.3e-3, flipped=0.3)
-    path = write(tmp_path / "tire.ply", vertices, faces)
-    start = time.process_time()
-    Tire.from_scan(path, units="m").height_map(Grid.centred(0.3, 0.3, 3e-3))
-    assert time.process_time() - start < seconds
+    assert len(faces) == pytest.approx(triangles, rel=0.05)
+    tire = Tire.from_scan(write(tmp_path / "tire.ply", vertices, faces), units="m")
+    assert tire.surface.outer_radius == pytest.approx(RIB_TREAD.rolling_radius, abs=0.5e-3)
+    gap = tire.height_map(Grid.centred(0.3, 0.3, 3e-3))
+    # Along the middle of a rib the gap is that of the circle; noise of 0.3 mm is averaged over few points a cell.
+    middle = gap[gap.shape[0] // 2]
+    x = Grid.centred(0.3, 0.3, 3e-3).x
+    circle = RIB_TREAD.rolling_radius - np.sqrt(RIB_TREAD.rolling_radius**2 - x**2)
+    assert np.nanmedian(np.abs(middle - circle - np.nanmin(middle - circle))) < 1.5e-3

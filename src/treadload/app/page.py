@@ -78,7 +78,7 @@ class Bench:
             with ui.element("nav").classes("left").props('aria-label="the case"'):
                 self._left = Left(self._session, self.solve, self.opened)
                 self._left.build()
-            with ui.element("main").classes("centre"):
+            with ui.element("section").classes("centre").props('aria-label="maps and slices"'):
                 self._centre()
             with ui.element("aside").classes("right").props('aria-label="the verdict"'):
                 self._right = Right(self.fly, self.take_home)

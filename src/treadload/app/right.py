@@ -63,6 +63,10 @@ class Right:
                             ui.label(row["value"]).style("display:inline")
                 if row.get("note"):
                     cell.tooltip(row["note"])
+        # A verdict without passes is a sentence, or it reads as a road that lasts for ever.
+        for row in rows:
+            if row["key"] == "verdict":
+                ui.label(row["note"]).classes("note")
 
     def program(self, text: str) -> None:
         """Show a program that was copied."""

@@ -74,7 +74,7 @@ def verdict_rows(verdict: Verdict) -> list[Row]:
     strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
     sentence = verdict.summary().splitlines()[-1].removeprefix("Verdict: ")
     if not strain > 0:
-        return [_row("verdict", "Life", "no crack", group="road", note=sentence)]
+        return [_row("verdict", "Life", "this law sees no crack", group="road", note=sentence)]
     x, y, depth = (float(data[f"worst_{name}"]) for name in ("x", "y", "depth"))
     at = {"x": x, "y": y, "depth": depth}
     where = f"x {x * 1e3:.1f}, y {y * 1e3:.1f}, {depth * 1e3:g} mm deep"
