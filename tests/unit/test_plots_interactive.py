@@ -60,6 +60,14 @@ def test_linked_maps_share_axes_and_scale_and_are_seen_from_above(contact):
     assert layout.yaxis.range[0] > layout.yaxis.range[1]
 
 
+def test_maps_are_laid_out_at_any_width(contact):
+    """At 1100 pixels round-off set an axis 2e-16 outside of the page, which plotly refused."""
+    fields = [interactive.pressure_field(contact), interactive.shear_field(contact)]
+    for width in (320, 560, 733.3, *range(1060, 1140, 7), 1100, 1531.7):
+        made = interactive.linked_maps(fields, width=width)
+        assert 0 <= made.layout.yaxis.domain[0] < made.layout.yaxis.domain[1] <= 1
+
+
 def test_arrows_point_as_the_shear_on_the_road(contact):
     field = interactive.shear_field(contact)
     assert len(field.arrows) > 10

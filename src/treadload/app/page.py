@@ -274,7 +274,7 @@ class Bench:
                 plot.update_figure({**figure, "config": CONFIG})
         if "choices" in answer:
             self._offer(answer["choices"], answer["depths"])
-        if self._now is not None:
+        if self._now is not None and "rows" in answer:
             self._right.show(self._now.rows, self._now.warnings, self._now.name, done=self._now.ready)
 
     def _offer(self, choices: dict[str, str], depths: list[float]) -> None:

@@ -164,7 +164,8 @@ def depth_slice(
         raise InputError(f"this section needs {name}; the dataset has {', '.join(map(str, data.data_vars))}")
     if data.sizes.get("depth", 1) < 2:
         raise InputError("a section needs at least two depths; solve the response at more depths")
-    data = data.sortby("depth")
+    # Sorting copies whatever is in it.
+    data = data[[key for key in data if key == name or not {"x", "y", "point"} & set(data[key].dims)]].sortby("depth")
     at, label, values = _below(data, name, cut)
     told = shown(data[name])
     values = values * told.factor

@@ -72,7 +72,8 @@ def laid_out(
     traces: list[Trace] = []
     for number, field in enumerate(fields, start=1):
         left = (number - 1) * (panel + _BETWEEN) / inner_width
-        domain = (left, left + panel / inner_width, 1 - tall / inner_height, 1.0)
+        # Round-off may lead out of the page, which plotly refuses.
+        domain = (left, min(1.0, left + panel / inner_width), max(0.0, 1 - tall / inner_height), 1.0)
         axes = ("x", "y") if number == 1 else (f"x{number}", f"y{number}")
         bar = {"x": domain[0], "y": 1 + 4 / inner_height, "len": domain[1] - domain[0], "yref": "paper"}
         traces += [cells(field, axes, look, bar), *overlays(field, axes, look)]
