@@ -6,6 +6,7 @@ own free edge is not in the pressures, so that they are what the tire brings and
     python examples/joint/run.py [folder]
 """
 
+import math
 import sys
 from pathlib import Path
 
@@ -24,7 +25,8 @@ def main(folder: Path, cell: float = CELL) -> dict[str, float]:
     wheel = tl.Rolling(normal_load=32.5e3, friction=0.0)
     found = {}
     for name, relief, far in (("joint", RoadJoint(0.018, 0.03, 0.006), 0.15), ("frame", RoadPlate(5e-3, 0.6), 0.45)):
-        count = 12
+        # Four cells apart: further, and places between two positions would miss their share of the work.
+        count = math.ceil(far / (2 * cell))
         way = [far * (2 * k / count - 1) for k in range(count + 1)]
         crossing = tl.contact.cross_obstacle(tire, road, wheel, relief, positions=way, spacing=cell)
         print(crossing.summary(), end="\n\n")

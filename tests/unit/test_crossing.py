@@ -46,6 +46,12 @@ def test_the_load_is_carried_at_every_position_and_goes_over_to_the_other_side()
     assert float(data.approach[0] - data.approach[-1]) == pytest.approx(5e-3, abs=2e-5)
     assert float(data.edge_pressure.max()) > 1.2 * float(data.largest_pressure[0])
     assert "half-space" in " ".join(found.warnings)
+    assert "the edge is sharp" in " ".join(found.warnings)
+
+
+def test_an_edge_that_is_none_or_chamfered_is_not_called_sharp():
+    for relief in (RoadStep(0.0), RoadStep(5e-3, chamfer=0.03)):
+        assert "sharp" not in " ".join(crossed(relief, positions=[0.0]).warnings)
 
 
 @pytest.mark.slow

@@ -354,6 +354,11 @@ def _doubts(scene: _Scene, hold: str, data: xr.Dataset) -> list[str]:
             f"the obstacle is {finest * 1e3:.3g} mm long and the cells {scene.grid.dx * 1e3:.3g} mm: pressures at "
             f"its edges are those of the cells; use {finest / _FEWEST * 1e3:.2g} mm or less"
         )
+    if getattr(scene.relief, "chamfer", None) == 0 and float(np.ptp(data["road_height"].to_numpy())) > 0:
+        said.append(
+            "the edge is sharp: pressure and work at it grow without end as cells shrink, and are means over a "
+            f"cell of {scene.grid.dx * 1e3:.3g} mm; give it a chamfer for numbers that do not belong to the cells"
+        )
     apart = int(np.diff(scene.steps).max(initial=1))
     if apart > _STRIDE:
         said.append(
