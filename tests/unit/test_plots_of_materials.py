@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+import treadload as tl
 from treadload.errors import InputError
 from treadload.materials import (
     WLF,
@@ -117,6 +118,12 @@ def test_axes_of_the_caller_are_used():
         (lambda: draw_master_curve([TESTS, SWEEPS]), "no common axis"),
         (lambda: draw_master_curve([SWEEPS, master_curve(SWEEPS.isotherms, 20.0)]), "15 and 20 °C"),
         (lambda: shift_factors(LAW), "give temperatures"),
+        # Drawn as an empty figure before.
+        (
+            lambda: draw_master_curve(tl.catalogue.materials["ViscoRoute"].material),
+            r"take it at a temperature: .at\(15\)",
+        ),
+        (lambda: cole_cole(tl.Elastic(1e9, 0.3)), "draw a viscoelastic material"),
     ],
 )
 def test_bad_input(draw, word):

@@ -176,7 +176,7 @@ class _Curve:
 def _in_frequency(
     curves: Shown | Sequence[Shown], labels: Sequence[str] | None, frequencies: tuple[float, float] | None
 ) -> Iterator[_Curve]:
-    given = _listed(curves)
+    given = _drawable(curves)
     names = _names(given, labels)
     if any(isinstance(_data(curve), RelaxationTest) for curve in given):
         raise InputError("a relaxation test has no complex modulus; draw it with master_curve, or fit a model to it")
@@ -297,7 +297,7 @@ def _reference(given: Sequence[Shown]) -> str:
     if len(at) > 1:
         temperatures = " and ".join(f"{t:g}" for t in sorted(at))
         raise InputError(f"master curves at {temperatures} °C share no axis; shift them to one reference")
-    return f"reduced to {at.pop():g} °C; grey: where it was measured" if at else "at one temperature"
+    return f"reduced to {at.pop():g} °C; grey: where it was measured" if at else "each curve at one temperature"
 
 
 def _reduced(name: str, symbol: str, given: Sequence[Shown]) -> str:
@@ -307,6 +307,16 @@ def _reduced(name: str, symbol: str, given: Sequence[Shown]) -> str:
 
 def _listed(curves: Any) -> list[Any]:
     return list(curves) if isinstance(curves, Sequence) else [curves]
+
+
+def _drawable(curves: Any) -> list[Any]:
+    given = _listed(curves)
+    for one in given:
+        # An empty figure would say nothing of it.
+        if not isinstance(one, Viscoelastic | FrequencySweep | RelaxationTest | MasterCurve):
+            remedy = "take it at a temperature: .at(15)" if hasattr(one, "at") else "draw a viscoelastic material"
+            raise InputError(f"{one} has no modulus over frequency by itself; {remedy}")
+    return given
 
 
 def _names(given: Sequence[Any], labels: Sequence[str] | None) -> list[str]:
