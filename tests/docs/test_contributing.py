@@ -102,7 +102,7 @@ def test_a_body_of_a_package(road_laws, tmp_path):
     np.savetxt(tmp_path / "map.csv", gap, delimiter=",")
     (tmp_path / "case.toml").write_text(
         '[tire]\nheight_map = "map.csv"\ncell = "2 mm"\n'
-        'material = { kind = "brush", normal_stiffness = "40 MPa/m", shear_stiffness = "20 MPa/m" }\n'
+        'material = { kind = "bristles", normal_stiffness = "40 MPa/m", shear_stiffness = "20 MPa/m" }\n'
         '[[pavement.layers]]\nmaterial = { modulus = "1e10 MPa", poisson = 0.35 }\n'
         '[rolling]\napproach = "4 mm"\nfriction = 0\n'
     )

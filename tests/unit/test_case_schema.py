@@ -15,7 +15,8 @@ from treadload.case.schema import json_schema
 
 ROOT = Path(__file__).parents[2]
 KINDS = {"run": Case, "life": LifeCase, "calibrate": CalibrationCase}
-CASES = sorted([*(ROOT / "examples").rglob("*.toml"), *(ROOT / "src/treadload/demo").glob("*.toml")])
+FILES = [*(ROOT / "examples").rglob("*.toml"), *(ROOT / "src/treadload/demo").glob("*.toml")]
+CASES = sorted(path for path in FILES if path.name != "pyproject.toml")
 
 
 def validator(kind):

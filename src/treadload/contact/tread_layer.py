@@ -80,8 +80,5 @@ class TreadRubber:
 def wave_that_matters(texture_wave: float, frequency_wave: float | None) -> float:
     """Length, m, by which a speed becomes a frequency. Raises InputError."""
     wave = texture_wave if frequency_wave is None else frequency_wave
-    if not (math.isfinite(wave) and wave > 0):
-        raise InputError(
-            f"the wave by which speed becomes a frequency must be above 0 m, got {wave:g}; give wave in m"
-        )
+    positive("the wave by which speed becomes a frequency", wave, "m", "give wave in m")
     return wave

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from treadload.composing import Source, dataset_of
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.files import TABLE, check_suffix, replacing
 from treadload.kernels.arrays import Array
 from treadload.response import UniformDisc
@@ -89,8 +89,8 @@ def equivalent_discs(contact: Source, count: int = 1, *, pressure: float | None 
         raise InputError("discs stand for the pressure of a contact over x and y; this has none")
     if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= _MOST:
         raise InputError(f"the number of discs must be 1 to {_MOST}, got {count!r}")
-    if pressure is not None and not (math.isfinite(pressure) and pressure > 0):
-        raise InputError(f"the pressure of the discs must be positive, in Pa, got {pressure:g}")
+    if pressure is not None:
+        positive("the pressure of the discs", pressure, "Pa")
     x, y = (data[name].to_numpy().astype(float) for name in ("x", "y"))
     if min(len(x), len(y)) < 2:
         raise InputError("discs need cells along and across travel; the contact has a single row")

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.tire.fringes.calibration import CameraProjector, ReferencePlane
 
@@ -34,8 +34,7 @@ class Pattern:
     shifts: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.fringes) and self.fringes > 0):
-            raise InputError(f"fringes over the projector must be a positive number, got {self.fringes:g}")
+        positive("fringes over the projector", self.fringes)
         for name, one in (
             ("tread", self.tread),
             ("reference", self.reference),
@@ -79,8 +78,8 @@ class Evaluation:
     def __post_init__(self) -> None:
         for name in ("saturation", "noise", "spacing"):
             value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and value > 0):
-                raise InputError(f"{name} must be a positive number, got {value:g}")
+            if value is not None:
+                positive(name, value)
         if not 0 < self.shadow < 0.5:
             raise InputError(f"shadow must lie between 0 and 0.5 of the saturation, got {self.shadow:g}; {SHADOW}")
         if not 0 < self.steepest < math.pi / 2:

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from treadload.errors import InputError
+from treadload.errors import InputError, positive
 from treadload.tire.scan.surface import Choice
 from treadload.tire.scan.units import POSSIBLE_DIAMETERS, unit_name
 from treadload.units import quantity
@@ -44,11 +44,8 @@ class ScanOptions:
                 f"got {diameter:g}; give it in m, a 315/80R22.5 has 1.076"
             )
         if self.scale is not None:
-            if isinstance(self.scale, bool) or not (math.isfinite(self.scale) and self.scale > 0):
-                raise InputError(
-                    f"scale must be a positive number of m per unit of the file, got {self.scale!r}: a known length "
-                    "in m over what it measures in the file"
-                )
+            remedy = "take a known length in m over what it measures in the file"
+            positive("scale", self.scale, "m per unit of the file", remedy)
             if self.units is not None:
                 raise InputError(
                     f"give either units ({self.units!r}) or scale, not both: each says how long a unit is"
@@ -101,7 +98,7 @@ def scale_choice(words: str) -> float:
         length = float(measured.strip().replace(",", "."))
     except ValueError:
         length = math.nan
-    if not mark or not (math.isfinite(length) and length > 0):
+    if not mark or not 0 < length < math.inf:
         raise InputError(
             f'a reference length is its measure in the file and its length, "0.8123 = 1000 mm", got {words!r}'
         )
