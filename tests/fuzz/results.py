@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import io
 import json
 import math
 import random
@@ -17,6 +18,7 @@ from unittest import mock
 import h5py
 import numpy as np
 import xarray as xr
+from PIL import Image
 
 import treadload.reporting.figures
 import treadload.reporting.life
@@ -55,6 +57,14 @@ def attack(rng: random.Random, folder: Path) -> str:
     return REFUSED if isinstance(answer, Refusal) else TAKEN
 
 
+@functools.cache
+def _blank() -> bytes:
+    """A picture of one point, in place of a figure that takes a second."""
+    stream = io.BytesIO()
+    Image.new("RGB", (1, 1)).save(stream, "png")
+    return stream.getvalue()
+
+
 def _report(rng: random.Random, tree: xr.DataTree, folder: Path) -> None:
     path = folder / "report.html"
     with contextlib.ExitStack() as stack:
@@ -62,7 +72,7 @@ def _report(rng: random.Random, tree: xr.DataTree, folder: Path) -> None:
             for module in (treadload.reporting.figures, treadload.reporting.life, treadload.reporting.others):
                 stack.enter_context(mock.patch.object(module, "picture", mock.Mock(return_value=[])))
         elif rng.randrange(DRAWN // FIGURES):
-            blank = mock.Mock(return_value=bytes(20))
+            blank = mock.Mock(return_value=_blank())
             stack.enter_context(mock.patch.object(treadload.reporting.pictures, "png", blank))
         write_report({"broken": tree}, path)
     page = path.read_text(encoding="utf-8")

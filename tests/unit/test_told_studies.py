@@ -139,7 +139,7 @@ def test_the_page_is_drawn(store, tmp_path):
     assert run("report", store, "-o", tmp_path / "s.html", "-q").exit_code == 0
     page = (tmp_path / "s.html").read_text(encoding="utf-8")
     assert "could not be drawn" not in page
-    assert page.count("data:image/png") == page.count("<figure") == 6
+    assert page.count("data:image/webp") == page.count("<figure") == 6
 
 
 def test_the_page_says_what_was_asked_and_what_came_out(store, tmp_path, unprinted):
