@@ -1,13 +1,14 @@
 """The seam of the bodies: what a pair sums, what a particle feels ahead, and a body from somebody else's file."""
 
+import importlib.util
 import math
-from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.contact.bodies import Body, HalfSpaces, Influence, Offsets, Pair, Sum, Waves, surface_of
+from treadload.contact.bodies import HalfSpaces, Influence, Offsets, Pair, Sum, Waves, surface_of
 from treadload.contact.bodies.ahead import Ahead
 from treadload.contact.bodies.layers import layered_road
 from treadload.contact.bodies.viscoelastic import rolling_pair
@@ -93,54 +94,21 @@ def test_memory_is_refused_between_cells():
         rolling_pair(SOLID, ASPHALT, 10.0).normal(Offsets(3, 3, 0.01, 0.01, -0.013))
 
 
-# From here on: what somebody else writes in a file of their own.
-
-
-@dataclass(frozen=True)
-class Bristles(Body):
-    """Springs side by side, Pa/m: what a brush does, as a body."""
-
-    normal_stiffness: float
-    shear_stiffness: float
-
-    def normal(self, at: Offsets) -> np.ndarray:
-        return self._own_cell(at) / self.normal_stiffness
-
-    def tangential(self, at: Offsets) -> np.ndarray:
-        own = self._own_cell(at) / self.shear_stiffness
-        return np.array([own, own, 0 * own])
-
-    def coupling(self, at: Offsets) -> np.ndarray:
-        return np.zeros((2, at.ny, at.nx))
-
-    def compliance(self, waves: Waves) -> np.ndarray:
-        k = waves.k
-        return np.array([k / self.normal_stiffness, k / self.shear_stiffness, k / self.shear_stiffness, 0 * k])
-
-    def across(self, k: np.ndarray) -> np.ndarray:
-        return np.array([k / self.normal_stiffness, 0 * k])
-
-    def _own_cell(self, at: Offsets) -> np.ndarray:
-        return np.outer(np.abs(at.y) < at.dy / 2, np.abs(at.x) < at.dx / 2).astype(float)
-
-
-@MATERIALS.register("brush")
-@dataclass(frozen=True)
-class Brush:
-    """A tread of bristles. normal_stiffness, shear_stiffness: Pa/m."""
-
-    normal_stiffness: float
-    shear_stiffness: float
-
-    def surface(self, *, is_tire: bool, speed: float | None) -> Body:
-        return Bristles(self.normal_stiffness, self.shear_stiffness)
+# From here on: what somebody else writes in a file of their own, that of the plug-in which CONTRIBUTING shows.
+_SPEC = importlib.util.spec_from_file_location(
+    "brush_of_the_plugin", Path(__file__).parents[2] / "examples" / "plugin" / "road_laws" / "body.py"
+)
+_BODY = importlib.util.module_from_spec(_SPEC)
+_SPEC.loader.exec_module(_BODY)
+Brush = MATERIALS.register("brush")(_BODY.Brush)
+BRUSH = Brush(4e7, 2e7)
 
 
 STIFF = tl.Pavement.half_space(tl.Elastic(1e16, 0.35))
 CELL, RADIUS = 2e-3, 0.5
 
 
-def brush_tire(material=Brush(4e7, 2e7)):
+def brush_tire(material=BRUSH):
     x = CELL * (np.arange(80) - 39.5)
     gap = np.broadcast_to(x[None, :] ** 2 / (2 * RADIUS), (12, 80)).copy()
     gap[[0, -1]] = np.nan

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import html
 import itertools
 import json
 from pathlib import Path
@@ -22,6 +23,8 @@ from treadload.plots.interactive.view import CONFIG
 from treadload.study.as_python import case_as_python
 
 LOOK = Path(__file__).parent / "look"
+# Of a line as plotly holds it.
+_ENDS = ("x0", "y0", "x1", "y1")
 _NOWHERE = {"visible": False}
 _EMPTY: dict[str, Any] = {
     "data": [],
@@ -52,6 +55,7 @@ class Bench:
         self._theme, self._width = "light", 1100.0
         self._view: dict[str, Any] = {"left": "contact/pressure", "right": "response/principal_strain_1", "depth": 0}
         self._line: list[float] | None = None
+        self._along = "x"
         self._section_of = "principal_strain_1"
         self._now: Run | None = None
         self._over: str | None = None
@@ -322,31 +326,26 @@ class Bench:
         if not moved or self._now is None:
             return
         shapes = self._maps.figure["layout"].get("shapes") or [{}]
-        whole = {**{key: shapes[0].get(key, 0.0) for key in ("x0", "y0", "x1", "y1")}, **moved}
         with contextlib.suppress(TypeError, ValueError):
-            self._line = [float(whole[key]) / 1e3 for key in ("x0", "y0", "x1", "y1")]
-            shapes[0].update(
-                {key: 1e3 * value for key, value in zip(("x0", "y0", "x1", "y1"), self._line, strict=True)}
-            )
+            ends = {key: float(moved.get(key, shapes[0].get(key, 0.0))) for key in _ENDS}
+            self._line = [one / 1e3 for one in ends.values()]
+            shapes[0].update(ends)
             background_tasks.create(self._cut())
 
     def _put(self, along: str) -> None:
         self._along = along
         self._moved(self._at.value)
 
-    _along = "x"
-
     def _moved(self, place: float) -> None:
         """The line is put along travel or across it, at a place in mm."""
         half, at = 0.16, float(place) / 1e3
         self._place.text = f"{float(place):g} mm"
         self._line = [-half, at, half, at] if self._along == "x" else [at, -half, at, half]
-        ends = [1e3 * one for one in self._line]
+        ends = {key: 1e3 * one for key, one in zip(_ENDS, self._line, strict=True)}
         shapes = self._maps.figure["layout"].get("shapes") or []
-        told = {f"shapes[{number}].{key}": value for number, _ in enumerate(shapes)
-                for key, value in zip(("x0", "y0", "x1", "y1"), ends, strict=True)}  # fmt: skip
+        told = {f"shapes[{number}].{key}": value for number in range(len(shapes)) for key, value in ends.items()}
         for shape in shapes:
-            shape.update(dict(zip(("x0", "y0", "x1", "y1"), ends, strict=True)))
+            shape.update(ends)
         self._js(f"Plotly.relayout(document.querySelector('.maps'), {json.dumps(told)})")
         background_tasks.create(self._cut())
 
@@ -392,7 +391,7 @@ class Bench:
             if run.thumb:
                 ui.element("img").props(f'src="{run.thumb}" alt="pressure of this run"')
             with ui.element("div").classes("say"):
-                ui.html(f"<b>{_escaped(run.title)}</b>{_escaped(_first(run.rows))}", sanitize=False)
+                ui.html(f"<b>{html.escape(run.title)}</b>{html.escape(_first(run.rows))}", sanitize=False)
             with ui.element("div").classes("line"):
                 plain("show", lambda: self._show(run), label=f"show the run {run.title}")
                 for side in ("A", "B"):
@@ -471,10 +470,6 @@ class Bench:
                 program = case_as_python(Case.from_text(toml))
                 self._right.program(program)
                 ui.run_javascript(f"treadloadCopy({json.dumps(program)})")
-
-
-def _escaped(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")
 
 
 def _first(rows: list[dict[str, Any]]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Callable
 from typing import Any
 
@@ -73,10 +74,6 @@ class Right:
         self._program.clear()
         with self._program, ui.card().style("max-width:760px"):
             ui.label("Copied. The same as a program:")
-            ui.html(f'<pre class="said">{_escaped(text)}</pre>', sanitize=False)
+            ui.html(f'<pre class="said">{html.escape(text, quote=False)}</pre>', sanitize=False)
             plain("Close", self._program.close)
         self._program.open()
-
-
-def _escaped(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
