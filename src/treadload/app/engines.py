@@ -30,6 +30,8 @@ class Engine:
         self._process = process
         self._numbers = itertools.count(1)
         self._waiting: dict[int, asyncio.Queue[dict[str, Any] | None]] = {0: asyncio.Queue()}
+        # Solves that the process has not ended yet, whether anybody still waits for them or not.
+        self._solving: set[int] = set()
         self._reading = asyncio.create_task(self._read())
 
     @classmethod
@@ -59,6 +61,8 @@ class Engine:
         """Answers as they come; the last holds "done", "error" or "stopped". Raises EngineLost."""
         number, queue = next(self._numbers), asyncio.Queue[dict[str, Any] | None]()
         self._waiting[number] = queue
+        if do == "solve":
+            self._solving.add(number)
         try:
             await self._send({"id": number, "do": do, **told})
             while True:
@@ -80,13 +84,12 @@ class Engine:
 
     async def stop(self) -> bool:
         """Ask for the end of what is being solved; False, and no process any more, where that takes too long."""
-        solving = [number for number in self._waiting if number]
-        if not solving or not self.lives:
+        if not self._solving or not self.lives:
             return self.lives
         await self._send({"id": 0, "do": "stop"})
         for _ in range(20):
             await asyncio.sleep(_PATIENCE / 20)
-            if not any(number in self._waiting for number in solving):
+            if not self._solving:
                 return True
         self.kill()
         return False
@@ -109,6 +112,8 @@ class Engine:
         try:
             while line := await self._process.stdout.readline():
                 answer = json.loads(line)
+                if any(end in answer for end in _ENDS):
+                    self._solving.discard(answer["id"])
                 queue = self._waiting.get(answer["id"])
                 if queue is not None:
                     queue.put_nowait(answer)
@@ -142,7 +147,12 @@ class Engines:
         self.warm()
         assert self._spare is not None
         spare, self._spare = self._spare, None
-        engine = await spare
+        try:
+            # Who leaves while it starts leaves it to the next.
+            engine = await asyncio.shield(spare)
+        except asyncio.CancelledError:
+            self._spare = self._spare or spare
+            raise
         if not engine.lives:
             engine = await self._start()
         await engine.last("folder", folder=str(folder))

@@ -202,7 +202,8 @@ class Bench:
                 async for answer in asked:
                     self._hear(run, answer)
             except EngineLost as error:
-                self._failed(run, "cancelled" if run.name not in self._session.runs else str(error))
+                # The process is ended where it does not stop of itself.
+                self._failed(run, "cancelled" if self._solving is None else str(error))
             except asyncio.CancelledError:
                 if not run.ready:
                     self._session.runs.pop(run.name, None)
@@ -246,16 +247,18 @@ class Bench:
         self._cancel.props("disabled")
 
     async def cancel(self) -> None:
-        """Leave what is being solved."""
+        """Leave what is being solved, or waits to be."""
         solving, self._solving = self._solving, None
         if solving is None or solving.done():
             return
         self._stage.text = "cancelling"
         await self._session.stop()
-        await asyncio.sleep(0)
+        solving.cancel()
+        await asyncio.wait([solving])
         self._stage.text = "cancelled"
         self._cancel.props("disabled")
-        if self._root.props.get("data-state") in ("solving", "drawn"):
+        # A run that was ready before its slices were cut stays; so does what another click began meanwhile.
+        if self._solving is None and self._root.props.get("data-state") in ("solving", "drawn", "failed"):
             self._state("cancelled")
 
     def _title(self, form: Form) -> str:
