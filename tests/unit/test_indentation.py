@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.contact import indentation
 from treadload.materials import MohrCoulomb, Perzyna, VonMises
 
 MODULUS, YIELD, POISSON, RADIUS = 1000.0, 2.0, 0.3, 100.0
@@ -58,14 +59,31 @@ def test_a_rigid_sphere_beside_kogut_and_etsion():
 
 
 @pytest.mark.slow
-def test_a_rigid_sphere_up_to_twelve_times_the_depth_of_first_yield():
-    # Just past the jump of 1.7 % between their two formulas, at a depth of 6, the second one is 5 % away.
-    loads = (1.5, 3.0, 5.0, 8.0, 20.0, 31.0)
+def test_a_rigid_sphere_up_to_twelve_times_the_load_and_the_depth_of_first_yield():
+    loads = np.array([1.5, 3.0, 5.0, 8.0, 11.0, 12.0, 14.0, 20.0, 31.0])
     done = pressed(loads, n=36, reach=1.9, depth=None).dataset
     depth = done.approach.to_numpy() / DEPTH
     assert depth[-1] > 11.5
-    errors = [kogut_etsion(one) / load - 1 for one, load in zip(depth, loads, strict=True)]
-    assert np.abs(errors).max() < 0.04
+    errors = np.array([kogut_etsion(one) / load - 1 for one, load in zip(depth, loads, strict=True)])
+    # Up to a depth of 6, 13 times the load, one formula holds; measured: 3 %.
+    assert np.abs(errors[loads <= 12]).max() < 0.03
+    # There theirs jumps by 1.7 % to the next, which is 4.7 % away just behind it and comes back.
+    behind = (depth > 6) & (depth < 6.7)
+    assert np.abs(errors[~behind]).max() < 0.04
+    assert np.abs(errors[behind]).max() < 0.04 + 0.017
+
+
+def test_a_step_that_does_not_settle_is_halved(monkeypatch):
+    whole = pressed([3.0], n=16, layers=6)
+    monkeypatch.setattr(indentation, "_MOST_ROUNDS", 6)
+    halved = pressed([3.0], n=16, layers=6)
+    assert whole.stats["halved_steps"] == 0 < halved.stats["halved_steps"]
+    # The way differs, and with it a little what yields.
+    assert float(halved.dataset.approach[0]) == pytest.approx(float(whole.dataset.approach[0]), rel=2e-3)
+    assert halved.dataset.normal_load.to_numpy() == pytest.approx([3.0 * LOAD])
+    monkeypatch.setattr(indentation, "_MOST_ROUNDS", 1)
+    with pytest.raises(tl.ConvergenceError, match=r"step 1 did not settle at \S+ N in 2 rounds: .*smaller steps"):
+        pressed([3.0], n=16, layers=6)
 
 
 @pytest.mark.slow

@@ -18,6 +18,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
@@ -46,7 +47,9 @@ from treadload.pavement import Pavement
 from treadload.tire import Tire
 
 # Less memory takes more than twice as many rounds above ten times the load of first yield.
-_MEMORY, _MOST_ROUNDS = 15, 150
+_MEMORY, _MOST_ROUNDS = 15, 75
+# Times that a step is halved before it is given up.
+_MOST_HALVINGS = 3
 # Of the contact inside: looser than this part of what the plastic strain still changes it would stall the mixing.
 _INNER, _FINEST = 1e-3, 1e-7
 # Depth of the rows, in radii of the elastic contact under the largest load.
@@ -135,6 +138,62 @@ class _Body:
         return Below.of(np.moveaxis(stress, 1, 0))
 
 
+@dataclass
+class _Pressing:
+    """Brings a body from one load to the next. rounds, halved: of all steps so far."""
+
+    body: _Body
+    influence: Influence
+    gap: Array
+    tolerance: float
+    rounds: int = 0
+    halved: int = 0
+
+    def reach(
+        self, load: float, before: float, state: State, near: Array, name: str, halvings: int
+    ) -> tuple[State, NormalSolution | None]:
+        """State and contact under a load, N, after another; a step that does not settle is halved first."""
+        try:
+            return self._jump(load, state, near, name, _MOST_ROUNDS if halvings else 2 * _MOST_ROUNDS)
+        except ConvergenceError:
+            if not halvings:
+                raise
+        self.halved += 1
+        middle = 0.5 * (before + load)
+        state, touching = self.reach(middle, before, state, near, name, halvings - 1)
+        near = near if touching is None else touching.pressure
+        return self.reach(load, middle, state, near, name, halvings - 1)
+
+    def _jump(
+        self, load: float, state: State, near: Array, name: str, most: int
+    ) -> tuple[State, NormalSolution | None]:
+        """The same in one jump of so many rounds at most. Raises ConvergenceError."""
+        body, material = self.body, self.body.material
+        law, change, mixing = material.return_map(), np.zeros_like(state.strain), Anderson(_MEMORY)
+        still = self.tolerance
+        touching: NormalSolution | None = None
+        for _ in range(most):
+            self.rounds += 1
+            stress = body.own(state.strain + change) + law.elastic(change)
+            if load:
+                dented = self.gap + body.moved(state.strain + change)[2, 0]
+                inner = min(max(_INNER * still, _FINEST), _INNER)
+                touching = solve_normal(self.influence, dented, load=load, start=near, tolerance=inner)
+                near = touching.pressure
+                stress = stress + body.stress(near)
+            after = law(stress, state)
+            step = after.strain - state.strain
+            size, off = float(np.linalg.norm(step)), float(np.linalg.norm(step - change))
+            if off <= self.tolerance * size or np.abs(step - change).max() <= 1e-6 * material.yield_strain:
+                return after, touching
+            change, still = mixing.next(change, step), off / size if size else self.tolerance
+        raise ConvergenceError(
+            f"the plastic strain of {name} did not settle at {load:g} N in {most} rounds: it still changes by "
+            f"{off / size:.1e} of itself, above the tolerance of {self.tolerance:.1e}; take smaller steps",
+            off / size,
+        )
+
+
 def solve_indentation(
     tire: Tire,
     road: Pavement,
@@ -152,8 +211,9 @@ def solve_indentation(
     half-space of an ElastoPlastic whose law knows no time. loads: N, >= 0, one a step, in their order; 0 lifts it
     off. spacing: of the cells, m, as in `solve_contact`. depth: of what may yield, m; left out, 2.2 times the radius
     of the elastic contact under the largest load. layers: rows of cells in it. tolerance: of the plastic strain of a
-    step, relative. The contact has no friction, and feels the dent. A step is one jump: yielding that turns on the
-    way asks for more steps. Raises InputError, and ConvergenceError with the residual reached.
+    step, relative. The contact has no friction, and feels the dent. A step is one jump, halved where it does not
+    settle: yielding that turns on the way asks for more steps. Raises InputError, and ConvergenceError with the
+    residual reached.
     """
     start = time.perf_counter()
     tell = (lambda text: None) if progress is None else progress
@@ -169,43 +229,12 @@ def solve_indentation(
         depth = _DEEP * radius
     body = _Body(grid, material, graded_edges(0.0, depth, 0.8 * grid.dx, layers))
     tell(f"operators of {grid.nx} x {grid.ny} cells in {len(body.edges) - 1} rows")
-    law = material.return_map()
+    pressing = _Pressing(body, influence, gap, tolerance)
     state, pressure = State.virgin((len(body.edges) - 1, *grid.shape)), normal.pressure
     found: list[tuple[float, float, Array, State, Array]] = []
-    rounds = 0
-    for number, load in enumerate(steps, start=1):
+    for number, (before, load) in enumerate(pairwise([0.0, *steps]), start=1):
         tell(f"step {number} of {len(steps)}")
-
-        def press(
-            change: Array, before: Array, near: Array, still: float, load: float = load
-        ) -> NormalSolution | None:
-            if not load:
-                return None
-            dented = gap + body.moved(before + change)[2, 0]
-            inner = min(max(_INNER * still, _FINEST), _INNER)
-            return solve_normal(influence, dented, load=load, start=near, tolerance=inner)
-
-        change, mixing, still = np.zeros_like(state.strain), Anderson(_MEMORY), tolerance
-        touching: NormalSolution | None = None
-        for _ in range(_MOST_ROUNDS):
-            rounds += 1
-            touching = press(change, state.strain, pressure if touching is None else touching.pressure, still)
-            stress = body.own(state.strain + change) + law.elastic(change)
-            if touching is not None:
-                stress = stress + body.stress(touching.pressure)
-            after = law(stress, state)
-            step = after.strain - state.strain
-            size, off = float(np.linalg.norm(step)), float(np.linalg.norm(step - change))
-            if off <= tolerance * size or np.abs(step - change).max() <= 1e-6 * material.yield_strain:
-                break
-            change, still = mixing.next(change, step), off / size if size else tolerance
-        else:
-            raise ConvergenceError(
-                f"the plastic strain of step {number} ({load:g} N) did not settle in {_MOST_ROUNDS} rounds: it still "
-                f"changes by {off / size:.1e} of itself, above the tolerance of {tolerance:.1e}; take smaller steps",
-                off / size,
-            )
-        state = after
+        state, touching = pressing.reach(load, before, state, pressure, f"step {number}", _MOST_HALVINGS)
         if touching is not None:
             check_border(touching.pressure, grid)
             pressure = touching.pressure
@@ -213,7 +242,12 @@ def solve_indentation(
         held = np.zeros(grid.shape) if touching is None else touching.pressure
         level = 0.0 if touching is None else touching.approach
         found.append((load, level, held, state, body.moved(state.strain)[2, 0]))
-    stats = {"seconds": time.perf_counter() - start, "rounds": rounds, "memory_mb": body.own.bytes / 1e6}
+    stats = {
+        "seconds": time.perf_counter() - start,
+        "rounds": pressing.rounds,
+        "halved_steps": pressing.halved,
+        "memory_mb": body.own.bytes / 1e6,
+    }
     data = _dataset(grid, body, found, type(material.law).__name__)
     largest = float(data["largest_plastic_strain"].max())
     warnings = () if largest <= _SMALL else (
