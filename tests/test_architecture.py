@@ -30,6 +30,7 @@ LEAVES = (
     "registry",
     "named",
     "read",
+    "metrology",
     "_public",
     "_version",
 )
@@ -69,6 +70,7 @@ ONLY_IN = {
     "trimesh": ("tire",),
     "embreex": ("tire",),
     "skimage": ("tire",),
+    "SurfaceTopography": ("metrology",),
     "pint": ("units",),
     "pydantic": ("read", "case"),
     "openpyxl": ("results",),

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 # Characters of a word, and of a message, that a reader can still take in.
 _WORD, _MESSAGE = 300, 1200
@@ -58,6 +59,28 @@ def positive(name: str, value: float | str, unit: str = "", remedy: str = "") ->
         said = repr(value)
     of, end = f" of {unit}" if unit else "", f"; {remedy}" if remedy else ""
     raise InputError(f"{name} must be a positive number{of}, got {said}{end}")
+
+
+def said(error: BaseException) -> str:
+    """An error of another library in one short line."""
+    words = " ".join(str(error).split())
+    return f"{type(error).__name__}: {words if len(words) < 120 else words[:117] + '...'}"
+
+
+@contextlib.contextmanager
+def reading(file: str, kind: str, remedy: str = "it may be truncated, export or copy it again") -> Iterator[None]:
+    """What another library stumbles on in a file becomes an InputError; our own errors pass, and so do interrupts.
+
+    file: as in "scan file 'a.las'". kind: what it was read as. Some libraries panic beside Exception.
+    """
+    try:
+        yield
+    except (TreadloadError, KeyboardInterrupt, SystemExit, GeneratorExit):
+        raise
+    except BaseException as error:
+        if not isinstance(error, Exception) and "Panic" not in type(error).__name__:
+            raise
+        raise InputError(f"{file} could not be read as {kind} ({said(error)}); {remedy}") from error
 
 
 def how_to_install(extra: str) -> str:

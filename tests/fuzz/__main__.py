@@ -37,7 +37,7 @@ from pathlib import Path
 
 from fuzz.runner import Tally, batch
 
-KINDS = ("cases", "meshes", "tables", "results", "footprints", "textures")
+KINDS = ("cases", "meshes", "tables", "results", "footprints", "textures", "surfaces")
 _BATCH = 200
 
 

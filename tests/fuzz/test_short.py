@@ -14,6 +14,7 @@ from fuzz.runner import attack_of, run
         pytest.param("results", 40, marks=pytest.mark.slow),
         ("footprints", 150),
         ("textures", 200),
+        pytest.param("surfaces", 300, marks=pytest.mark.slow),
     ],
 )
 def test_nothing_breaks(kind, count):

@@ -27,7 +27,7 @@ class TirePart(Table):
 
     scan: a mesh, OBJ, PLY, STL, GLB, OFF, a cloud of points, PLY, text, LAS, LAZ, E57, a format that another package
     reads, or "example", the mesh that ships with treadload. profile: a name of the library, a TOML file, or a table.
-    height_map: a file of the initial gap.
+    height_map: a file of the initial gap, or of a surface, X3P, SDF, SUR or AL3D.
     units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names no unit.
     cell: of a height map without coordinates. decimal: "." or ",", of a height map as text. inflation_pressure: gives
     the modulus where there is no material. material: of the tread's half-space. belt: in its place, a name of the

@@ -18,6 +18,7 @@ from treadload.files import read_tree
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.labels import check_names, factor_asked, factor_of
+from treadload.metrology import ENDINGS, read_surface_map
 from treadload.tables import read_table, real_array
 from treadload.tire.crown import arc_radius
 from treadload.tire.quality import ScanQuality
@@ -191,8 +192,9 @@ def read_height_map(
 ) -> HeightMapSurface:
     """Height map of a file.
 
-    path: NetCDF (variable `initial_gap`, or its only 2-D one, on coordinates x and y), or a matrix of numbers as
-    text, CSV, NPY or NPZ (rows along y, columns along x). spacing: (dx, dy) in m, for a matrix.
+    path: NetCDF (variable `initial_gap`, or its only 2-D one, on coordinates x and y), a matrix of numbers as
+    text, CSV, NPY or NPZ (rows along y, columns along x), or heights above the tread of surface metrology, X3P, SDF,
+    SUR or AL3D (see `metrology`), whose highest point touches the road. spacing: (dx, dy) in m, for a matrix.
     units: of the gap of a matrix, {"gap": "mm"}, m if left out; of variables of a NetCDF file that name none, "gap",
     "x" and "y", which are refused if left out. A text alone, "mm", is the unit of all three. decimal: "." or ",", of
     a text that can be read in two ways. An empty cell, NaN, NA, N/A, NoData and null mean no material.
@@ -203,12 +205,17 @@ def read_height_map(
         raise InputError(f"no file {str(path)!r}: give the path of a NetCDF, CSV, text, NPY or NPZ height map")
     suffix = path.suffix.lower()
     asked = asked_units(units)
-    if suffix in (".nc", ".nc4", ".h5", ".cdf"):
+    if suffix in ENDINGS:
+        measured = read_surface_map(path, given=(spacing, units, decimal))
+        # The outside of the tread is up in the file, and down on the road.
+        top = float(np.nanmax(measured.heights))
+        surface = centred_height_map(top - measured.heights, (measured.dx, measured.dy), measured.source)
+    elif suffix in (".nc", ".nc4", ".h5", ".cdf"):
         surface = _read_netcdf(path, spacing, asked)
     elif suffix not in (".csv", ".txt", ".dat", ".tsv", ".npy", ".npz"):
         raise InputError(
             f"{path.name!r} has the unknown ending {suffix!r} for a height map; "
-            "use .nc, .csv, .txt, .dat, .tsv, .npy or .npz"
+            f"use .nc, .csv, .txt, .dat, .tsv, .npy, .npz or a surface as {', '.join(ENDINGS)}"
         )
     elif spacing is None:
         raise InputError(f"{path.name!r} does not say the size of its cells; give spacing in m, e.g. spacing=3e-3")

@@ -100,7 +100,8 @@ class Tire:
         gap: (ny, nx) in m, distance of the tread from the plane it touches, curvature included; NaN where there is no
         material. Its minimum is shifted to 0, so heights above any horizontal plane will do. Or a DataArray, or the
         path of a NetCDF file (variable `initial_gap` or the only 2-D one), over y and x, whose attributes `units` are
-        followed; or the path of a matrix as CSV, text, NPY or NPZ. spacing: cell size, m, or (dx, dy); coordinates
+        followed; or the path of a matrix as CSV, text, NPY or NPZ; or of heights of a tread from surface metrology,
+        X3P, SDF, SUR or AL3D, which bring spacing and unit. spacing: cell size, m, or (dx, dy); coordinates
         bring their own. units: "mm", or {"gap": "mm"}, of what names no unit: the gap of a matrix (else m), gap, x
         and y of a NetCDF file (else refused). decimal: "." or ",", where a text can be read in two ways. The map
         keeps its cells: the contact is solved on them. `str` shows what was read. Raises InputError for infinite

@@ -12,6 +12,7 @@ from treadload.errors import InputError, one_line
 from treadload.files import read_tree
 from treadload.kernels.arrays import Array
 from treadload.labels import factor_asked, factor_of
+from treadload.metrology import ENDINGS, read_surface_map
 from treadload.pavement.texture.crg import read_crg
 from treadload.pavement.texture.description import Texture
 from treadload.tables import read_table, real_array
@@ -33,9 +34,11 @@ def read_texture(
     """Texture of a file, as it was measured: drop-outs stay NaN, nothing is levelled or filtered.
 
     path: OpenCRG (.crg); a stationary laser's text (header, *****DATA*****, number, distance in mm, height in mm); a
-    matrix of heights as CSV, text or NPY (rows across, columns along travel; one row or column is a profile); or
-    NetCDF, its only variable over (y, x) or x. spacing: m, or (dx, dy), of a matrix. units: of the heights of a
-    matrix or of a variable that names none, "mm"; m if left out of a matrix, refused of NetCDF. Raises InputError.
+    matrix of heights as CSV, text or NPY (rows across, columns along travel; one row or column is a profile);
+    NetCDF, its only variable over (y, x) or x; or a surface of metrology, X3P, SDF, SUR or AL3D (see `metrology`),
+    its x along travel, which brings its spacing and units. spacing: m, or (dx, dy), of a matrix. units: of the
+    heights of a matrix or of a variable that names none, "mm"; m if left out of a matrix, refused of NetCDF.
+    Raises InputError.
     """
     path = Path(path)
     if not os.path.isfile(path):
@@ -48,12 +51,16 @@ def read_texture(
     suffix = path.suffix.lower()
     if suffix == ".crg":
         return read_crg(path).texture()
+    if suffix in ENDINGS:
+        measured = read_surface_map(path, given=(spacing, units, decimal))
+        # Seen from above, y of an instrument runs to the left of its x; that of a road to the right.
+        return Texture(measured.heights[::-1], measured.dx, measured.dy, source=measured.source)
     if suffix in (".nc", ".nc4", ".h5", ".cdf"):
         return _netcdf(path, units)
     if suffix not in (".csv", ".txt", ".dat", ".tsv", ".npy"):
         raise InputError(
             f"{path.name!r} has the unknown ending {suffix!r} for a texture; "
-            "use .crg, .dat, .csv, .txt, .tsv, .npy or .nc"
+            f"use .crg, .dat, .csv, .txt, .tsv, .npy, .nc or a surface as {', '.join(ENDINGS)}"
         )
     if suffix != ".npy" and _is_laser(path):
         return _laser(path)

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from treadload.errors import GeometryError, InputError, how_to_install
+from treadload.errors import GeometryError, InputError, how_to_install, reading, said
 from treadload.kernels.arrays import Array
 from treadload.registry import READERS
-from treadload.tire.scan.mesh_file import Triangles, said
+from treadload.tire.scan.mesh_file import Triangles
 
 MOST_POINTS = 50_000_000
 FEWEST_POINTS = 1000
@@ -75,22 +75,15 @@ def _of_las(path: Path) -> Triangles:
             f"reading {path.suffix} needs laspy, which is not installed; {how_to_install('clouds')}"
         ) from error
     _check_las_header(path)
-    try:
-        with laspy.open(path) as file:
-            told = int(file.header.point_count)
-            if not 0 < told <= min(MOST_POINTS, _MOST_PER_BYTE * path.stat().st_size):
-                raise InputError(
-                    f"scan file {path.name!r} says it holds {told} points in {path.stat().st_size} bytes, between 1 "
-                    f"and {MOST_POINTS} can be; it may be damaged, export or copy it again"
-                )
-            parts = [np.stack([part.x, part.y, part.z], axis=1) for part in file.chunk_iterator(1_000_000)]
+    with reading(f"scan file {path.name!r}", path.suffix[1:].upper()), laspy.open(path) as file:
+        told = int(file.header.point_count)
+        if not 0 < told <= min(MOST_POINTS, _MOST_PER_BYTE * path.stat().st_size):
+            raise InputError(
+                f"scan file {path.name!r} says it holds {told} points in {path.stat().st_size} bytes, between 1 "
+                f"and {MOST_POINTS} can be; it may be damaged, export or copy it again"
+            )
+        parts = [np.stack([part.x, part.y, part.z], axis=1) for part in file.chunk_iterator(1_000_000)]
         points = np.concatenate(parts) if parts else np.zeros((0, 3))
-    except InputError:
-        raise
-    except BaseException as error:  # laspy raises what it stumbles on; the unpacker in Rust panics beside Exception
-        if isinstance(error, KeyboardInterrupt | SystemExit):
-            raise
-        raise _unreadable(path, error) from error
     if len(points) != told:
         raise InputError(
             f"scan file {path.name!r} says it holds {told} points and has {len(points)}; it may be truncated, export "
@@ -136,22 +129,15 @@ def _of_e57(path: Path) -> Triangles:
     except ImportError as error:
         raise InputError(f"reading .e57 needs pye57, which is not installed; {how_to_install('clouds')}") from error
     _check_e57_header(path)
-    try:
-        with pye57.E57(str(path)) as file:
-            told = [int(file.get_header(k).point_count) for k in range(file.scan_count)]
-            if not 0 < sum(told) <= MOST_POINTS or min(told) < 0:
-                raise InputError(
-                    f"scan file {path.name!r} says it holds {sum(told)} points, between 1 and {MOST_POINTS} can "
-                    "be; it may be damaged, or hold pictures only: export it again"
-                )
-            scans: list[dict[str, Any]] = [
-                file.read_scan(k, ignore_missing_fields=True) for k in range(file.scan_count)
-            ]
+    with reading(f"scan file {path.name!r}", "E57"), pye57.E57(str(path)) as file:
+        told = [int(file.get_header(k).point_count) for k in range(file.scan_count)]
+        if not 0 < sum(told) <= MOST_POINTS or min(told) < 0:
+            raise InputError(
+                f"scan file {path.name!r} says it holds {sum(told)} points, between 1 and {MOST_POINTS} can "
+                "be; it may be damaged, or hold pictures only: export it again"
+            )
+        scans: list[dict[str, Any]] = [file.read_scan(k, ignore_missing_fields=True) for k in range(file.scan_count)]
         points = np.concatenate([np.stack([one[f"cartesian{axis}"] for axis in "XYZ"], axis=1) for one in scans])
-    except InputError:
-        raise
-    except Exception as error:  # the library raises whatever its parser stumbles on
-        raise _unreadable(path, error) from error
     return _checked(np.asarray(points, dtype=np.float64), path)
 
 
@@ -171,13 +157,6 @@ def _check_e57_header(path: Path) -> None:
             f"the header of {path.name!r} tells of {length} bytes with its index at byte {xml}, the file has {size}; "
             "it is truncated or damaged, export or copy it again"
         )
-
-
-def _unreadable(path: Path, error: BaseException) -> InputError:
-    return InputError(
-        f"scan file {path.name!r} could not be read as {path.suffix[1:].upper()} ({said(error)}); it may be "
-        "truncated, export or copy it again"
-    )
 
 
 def _checked(points: Array, path: Path) -> Triangles:

@@ -10,7 +10,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from treadload.errors import GeometryError, InputError, TreadloadError, how_to_install
+from treadload.errors import GeometryError, InputError, TreadloadError, how_to_install, reading, said
 from treadload.kernels.arrays import Array
 from treadload.registry import OURS, READERS, Entry
 from treadload.tire.scan.cloud import mesh_of_points
@@ -116,15 +116,10 @@ def _read(reader: Entry, path: Path) -> Triangles:
 def _of_trimesh(path: Path) -> Triangles:
     """Vertices (n, 3) and faces (m, 3) of a mesh file, in its own unit."""
     trimesh = import_trimesh()
-    try:
+    with reading(f"scan file {path.name!r}", path.suffix[1:].upper()):
         loaded = trimesh.load_scene(path, process=False, skip_materials=True).to_mesh()
         if len(loaded.faces):
             return np.array(loaded.vertices, dtype=np.float64), np.array(loaded.faces, dtype=np.int64)
-    except Exception as error:  # trimesh raises whatever its parsers stumble on
-        raise InputError(
-            f"scan file {path.name!r} could not be read as {path.suffix[1:].upper()} ({said(error)}); "
-            "it may be truncated, export or copy it again"
-        ) from error
     points = _points_of(trimesh, path)
     return (np.zeros((0, 3)) if points is None else points), np.zeros((0, 3), dtype=np.int64)
 
@@ -187,12 +182,6 @@ def renumbered(faces: NDArray[np.int64], count: int) -> tuple[NDArray[np.int64],
     place = np.zeros(count, dtype=np.int64)
     place[used] = np.arange(len(used))
     return used, place[faces]
-
-
-def said(error: BaseException) -> str:
-    """An error of the parser in one short line."""
-    words = " ".join(str(error).split())
-    return f"{type(error).__name__}: {words if len(words) < 120 else words[:117] + '...'}"
 
 
 def _points_of(trimesh: ModuleType, path: Path) -> Array | None:

@@ -1,0 +1,8 @@
+"""Heights of a surface from files of surface metrology: X3P, SDF, SUR, AL3D.
+
+Headers are held against the bytes of the file before SurfaceTopography, an extra, reads a value.
+"""
+
+from treadload.metrology.surface_file import ENDINGS, SurfaceMap, read_surface_map
+
+__all__ = ["ENDINGS", "SurfaceMap", "read_surface_map"]

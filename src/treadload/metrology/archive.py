@@ -1,0 +1,185 @@
+"""X3P, a ZIP archive with an XML header (ISO 25178-72): bombs and lies are refused before a library sees it."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+import zipfile
+from xml.parsers import expat
+
+from treadload.errors import InputError, one_line, reading
+
+MOST_POINTS = 25_000_000
+_MOST_MEMBERS = 1000
+_MOST_XML = 2**22
+_MOST_UNPACKED = 2**29
+# Measured heights pack 1 to 20 times; what packs more in a large member is nothing measured.
+_MOST_RATIO, _SMALL = 200, 2**20
+_DEEPEST, _MOST_ELEMENTS = 32, 20_000
+_HEADER = "main.xml"
+_BYTES = {"I": 2, "L": 4, "F": 4, "D": 8}
+_AXES = "Record1/Axes"
+_UNSAFE = re.compile(r"^[/\\]|^[A-Za-z]:|(^|[/\\])\.\.([/\\]|$)|\0")
+
+
+def check_x3p(content: bytes, name: str) -> tuple[int, int]:
+    """(rows, columns) of the surface in an X3P file. Raises InputError with what is wrong in it."""
+    if not content.startswith(b"PK"):
+        raise InputError(f"{name!r} is no ZIP archive, as every X3P file is; give it the ending of its format")
+    with reading(repr(name), "X3P"), zipfile.ZipFile(io.BytesIO(content)) as archive:
+        members = _members(archive, name)
+        if _HEADER not in members:
+            raise InputError(f"{name!r} has no {_HEADER}, as every X3P file has; export it again")
+        if members[_HEADER].file_size > _MOST_XML:
+            raise InputError(
+                f"{_HEADER} of {name!r} has {members[_HEADER].file_size} bytes, more than {_MOST_XML}; export again"
+            )
+        fields = _fields(archive.read(members[_HEADER]), name)
+        rows, columns, each = _layout(fields, name)
+        count = rows * columns
+        _check_member(archive, members, fields.get("Record3/DataLink/PointDataLink"), count * each, name)
+        valid = fields.get("Record3/DataLink/ValidPointsLink")
+        if valid:
+            _check_member(archive, members, valid, -(-count // 8), name)
+    return rows, columns
+
+
+def _members(archive: zipfile.ZipFile, name: str) -> dict[str, zipfile.ZipInfo]:
+    """Members by name, once all of them are bounded."""
+    found = archive.infolist()
+    if len(found) > _MOST_MEMBERS:
+        raise InputError(f"{name!r} has {len(found)} members, an X3P file has at most {_MOST_MEMBERS}")
+    total = sum(one.file_size for one in found)
+    if total > _MOST_UNPACKED:
+        raise InputError(
+            f"{name!r} unpacks to {total} bytes, more than {_MOST_UNPACKED}; cut a piece of the surface, or do not "
+            "trust the file"
+        )
+    for one in found:
+        if _UNSAFE.search(one.filename):
+            raise InputError(f"{name!r} has a member outside its archive, {one.filename!r}; do not trust the file")
+        if one.flag_bits & 1 or one.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise InputError(f"{one.filename!r} in {name!r} is encrypted or packed as no X3P file is; export again")
+        if one.file_size > _SMALL and one.file_size > _MOST_RATIO * one.compress_size:
+            raise InputError(
+                f"{one.filename!r} in {name!r} unpacks from {one.compress_size} to {one.file_size} bytes, more than "
+                f"{_MOST_RATIO} times; nothing measured packs so small, do not trust the file"
+            )
+    members = {one.filename: one for one in found}
+    if len(members) < len(found):
+        raise InputError(f"{name!r} has two members of one name; export it again")
+    return members
+
+
+def _fields(xml: bytes, name: str) -> dict[str, str]:
+    """Texts of the header by their path below the root, as "Record1/Revision". No document type is read at all."""
+    path: list[str] = []
+    texts: dict[str, list[str]] = {}
+    count = 0
+
+    def begin(tag: str, _: object) -> None:
+        nonlocal count
+        count += 1
+        path.append(tag.rpartition(":")[2])
+        if count > _MOST_ELEMENTS or len(path) > _DEEPEST:
+            raise InputError(
+                f"{_HEADER} of {name!r} has more than {_MOST_ELEMENTS} elements, or elements {_DEEPEST} deep; an X3P "
+                "file has some fifty, four deep"
+            )
+        here = "/".join(path[1:])
+        if here in texts and here.startswith(("Record1", "Record3")):
+            raise InputError(f"{_HEADER} of {name!r} says {here} twice; export it again")
+        texts.setdefault(here, [])
+
+    def end(_: str) -> None:
+        path.pop()
+
+    def words(text: str) -> None:
+        texts["/".join(path[1:])].append(text)
+
+    def refuse(*_: object) -> int:
+        raise InputError(
+            f"{_HEADER} of {name!r} declares a document type or entities, which no X3P file needs and XML bombs are "
+            "made of; do not trust the file"
+        )
+
+    parser = expat.ParserCreate()
+    parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = begin, end, words
+    parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = parser.ExternalEntityRefHandler = refuse
+    with reading(f"{_HEADER} of {name!r}", "XML"):
+        parser.Parse(xml, True)
+    return {path: "".join(parts).strip() for path, parts in texts.items()}
+
+
+def _layout(fields: dict[str, str], name: str) -> tuple[int, int, int]:
+    """Rows, columns and bytes of a height."""
+    for path, wanted in (
+        ("Record1/FeatureType", "SUR"), (f"{_AXES}/CX/AxisType", "I"), (f"{_AXES}/CY/AxisType", "I"),
+        (f"{_AXES}/CZ/AxisType", "A"), ("Record3/MatrixDimension/SizeZ", "1"),
+    ):  # fmt: skip
+        if fields.get(path) != wanted:
+            raise InputError(
+                f"{name!r} says {one_line(repr(fields.get(path)))} for {path}, a surface on even cells has "
+                f"{wanted!r}; profiles and clouds are not read, export a surface"
+            )
+    if "Record3/DataLink/PointDataLink" not in fields:
+        raise InputError(f"{name!r} keeps its heights in no binary member; export it with binary data")
+    kind = fields.get(f"{_AXES}/CZ/DataType", "")
+    if kind not in _BYTES:
+        raise InputError(f"{name!r} has heights of the type {one_line(repr(kind))}; known are {', '.join(_BYTES)}")
+    for axis in ("CX", "CY"):
+        _number(fields, f"{_AXES}/{axis}/Increment", name, positive=True)
+    for path in (f"{_AXES}/CZ/Increment", f"{_AXES}/CZ/Offset"):
+        if path in fields:
+            _number(fields, path, name, positive=path.endswith("Increment"))
+    columns, rows = (_count(fields, f"Record3/MatrixDimension/Size{axis}", name) for axis in "XY")
+    return *checked_shape(rows, columns, name), _BYTES[kind]
+
+
+def checked_shape(rows: int, columns: int, name: str) -> tuple[int, int]:
+    """Numbers of points that a map can have. Raises InputError."""
+    if rows < 1 or columns < 2 or rows * columns > MOST_POINTS:
+        raise InputError(
+            f"{name!r} tells of {rows} x {columns} points; a surface has two columns or more, and {MOST_POINTS} "
+            "points at most: thin it or cut a piece of it"
+        )
+    return rows, columns
+
+
+def _number(fields: dict[str, str], path: str, name: str, *, positive: bool) -> float:
+    try:
+        value = float(fields.get(path, ""))
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value) or (positive and not value > 0):
+        kind = "a positive number" if positive else "a finite number"
+        raise InputError(f"{name!r} says {one_line(repr(fields.get(path)))} for {path}, which must be {kind}")
+    return value
+
+
+def _count(fields: dict[str, str], path: str, name: str) -> int:
+    text = fields.get(path, "")
+    if not re.fullmatch(r"[0-9]{1,9}", text):
+        raise InputError(f"{name!r} says {one_line(repr(fields.get(path)))} for {path}, which must be a whole number")
+    return int(text)
+
+
+def _check_member(
+    archive: zipfile.ZipFile, members: dict[str, zipfile.ZipInfo], link: str | None, size: int, name: str
+) -> None:
+    """The member that the header names, in full: its length and its own checksum."""
+    if link not in members:
+        raise InputError(f"{name!r} names {one_line(repr(link))} for data, and has no such member; export it again")
+    if members[link].file_size != size:
+        raise InputError(
+            f"{link!r} in {name!r} has {members[link].file_size} bytes, and its header tells of {size}; it is "
+            "truncated or damaged, export or copy it again"
+        )
+    # Unpacked once: what lies about its length or its checksum is found here.
+    with archive.open(members[link]) as stream:
+        left = size
+        while left > 0 and (part := stream.read(min(left, 2**20))):
+            left -= len(part)
+        if left or stream.read(1):
+            raise InputError(f"{link!r} in {name!r} is not as long as its archive says; export or copy it again")

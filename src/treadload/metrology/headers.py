@@ -1,0 +1,185 @@
+"""Headers of SDF, SUR and AL3D held against the length of the file, before a library reads them."""
+
+from __future__ import annotations
+
+import math
+import re
+import struct
+
+from treadload.errors import InputError, one_line, positive
+from treadload.metrology.archive import checked_shape
+
+# SDF (ISO 25178-71, table 1): version, maker, two dates, points, profiles, four scales, compression, type, check.
+_SDF = struct.Struct("<8s10s12s12sHH4d3B")
+_SDF_BYTES = (1, 2, 4, 4, 1, 2, 4, 8)
+_SDF_NEEDED = ("NumPoints", "NumProfiles", "Xscale", "Yscale", "Zscale", "DataType")
+_MOST_TEXT = 2**26
+_HEADER_LINES = 100
+# SUR (Digital Surf, 512 bytes): code, format, objects, version, type; then at their places what is needed below.
+_SUR_LENGTH, _SUR_SURFACE, _SUR_PC = 512, 2, 0
+_AL3D = b"AliconaImaging\x00\r\n"
+_TAG = 52
+_UNITS = ("m", "dm", "cm", "mm", "µm", "um", "\xe6m", "nm", "pm")
+
+
+def check_sdf(content: bytes, name: str) -> tuple[int, int]:
+    """(rows, columns) of an SDF file, binary or text. Raises InputError with what is wrong in it."""
+    if content.startswith(b"bISO-1.0"):
+        return _check_binary_sdf(content, name)
+    if content.startswith(b"aISO-1.0"):
+        return _check_text_sdf(content, name)
+    raise InputError(
+        f"{name!r} does not begin with aISO-1.0 or bISO-1.0, as an SDF file does (ISO 25178-71); give it the ending "
+        "of its format"
+    )
+
+
+def _check_binary_sdf(content: bytes, name: str) -> tuple[int, int]:
+    _check_length(content, 0, _SDF.size, name, "its header")
+    _, _, _, _, columns, rows, x, y, z, _, packed, kind, _ = _SDF.unpack_from(content)
+    _check_scales(name, Xscale=x, Yscale=y, Zscale=z)
+    if packed or kind >= len(_SDF_BYTES):
+        raise InputError(
+            f"{name!r} has compression {packed} and data type {kind}; read are compression 0 and types 0 to 7: "
+            "export it plain"
+        )
+    rows, columns = checked_shape(rows, columns, name)
+    _check_length(content, _SDF.size, rows * columns * _SDF_BYTES[kind], name, "its heights")
+    return rows, columns
+
+
+def _check_text_sdf(content: bytes, name: str) -> tuple[int, int]:
+    if len(content) > _MOST_TEXT:
+        raise InputError(
+            f"{name!r} is text of {len(content)} bytes, more than {_MOST_TEXT}; export it as binary SDF (bISO-1.0)"
+        )
+    lines = content[: 2**16].split(b"\n")[:_HEADER_LINES]
+    end = next((k for k, line in enumerate(lines) if line.strip() == b"*"), None)
+    if end is None:
+        raise InputError(f"{name!r} has no line of * below its header, where the heights of an SDF file begin")
+    fields: dict[str, str] = {}
+    for line in lines[1:end]:
+        key, mark, value = line.decode("latin-1").partition("=")
+        if mark and fields.setdefault(key.strip(), value.strip()) != value.strip():
+            raise InputError(f"{name!r} says {one_line(key.strip())} twice; export it again")
+    missing = [key for key in _SDF_NEEDED if key not in fields]
+    if missing:
+        raise InputError(f"{name!r} lacks {missing[0]} in its header; export it again")
+    _check_scales(name, **{key: _float(fields[key]) for key in ("Xscale", "Yscale", "Zscale")})
+    packed, kind = fields.get("Compression", "0"), fields["DataType"]
+    if packed != "0" or not re.fullmatch("[0-7]", kind):
+        raise InputError(
+            f"{name!r} has compression {one_line(packed)} and data type {one_line(kind)}; read are compression 0 and "
+            "types 0 to 7: export it plain"
+        )
+    counts = [fields[key] for key in ("NumProfiles", "NumPoints")]
+    if not all(re.fullmatch("[0-9]{1,9}", one) for one in counts):
+        raise InputError(f"{name!r} tells of {one_line(' x '.join(counts))} points; both must be whole numbers")
+    rows, columns = checked_shape(int(counts[0]), int(counts[1]), name)
+    body = content[sum(len(line) + 1 for line in lines[: end + 1]) :]
+    found = sum(1 for _ in re.finditer(rb"\S+", body.partition(b"*")[0]))
+    if found != rows * columns:
+        raise InputError(
+            f"{name!r} tells of {rows} x {columns} points and has {found} heights; it is truncated or damaged, "
+            "export or copy it again"
+        )
+    return rows, columns
+
+
+def check_sur(content: bytes, name: str) -> tuple[int, int]:
+    """(rows, columns) of a SUR file. Raises InputError with what is wrong in it."""
+    if content.startswith(b"DSCOMPRESSED"):
+        raise InputError(f"{name!r} is a compressed SUR file, which is not read; export it uncompressed")
+    if not content.startswith(b"DIGITAL SURF"):
+        raise InputError(
+            f"{name!r} does not begin with DIGITAL SURF, as a SUR file does; give it the ending of its format"
+        )
+    _check_length(content, 0, _SUR_LENGTH, name, "its header")
+    order, objects, _, kind = struct.unpack_from("<4H", content, 12)
+    if order != _SUR_PC or objects != 1 or kind != _SUR_SURFACE:
+        raise InputError(
+            f"{name!r} holds {objects} objects of type {kind} in byte order {order}; read is one surface (1, 2, 0): "
+            "export the surface alone"
+        )
+    bits, _, _, columns, rows, points = struct.unpack_from("<HiiiiI", content, 98)
+    x, y, z = struct.unpack_from("<3f", content, 120)
+    _check_scales(name, spacing_x=x, spacing_y=y, spacing_z=z)
+    for at in range(180, 276, 16):
+        unit = content[at : at + 16].split(b"\0")[0].decode("latin-1").strip()
+        if unit not in _UNITS:
+            raise InputError(
+                f"{name!r} is in {one_line(repr(unit))}, no unit of length that is known ({', '.join(_UNITS[:5])}, "
+                "nm, pm); export heights and not angles or pictures"
+            )
+    if bits not in (16, 32):
+        raise InputError(f"{name!r} has heights of {bits} bits; 16 and 32 are known")
+    rows, columns = checked_shape(rows, columns, name)
+    if points != rows * columns:
+        raise InputError(f"{name!r} tells of {points} points in {rows} x {columns}; export or copy it again")
+    comment, private = struct.unpack_from("<2H", content, 334)
+    _check_length(content, _SUR_LENGTH + comment + private, points * bits // 8, name, "its heights")
+    return rows, columns
+
+
+def check_al3d(content: bytes, name: str) -> tuple[int, int]:
+    """(rows, columns) of an AL3D file. Raises InputError with what is wrong in it."""
+    if not content.startswith(_AL3D):
+        raise InputError(
+            f"{name!r} does not begin with AliconaImaging, as an AL3D file does; give it the ending of its format"
+        )
+    tags: dict[str, str] = {}
+    at, count = len(_AL3D), 2
+    while len(tags) < count:
+        _check_length(content, at, _TAG, name, "its tags")
+        key, value, end = struct.unpack_from("20s30s2s", content, at)
+        key, value = (one.split(b"\0")[0].decode("latin-1").strip() for one in (key, value))
+        if end != b"\r\n" or key in tags:
+            raise InputError(f"{name!r} has a broken tag at byte {at}; it is damaged, export or copy it again")
+        tags[key] = value
+        at += _TAG
+        if len(tags) == 2:
+            if list(tags) != ["Version", "TagCount"] or not re.fullmatch("[0-9]{1,3}", value):
+                raise InputError(
+                    f"{name!r} begins with the tags {one_line(', '.join(tags))} and {one_line(repr(value))}, an AL3D "
+                    f"file with Version and TagCount, below 1000; export or copy it again"
+                )
+            count = 2 + int(value)
+    needed = ("Rows", "Cols", "DepthImageOffset", "PixelSizeXMeter", "PixelSizeYMeter", "InvalidPixelValue")
+    missing = [key for key in needed if key not in tags]
+    if missing:
+        raise InputError(f"{name!r} lacks the tag {missing[0]}; export a depth map again")
+    numbers = [tags[key] for key in needed[:3]]
+    if not all(re.fullmatch("[0-9]{1,10}", one) for one in numbers):
+        raise InputError(f"{name!r} tells of Rows, Cols, offset {one_line(', '.join(numbers))}; all must be whole")
+    _check_scales(name, **{key: _float(tags[key]) for key in needed[3:5]})
+    mark = tags["InvalidPixelValue"]
+    if mark.casefold() != "nan" and math.isnan(_float(mark)):
+        raise InputError(f"{name!r} says {one_line(repr(mark))} for InvalidPixelValue, which must be a number or NaN")
+    rows, columns = checked_shape(int(numbers[0]), int(numbers[1]), name)
+    if int(numbers[2]) < at:
+        raise InputError(
+            f"{name!r} has no depth image, its offset is {numbers[2]}; export heights, not a picture alone"
+        )
+    # Rows are filled up to multiples of 8 bytes.
+    _check_length(content, int(numbers[2]), rows * (-(-4 * columns // 8) * 8), name, "its heights")
+    return rows, columns
+
+
+def _float(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def _check_scales(name: str, **scales: float) -> None:
+    for key, value in scales.items():
+        positive(f"{key} of {name!r}", value, remedy="export it again")
+
+
+def _check_length(content: bytes, start: int, length: int, name: str, what: str) -> None:
+    if start + length > len(content):
+        raise InputError(
+            f"{name!r} has {len(content)} bytes, and {what} would reach to byte {start + length}; it is truncated or "
+            "damaged, export or copy it again"
+        )
