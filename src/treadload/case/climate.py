@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
@@ -11,6 +12,7 @@ from pydantic import model_validator
 
 from treadload.damage import Climate, Season
 from treadload.damage.climate import MONTHS, PARTS
+from treadload.damage.thermal import Thermal
 from treadload.errors import InputError
 from treadload.materials import GlobalAging
 from treadload.pavement import Heat, Pavement, RoadTemperatures, Weather, divided, read_weather, road_temperatures
@@ -27,7 +29,7 @@ def _season(name: str, share: Share, temperature: Celsius | tuple[Celsius, ...])
 
 
 _Season: Any = table_of(_season)
-SEASONS, HEAT = As(tuple[_Season, ...]), As(Heat)
+SEASONS, HEAT, THERMAL = As(tuple[_Season, ...]), As(Heat), As(Thermal)
 
 
 class AirPart(Table):
@@ -77,6 +79,7 @@ class ClimatePart(Table):
     which the hours of a month are gathered; 4 if left out. hours: shares of the passes in the 24 hours of a day; left
     out, all alike. sublayers: greatest thickness of the parts that courses are divided into below a file or air, or
     where they age; left out, 20 mm at the surface and more below. heat: what the road absorbs, conducts and stores.
+    thermal: daily thermal stress in the damage; left out, none, see docs/explanation/climate.md.
     """
 
     one_of: ClassVar = ("temperature", "months", "seasons", "file", "air")
@@ -90,6 +93,7 @@ class ClimatePart(Table):
     hours: tuple[Share, ...] | None = None
     sublayers: Length | None = None
     heat: Annotated[Any, HEAT] = None
+    thermal: Annotated[Any, THERMAL] = None
 
     @model_validator(mode="after")
     def _one_kind(self) -> ClimatePart:
@@ -99,7 +103,7 @@ class ClimatePart(Table):
             raise ValueError(f"give exactly one of temperature, months, seasons, file and air, got {got}")
         if self.months is not None and len(self.months) != len(MONTHS):
             raise ValueError(f"months needs 12 temperatures in °C, January first, got {len(self.months)}")
-        stray = {"parts_of_day", "hours", "heat"} & self.model_fields_set
+        stray = {"parts_of_day", "hours", "heat", "thermal"} & self.model_fields_set
         if not self.has_weather and stray:
             raise ValueError(f"{sorted(stray)[0]} belongs to a climate of weather; leave it out, or give file or air")
         return self
@@ -117,9 +121,10 @@ class ClimatePart(Table):
         weather = self.weather(folder)
         aged = None if ageing is None else ageing.build(weather)
         found = self.temperatures(road, folder)
-        return Climate.of_road(
+        climate = Climate.of_road(
             road, found, parts=self.parts_of_day, hours=self.hours, sublayers=self.sublayers, ageing=aged
         )
+        return climate if self.thermal is None else replace(climate, thermal=THERMAL.build(self.thermal))
 
     def temperatures(self, road: Pavement, folder: Path) -> RoadTemperatures:
         """Temperatures of a road below the weather, at the middles of its parts and all interfaces."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from treadload.damage.shares import check_shares
+from treadload.damage.thermal import Thermal
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Mix
@@ -123,20 +124,26 @@ class Climate:
     """The temperatures of the road over the passes.
 
     seasons: whose shares sum to 1. about: how they were found, in sentences. warnings: sentences for the user. days:
-    below a weather the mean day of every month, from which figures are drawn and nothing is computed.
-    Raises InputError.
+    below a weather the mean day of every month, from which figures are drawn and daily thermal stress follows.
+    thermal: how that stress counts; None for not at all. Raises InputError.
     """
 
     seasons: tuple[Season, ...]
     about: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     days: TypicalDays | None = field(default=None, compare=False, repr=False)
+    thermal: Thermal | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "seasons", tuple(self.seasons))
         if not self.seasons:
             raise InputError("a climate needs at least one season, got none")
         check_shares("climate", [season.share for season in self.seasons])
+        if self.thermal is not None and self.days is None:
+            raise InputError(
+                "daily thermal stress needs the course of the day over depth, and this climate gives temperatures of "
+                "the road without it; give its weather, in a case file or air, or leave thermal out"
+            )
 
     @classmethod
     def constant(cls, temperature: float) -> Climate:

@@ -14,11 +14,12 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
-from treadload.damage.climate import Climate
+from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw, warnings_of
+from treadload.damage.thermal import DailyCycles, years_until
 from treadload.damage.traffic import Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -40,7 +41,9 @@ class Life(BaseResult, group="life"):
     life_years_with_wander, whichever the law takes; with a design life design_damage; with cracks
     first_crack_angle, first_crack_dip
     (criterion), of the class and season that do most, and orientation_damage (criterion, orientation); below a
-    weather day_temperature (month, hour, profile_depth); where courses are divided sublayer_modulus and
+    weather day_temperature (month, hour, profile_depth); where daily thermal stress counts weather_share,
+    weather_reading, weather_stress (criterion, month) and day_tension (month, profile_depth), damage_share being the
+    traffic's in the whole; where courses are divided sublayer_modulus and
     sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young; with rutting
     rut_depth (rut_layer, year), and rut_names, rut_limit and rut_years in its attributes. criteria,
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
@@ -63,6 +66,8 @@ class Life(BaseResult, group="life"):
             "rut_depth": "rut_layer year",
             "rut_layer": "rut_layer",
             "year": "year",
+            "weather_share weather_reading weather_stress": "criterion month",
+            "day_tension": "month profile_depth",
         },
         labels={"criterion": "criterion", "axle_class": "axle_class", "season": "season"},
         each={"criterion": "criteria"},
@@ -93,6 +98,13 @@ class Life(BaseResult, group="life"):
         """Years from the opening until a criterion's damage is 1 at its worst place; inf if never."""
         return float(self.dataset["life_years"].sel(criterion=criterion))
 
+    def weather_damage(self, number: int) -> float:
+        """Damage of a year that daily thermal stress does by a criterion, by its number."""
+        if "weather_share" not in self.dataset:
+            return 0.0
+        share = float(self.dataset["weather_share"][number].sum())
+        return share * float(self.dataset["damage_per_year"][number].max())
+
     def summary(self) -> str:
         """Life of every criterion, the governing one, and what does most of its damage."""
         data = self.dataset
@@ -106,12 +118,6 @@ class Life(BaseResult, group="life"):
         for criterion in self.criteria:
             row = data.sel(criterion=criterion.name)
             law = criterion.law_at(15.0)
-            share = row["damage_share"].to_numpy()
-            worst = np.unravel_index(int(np.argmax(share)), share.shape)
-            by = (
-                f"most by {data['axle_class'].to_numpy()[worst[0]]}, {data['season'].to_numpy()[worst[1]]} "
-                f"({100 * share[worst]:.0f} %)"
-            )
             used = ""
             if "design_utilisation" in row:
                 used = f", {float(row['design_utilisation']):.2g} of what is allowed for {allowed}"
@@ -119,7 +125,7 @@ class Life(BaseResult, group="life"):
                 f"  {criterion.name}{_of(between.get(criterion.name))}: {_years(float(row['life_years']))}, "
                 f"{float(row['life_passes']):.3g} passes; "
                 f"largest {criterion.quantity} {criterion.quantity.in_words(float(row['largest_reading']))} at "
-                f"y = {float(row['worst_y']) * 1e3:z.0f} mm{used}; {by if share[worst] > 0 else 'no damage'}; "
+                f"y = {float(row['worst_y']) * 1e3:z.0f} mm{used}; {_by_whom(row)}; "
                 f"damage 1 means {law.end_of_life}"
             )
         lines += [f"  {text}" for text in json.loads(data.attrs.get("groups", "[]"))]
@@ -140,6 +146,31 @@ class Life(BaseResult, group="life"):
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
     __repr__ = first_line
+
+
+def _by_whom(row: xr.Dataset) -> str:
+    """The class and season that do most of a criterion's damage, and what the weather does."""
+    share = row["damage_share"].to_numpy()
+    worst = np.unravel_index(int(np.argmax(share)), share.shape)
+    by = (
+        f"most by {row['axle_class'].to_numpy()[worst[0]]}, {row['season'].to_numpy()[worst[1]]} "
+        f"({100 * share[worst]:.0f} %)"
+    )
+    told = [by] if share[worst] > 0 else []
+    told += filter(None, [weather_in_words(row)])
+    return ", ".join(told) or "no damage"
+
+
+def weather_in_words(row: xr.Dataset) -> str:
+    """What daily thermal stress does of a criterion's damage, in words; empty where it does nothing."""
+    if "weather_share" not in row or not float(row["weather_share"].sum()) > 0:
+        return ""
+    share = row["weather_share"].to_numpy()
+    month = int(share.argmax())
+    return (
+        f"by the weather alone {100 * share.sum():.2g} %, most in {MONTHS[month]}, "
+        f"{float(row['weather_stress'][month]) / 1e6:.2g} MPa"
+    )
 
 
 def rut_in_words(data: xr.Dataset) -> str:
@@ -167,6 +198,7 @@ def miner(
     layer_temperatures: Array | None = None,
     cracks: tuple[Array, Array] | None = None,
     laws: Sequence[Sequence[Sequence[FatigueLaw]]] | None = None,
+    weather: DailyCycles | None = None,
 ) -> Life:
     """Life of a road by Miner's sum, D = Σ n / N, over classes of axles and seasons, after wander.
 
@@ -177,7 +209,8 @@ def miner(
     readings. layer_temperatures: (criterion, season), °C, for laws that depend on it; left out, the seasons' one
     temperature. cracks: angle of the trace and dip, rad, (criterion, axle_class, season, y), NaN for none. laws:
     (criterion, axle_class, season), where they hold for the moduli that classes meet; left out, those of
-    layer_temperatures. Wander
+    layer_temperatures. weather: the days' own cycles, which do not grow with the traffic and load the whole width
+    alike. Wander
     counts for laws that do not include it (`includes_wander`); with those that do, such as the French ones whose k_c
     was fitted to roads on which wheels wander, it would count twice: a warning gives both lives. The years are those
     after which the damage at the worst place is 1. Raises InputError for wrong shapes.
@@ -212,7 +245,9 @@ def miner(
     wanders = [wander_of(one, traffic) for one in firsts]
     yearly = np.where([[wander != traffic.wander] for wander in wanders], still, wandering)
     worst = np.array([_worst(one, read, margin) for one, read in zip(yearly, values, strict=True)])
-    peak = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
+    busy = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
+    days = np.zeros(len(criteria)) if weather is None else weather.yearly
+    peak = busy + days
     # Where the spread damage of a criterion is worst, in its columns.
     columns = [
         int(column) - (0 if wander == traffic.wander else margin)
@@ -225,15 +260,19 @@ def miner(
     shares = np.stack(here)
     with np.errstate(divide="ignore", invalid="ignore"):
         passes = np.where(peak > 0, traffic.passes_per_year / peak, math.inf)
+    years = [traffic.years_to(float(one)) for one in passes]
+    for k in np.flatnonzero(days):
+        years[k] = years_until(traffic, float(busy[k]), float(days[k]))
+        passes[k] = traffic.passes(years[k])
     names = [criterion.name for criterion in criteria]
 
     def years_of(part: Array) -> list[float]:
-        return [_years_to(traffic, float(top)) for top in part.max(axis=-1)]
+        return [years_until(traffic, float(top), float(w)) for top, w in zip(part.max(axis=-1), days, strict=True)]
 
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
-        "damage_per_year": (("criterion", "y"), yearly),
+        "damage_per_year": (("criterion", "y"), yearly + days[:, None]),
         "damage_share": (("criterion", "axle_class", "season"), shares),
-        "life_years": (("criterion",), [traffic.years_to(float(p)) for p in passes]),
+        "life_years": (("criterion",), years),
         "life_passes": (("criterion",), passes),
         "worst_y": (("criterion",), wide[worst]),
         "largest_reading": (("criterion",), values.max(axis=(1, 2, 3, 4))),
@@ -243,18 +282,27 @@ def miner(
             [_utilisation(row, read, traffic) for row, read in zip(laws, values, strict=True)],
         ),
     }
+    if weather is not None:
+        over = np.where(peak > 0, peak, 1.0)[:, None]
+        fields["weather_share"] = (("criterion", "month"), weather.damage / over)
+        fields["weather_reading"] = (("criterion", "month"), weather.readings)
+        fields["weather_stress"] = (("criterion", "month"), weather.stress)
+        used = np.maximum(fields["design_utilisation"][1], weather.utilisation)
+        fields["design_utilisation"] = (("criterion",), used)
     coordinates = {
         "criterion": names,
         "axle_class": [row.name for row in traffic.classes],
         "season": [season.name for season in climate.seasons],
         "y": wide,
     }
+    if weather is not None:
+        coordinates["month"] = np.arange(1, len(MONTHS) + 1)
     if traffic.wander.reach:
         fields["life_years_without_wander"] = (("criterion",), years_of(still))
         fields["life_years_with_wander"] = (("criterion",), years_of(wandering))
     if traffic.years is not None:
         growth = growth_factor(traffic.years, traffic.growth, traffic.kind)
-        fields["design_damage"] = (("criterion",), peak * growth)
+        fields["design_damage"] = (("criterion",), busy * growth + days * traffic.years)
     if cracks is not None:
         fields |= _cracks(damage, cracks, wanders, spacing, columns, peak)
         coordinates["orientation"] = list(ORIENTATIONS)
@@ -430,11 +478,6 @@ def _warnings(laws: Sequence[Sequence[FatigueLaw]], values: Array, shares: Array
     seasons = dict.fromkeys([int(shares.sum(axis=0).argmax()), int(values.max(axis=(0, 2, 3)).argmax())])
     heaviest = int(values.max(axis=(1, 2, 3)).argmax())
     return [text for season in seasons for text in warnings_of(laws[heaviest][season], values[:, season])]
-
-
-def _years_to(traffic: Traffic, damage: float) -> float:
-    """Years until a damage of the first year has added up to 1."""
-    return traffic.years_to(traffic.passes_per_year / damage) if damage > 0 else math.inf
 
 
 def _over(part: Any, whole: float) -> Any:

@@ -10,6 +10,8 @@ from treadload.kernels.arrays import Array
 
 # Gauss nodes per step: 1/aT varies as an exponential over a few degrees.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
+# Reduced time of a cycle over a time of relaxation, below which nothing relaxes within it: an error of this size.
+_NEVER = 1e-6
 
 
 def reduced_steps(time: Array, temperature: Array, factor: Callable[[Array], Array]) -> Array:
@@ -46,3 +48,33 @@ def restrained_stress(strain_steps: Array, reduced: Array, moduli: Array, times:
     total: Array = stress
     total[1:] += long_term * np.cumsum(strain_steps, axis=0)
     return total
+
+
+def periodic_stress(strain: Array, reduced: Array, moduli: Array, times: Array, long_term: float) -> Array:
+    """Stress of a generalised Maxwell body under a strain that comes back, cycle after cycle, in its steady state.
+
+    strain: (nt, ...), at the starts of the steps of a cycle, linear in reduced time between, and back to the first.
+    reduced: (nt, ...), steps of reduced time, the last back to the start. moduli, times, long_term: as in
+    `restrained_stress`. What never relaxes, the long-term modulus as well, is free of stress in the mean of the cycle
+    over reduced time, to which all that relaxes tends as its times grow. Returns (nt, ...), Pa.
+    Per term s_{k+1} = s_k e^{-r_k} + E Δε_k (1 - e^{-r_k})/r_k, r = Δξ/τ, with s_nt = s_0.
+    """
+    rises = np.roll(strain, -1, axis=0) - strain
+    middle = strain + 0.5 * rises
+    total = reduced.sum(axis=0)
+    apart = strain - (middle * reduced).sum(axis=0) / total
+    stress: Array = long_term * apart
+    for modulus, time in zip(moduli, times, strict=True):
+        ratio = reduced / time
+        gone = -np.expm1(-ratio)
+        gain = rises * np.divide(gone, ratio, out=np.ones_like(gone), where=ratio > 0)
+        own = np.zeros_like(strain)
+        last = np.zeros(strain.shape[1:])
+        for step in range(len(strain)):
+            own[step] = last
+            last = last * (1 - gone[step]) + gain[step]
+        whole = total / time
+        start = np.divide(last, -np.expm1(-whole), out=np.zeros_like(last), where=whole > 0)
+        kept = np.exp(-np.concatenate([np.zeros((1, *last.shape)), np.cumsum(ratio, axis=0)[:-1]]))
+        stress = stress + modulus * np.where(whole > _NEVER, own + start * kept, apart)
+    return stress

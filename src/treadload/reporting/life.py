@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.indices import NO_WORK
-from treadload.damage.miner import rut_in_words
+from treadload.damage.miner import rut_in_words, weather_in_words
 from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years
@@ -134,6 +134,8 @@ def _facts(data: xr.Dataset) -> tuple[tuple[str, str], ...]:
     if ends:
         facts.append(("damage 1 means", str(ends[int(data["life_years"].to_numpy().argmin())])))
     facts += [("worst place", f"{_deep(row)}, {_aside(row)}"), ("first crack", which_way(row, _harm(data)))]
+    if weather := weather_in_words(row):
+        facts.append(("daily thermal stress", weather))
     if "elasticity" in data:
         first = zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True)
         for name, value in first:

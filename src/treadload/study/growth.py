@@ -30,6 +30,7 @@ from treadload.damage.growth.intensity import (
 from treadload.damage.growth.laws import GrowthLaw, ParisLaw, law_of_mix
 from treadload.damage.growth.solution import MODES, Growth
 from treadload.damage.miner import Life
+from treadload.damage.thermal import passes_until
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
 from treadload.materials.kinds import limit_of, upright
@@ -297,10 +298,10 @@ def _way(
 
 def _passes_to_start(life: Life, number: int, fine: Array, places: Array) -> Array:
     """Passes until the damage at each place is 1, at the places."""
-    damage = life.dataset["damage_per_year"].to_numpy()[number]
+    weather = life.weather_damage(number)
+    damage = life.dataset["damage_per_year"].to_numpy()[number] - weather
     there = np.interp(places, fine, damage, left=0.0, right=0.0)
-    with np.errstate(divide="ignore", over="ignore"):
-        return np.where(there > 0, life.traffic.passes_per_year / there, np.inf)
+    return passes_until(life.traffic, there, weather)
 
 
 def _targets(length: float, thickness: float) -> Array:

@@ -15,12 +15,14 @@ from treadload.materials import Elastic
 from treadload.pavement import Pavement, divided
 from treadload.pavement.sublayers import middle_temperatures
 from treadload.study.seasons import warmed
+from treadload.study.thermal import day_tension
 
 
 def climate_fields(road: Pavement, climate: Climate) -> xr.Dataset:
     """Fields of a life, see `Life`, that tell temperatures and moduli over depth; what a climate lacks is left out.
 
-    day_temperature (month, hour, profile_depth), below a weather. sublayer_temperature and sublayer_modulus (season,
+    day_temperature (month, hour, profile_depth), below a weather; with daily thermal stress day_tension (month,
+    profile_depth). sublayer_temperature and sublayer_modulus (season,
     sublayer), where all seasons divide courses alike: of all parts above the last layer, without the frequencies of
     the classes; NaN for a material without one modulus. sublayer_modulus_young: with ageing, that of the young mix.
     """
@@ -34,6 +36,8 @@ def climate_fields(road: Pavement, climate: Climate) -> xr.Dataset:
             "hour": days.hours,
             "profile_depth": days.depths,
         }
+        if climate.thermal is not None:
+            fields["day_tension"] = (("month", "profile_depth"), day_tension(road, climate))
     seasons = climate.seasons
     if all(one.profile is not None for one in seasons) and len({one.sublayers for one in seasons}) == 1:
         parts, owner = divided(road, thickest=seasons[0].sublayers)

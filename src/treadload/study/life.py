@@ -28,6 +28,7 @@ from treadload.study.passages import Passages, solve_passages
 from treadload.study.rutting import rut_fields
 from treadload.study.seasons import frequencies
 from treadload.study.surface_works import surface_works
+from treadload.study.thermal import daily_cycles
 from treadload.tire import Tire
 
 
@@ -61,6 +62,7 @@ def solve_life(
         tire, road, traffic, climate, criteria,
         spacing=spacing, tolerance=tolerance, workers=workers, progress=progress, contacts=contacts,
     )  # fmt: skip
+    weather = daily_cycles(road, climate, criteria, traffic)
     life = miner(
         passages.readings,
         criteria,
@@ -69,13 +71,14 @@ def solve_life(
         layer_temperatures=passages.layer_temperatures,
         cracks=(passages.crack_angle, passages.crack_dip),
         laws=passages.laws,
+        weather=weather,
     )
     depths = ("criterion", _read_depths(life, passages), variables.attributes("read_depth"))
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))
     factors, axles = group_factors(road, life, passages, workers)
     names = (tuple(row.name for row in traffic.classes), tuple(criterion.name for criterion in criteria))
     plain = _at_one_frequency(tire, road, traffic, climate, criteria, life, tolerance=tolerance, **again)
-    sentences = [*climate.about, *plain, *in_words(*names, factors, axles)]
+    sentences = [*climate.about, *(weather.about if weather else ()), *plain, *in_words(*names, factors, axles)]
     about = {
         "groups": json.dumps(sentences, ensure_ascii=False),
         "between": json.dumps(_interfaces(road, criteria), ensure_ascii=False),
@@ -102,7 +105,7 @@ def solve_life(
     }
     said = (
         *_lifts(road, criteria), *traffic_doubts(tire, traffic, climate), *climate.warnings,
-        *beyond_tables(road, climate), *passages.warnings, *rut,
+        *beyond_tables(road, climate), *(weather.warnings if weather else ()), *passages.warnings, *rut,
     )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *said))
 

@@ -15,7 +15,9 @@ from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
+from treadload.damage.criterion import Criterion
 from treadload.damage.miner import Life, damage_of, wander_of
+from treadload.damage.thermal import years_until
 from treadload.damage.traffic import Traffic, Wander
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -25,6 +27,7 @@ from treadload.materials.kinds import AnyElastic
 from treadload.pavement import Pavement
 from treadload.study.altered import Question, Solver, in_seasons, most, names_of, stiffer, thicker
 from treadload.study.contacts import Contacts, Progress
+from treadload.study.thermal import daily_cycles
 from treadload.tire import Tire
 
 TEMPERATURE = "temperature (per °C)"
@@ -100,11 +103,16 @@ def life_sensitivity(
     if not math.isfinite(passes):
         raise InputError("no criterion ever fails, so no input shortens the life; give more passes")
     pairs, covered = most(data["damage_share"].to_numpy(), coverage)
-    growth = _growth(life.traffic, passes)
+    weather = life.weather_damage(number)
+    busy = float(data["damage_per_year"].max()) - weather
+    growth, steady = _growth(life.traffic, passes), 0.0
+    if weather > 0:
+        growth, steady = _slopes(life.traffic, busy, weather)
     question = (road, life.traffic, life.climate)
-    elasticity = _without_solves(life, number, growth)
+    elasticity = _without_solves(life, number, growth, steady)
     changes, skipped = _changes(question)
     asked: list[tuple[str, float, Question]] = []
+    days: dict[str, list[float]] = {}
     for name, change in changes.items():
         try:
             both = [(name, sign, change(sign)) for sign in (-1.0, 1.0)]
@@ -114,12 +122,16 @@ def life_sensitivity(
             skipped.append(f"{name}: {error}")
             continue
         asked += both
+        if steady:
+            days[name] = [_of_days(changed, criterion) for _, _, changed in both]
     solver = Solver(criterion, pairs, contacts or Contacts(tire, spacing), progress)
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
         damage = solver.damages([question for _, _, question in asked], pool)
     for (name, _, _), less, more in zip(asked[::2], damage[::2], damage[1::2], strict=True):
         apart = 2 * _DEGREES if name == TEMPERATURE else math.log((1 + _STEP) / (1 - _STEP))
         elasticity[name] = -growth * math.log(more / less) / apart
+        if steady:
+            elasticity[name] -= steady * math.log(days[name][1] / days[name][0]) / apart
     order = sorted(elasticity, key=lambda name: -abs(elasticity[name]) * (_DEGREES if name == TEMPERATURE else _STEP))
     dataset = variables.dataset(
         {"elasticity": (("input",), [elasticity[name] for name in order])},
@@ -140,7 +152,23 @@ def _growth(traffic: Traffic, passes: float) -> float:
     return math.log(more / less) / math.log((1 + _STEP) / (1 - _STEP))
 
 
-def _without_solves(life: Life, number: int, growth: float) -> dict[str, float]:
+def _slopes(traffic: Traffic, damage: float, weather: float) -> tuple[float, float]:
+    """Elasticities of the years, less their sign, to the damage of the traffic and to that of the weather."""
+    less, more = 1 - _STEP, 1 + _STEP
+    apart = math.log(more / less)
+    by_traffic = [years_until(traffic, damage * factor, weather) for factor in (less, more)]
+    by_weather = [years_until(traffic, damage, weather * factor) for factor in (less, more)]
+    return math.log(by_traffic[0] / by_traffic[1]) / apart, math.log(by_weather[0] / by_weather[1]) / apart
+
+
+def _of_days(question: Question, criterion: Criterion) -> float:
+    """Damage of a year that daily thermal stress does in a changed question."""
+    road, traffic, climate = question
+    found = daily_cycles(road, climate, (criterion,), traffic)
+    return 0.0 if found is None else float(found.yearly[0])
+
+
+def _without_solves(life: Life, number: int, growth: float, steady: float) -> dict[str, float]:
     """Elasticities for passes, wander and the law's strain, from the readings of the life."""
     traffic, climate, criterion = life.traffic, life.climate, life.criteria[number]
     readings = life.readings.to_numpy()[number : number + 1]
@@ -155,7 +183,12 @@ def _without_solves(life: Life, number: int, growth: float) -> dict[str, float]:
     apart = math.log((1 + _STEP) / (1 - _STEP))
     own = wander_of(laws[0][0], traffic)
     stronger, weaker = (peak(readings / (1 + sign * _STEP), own) for sign in (1, -1))
-    elasticity[f"strength of {criterion.name}"] = -growth * math.log(stronger / weaker) / apart
+    strength = -growth * math.log(stronger / weaker) / apart
+    if steady:
+        read = life.dataset["weather_reading"].to_numpy()[number]
+        strong, weak = ((1 / laws[0][0].allowable_passes(read / (1 + sign * _STEP))).sum() for sign in (1, -1))
+        strength -= steady * math.log(strong / weak) / apart
+    elasticity[f"strength of {criterion.name}"] = strength
     if own.deviation:
         wide, narrow = (peak(readings, Wander.normal(own.deviation * (1 + sign * _STEP))) for sign in (1, -1))
         elasticity["wander"] = -growth * math.log(wide / narrow) / apart

@@ -90,6 +90,7 @@ class MepdgBottomUp(_Mepdg):
     reads = BOTTOM_EXTENSION
     end_of_life: ClassVar[str] = "half of the lane's area is cracked, see `bottom_up_cracking`"
     calibrated: ClassVar[str] = "by LTPP sections of the United States, from memory; locally by `calibration`"
+    includes_weather: ClassVar[bool] = True
 
     @property
     def thickness_factor(self) -> float:
@@ -114,6 +115,7 @@ class MepdgTopDown(_Mepdg):
     reads = SURFACE_EXTENSION
     end_of_life: ClassVar[str] = "a metre of crack along each metre of lane, see `top_down_cracking`"
     calibrated: ClassVar[str] = "by LTPP sections for strain at points under uniform discs, from memory"
+    includes_weather: ClassVar[bool] = True
 
     @property
     def thickness_factor(self) -> float:
@@ -142,6 +144,7 @@ class AsphaltInstitute(_Regression):
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1; exponents in CRREL Special Report 96-21"
     end_of_life: ClassVar[str] = "a fifth of the lane is cracked by fatigue"
     calibrated: ClassVar[str] = "by sections of the AASHO road test, from memory"
+    includes_weather: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -185,6 +188,7 @@ class AsphaltInstituteSubgrade(PowerLaw):
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1"
     end_of_life: ClassVar[str] = "a rut of 12.7 mm"
     calibrated: ClassVar[str] = "by the AASHO road test and roads of California, from memory"
+    includes_weather: ClassVar[bool] = True
 
     @property
     def doubt(self) -> str:

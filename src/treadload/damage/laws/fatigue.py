@@ -84,6 +84,8 @@ class PowerLaw(ABC):
     source: ClassVar[str]
     end_of_life: ClassVar[str]
     includes_wander: ClassVar[bool] = False
+    # Fitted to roads, whose days and nights load them below the traffic too.
+    includes_weather: ClassVar[bool] = False
     # What ties it to roads, for `treadload criteria`.
     calibrated: ClassVar[str] = USERS
 

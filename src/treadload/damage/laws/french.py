@@ -67,6 +67,7 @@ class FrenchBituminous(PowerLaw):
     end_of_life: ClassVar[str] = _FAILS
     calibrated: ClassVar[str] = _BY_ROADS
     includes_wander: ClassVar[bool] = True
+    includes_weather: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         check_strain(self.epsilon_6)
@@ -161,6 +162,7 @@ class FrenchHydraulic(PowerLaw):
     end_of_life: ClassVar[str] = _FAILS
     calibrated: ClassVar[str] = _BY_ROADS
     includes_wander: ClassVar[bool] = True
+    includes_weather: ClassVar[bool] = True
 
     @classmethod
     def of(
@@ -231,6 +233,7 @@ class FrenchSubgrade(PowerLaw):
     end_of_life: ClassVar[str] = "the rut that the method accepts; the source gives no depth"
     calibrated: ClassVar[str] = "by French roads, for the strain under uniform discs"
     includes_wander: ClassVar[bool] = True
+    includes_weather: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         positive("constant", self.constant, remedy="12000 microstrain is 0.012")

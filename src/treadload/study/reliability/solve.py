@@ -128,6 +128,12 @@ def life_reliability(
         for k, error in zip(chosen, errors, strict=True)
         if error > _DOUBTFUL
     )
+    said += tuple(
+        f"{life.criteria[k].name}: daily thermal stress does {100 * share:.2g} % of its damage, which scatters and "
+        "grows here as that of the traffic does"
+        for k in chosen
+        if (share := _weather_share(life, k)) > 0
+    )
     stats = {
         "contacts": solved,
         "responses": responses,
@@ -137,6 +143,10 @@ def life_reliability(
         "seconds": time.perf_counter() - start,
     }
     return Reliability(dataset, scatter, stats, tuple(dict.fromkeys(said)))
+
+
+def _weather_share(life: Life, number: int) -> float:
+    return float(life.dataset["weather_share"][number].sum()) if "weather_share" in life.dataset else 0.0
 
 
 def roads_asked(road: Pavement, criteria: Sequence[Criterion], scatter: Scatter) -> int:
