@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from half_space import stress_at_points, stress_by_unit_loads, stress_on_cells, stress_on_grid
+from treadload.kernels.half_space import interior
 
 DX, DY = 0.003, 0.004
 DEPTHS = np.array([0.0, 1e-4, 0.003, 0.05])
@@ -158,3 +159,21 @@ def test_far_below_it_is_a_point_load():
     force = load[0].sum() * DX * DY
     # Boussinesq on the axis; differences of corners lose (cell / depth)² of 16 digits: 1e-16 / 4e-9.
     np.testing.assert_allclose(stress[2], -3 * force / (2 * np.pi * depth**2), rtol=1e-6)
+
+
+def test_points_far_from_a_load_in_single_numbers_are_those_of_double_ones(monkeypatch):
+    """Wheels of other axles: from coarse cells and few offsets, within what readings ask, 1e-6 of the largest."""
+    random, offsets = np.random.default_rng(3), []
+    load = random.uniform(-1, 1, (3, 2, 40, 50)) * np.array([9.0, 3.0, 3.0])[:, None, None, None]
+    load[0] = np.abs(load[0])
+    y = 3e-3 * np.concatenate([np.arange(-30, 60, 7), np.arange(0, 40)])
+    functions = interior.at_corners
+    monkeypatch.setattr(interior, "at_corners", lambda *at: offsets.append(at[0].size * at[1].size) or functions(*at))
+    for first, count, coarse in ((231, 50, True), (-231 - 50, 50, True), (231, 1, True), (120, 20, False)):
+        x, depths = 3e-3 * (first + np.arange(count)), np.array([0.0, 2e-3, 9e-3])
+        given = (3e-3, 3e-3, depths, 1.0, 0.35, x, y, "fft")
+        exact, few = (interior.fields_on_grid(one, *given, moves=False)[0] for one in (load, load.astype(np.float32)))
+        assert np.abs(few - exact).max() < 3e-7 * np.abs(load).max()
+        # A sixth each way, and four corners of its own for each.
+        assert (sum(offsets[3:]) < 0.35 * sum(offsets[:3])) == coarse
+        offsets.clear()

@@ -2,18 +2,22 @@
 
 import math
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from treadload.damage import AxleClass, Criterion, FatigueLine, FrenchSubgrade
+from treadload import variables
+from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchSubgrade, Traffic
+from treadload.damage.indices import tearing_work
 from treadload.damage.quantity import STRAIN, STRESS
 from treadload.grid import Grid
-from treadload.materials import Elastic, Prony
+from treadload.materials import Elastic, Mix, Prony
 from treadload.pavement import HALF_BONDED, Layer, Pavement
 from treadload.response import GridLoad, UniformDisc, several, solve_response
 from treadload.response import layered as layered_module
 from treadload.response.several import Question, tensors_of_many
+from treadload.study import surface_works
 from treadload.study.contacts import Contacts, Counter
 from treadload.study.passage import Passing, batches, passages
 from treadload.study.seasons import Warm
@@ -110,6 +114,42 @@ def test_what_pairs_share_is_computed_once(monkeypatch):
     assert calls == {"half": 1, "transfer": 2 * len(roads)}
     tensors_of_many(questions, X, Y, needs=STRESS)
     assert calls["transfer"] == 2 * len(roads)
+
+
+def test_loads_on_one_road_at_the_same_depths_stand_on_one_site(monkeypatch):
+    """And what the closed form would cost under a load is counted once for all roads."""
+    sites, costs = [], []
+    whole, cost = several.layered_responses, layered_module.grid_cost
+
+    def told(loads, places, pairs, *rest, **more):
+        sites.append((len(places), pairs))
+        return whole(loads, places, pairs, *rest, **more)
+
+    monkeypatch.setattr(several, "layered_responses", told)
+    monkeypatch.setattr(layered_module, "grid_cost", lambda *given: costs.append(1) or cost(*given))
+    wheels = ([load()], [load()], [load()])
+    questions = [Question(one, own, np.array([0.0, 0.01])) for own in ROADS[:2] for one in wheels]
+    tensors_of_many(questions, X, Y, needs=STRESS)
+    assert sites == [(2, [(load, site) for site in range(2) for load in range(3)])]
+    assert len(costs) == 1
+
+
+def test_tearing_is_worked_out_once_for_all_seasons(monkeypatch):
+    given, calls = {"x": np.arange(4) * 0.01, "y": np.arange(3) * 0.01}, []
+    shear = {f"traction_{name}": (("y", "x"), RANDOM.uniform(-1e5, 1e5, (3, 4))) for name in "xy"}
+    contact = variables.dataset(shear, given)
+    row, tire = AxleClass("one", 1.0, 20e3, 820e3), Tire.from_profile(TreadProfile(0.538, 1.678, 0.2, 0.0088))
+    mix = Mix("mix", (0.0, 30.0), (10.0,), ((9e9, 1e9),), 0.35)
+    warm = Pavement([Layer(mix, 0.1), Layer(Elastic(1e8, 0.4))])
+    monkeypatch.setattr(surface_works, "tearing_work", lambda *one: calls.append(1) or tearing_work(*one))
+    found = surface_works.surface_works(
+        tire, warm, Traffic((row,), 1e6), Climate.equal_parts([5.0, 25.0]),
+        SimpleNamespace(known={state(row): SimpleNamespace(dataset=contact)}),
+    )  # fmt: skip
+    moduli = [warm.at_temperature(t).layers[0].resolved.shear_modulus for t in (5.0, 25.0)]
+    expected = [[float(tearing_work(contact, one).max()) for one in moduli]]
+    np.testing.assert_allclose(found["largest_tearing_work"][1], expected, rtol=1e-14)
+    assert len(calls) == 1
 
 
 def test_the_rest_of_a_road_that_is_no_number_is_refused(monkeypatch):

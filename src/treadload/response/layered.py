@@ -107,7 +107,8 @@ def layered_responses(
     discs = [[one for one in several if isinstance(one, UniformDisc)] for several in loads]
     gridded = [[one for one in several if isinstance(one, GridLoad)] for several in loads]
     under_cells = [pair for pair in pairs if gridded[pair[0]]]
-    split = [_split(layout, gridded, number, under_cells, view) for number, layout in enumerate(layouts)]
+    costs = _Closed(gridded, view)
+    split = [_split(layout, gridded, number, under_cells, view, costs) for number, layout in enumerate(layouts)]
     waves = iter(_under_cells(gridded, split, under_cells, view) if under_cells else [])
     tops = _Top(discs, view), _Top(gridded, view)
     # One after the other: what is made of the waves is larger than they are.
@@ -266,27 +267,44 @@ def _split(
     number: int,
     pairs: Sequence[tuple[int, int]],
     view: View,
+    costs: _Closed,
 ) -> _Layout:
     """The layout with the half-space split off where that is cheaper under the first of its loads."""
-    own = [load for load, site in pairs if site == number]
-    return replace(layout, split=_worth_splitting(loads[own[0]], layout, view)) if own else layout
+    first = next((load for load, site in pairs if site == number), None)
+    if first is None:
+        return layout
+    return replace(layout, split=_worth_splitting(loads[first], layout, view, costs.of(first, layout.depths)))
 
 
-def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, view: View) -> list[bool]:
-    """Where the half-space is split off: not at depths where the waves alone cost less than its closed form."""
+@dataclass(frozen=True, eq=False)
+class _Closed:
+    """What the closed form costs under loads in a view: that of each load at each depth is counted once."""
 
-    def cost(x: Array, y: Array) -> Array:
-        costs: Array = np.sum(
-            [
-                grid_cost(one.array, grid.dx, grid.dy, layout.depths, x - grid.x0, y - grid.y0)
-                for one in loads
-                for grid in [one.grid]
-            ],
-            axis=0,
-        )
-        return costs
+    loads: Sequence[Sequence[GridLoad]]
+    view: View
+    known: dict[tuple[int, tuple[float, ...]], Array] = field(default_factory=dict)
 
-    closed = cost(view.x, view.y) if view.at is None else view.at.total(cost, view.x, view.y)
+    def of(self, load: int, depths: Array) -> Array:
+        """Of one of the loads, by number, at depths (nz,), as `grid_cost` counts."""
+        key = (load, tuple(map(float, depths)))
+        if key not in self.known:
+
+            def cost(x: Array, y: Array) -> Array:
+                several = [(one, one.grid) for one in self.loads[load]]
+                parts = [grid_cost(one.array, at.dx, at.dy, depths, x - at.x0, y - at.y0) for one, at in several]
+                costs: Array = np.sum(parts, axis=0)
+                return costs
+
+            x, y, at = self.view.x, self.view.y, self.view.at
+            self.known[key] = cost(x, y) if at is None else at.total(cost, x, y)
+        return self.known[key]
+
+
+def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, view: View, closed: Array) -> list[bool]:
+    """Where the half-space is split off: not at depths where the waves alone cost less than its closed form.
+
+    closed: of the closed form at each depth.
+    """
 
     def worth(row: int) -> bool:
         z = float(layout.depths[row])

@@ -178,8 +178,16 @@ def _solve(
     layered = [one for one in questions if not (one.road.is_viscoelastic or one.road.is_homogeneous)]
     several = list({id(one.loads): one.loads for one in layered}.values())
     place = {id(loads): number for number, loads in enumerate(several)}
-    pairs = [(place[id(one.loads)], number) for number, one in enumerate(layered)]
-    sites = [Site(one.road, one.depths) for one in layered]
+    # Loads on one road at the same depths stand on one site.
+    sites: list[Site] = []
+    numbers: dict[tuple[int, tuple[float, ...]], int] = {}
+    pairs = []
+    for one in layered:
+        key = (id(one.road), tuple(map(float, one.depths)))
+        if key not in numbers:
+            numbers[key] = len(sites)
+            sites.append(Site(one.road, one.depths))
+        pairs.append((place[id(one.loads)], numbers[key]))
     found = layered_responses(several, sites, pairs, view, below=below)
     for one, parted in zip(questions, asked, strict=True):
         if one.road.is_viscoelastic:

@@ -24,6 +24,7 @@ _BESIDE = 0.06
 # Below this depth, m, points a sixth of the depth apart, at most the last, m, follow the field: 1 % of the shear
 # at 60 mm.
 _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
+_DIMS = ("depth", "y", "x")
 # Points of all fields that are solved together: some 200 MB with what is made of them.
 _TOGETHER = 900_000
 
@@ -104,8 +105,10 @@ def passages(tasks: Sequence[Passing]) -> list[Array]:
         x, rows = _along(wheels, plane.stride), _rows(wheels, y, plane.stride)
         solved = _solved([(tasks[number], own) for number, own in members.items()], plane, x, y[rows])
         for (number, own), data in zip(members.items(), solved, strict=True):
+            known = list(data["depth"].to_numpy())
             for k in own:
-                at = data.sel(depth=list(tasks[number].depths(k)))
+                own_rows = [known.index(depth) for depth in tasks[number].depths(k)]
+                at = data if own_rows == list(range(len(known))) else data.isel(depth=own_rows)
                 _read(results[number][k], tasks[number].criterion(k), at, tasks[number], plane, rows)
     return results
 
@@ -157,10 +160,21 @@ def _read(result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, 
     result[:turns] = np.maximum(_between(y[rows], peaks, smooth=smooth)(y), 0.0)
     instant = read.argmax(axis=1)
     deep = np.take_along_axis(deepest, instant[:, None], axis=1)[:, 0]
-    worst = data.isel(x=xr.DataArray(instant, dims="y"), depth=xr.DataArray(deep, dims="y"))
+    worst = _at_worst(data, deep, instant)
     nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
     for part, field in enumerate((*criterion.crack(worst), data["depth"].to_numpy()[deep])):
         result[turns + part] = field[nearest]
+
+
+def _at_worst(data: xr.Dataset, deep: Any, instant: Any) -> xr.Dataset:
+    """A dataset at one depth and one x for each y, by their numbers."""
+    if any(field.dims != _DIMS for field in data.data_vars.values()):
+        return data.isel(x=xr.DataArray(instant, dims="y"), depth=xr.DataArray(deep, dims="y"))
+    # xarray's own way costs more than what is read.
+    lines = np.arange(len(instant))
+    return xr.Dataset(
+        {str(name): ("y", data.variables[name].to_numpy()[deep, lines, instant]) for name in data.data_vars}
+    )
 
 
 def _stride(depth: float, cell: float) -> int:

@@ -28,14 +28,13 @@ def surface_works(
     polishing = [
         float(polishing_work(one).max()) if "friction_work" in one.dataset else float("nan") for one in known
     ]
-    moduli = [_shear_modulus(warmed(road, (), season).road) for season in climate.seasons]
-    tearing = [
-        [float(tearing_work(one, modulus).max()) if modulus > 0 else float("nan") for modulus in moduli]
-        for one in known
-    ]
+    moduli = np.array([_shear_modulus(warmed(road, (), season).road) for season in climate.seasons])
+    # The work is one over the modulus: once for each contact.
+    softness = np.divide(1.0, moduli, out=np.full(len(moduli), np.nan), where=moduli > 0)
+    tearing = np.outer([float(tearing_work(one, 1.0).max()) for one in known], softness)
     return {
         "largest_polishing_work": (("axle_class",), np.array(polishing)),
-        "largest_tearing_work": (("axle_class", "season"), np.array(tearing)),
+        "largest_tearing_work": (("axle_class", "season"), tearing),
     }
 
 

@@ -7,8 +7,10 @@ lattice. Elsewhere it is summed, or interpolated, see `kernels.gridding.precorre
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -19,6 +21,8 @@ from treadload.kernels.arrays import Array, ComplexArray
 
 # Output coordinates whose place within a cell differs by less than this part of a cell share a lattice.
 _SAME_PLACE = 1e-6
+# Fine cells in a coarse one from afar, and how many of these lie at least between a point and the load.
+_COARSE, _AFAR = 6, 25
 # Points times cells evaluated at once: keeps the temporaries in cache.
 _BLOCK = 17_000
 
@@ -94,10 +98,61 @@ def by_lattices(source: Source, depths: Array, x: Array, y: Array) -> Array:
     fields = np.zeros(shape, source.load.dtype)
     for y0, count_y, at_y, from_y in as_lattices(y, source.dy, ny):
         for x0, count_x, at_x, from_x in as_lattices(x, source.dx, nx):
-            fields[..., at_y[:, None], at_x] = on_lattice(
-                source, depths, (count_y, count_x), x0, y0, (from_y, from_x)
-            )
+            way = from_afar if _is_far(source, x0, count_x) else on_lattice
+            fields[..., at_y[:, None], at_x] = way(source, depths, (count_y, count_x), x0, y0, (from_y, from_x))
     return fields
+
+
+def _is_far(source: Source, x0: float, count: int) -> bool:
+    """Whether points along x, count of them from x0 on, are so far from the load that coarse cells serve readings."""
+    nx = source.load.shape[-1]
+    ahead = max(x0 / source.dx - (nx - 1), -(x0 / source.dx + count - 1))
+    return source.load.dtype == np.float32 and ahead > _AFAR * _COARSE
+
+
+def from_afar(
+    source: Source,
+    depths: Array,
+    shape: tuple[int, int],
+    x0: float,
+    y0: float,
+    wanted: tuple[Indices | slice, Indices | slice] = (slice(None), slice(None)),
+) -> Array:
+    """`on_lattice` where no point is near the load: from coarser cells to coarser points, and between these.
+
+    The load's moments up to the third stay, and the field is as smooth as it is far. Arguments as in `on_lattice`.
+    """
+    (ny, nx), (my, mx) = source.load.shape[-2:], shape
+    (gather_y, first_y), (gather_x, first_x) = _between_coarse(ny), _between_coarse(nx)
+    (spread_y, point_y), (spread_x, point_x) = _between_coarse(my), _between_coarse(mx)
+    wide, high = _COARSE * source.dx, _COARSE * source.dy
+
+    def kernels(x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+        each_y, each_x = (
+            at[0] + step * np.arange(n) for at, step, n in zip((y, x), (high, wide), shape, strict=True)
+        )
+        for values, uses in source.kernels(each_x, each_y, (1, 1), z):
+            yield values[:, 0, :, 0][None, :, None], uses
+
+    coarse = replace(source, load=gather_y.T @ source.load @ gather_x, dx=wide, dy=high, kernels=kernels)
+    first = x0 + source.dx * (point_x - first_x), y0 + source.dy * (point_y - first_y)
+    fields = on_lattice(coarse, depths, (spread_y.shape[1], spread_x.shape[1]), *first)
+    return np.asarray(spread_y[wanted[0]] @ fields @ spread_x[wanted[1]].T, source.load.dtype)
+
+
+@lru_cache(maxsize=64)
+def _between_coarse(count: int) -> tuple[Array, float]:
+    """Weights (count, n) of coarse points in fine ones by Lagrange's cubics; the first of them, in fine steps."""
+    n = math.ceil((count - 1) / _COARSE) + 4
+    first = 0.5 * (count - 1) - 0.5 * (n - 1) * _COARSE
+    at = (np.arange(count) - first) / _COARSE
+    low = np.clip(np.floor(at).astype(int) - 1, 0, n - 4)
+    t = at - low
+    weights = np.zeros((count, n))
+    for k in range(4):
+        others = [j for j in range(4) if j != k]
+        weights[np.arange(count), low + k] = np.prod([(t - j) / (k - j) for j in others], axis=0)
+    return weights, first
 
 
 def on_lattice(

@@ -126,6 +126,7 @@ class ElasticPlane:
         return np.concatenate([moved, pushed])
 
 
+@lru_cache(maxsize=256)
 def rule(limit: float, reach: float, length: float, accuracy: Accuracy = FULL) -> tuple[Array, Array]:
     """Nodes (n,), rising, and weights, 1/m, on (0, limit) for a transform.
 
