@@ -90,6 +90,9 @@ _CROSSING = {
     "share_before": ("1", "share of the load that the road before the first edge carries"),
     "share_beyond": ("1", "share of the load that the road beyond the last edge carries"),
     "highest_pressure": ("Pa", "largest contact pressure that a place of the road has borne"),
+    "plain_pressure": ("Pa", "largest contact pressure on the road without the obstacle"),
+    "plain_work": ("J/m^2", "largest closing work on the road without the obstacle"),
+    "edge_work": ("J/m^2", "largest closing work within a cell of an edge of the road"),
     "closing_work": ("J/m^2", "work of pressing tread and road together, per area of the road"),
     "friction_work_density": ("J/m^2", "work lost by sliding, per area of the road"),
 }

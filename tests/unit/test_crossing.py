@@ -111,6 +111,19 @@ def test_two_strips_of_a_flat_punch_over_a_joint_carry_what_the_closed_form_says
     assert share == pytest.approx(exact, rel=0.04)
 
 
+def test_the_closed_form_of_two_strips_solves_the_equation_of_the_plane():
+    """∫ p(s)/(x - s) ds = 0 on both strips: what is flat stays flat. With t = s² an integral of Cauchy's kind."""
+    a, b = 0.35, 1.0
+    middle, half = 0.5 * (a * a + b * b), 0.5 * (b * b - a * a)
+    # Chebyshev's rule for ∫ dt/(√((b² - t)(t - a²)) (x² - t)) converges where x² lies between two of its nodes.
+    count = 400
+    nodes = middle + half * np.cos((np.arange(count) + 0.5) * np.pi / count)
+    for number in (30, 120, 250, 370):
+        at = middle + half * np.cos(number * np.pi / count)
+        terms = np.pi / count / (at - nodes)
+        assert abs(terms.sum()) < 1e-9 * np.abs(terms).sum()
+
+
 @pytest.mark.slow
 def test_the_approach_on_a_chamfered_step_converges_with_the_cells():
     """Of a chamfer that the cells resolve; pressure at an upright edge grows with every finer grid."""

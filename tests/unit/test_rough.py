@@ -182,8 +182,10 @@ def test_cells_too_coarse_for_the_texture_are_told():
     said = " ".join(tl.solve_contact(ball, ROAD, wheel, relief=PATCH).warnings)
     assert "has waves down to 4.17 mm and the cells are 4 mm: its peaks are cut off" in said
     coarse = tx.Texture(1e-4 * np.cos(np.arange(40) * np.pi / 4)[None] * np.ones((40, 1)), 10e-3, 10e-3)
-    said = " ".join(tl.solve_contact(ball, ROAD, wheel, relief=coarse).warnings)
-    assert "has points every 10 mm, and the cells are 4 mm" in said
+    with pytest.raises(InputError, match=r"points every 10 mm, and the cells of the contact are 4 mm: what lies"):
+        tl.solve_contact(ball, ROAD, wheel, relief=coarse)
+    with pytest.raises(InputError, match=r"points every 10 mm, and the cells of the contact are 4 mm: what lies"):
+        tl.contact.cross_obstacle(ball, ROAD, tl.Rolling(normal_load=200, friction=0.0), coarse, positions=[0.0])
     holes = tx.Texture(np.where(np.eye(40) > 0, np.nan, 0.0), 10e-3, 10e-3)
     with pytest.raises(InputError, match="40 of 1600 are not known"):
         tl.solve_contact(ball, ROAD, wheel, relief=holes)

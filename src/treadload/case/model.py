@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from treadload.case.aggregates import AggregatesPart
 from treadload.case.choices import TIRE_MATERIAL
+from treadload.case.crossing import CrossingPart
 from treadload.case.file import FilePart
 from treadload.case.loading import FootprintPart
 from treadload.case.passes import PassesPart
@@ -22,8 +23,8 @@ from treadload.contact.indentation import check_indented
 from treadload.damage import FatigueLine
 from treadload.errors import InputError
 from treadload.kernels.layers.depths import same_depth
-from treadload.materials import ElastoPlastic
-from treadload.pavement import Pavement
+from treadload.materials import ElastoPlastic, Prony
+from treadload.pavement import Pavement, Relief
 from treadload.read import As, Made, Table
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.material import check_length
@@ -66,11 +67,12 @@ class Case(FilePart):
     does to the surface. passes: how often it rolls over a road that yields.
     aggregates: stones in the mortar of the top layer, in a window. indentation, drum: in place of rolling and what
     follows, a body that dents its road, which `treadload.study.run_dents` and `treadload run` solve. texture: of the
-    road, which the tread touches.
+    road, which the tread touches. crossing: the wheel over a step, a joint or a plate besides.
     """
 
     own_tables: ClassVar = (
-        "rolling", "footprint", "response", "damage", "passes", "aggregates", "texture", "indentation", "drum",
+        "rolling", "footprint", "response", "damage", "passes", "aggregates", "texture", "crossing", "indentation",
+        "drum",
     )  # fmt: skip
     how_to_run: ClassVar = "the case of a wheel: use `treadload run {name}`, in Python Case"
 
@@ -86,6 +88,7 @@ class Case(FilePart):
     passes: PassesPart | None = None
     aggregates: AggregatesPart | None = None
     texture: TexturePart | None = None
+    crossing: CrossingPart | None = None
     indentation: IndentationPart | None = None
     drum: DrumPart | None = None
 
@@ -111,7 +114,11 @@ class Case(FilePart):
         if self.aggregates is not None:
             self.aggregates.road(road)
         if self.texture is not None:
-            self.texture.check(has_tire=self.tire is not None, speed=self.speed)
+            self.texture.check(has_tire=self.tire is not None, speed=self.speed, cell=self.spacing)
+        if self.crossing is not None:
+            self.crossing.check(None if self.rolling is None else self.build_rolling())
+            if self.tire is not None and isinstance(TIRE_MATERIAL.build(self.tire.material), Prony):
+                raise ValueError("[crossing] knows elastic tires only; give tire.material an elastic modulus")
         if self.damage is not None:
             depth = self.damage.depth
             if depth is not None and not same_depth(self.response.depths, depth).any():
@@ -186,6 +193,10 @@ class Case(FilePart):
             raise InputError(f"this case has {held} and no rolling state")
         rolling: Rolling = self.rolling.build(self.folder)
         return rolling
+
+    def build_relief(self) -> Relief | None:
+        """The texture under the whole tire, read from its file if it has one; None where the road is a plane."""
+        return self.texture.build(self.folder) if self.texture is not None and self.texture.resolved else None
 
 
 def _check_yields(who: str, road: Pavement) -> None:

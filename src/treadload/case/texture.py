@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import model_validator
 
+from treadload.contact.relief import check_step
 from treadload.errors import positive
 from treadload.materials import Elastic, Prony
 from treadload.pavement import Texture
@@ -16,14 +17,22 @@ from treadload.registry import MATERIALS
 from treadload.units import Length, Number
 
 RUBBER = Choice(MATERIALS, "rubber of the tread", only=(Elastic, Prony))
+_OF_PATCH = ("rubber", "thickness", "wave")
 _SPECTRUM = ("size", "hurst", "roll_off", "rms_height", "rms_slope", "seed")
 
 
 class TexturePart(Table):
-    """`[texture]`: the road's texture below the tread, see `treadload.contact.solve_texture`.
+    """`[texture]`: the road's texture below the tread, in one of two ways.
 
-    rubber: of the tread, its own; a viscoelastic one is read at the speed over `wave`. thickness: of the tread on its
-    belt; left out, deep. wave: by which a speed becomes a frequency; left out, the texture's mean one.
+    A patch of it that stands for all, under the pressures of the wheel on a plane, `treadload.contact.solve_texture`;
+    or resolved, on the cells of the contact, `treadload.solve_contact(relief=...)`.
+
+    resolved: true to put the texture under the whole tire, which then rolls on its peaks; its points lie no further
+    apart than the cells. enveloping: of a resolved texture, the length over which the pressure on peaks is spread
+    before the layers feel it; half the first depth that is read, or less; left out, the layers feel the peaks.
+    rubber: of the tread, its own; a viscoelastic one is read at the speed over `wave`; of a patch, not of a resolved
+    texture, which meets the tire of the case. thickness: of the tread on its belt; left out, deep. wave: by which a
+    speed becomes a frequency; left out, the texture's mean one.
     file: a texture as it was measured; its drop-outs are filled, its outliers taken out, and it is levelled. units:
     of a matrix of heights, "mm". spacing: of the points of a matrix, or of a spectrum. outliers: slope of a step that
     is a spike, 3 if left out; 0 keeps all. longest: wave of a file that stays. shortest: wave that stays, or that a
@@ -32,7 +41,9 @@ class TexturePart(Table):
     place of rms_height. seed: of the phases. See `treadload.pavement.texture.self_affine`.
     """
 
-    rubber: Annotated[Any, RUBBER]
+    resolved: bool = False
+    enveloping: Length | None = None
+    rubber: Annotated[Any, RUBBER] = None
     thickness: Length | None = None
     wave: Length | None = None
     file: Path | None = None
@@ -55,7 +66,8 @@ class TexturePart(Table):
             raise ValueError(f"{given[0]} is of a spectrum, and file of a measurement: give one of them")
         if self.outliers < 0:
             raise ValueError(f"outliers must be a slope > 0, or 0 to keep all, got {self.outliers:g}")
-        for name in ("thickness", "wave", "spacing"):
+        self._one_way()
+        for name in ("thickness", "wave", "spacing", "enveloping"):
             value = getattr(self, name)
             if value is not None:
                 positive(name, value, "metres", "leave it out for the default")
@@ -69,10 +81,26 @@ class TexturePart(Table):
             self._spectrum()
         return self
 
-    def check(self, *, has_tire: bool, speed: float | None) -> None:
-        """Refuse what does not fit the rest of the case."""
+    def _one_way(self) -> None:
+        stray = [name for name in _OF_PATCH if self.resolved and name in self.model_fields_set]
+        if stray:
+            raise ValueError(
+                f"{stray[0]} is of a patch that stands for the texture, and a resolved one meets the tire of a case: "
+                "leave it out, or resolved"
+            )
+        if not self.resolved and self.rubber is None:
+            raise ValueError("'rubber' is missing: that of the tread; or resolved = true, for the tire of the case")
+        if not self.resolved and self.enveloping is not None:
+            raise ValueError("enveloping is of a resolved texture: give resolved = true, or leave it out")
+
+    def check(self, *, has_tire: bool, speed: float | None, cell: float | None) -> None:
+        """Refuse what does not fit the rest of the case. cell: of its contact, m, where that is known."""
         if not has_tire:
             raise ValueError("[texture] needs the contact of a tire, and this case has a recorded footprint")
+        if self.resolved:
+            if self.file is None and cell is not None:
+                check_step(self._spectrum(), cell)
+            return
         if isinstance(self.build_rubber(), Prony) and speed is None:
             raise ValueError("the rubber of [texture] is viscoelastic: give the speed in [rolling] or [response]")
 

@@ -22,7 +22,7 @@ from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.friction.laws import Interface
-from treadload.contact.relief import above, heights_on
+from treadload.contact.relief import above, check_step, heights_on
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solve import check_border, place
 from treadload.contact.solvers.coupling import Progress
@@ -39,8 +39,10 @@ from treadload.tables import finite_list
 from treadload.tire import Tire
 from treadload.variables import dataset
 
-# Positions of a history at most; cells between two where none are given.
-_MOST, _STRIDE = 400, 4
+MOST_POSITIONS = 400
+"""Positions of a history at most."""
+STRIDE = 4
+"""Cells between two of them where none are given."""
 # Cells that the shortest length of an obstacle needs; Dundurs' β above which shear would change the pressure.
 _FEWEST, _ALIKE = 3, 0.05
 
@@ -62,8 +64,9 @@ class Crossing(BaseResult, group="crossing"):
     """A wheel that crosses an obstacle, with the question that was asked.
 
     dataset: scalars over (position,), pressure over (position, y, x) in the wheel's frame, and over (y, road_x) what
-    the road felt: its height, the largest pressure, the work of closing and of friction. hold: "load" or "axle".
-    stats: iterations, seconds. warnings: sentences for the user.
+    the road felt: its height, the largest pressure, the work of closing and of friction; plain_pressure and
+    plain_work, the largest without the obstacle; edge_work, the largest closing work within a cell of an edge.
+    hold: "load" or "axle". stats: iterations, seconds. warnings: sentences for the user.
     """
 
     holds: ClassVar[Holds] = Holds(
@@ -72,7 +75,7 @@ class Crossing(BaseResult, group="crossing"):
             "pressure": "position y x",
             "road_height highest_pressure closing_work": "y road_x",
         },
-        maybe={"friction_work_density": "y road_x"},
+        maybe={"friction_work_density": "y road_x", "plain_pressure plain_work edge_work": ""},
         numbers="dx dy",
         positive="dx dy",
     )
@@ -93,21 +96,32 @@ class Crossing(BaseResult, group="crossing"):
         load, area = d["normal_load"].to_numpy() / 1e3, d["contact_area"].to_numpy() * 1e6
         high = int(peak.argmax())
         held = "the load" if self.hold == "load" else "the height of the axle"
-        work = d["closing_work"].to_numpy()
+        work = float(d["closing_work"].max()) / 1e3
         lines = [
             f"crossing      {self.relief}",
             f"way           {at[0]:.1f} to {at[-1]:.1f} mm in {len(at)} positions, {held} held",
             f"normal load   {load.min():.3f} to {load.max():.3f} kN",
             f"contact area  {area.min():.0f} to {area.max():.0f} mm²",
-            f"peak pressure {peak[0]:.0f} kPa before it, {peak[high]:.0f} kPa at {at[high]:.1f} mm",
-            f"at an edge    {float(d['edge_pressure'].max()) / 1e3:.0f} kPa at most",
-            f"closing work  {float(work.max()):.1f} J/m² at most, {float(np.median(work.max(axis=0))):.1f} usual",
+            f"peak pressure {_beside(float(peak[high]), d)} at {at[high]:.1f} mm",
+            f"at an edge    {_beside(float(d['edge_pressure'].max()) / 1e3, d)} at most",
+            f"closing work  {work:.3g} kJ/m² at most",
         ]
+        if "edge_work" in d and "plain_work" in d:
+            edge, plain = float(d["edge_work"]) / 1e3, float(d["plain_work"]) / 1e3
+            lines[-1] += f", {edge:.3g} at an edge, {plain:.3g} on the plane"
         if "friction_work_density" in d:
             lines.append(f"sliding work  {float(d['friction_work_density'].max()):.2f} J/m² at most")
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
     __repr__ = first_line
+
+
+def _beside(peak: float, data: xr.Dataset) -> str:
+    """A pressure, kPa, beside that on a road without the obstacle."""
+    plain = float(data["plain_pressure"]) / 1e3 if "plain_pressure" in data else 0.0
+    if not plain > 0:
+        return f"{peak:.0f} kPa"
+    return f"{peak:.0f} kPa, {peak / plain:.3g} times the {plain:.0f} kPa of the plane,"
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,15 +186,15 @@ def cross_obstacle(
         bodies.both.check_shear()
     tell("locating the contact")
     dx, low, high = _reach(tire, rolling, bodies, spacing, relief)
+    check_step(relief, dx)
     steps = _steps(positions, dx, low, high)
     grid = _grid(tire, rolling, bodies, spacing, relief, steps, dx)
     influence = Influence(grid.shape, grid.dx, grid.dy, bodies.both)
     # As sharp as `solve_coupled` presses, whose plain contact this is.
     tight = tolerance if abs(influence.dundurs) <= tolerance else 0.5 * tolerance
     scene = _Scene(tire, relief, rolling, grid, influence, tire.height_map(grid), steps)
-    approach = None
-    if hold == "axle":
-        approach = solve_normal(influence, scene.gap, load=rolling.normal_load, tolerance=tight).approach
+    plain = solve_normal(influence, scene.gap, load=rolling.normal_load, tolerance=tight)
+    approach = plain.approach if hold == "axle" else None
     found: list[NormalSolution] = []
     for number, step in enumerate(steps):
         tell(f"position {number + 1} of {len(steps)}")
@@ -200,7 +214,7 @@ def cross_obstacle(
         "cells": grid.nx * grid.ny,
         "seconds": time.perf_counter() - began,
     }
-    data = _dataset(scene, found, rubbed)
+    data = _dataset(scene, found, rubbed, plain)
     warnings = (*cautions.of_tire(tire), *cautions.of_numbers(tire, rolling, grid), *_doubts(scene, hold, data))
     return Crossing(data, tire, road, rolling, relief, hold, stats, warnings)
 
@@ -222,8 +236,8 @@ def _steps(positions: Sequence[float] | Array | None, dx: float, low: float, hig
     """Whole numbers of cells, ascending."""
     if positions is None:
         # Symmetric about the middle, so that what is mirrored has a mirrored history.
-        half = math.ceil(max(-low, high) / (_STRIDE * dx))
-        whole: Any = _STRIDE * np.arange(-half, half + 1)
+        half = math.ceil(max(-low, high) / (STRIDE * dx))
+        whole: Any = STRIDE * np.arange(-half, half + 1)
         return _few(whole)
     given = finite_list(positions, "positions", "m")
     steps: Any = np.rint(given / dx).astype(int)
@@ -237,8 +251,10 @@ def _steps(positions: Sequence[float] | Array | None, dx: float, low: float, hig
 
 
 def _few(steps: Any) -> Any:
-    if len(steps) > _MOST:
-        raise InputError(f"{len(steps)} positions are more than {_MOST}; give fewer positions, further apart")
+    if len(steps) > MOST_POSITIONS:
+        raise InputError(
+            f"{len(steps)} positions are more than {MOST_POSITIONS}; give fewer positions, further apart"
+        )
     return steps
 
 
@@ -279,7 +295,9 @@ def _sliding(scene: _Scene, found: Sequence[NormalSolution], tolerance: float) -
         raise type(error)(f"shear along the way: {error}; or leave it out with friction=0") from error
 
 
-def _dataset(scene: _Scene, found: Sequence[NormalSolution], rubbed: Sequence[State] | None) -> xr.Dataset:
+def _dataset(
+    scene: _Scene, found: Sequence[NormalSolution], rubbed: Sequence[State] | None, plain: NormalSolution
+) -> xr.Dataset:
     grid, steps, place_of = scene.grid, scene.steps, scene.road_x
     edges = np.asarray(getattr(scene.relief, "edges", (0.0,)), dtype=float)
     area = grid.cell_area
@@ -323,10 +341,22 @@ def _dataset(scene: _Scene, found: Sequence[NormalSolution], rubbed: Sequence[St
     fields["road_height"] = (road, scene.relief.height(place_of, grid.y))
     fields["highest_pressure"] = (road, highest)
     fields["closing_work"] = (road, closing)
+    beside = (np.abs(place_of[:, None] - edges[None]) <= 1.01 * grid.dx).any(axis=1)
+    fields["plain_pressure"] = ((), float(plain.pressure.max()))
+    fields["plain_work"] = ((), _plain_work(scene, plain))
+    fields["edge_work"] = ((), float(closing[:, beside].max(initial=0.0)))
     if rubbed is not None:
         fields["friction_work_density"] = (road, sliding)
     coordinates = {"position": steps * grid.dx, "y": grid.y, "x": grid.x, "road_x": place_of}
     return dataset(fields, coordinates, dx=grid.dx, dy=grid.dy)
+
+
+def _plain_work(scene: _Scene, plain: NormalSolution) -> float:
+    """Largest closing work, J/m², of a road without the obstacle, whose places see the contact from its front on."""
+    deep = np.maximum(np.nan_to_num(plain.approach - scene.gap, nan=0.0), 0.0)[:, ::-1]
+    pressure = plain.pressure[:, ::-1]
+    work = 0.5 * (pressure[:, 1:] + pressure[:, :-1]) * np.maximum(np.diff(deep, axis=1), 0.0)
+    return float(work.sum(axis=1).max())
 
 
 # Part of a cell by which a cell beside an edge is beyond it.
@@ -360,10 +390,10 @@ def _doubts(scene: _Scene, hold: str, data: xr.Dataset) -> list[str]:
             f"cell of {scene.grid.dx * 1e3:.3g} mm; give it a chamfer for numbers that do not belong to the cells"
         )
     apart = int(np.diff(scene.steps).max(initial=1))
-    if apart > _STRIDE:
+    if apart > STRIDE:
         said.append(
             f"positions stand up to {apart} cells apart: pressures hold at each of them, but works per place ripple "
-            f"between them; take positions {_STRIDE} cells apart or less for work"
+            f"between them; take positions {STRIDE} cells apart or less for work"
         )
     if scene.rolling.law.largest > 0 and abs(scene.influence.dundurs) > _ALIKE:
         said.append(

@@ -84,16 +84,21 @@ def heights_on(relief: Relief, grid: Grid) -> Array:
     return height
 
 
+def check_step(relief: Relief, cell: float) -> None:
+    """Refuse a relief whose points lie further apart than the cells, m. Raises InputError."""
+    points = getattr(relief, "step", None)
+    if points is not None and points > cell * (1 + 1e-9):
+        raise InputError(
+            f"the road's texture has points every {points * 1e3:.3g} mm, and the cells of the contact are "
+            f"{cell * 1e3:.3g} mm: what lies between its points is not known; take cells of {points * 1e3:.3g} mm or "
+            "more, or a texture that was measured finer"
+        )
+
+
 def doubts_of(relief: Relief, grid: Grid) -> Sequence[str]:
     """What the cells of a contact cannot tell of the road's relief."""
     finest = getattr(relief, "finest_wave", None)
     step = max(grid.dx, grid.dy)
-    points = getattr(relief, "step", None)
-    if points is not None and points > step * (1 + 1e-9):
-        return (
-            f"the road's texture has points every {points * 1e3:.3g} mm, and the cells are {step * 1e3:.3g} mm: "
-            "between its points it is taken as smooth, and really it is not; measure it finer, or take larger cells",
-        )
     if finest is None or finest >= _CELLS_PER_WAVE * step:
         return ()
     return (

@@ -76,6 +76,9 @@ class Contact(BaseResult, group="contact"):
             f"creepage      x {float(d.creepage_x):z.5f}, y {float(d.creepage_y):z.5f}, spin {float(d.spin):g} rad/m",
             f"slip zone     {100 * self.slip_fraction:.1f} % of the contact area",
         ]
+        if "road_height" in d:
+            low, high = float(d.road_height.min()) * 1e3, float(d.road_height.max()) * 1e3
+            lines.insert(1, f"road          no plane: {low:.3g} to {high:.3g} mm below the tread")
         if self.tire.fixed_grid is not None:
             lines.insert(1, f"tread         {self.tire.surface}")
         if "road_share" in self.stats:

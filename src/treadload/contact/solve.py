@@ -16,7 +16,7 @@ from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.layers import RoadShare, half_space_share, road_share
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
-from treadload.contact.relief import above, doubts_of, heights_on
+from treadload.contact.relief import above, check_step, doubts_of, heights_on
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.coupling import Coupled, Progress, Start, solve_coupled
@@ -68,7 +68,8 @@ def solve_contact(
     of the compliance is the road's (road_share) and what its layers change (layer_share); a warning says when
     layers left out matter. An elastic tire and elastic layers only.
     relief: how far the road's surface rises above its plane, as a `pavement.Texture` or any `pavement.Relief`; None
-    for a plane. The approach is then counted from the plane, and the dataset has `road_height`.
+    for a plane. The approach is then counted from the plane, and the dataset has `road_height`. A texture
+    whose points lie further apart than the cells is refused.
     spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
     tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp,
     and of the coupling between them. start: a contact near this one: its grid serves again where it
@@ -98,6 +99,8 @@ def solve_contact(
         grid, gap = place(over, rolling, bodies.both, spacing)
     else:
         grid, gap = _same_place(over, rolling, bodies.both, start, spacing)
+    if relief is not None:
+        check_step(relief, max(grid.dx, grid.dy))
     near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start)
     while True:
         scene = Scene(tire, road, bodies, grid, gap)

@@ -47,6 +47,9 @@ class RoadStep:
         along, across = x[None, :], y[:, None]
         return self.rise * _rise(along, self.chamfer) + 0.0 * across
 
+    def __str__(self) -> str:
+        return f"step, {_up(self.rise)}, {_edge(self.chamfer)}"
+
 
 @dataclass(frozen=True)
 class RoadJoint:
@@ -86,6 +89,9 @@ class RoadJoint:
         slope = np.clip(beyond - self.chamfer, -self.chamfer, 0.0) if self.depth > 0 else 0.0
         floor = 1 - _rise(beyond, 0.0)
         return np.asarray((1 - floor) * slope - floor * self.depth + 0.0 * across, dtype=np.float64)
+
+    def __str__(self) -> str:
+        return f"joint, {self.width * 1e3:g} mm wide, {self.depth * 1e3:g} mm deep, {_edge(self.chamfer)}"
 
 
 @dataclass(frozen=True)
@@ -134,6 +140,20 @@ class RoadPlate:
             if self.width is not None:
                 out = np.maximum(out, np.abs(across) - 0.5 * self.width)
         return np.asarray(self.rise * (1 - _rise(out, self.chamfer)), dtype=np.float64)
+
+    def __str__(self) -> str:
+        size = f"{self.length * 1e3:g} mm " + ("across, round" if self.round else "long")
+        if not self.round:
+            size += ", over the whole road" if self.width is None else f", {self.width * 1e3:g} mm wide"
+        return f"plate, {_up(self.rise)}, {size}, {_edge(self.chamfer)}"
+
+
+def _up(rise: float) -> str:
+    return f"{abs(rise) * 1e3:g} mm {'down' if rise < 0 else 'up'}"
+
+
+def _edge(chamfer: float) -> str:
+    return f"chamfer of {chamfer * 1e3:g} mm" if chamfer else "upright edges"
 
 
 def _rise(beyond: Array, chamfer: float) -> Array:

@@ -27,6 +27,8 @@ def crossing_history(crossing: Source) -> Figure:
     upper, middle, lower = figure.subplots(3, 1)
     upper.plot(at, data["largest_pressure"] * KPA, color=CASES[0], label="anywhere")
     upper.plot(at, data["edge_pressure"] * KPA, color=CASES[1], label="at an edge")
+    if "plain_pressure" in data:
+        upper.axhline(float(data["plain_pressure"]) * KPA, color=MUTED, lw=0.9, ls="--", label="without the obstacle")
     upper.set_ylabel("largest pressure (kPa)")
     upper.set_ylim(bottom=0)
     upper.legend()
@@ -39,6 +41,8 @@ def crossing_history(crossing: Source) -> Figure:
     middle.legend()
     work = data["closing_work"].transpose("y", "road_x").to_numpy().max(axis=0)
     lower.plot(place, work, color=CASES[0], label="closing")
+    if "plain_work" in data:
+        lower.axhline(float(data["plain_work"]), color=MUTED, lw=0.9, ls="--", label="closing, without the obstacle")
     if "friction_work_density" in data:
         rubbed = data["friction_work_density"].transpose("y", "road_x").to_numpy().max(axis=0)
         lower.plot(place, rubbed, color=CASES[1], label="sliding")
@@ -76,6 +80,8 @@ def crossing_contacts(crossing: Source) -> Figure:
         )  # fmt: skip
         ax.set_aspect("equal")
         ax.axvline(0, color=MUTED, lw=0.7)
+        # As wide as the others, also where the middle of the obstacle lies outside.
+        ax.set_xlim(x[0] + at[number], x[-1] + at[number])
         headline(ax, f"{at[number]:+.0f} mm", f"peak {measure(float(here.max()))} kPa", 24)
         ax.set_xlabel("road (mm)")
     axes[0].invert_yaxis()

@@ -53,7 +53,9 @@ def case_as_python(case: FilePart) -> str:
 
 def _is_plain(case: Case) -> bool:
     """One wheel that is computed, and read at depths."""
-    more = (case.footprint, case.passes, case.aggregates, case.indentation, case.drum)
+    more = (
+        case.footprint, case.passes, case.aggregates, case.texture, case.crossing, case.indentation, case.drum,
+    )  # fmt: skip
     estimate = case.damage is not None and case.damage.error_estimate
     return all(one is None for one in more) and not estimate and case.response.wheels == (WheelPart(),)
 

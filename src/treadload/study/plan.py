@@ -10,6 +10,8 @@ import numpy as np
 from treadload.case import Case, LifeCase
 from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair
+from treadload.contact.crossing import STRIDE
+from treadload.contact.relief import above
 from treadload.contact.solve import place
 from treadload.grid import Grid
 from treadload.kernels import fft
@@ -61,9 +63,18 @@ def plan_case(case: Case) -> str:
         deep, wide = case.damage.depth, case.damage.mean_over
         read = f"means over {wide * 1e3:g} mm in the top layer" if deep is None else f"points at {deep * 1e3:g} mm"
         lines.append(f"verdict   {case.damage.fatigue.build()}, {read}")
+    if case.texture is not None:
+        how = "under the whole tire" if case.texture.resolved else "a patch under the pressures of the contact"
+        lines.append(f"texture   {case.texture.build(case.folder)}; {how}")
+    ways = 0.0
+    if case.crossing is not None:
+        ways = len(case.crossing.positions or ()) or _positions(case, grid)
+        about = "" if case.crossing.positions else "about "
+        lines.append(f"crossing  {case.crossing.build()}; {about}{ways:.0f} positions")
+        ways *= 1.0 if case.crossing.sliding else _PRESSED
     solved = grid.nx * grid.ny if case.footprint is None else 0
     mapped = cells.nx * cells.ny * len(asked.depths)
-    seconds = _seconds(road, solved, mapped, (cells.nx + cells.ny) * sliced)
+    seconds = _seconds(road, solved, mapped, (cells.nx + cells.ny) * sliced, 1 + ways)
     shown = f"{seconds:.1g} s" if seconds < 10 else f"{seconds:.2g} s" if seconds < 100 else f"{seconds / 60:.2g} min"
     lines.append(f"estimate  about {shown} on this machine, within a factor of three or so")
     said += [
@@ -99,27 +110,37 @@ def plan_life(case: LifeCase) -> str:
 
 def _contact_grid(case: Case, road: Pavement) -> Grid:
     """Where the contact lies, placed as `solve_contact` places it."""
-    tire, rolling = case.build_tire(), case.build_rolling()
+    tire, rolling, relief = case.build_tire(), case.build_rolling(), case.build_relief()
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
     pair = Pair.of(tire, road, speed=rolling.speed).both
-    grid, _ = place(tire, rolling, pair, case.spacing)
+    grid, _ = place(tire if relief is None else above(tire, relief), rolling, pair, case.spacing)
     return grid
+
+
+def _positions(case: Case, grid: Grid) -> int:
+    """About how many positions a crossing has that names none: half a contact clear on both sides, a stride apart."""
+    assert case.crossing is not None
+    edges = getattr(case.crossing.build(), "edges", (0.0,))
+    way = max(edges) - min(edges) + 1.25 * grid.nx * grid.dx
+    return math.ceil(way / (STRIDE * (case.crossing.spacing or grid.dx)))
 
 
 # Time over that of one transform of _SIDE² numbers, as measured on contacts of 800 to 12 000 cells: a contact and a
 # cell of it, a point of the maps, one of the slices.
 _SIDE = 512
 _CONTACT, _CELL = 100.0, 0.04
+# Share of a contact's time that its pressure takes.
+_PRESSED = 0.1
 _MAP = {"half-space": 0.006, "layers": 0.012, "viscoelastic": 0.12}
 _SLICE = {"half-space": 0.15, "layers": 0.35, "viscoelastic": 6.0}
 
 
-def _seconds(road: Pavement, contact: int, mapped: int, sliced: int) -> float:
-    """About how long a case takes on this machine. contact: cells; mapped, sliced: points."""
+def _seconds(road: Pavement, contact: int, mapped: int, sliced: int, contacts: float) -> float:
+    """About how long a case takes on this machine. contact: cells; mapped, sliced: points; contacts: how many."""
     kind = "viscoelastic" if road.is_viscoelastic else "half-space" if road.is_homogeneous else "layers"
     contact_cost = (_CONTACT + _CELL * contact) if contact else 0.0
-    return _transform() * (contact_cost + _MAP[kind] * mapped + _SLICE[kind] * sliced)
+    return _transform() * (contacts * contact_cost + _MAP[kind] * mapped + _SLICE[kind] * sliced)
 
 
 def _transform() -> float:

@@ -13,7 +13,16 @@ import xarray as xr
 from treadload.case import Case
 from treadload.case.model import DamagePart
 from treadload.composing import BaseResult
-from treadload.contact import Contact, TextureContact, solve_contact, solve_texture
+from treadload.contact import (
+    Contact,
+    Crossing,
+    Enveloped,
+    TextureContact,
+    cross_obstacle,
+    envelop,
+    solve_contact,
+    solve_texture,
+)
 from treadload.damage import Verdict, assess
 from treadload.describing import first_line
 from treadload.errors import InputError
@@ -54,8 +63,8 @@ class Result(Study):
     road: at its temperature. contact: None if a footprint was recorded, which is then `footprint`. response: maps at
     the case's depths, over all wheels. slice_along, slice_across: vertical slices along travel and across it through
     the worst point of the map that the verdict reads, else the first. bowl: deflection of the surface along travel
-    under the first wheel; None on a half-space. verdict: None if the case has no fatigue line. passes: None if the
-    case has none.
+    under the first wheel; None on a half-space. verdict: None if the case has no fatigue line. passes, heterogeneous,
+    texture, enveloped, crossing: None if the case asks for none.
     """
 
     case: Case
@@ -70,6 +79,8 @@ class Result(Study):
     passes: Passes | None = None
     heterogeneous: Heterogeneous | None = None
     texture: TextureContact | None = None
+    enveloped: Enveloped | None = None
+    crossing: Crossing | None = None
 
     @property
     def parts(self) -> Mapping[str, BaseResult]:
@@ -79,6 +90,7 @@ class Result(Study):
             "contact": load, "response": self.response, "slice_along": self.slice_along,
             "slice_across": self.slice_across, "bowl": self.bowl, "damage": self.verdict,
             "passes": self.passes, "heterogeneous": self.heterogeneous, "texture": self.texture,
+            "enveloped": self.enveloped, "crossing": self.crossing,
         }  # fmt: skip
         return {name: part for name, part in parts.items() if part is not None}
 
@@ -90,7 +102,7 @@ class Result(Study):
         """One screen: contact, road, response, verdict."""
         parts = self.parts
         told = [parts["contact"].summary(), road_in_rows(self.road, self.case), self.response.summary()]
-        rest = (self.verdict, self.passes, self.heterogeneous, self.texture)
+        rest = (self.verdict, self.passes, self.heterogeneous, self.texture, self.enveloped, self.crossing)
         return "\n\n".join([*told, *(one.summary() for one in rest if one is not None)])
 
     __repr__ = first_line
@@ -133,10 +145,12 @@ def read_loaded(load: Loaded) -> Result:
         bowl = replace(bowl, dataset=bowl.dataset.assign_attrs(load_x=ahead))
     passes = None if case.passes is None else passes_of(case, load)
     stones = None if case.aggregates is None else stones_of(case, load)
-    rough = None if case.texture is None else texture_of(case, load)
+    rough = None if case.texture is None or case.texture.resolved else texture_of(case, load)
+    way = None if case.crossing is None else crossing_of(case, load)
     return Result(
-        case, road, load.contact, load.footprint, response, along, across, bowl, verdict, passes, stones, rough
-    )
+        case, road, load.contact, load.footprint, response, along, across, bowl, verdict, passes, stones, rough,
+        load.enveloped, way,
+    )  # fmt: skip
 
 
 def texture_of(case: Case, load: Loaded) -> TextureContact:
@@ -148,6 +162,20 @@ def texture_of(case: Case, load: Loaded) -> TextureContact:
     return solve_texture(
         asked.build(case.folder), asked.build_rubber(), load.contact, thickness=asked.thickness,
         speed=case.speed, wave=asked.wave, progress=load.tell,
+    )  # fmt: skip
+
+
+def crossing_of(case: Case, load: Loaded) -> Crossing:
+    """The way of the wheel over the obstacle that a case names."""
+    asked = case.crossing
+    assert asked is not None
+    # A footprint in place of the tire was refused when the case was read.
+    assert load.contact is not None
+    contact = load.contact
+    return cross_obstacle(
+        contact.tire, load.road, asked.rolling(contact.rolling), asked.build(), positions=asked.positions,
+        hold=asked.hold, spacing=case.spacing if asked.spacing is None else asked.spacing, tolerance=case.tolerance,
+        road_compliance=case.road_compliance, progress=load.tell,
     )  # fmt: skip
 
 
@@ -178,6 +206,7 @@ class Loaded:
     """A road under the wheels of a case, ready to be read anywhere.
 
     contact: None if a footprint was recorded. wheel: the load of one wheel; wheels: all of them in their places.
+    enveloped: what the layers feel of the contact, where the case spreads the pressure on peaks.
     """
 
     case: Case
@@ -187,6 +216,7 @@ class Loaded:
     wheel: GridLoad
     wheels: list[GridLoad]
     tell: Progress
+    enveloped: Enveloped | None = None
 
     @property
     def grid(self) -> Grid:
@@ -220,15 +250,17 @@ def load_case(case: Case, tell: Progress, *, start: Contact | None = None, conta
             "this case dents its road, and has no wheel whose response could be read; solve it by "
             "treadload.study.run_dents(case), or by `treadload run`"
         )
-    road, footprint = case.pavement.build(), None
+    road, footprint, enveloped = case.pavement.build(), None, None
     if case.footprint is None:
         contact = contact_of(case, road, tell, start=start) if contact is None else contact
-        wheel = GridLoad.from_dataset(contact)
+        if case.texture is not None and case.texture.enveloping is not None:
+            enveloped = envelop(contact, case.texture.enveloping)
+        wheel = GridLoad.from_dataset(contact if enveloped is None else enveloped)
     else:
         tell("reading the footprint")
         footprint = case.footprint.read(case.folder)
         wheel = footprint.load
-    return Loaded(case, road, contact, footprint, wheel, case.response.place(wheel), tell)
+    return Loaded(case, road, contact, footprint, wheel, case.response.place(wheel), tell, enveloped)
 
 
 def judge(damage: DamagePart, response: Response) -> Verdict:
@@ -269,6 +301,7 @@ def contact_of(
         spacing=case.spacing if spacing is None else spacing,
         tolerance=case.tolerance,
         road_compliance=case.road_compliance,
+        relief=case.build_relief(),
         start=start,
         progress=tell,
     )

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from treadload.errors import InputError, TreadloadError, nearest
 from treadload.validation import (
     cracking,
+    crossing,
     dissimilar,
     grain,
     histories,
@@ -49,6 +50,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "stress": stress.stress_checks,
     "stones": stones.stone_checks,
     "texture": roughness.texture_checks,
+    "crossing": crossing.crossing_checks,
     "layers": layers.layer_checks,
     "moving": moving.moving_checks,
     "contact on layers": on_layers.layered_contact_checks,
