@@ -60,6 +60,31 @@ def test_strains_of_the_run_of_a_second_program():
     assert read(soil, RUN).max() == pytest.approx(891.5, rel=3e-3)
 
 
+def test_the_printed_moduli_leave_more_room_than_the_strains_differ_by():
+    """Why not each digit: 290.69 and 889.6 here. 200 and 50 MPa are printed without a decimal, which leaves 290.1 to
+    291.3 and 884.4 to 894.8; 200.48 and 49.755, printed as 200 and 50, give 290.58 and 891.5.
+
+    Which input it is the run does not say. Alone none meets both: the pressure of 65 kN on the discs (290.73, 889.7),
+    the other twin 1.8 to 2.5 m away (292.2 to 290.3 and 887.5 to 885.0), rock at 3 to 10 m (292.0 to 291.1 and 891.3
+    to 890.0), wheels 0.37 or 0.38 m apart (292.0 and 894.3; 289.4 and 884.8), ratios of Poisson in steps of 0.05.
+    """
+    base = Criterion("base", tl.damage.FrenchBituminous(90e-6, -0.2, 0.3, 0.16, 0.25, 1.3), 1)
+    soil = Criterion("soil", FrenchSubgrade(), -1, "top")
+
+    def strains(gravel, platform, upper=1512, lower=2588):
+        moduli = [upper, lower, gravel, platform]
+        one = built(moduli, [0.45, 0.45, 0.35, 0.35], [0.06, 0.10, 0.25])
+        return read(base, one).max(), read(soil, one).max()
+
+    # Half a unit of the last printed digit of both strains, by moduli within half a unit of theirs.
+    below, on_top = strains(200.48, 49.755)
+    assert below == pytest.approx(290.58, abs=0.005)
+    assert on_top == pytest.approx(891.5, abs=0.05)
+    least, most = strains(200.5, 50.5, 1512.5, 2588.5), strains(199.5, 49.5, 1511.5, 2587.5)
+    assert least[0] < 290.58 < most[0]
+    assert least[1] < 891.5 < most[1]
+
+
 @pytest.mark.parametrize("depth", [0.41, 0.06 + 0.10 + 0.25])
 def test_the_top_of_the_soil_is_met_by_its_printed_depth(depth):
     """The interface lies at 0.41 within round-off; read from above, in the gravel, it would be 482."""

@@ -13,6 +13,7 @@ from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchS
 from treadload.damage.laws.fatigue import PowerLine
 from treadload.damage.laws.french import FrenchBituminous, risk_factor
 from treadload.damage.quantities import VerticalCompression
+from treadload.damage.rutting import Rutting
 from treadload.damage.scatter import Scatter
 from treadload.errors import InputError
 from treadload.pavement import Pavement
@@ -116,6 +117,23 @@ def test_what_cannot_be_found_is_refused_in_a_sentence():
             designed(**asked)
     with pytest.raises(InputError, match="needs years"):
         design_thickness(TIRE, ROAD, replace(TRAFFIC, years=None), WARM, (BASE,), layer=1, **COARSE)
+
+
+@pytest.mark.slow
+def test_a_rut_at_its_limit_ends_a_design_as_a_criterion_does():
+    """The platform alone would do with less; the rut of 8 mm asks for more, and governs on both sides of the step."""
+    asked = {"criteria": (SOIL,), "years": 95.0, "rutting": Rutting(limit=8e-3)}
+    with_rut, without = designed(**asked), designed((SOIL,), years=95.0)
+    assert with_rut.dataset["criterion"].to_numpy().tolist() == ["soil", "rut"]
+    assert with_rut.thickness > without.thickness
+    assert with_rut.years(with_rut.thickness) >= 95.0 > with_rut.years(with_rut.thickness - with_rut.step)
+    assert with_rut.life.governing == "rut"
+    assert f"{with_rut.thickness * 1e3:.0f} mm: {with_rut.life.rut_years:.3g} years, by rut" in with_rut.summary()
+    with pytest.raises(InputError, match=r"from 40 to 200 mm lasts 150 years: the longest .* by rut"):
+        designed(**{**asked, "years": 150.0, "high": 0.2})
+    named = Criterion("rut", FrenchSubgrade(), -1)
+    with pytest.raises(InputError, match="a criterion has the name 'rut', which the life's rut has"):
+        designed(**{**asked, "criteria": (named,)})
 
 
 def test_what_lasts_already_says_so():

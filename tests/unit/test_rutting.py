@@ -8,12 +8,16 @@ from tests.cases import ONE_AXLE
 
 import treadload as tl
 from treadload.case import LifeCase
-from treadload.damage import Climate, asphalt_rut
+from treadload.damage import Climate, FrenchSubgrade, asphalt_rut
+from treadload.damage.criterion import Criterion
+from treadload.damage.miner import miner
 from treadload.damage.rutting import Rutting
 from treadload.errors import InputError
 from treadload.grid import Grid
+from treadload.plots.life import life_years
 from treadload.plots.ruts import life_rut
 from treadload.response import GridLoad, solve_response
+from treadload.study import sensitivity
 from treadload.study.rutting import rut_fields
 from treadload.study.wheels import Wheels
 
@@ -79,6 +83,38 @@ def test_the_limit_is_reached_when_the_curve_meets_it(asked):
     assert rut_fields(road, traffic, climate, [wheels], Rutting(limit=0.19))[0].attrs["rut_years"] > 100
     figure = life_rut(data)
     assert len(figure.axes[0].collections) == 3
+
+
+@pytest.mark.parametrize(("years", "first"), [(12.0, "rut"), (100.0, "soil")])
+def test_a_rut_governs_a_life_as_a_criterion_does(asked, years, first):
+    """What ends the road first is its answer, in what asks for it and in what cannot ask the rut."""
+    road, traffic, climate, wheels = asked
+    free, _ = rut_fields(road, traffic, climate, [wheels], Rutting())
+    total = free["rut_depth"].sum("rut_layer")
+    limit = float(total.interp(year=12.0)) if years == 12.0 else 0.19
+    data, _ = rut_fields(road, traffic, climate, [wheels], Rutting(limit=limit))
+    soil = Criterion("soil", FrenchSubgrade(), -1)
+    at = soil.law.allowable_strain(traffic.passes(40.0))
+    values = np.zeros((1, 1, 1, 3))
+    values[..., 1] = at
+    life = miner(values, [soil], traffic, climate, y=np.array([-0.1, 0.0, 0.1]))
+    life = replace(life, dataset=life.dataset.merge(data, combine_attrs="no_conflicts"))
+    assert life.governing == first
+    assert life.governing_criterion == "soil"
+    assert life.years("rut") == life.rut_years == pytest.approx(float(data.attrs["rut_years"]))
+    assert life.years(life.governing) == min(life.rut_years, life.years("soil"))
+    said = sensitivity._of_the_rut(life)
+    bars = [text.get_text().replace("\n", " ") for text in life_years(life).axes[0].get_yticklabels()]
+    assert bars == ["soil", f"rut of {1e3 * limit:g} mm"]
+    if first == "soil":
+        assert said == []
+        return
+    assert life.rut_years == pytest.approx(12.0, rel=0.01)
+    # Traffic without growth: a per cent more passes, a per cent fewer years.
+    assert "the rut, which ends the road first, after 12 years: by its curve its years change by -1 % as" in said[0]
+    power = float(np.log(total.sel(year=13.0) / total.sel(year=12.0)) / np.log(13 / 12))
+    assert f"by {1 / power:+.2g} % as its limit does" in said[0]
+    assert "the life by soil" in said[0]
 
 
 @pytest.mark.slow

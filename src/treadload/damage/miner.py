@@ -25,6 +25,8 @@ from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 
+RUT = "rut"
+"""What a life calls its rut among what ends it."""
 # Damage across flat planes above this share of a criterion's is worth a sentence.
 _MOSTLY = 0.2
 
@@ -91,11 +93,24 @@ class Life(BaseResult, group="life"):
 
     @property
     def governing(self) -> str:
-        """Name of the criterion that fails first."""
+        """What ends the road first: the name of a criterion, or `RUT`, its rut at the limit."""
+        first = self.governing_criterion
+        return RUT if self.rut_years < self.years(first) else first
+
+    @property
+    def rut_years(self) -> float:
+        """Years from the opening until the rut is as deep as its limit; inf if never, or where none is counted."""
+        return float(self.dataset.attrs.get("rut_years", math.inf))
+
+    @property
+    def governing_criterion(self) -> str:
+        """Name of the criterion that fails first, whatever the rut."""
         return str(self.dataset["criterion"].to_numpy()[int(np.argmin(self.dataset["life_years"].to_numpy()))])
 
     def years(self, criterion: str) -> float:
-        """Years from the opening until a criterion's damage is 1 at its worst place; inf if never."""
+        """Years from the opening until a criterion's damage is 1 at its worst place, or of `RUT`; inf if never."""
+        if criterion == RUT:
+            return self.rut_years
         return float(self.dataset["life_years"].sel(criterion=criterion))
 
     def weather_damage(self, number: int) -> float:
@@ -131,8 +146,8 @@ class Life(BaseResult, group="life"):
         lines += [f"  {text}" for text in json.loads(data.attrs.get("groups", "[]"))]
         rut = rut_in_words(data)
         lines += [f"  {rut}"] if rut else []
-        if float(data.attrs.get("rut_years", math.inf)) < self.years(self.governing):
-            lines.append(f"Verdict: the rut governs, after {_years(float(data.attrs['rut_years']))}.")
+        if self.governing == RUT:
+            lines.append(f"Verdict: the rut governs, after {_years(self.rut_years)}.")
         elif math.isinf(self.years(self.governing)):
             lines.append("Verdict: no criterion ever fails under this traffic.")
         else:

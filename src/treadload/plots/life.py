@@ -41,12 +41,15 @@ _LETTERS = 22
 
 @styled
 def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
-    """Bars of the years that every criterion lasts, with the design life.
+    """Bars of the years that every criterion lasts, and until the rut's limit, with the design life.
 
     life: a Life or its dataset. Returns the figure. Raises InputError if variables are missing.
     """
     data = fields_of(life, "life_years")
     names, years = _labels(data["criterion"]), data["life_years"].to_numpy()
+    if "rut_limit" in data.attrs:
+        names.append(f"rut of {1e3 * float(data.attrs['rut_limit']):g} mm")
+        years = np.append(years, float(data.attrs["rut_years"]))
     design = data.attrs.get("design_years")
     far = _FAR * float(design) if design else _LONG
     shown = np.minimum(years, far)

@@ -127,7 +127,14 @@ def _governing(data: xr.Dataset) -> xr.Dataset:
 
 def _facts(data: xr.Dataset) -> tuple[tuple[str, str], ...]:
     row = _governing(data)
-    facts = [("governing criterion", str(row["criterion"].item())), ("its life", _years(float(row["life_years"])))]
+    first, years = str(row["criterion"].item()), float(row["life_years"])
+    rutted = float(data.attrs.get("rut_years", math.inf))
+    facts = [
+        ("governing criterion" if years <= rutted else "first criterion to fail", first),
+        ("its life", _years(years)),
+    ]
+    if rutted < years:
+        facts.insert(0, ("governs", f"the rut, after {_years(rutted)}"))
     if "design_damage" in data:
         facts.append((f"its damage after {float(data.attrs['design_years']):g} years", _number(row["design_damage"])))
     ends = json.loads(data.attrs.get("ends", "[]"))
@@ -137,8 +144,8 @@ def _facts(data: xr.Dataset) -> tuple[tuple[str, str], ...]:
     if weather := weather_in_words(row):
         facts.append(("daily thermal stress", weather))
     if "elasticity" in data:
-        first = zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True)
-        for name, value in first:
+        inputs = zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True)
+        for name, value in inputs:
             step = "" if str(name).startswith("temperature") else " (+5 %)"
             facts.append((f"depends most on {name}{step}", f"life {changed_life(str(name), float(value))}"))
     return tuple(facts)

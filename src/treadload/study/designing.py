@@ -17,7 +17,8 @@ from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.miner import Life
+from treadload.damage.miner import RUT, Life
+from treadload.damage.rutting import Rutting
 from treadload.damage.scatter import Scatter, check_risks
 from treadload.damage.traffic import Traffic
 from treadload.describing import first_line
@@ -128,6 +129,7 @@ def design_thickness(
     workers: int | None = None,
     progress: Progress | None = None,
     contacts: Contacts | None = None,
+    rutting: Rutting | None = None,
 ) -> ThicknessDesign:
     """The thickness of a layer for which all criteria last so many years, rounded up: Brent's method on ln(life).
 
@@ -136,7 +138,8 @@ def design_thickness(
     the surface, or its name. years: those of the traffic if left out. risk: probability of failure, in (0, 1): laws
     that have a risk take it, and others stay as they are, with a warning; with a scatter all criteria are read at
     the years that they reach with this risk, see `life_reliability`. low, high: m, between which it is looked for.
-    step: to which it is rounded up, m.
+    step: to which it is rounded up, m. rutting: how a rut is counted; its years until the limit count as those of a
+    criterion, without scatter.
 
     Raises InputError for a layer without a thickness, and where no thickness between low and high lasts, with the
     longest life found and what limits it; ConvergenceError of a contact.
@@ -158,8 +161,10 @@ def design_thickness(
     contacts = contacts or Contacts(tire, spacing)
     shared = {"spacing": spacing, "workers": workers, "progress": progress, "contacts": contacts}
     search = _Search(
-        tire, road, traffic, climate, given, number, asked, risk, scatter, shared, tolerance
+        tire, road, traffic, climate, given, number, asked, risk, scatter, shared, tolerance, rutting
     )  # fmt: skip
+    if search.ruts and risk is not None:
+        said += ("the rut has no risk: its years until the limit are those of its law as it is",)
     name = names_of(road)[number]
     exact = search.root(low, high, _FINE * step, name)
     rounded = math.ceil(exact / step - 1e-9) * step
@@ -186,7 +191,7 @@ def design_thickness(
             "trial_thickness": (("trial",), tried),
             "trial_years": (("trial", "criterion"), np.array([search.known[thickness] for thickness in tried])),
         },
-        {"criterion": [one.name for one in life.criteria]},
+        {"criterion": search.names(life)},
         layer=name,
         step=step,
         **({} if risk is None else {"at_risk": risk}),
@@ -212,11 +217,21 @@ class _Search:
     scatter: Scatter | None
     shared: dict[str, Any]
     tolerance: float
+    rutting: Rutting | None = None
     known: dict[float, Array] = field(default_factory=dict)
     counts: dict[str, int] = field(default_factory=lambda: {"lives": 0, "contacts": 0, "responses": 0})
     _lives: dict[float, Life] = field(default_factory=dict)
     # ln of the passes at the risk over those of the life, by criterion.
     _shift: Array | None = None
+
+    @property
+    def ruts(self) -> bool:
+        """True where a rut ends the road too."""
+        return self.rutting is not None and self.rutting.limit is not None
+
+    def names(self, life: Life) -> list[str]:
+        """What ends the road, in the order of the years."""
+        return [*(one.name for one in life.criteria), *([RUT] if self.ruts else [])]
 
     def with_thickness(self, thickness: float) -> Pavement:
         """The road with that thickness of the layer."""
@@ -232,8 +247,9 @@ class _Search:
             if self.risk is not None and self.scatter is None:
                 criteria = [_at(one, self.risk) for one in criteria]
             life = solve_life(
-                self.tire, road, self.traffic, self.climate, criteria, tolerance=self.tolerance, **self.shared
-            )
+                self.tire, road, self.traffic, self.climate, criteria, tolerance=self.tolerance,
+                rutting=self.rutting, **self.shared,
+            )  # fmt: skip
             self._lives[thickness] = life
             self.counts["lives"] += 1
             for name in ("contacts", "responses"):
@@ -243,13 +259,14 @@ class _Search:
     def at_risk(self, thickness: float, *, fresh: bool = False) -> Array:
         """Years of all criteria. fresh: with a scatter, solve what it does at this very thickness."""
         life = self.life(thickness)
+        rut = [life.rut_years] if self.ruts else []
         if self.scatter is None:
-            self.known[thickness] = life.dataset["life_years"].to_numpy()
+            self.known[thickness] = np.append(life.dataset["life_years"].to_numpy(), rut)
             return self.known[thickness]
         if fresh or self._shift is None:
             self._shift = self._shifted(thickness, life)
         passes = life.dataset["life_passes"].to_numpy() * np.exp(self._shift)
-        self.known[thickness] = np.array([self.traffic.years_to(float(one)) for one in passes])
+        self.known[thickness] = np.array([*(self.traffic.years_to(float(one)) for one in passes), *rut])
         return self.known[thickness]
 
     def shortest(self, thickness: float) -> float:
@@ -306,7 +323,7 @@ class _Search:
         lives = {thickness: self.at_risk(thickness) for thickness in (low, high)}
         best = max(lives, key=lambda thickness: float(lives[thickness].min()))
         number = int(lives[best].argmin())
-        criterion = self.life(best).criteria[number].name
+        criterion = self.names(self.life(best))[number]
         gained = float(lives[high][number] / lives[low][number])
         helps = "" if gained > 1.05 else f", which a thicker {name} does not help"
         raise InputError(

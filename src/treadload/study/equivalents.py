@@ -148,7 +148,9 @@ def life_equivalents(road: Pavement, life: Life, *, workers: int | None = None) 
     }
     names = {"criterion": [one.name for one in life.criteria], "axle_class": [row.name for row in classes]}
     return Equivalents(
-        variables.dataset(fields, names, governing=life.governing, readings=json.dumps(words, ensure_ascii=False))
+        variables.dataset(
+            fields, names, governing=life.governing_criterion, readings=json.dumps(words, ensure_ascii=False)
+        )
     )
 
 
@@ -213,7 +215,7 @@ def _temperatures(life: Life) -> tuple[Array, Array, Array]:
         if curve is not None:
             warmth[k] = _root(curve, known, float(shares[k] @ degrees))
             reading[k] = math.exp(PchipInterpolator(known, np.log(largest[k]))(warmth[k]))
-    at = warmth[[one.name for one in life.criteria].index(life.governing)]
+    at = warmth[[one.name for one in life.criteria].index(life.governing_criterion)]
     passes = life.dataset["life_passes"].to_numpy()
     for k, curve in enumerate(curves):
         if curve is not None and math.isfinite(at):

@@ -16,9 +16,10 @@ from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.interface import interface_in_words
-from treadload.damage.miner import Life, miner
+from treadload.damage.miner import RUT, Life, miner
 from treadload.damage.rutting import Rutting
 from treadload.damage.traffic import Traffic
+from treadload.errors import InputError
 from treadload.pavement import Pavement, lift_below
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.doubts import beyond_tables, traffic_doubts
@@ -56,6 +57,8 @@ def solve_life(
     Raises InputError, and ConvergenceError of a contact.
     """
     start = time.perf_counter()
+    if rutting is not None and any(one.name == RUT for one in criteria):
+        raise InputError(f"a criterion has the name {RUT!r}, which the life's rut has; give it another name")
     contacts = contacts or Contacts(tire, spacing)
     again: dict[str, Any] = {"workers": workers, "progress": progress, "contacts": contacts}
     passages = solve_passages(

@@ -55,7 +55,7 @@ class LifeResult(Study):
 
     def to_tree(self) -> xr.DataTree:
         """The life in one tree with provenance, ready to be saved; the road in the season that does most damage."""
-        shares = self.life.dataset["damage_share"].sel(criterion=self.life.governing).sum("axle_class")
+        shares = self.life.dataset["damage_share"].sel(criterion=self.life.governing_criterion).sum("axle_class")
         season = self.life.climate.seasons[int(np.argmax(shares.to_numpy()))]
         road = warmed(self.road, (), season).road
         return to_tree(self.parts, case=self.case, road=road, season=season, summary=self.summary())
@@ -91,7 +91,7 @@ def run_life(
         rutting=None if case.rutting is None else case.rutting.build(),
         **shared,
     )
-    ends = np.isfinite(life.years(life.governing))
+    ends = np.isfinite(life.years(life.governing_criterion))
     depends = life_sensitivity(tire, road, life, **shared) if sensitivity and ends else None
     part = case.reliability
     scatters = None if part is None or not ends else life_reliability(tire, road, life, **part.asked(), **shared)
@@ -126,9 +126,10 @@ def design_case(
             raise InputError(f"no layer {layer}; the road has 1 to {len(road.layers)}, counted from the surface")
         number = layer - 1
     scatter = None if case.reliability is None or risk is None else case.reliability.build()
+    rutting = None if case.rutting is None else case.rutting.build()
     return design_thickness(
         case.build_tire(), road, case.build_traffic(), case.build_climate(),
         lambda changed: tuple(one.on(changed) for one in case.criteria),
         layer=number, years=years, risk=risk, scatter=scatter, spacing=case.spacing, tolerance=case.tolerance,
-        workers=workers, progress=progress, **asked,
+        rutting=rutting, workers=workers, progress=progress, **asked,
     )  # fmt: skip

@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
+import numpy as np
 import xarray as xr
 
 from treadload import variables
@@ -16,7 +17,7 @@ from treadload.composing import BaseResult, Holds
 from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criterion import Criterion
-from treadload.damage.miner import Life, damage_of, wander_of
+from treadload.damage.miner import RUT, Life, damage_of, wander_of
 from treadload.damage.thermal import years_until
 from treadload.damage.traffic import Traffic, Wander
 from treadload.describing import first_line
@@ -96,8 +97,8 @@ def life_sensitivity(
     """
     if not 0 < coverage <= 1:
         raise InputError(f"coverage must lie in (0, 1], got {coverage}; 0.8 is the default")
-    data = life.dataset.sel(criterion=life.governing)
-    number = [one.name for one in life.criteria].index(life.governing)
+    data = life.dataset.sel(criterion=life.governing_criterion)
+    number = [one.name for one in life.criteria].index(life.governing_criterion)
     criterion = life.criteria[number]
     passes = float(data["life_passes"])
     if not math.isfinite(passes):
@@ -111,6 +112,7 @@ def life_sensitivity(
     question = (road, life.traffic, life.climate)
     elasticity = _without_solves(life, number, growth, steady)
     changes, skipped = _changes(question)
+    skipped += _of_the_rut(life)
     asked: list[tuple[str, float, Question]] = []
     days: dict[str, list[float]] = {}
     for name, change in changes.items():
@@ -142,6 +144,27 @@ def life_sensitivity(
         responses=solver.responses,
     )
     return Sensitivity(dataset, criterion.name, covered, solver.solved, solver.responses, tuple(skipped))
+
+
+def _of_the_rut(life: Life) -> list[str]:
+    """A sentence where the rut ends the road first: what its curve over the years says, and what is not solved."""
+    if life.governing != RUT or not math.isfinite(life.rut_years):
+        return []
+    data, at = life.dataset, life.rut_years
+    year, depth = data["year"].to_numpy(), data["rut_depth"].to_numpy().sum(axis=0)
+    # ln of the rut is about linear in ln of the passes; the last two years hold for what lies beyond the curve.
+    right = int(np.clip(np.searchsorted(year, at), 1, len(year) - 1)) if len(year) > 1 else 0
+    told = f"the rut, which ends the road first, after {at:.3g} years"
+    if not right:
+        return [f"{told}: no input is changed for it"]
+    passes = [life.traffic.passes(float(one)) for one in year[right - 1 : right + 1]]
+    power = math.log(depth[right] / depth[right - 1]) / math.log(passes[1] / passes[0])
+    slope = _growth(life.traffic, life.traffic.passes(at))
+    return [
+        f"{told}: by its curve its years change by {-slope:+.2g} % as the passes grow by 1 % and by "
+        f"{slope / power:+.2g} % as its limit does; loads, thicknesses, moduli and temperature are not changed for "
+        f"it, and what is told above is the life by {life.governing_criterion}"
+    ]
 
 
 def _growth(traffic: Traffic, passes: float) -> float:

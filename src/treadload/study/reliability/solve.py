@@ -128,6 +128,11 @@ def life_reliability(
         for k, error in zip(chosen, errors, strict=True)
         if error > _DOUBTFUL
     )
+    if math.isfinite(life.rut_years):
+        said += (
+            f"the rut, which is at its limit after {life.rut_years:.3g} years, is not among what is drawn: neither "
+            "the scatter of its law nor that of its inputs is known here",
+        )
     said += tuple(
         f"{life.criteria[k].name}: daily thermal stress does {100 * share:.2g} % of its damage, which scatters and "
         "grows here as that of the traffic does"
