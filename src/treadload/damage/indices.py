@@ -31,7 +31,7 @@ a solution to its tolerance leaves of a wheel that rolls freely."""
 _INCH = 0.0254
 _FEWEST = 3
 _DOUBTS = (
-    "its factor of depth is from memory and was not found in a document; the ratio itself is the national "
+    "its factor of depth was read in a public program, not in a document; the ratio itself is the national "
     "calibration of NCHRP 1-37A (2004) for strain at points under uniform discs"
 )
 
@@ -104,7 +104,7 @@ def asphalt_rut(
     k_z = (C₁ + C₂ z) 0.328196^z, C₁ = -0.1039 h² + 2.4868 h - 17.342, C₂ = 0.0172 h² - 1.7331 h + 27.428, z and the
     thickness h of all asphalt in inches, at least 0. thickness: h, m; left out, that of the bituminous layers.
     The attribute `warnings` has its doubt. Raises InputError.
-    Source: NCHRP 1-37A (2004), part 3, chapter 3; k_z from memory, to be verified.
+    Source: NCHRP 1-37A (2004), part 3, chapter 3; k_z as coded in ProductOneME (commit c89fe2b).
     """
     positive("passes", passes, remedy="a rut needs at least one")
     law = PassesPowerLaw.asphalt(temperature)

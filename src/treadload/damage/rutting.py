@@ -19,8 +19,8 @@ _FIRST, _LAST, _PASSES = 0.15, 20.0, 1e9
 # Calibration of the unbound layers, and of the soil, in 2004.
 UNBOUND, SOIL = 1.673, 1.35
 DOUBT = (
-    "the rut's factor of depth in the asphalt and all numbers of its soil are from memory, to verify; both were "
-    "calibrated for strain at points under uniform discs"
+    "the rut's factor of depth in the asphalt and the numbers of its soil were read in a public program that codes "
+    "NCHRP 1-37A (2004), not in the guide; both were calibrated for strain at points under uniform discs"
 )
 
 
@@ -31,7 +31,7 @@ class Rutting:
     limit: depth of the rut that ends the life, m, > 0, or None. water_content: of soil and unbound layers, a share of
     their dry mass, in (0, 0.4]. calibration: local factor on all of the rut, > 0. Raises InputError.
     Source: NCHRP 1-37A (2004), part 3, chapter 3: asphalt as in `damage.asphalt_rut`; unbound layers and soil after
-    Tseng and Lytton (1989), from memory, to verify.
+    Tseng and Lytton (1989), its equations 3.3.10, 3.3.11 and 3.3.19, as coded in ProductOneME (commit c89fe2b).
     """
 
     limit: Length | None = None

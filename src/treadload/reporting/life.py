@@ -268,8 +268,8 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
         *(
             picture(
                 "Rut against years",
-                f"R{rut_in_words(data)[1:]}. Where it is deepest, with lateral wander; from memory in part, see the "
-                "warnings.",
+                f"R{rut_in_words(data)[1:]}. Where it is deepest, with lateral wander; what was not read in "
+                "its source stands in the warnings.",
                 lambda: life_rut(data),
                 wide=True,
             )
