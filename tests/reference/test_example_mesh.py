@@ -16,7 +16,7 @@ from treadload.tire.scan.mesh_file import read_mesh
 trimesh = pytest.importorskip("trimesh")
 
 MESHES = Path(__file__).parents[1] / "data" / "tire_meshes"
-CITY, DURO = MESHES / "CityBusTire.obj", MESHES / "Duro_Tire.obj"
+CITY, DURO, SEMI = (MESHES / f"{name}.obj" for name in ("CityBusTire", "Duro_Tire", "SemiTractor_tire"))
 
 
 @pytest.fixture(scope="module")
@@ -71,8 +71,51 @@ def test_other_meshes(path, radius, grooves):
         assert quality.facet_sag == pytest.approx(2.5e-3, abs=0.2e-3)
         assert any("facets cut 2.5 mm" in text for text in quality.warnings)
         assert [g.depth for g in quality.grooves] == pytest.approx([7.8e-3] * 4, abs=1e-3)
-    else:
-        assert [g.depth for g in quality.grooves] == pytest.approx([16e-3] * 5, abs=1.5e-3)
+
+
+@pytest.mark.parametrize(
+    ("path", "radius", "width", "depths"),
+    [
+        # As the SOURCE.md beside each has them; of the first the floors lie 14 to 17 mm under the crown.
+        (example_mesh(), 0.5046, 0.3435, [0.0145, 0.0165, 0.0145]),
+        (CITY, 0.526, 0.2945, [0.0078] * 4),
+        (DURO, 0.474, 0.275, [0.016] * 5),
+        (SEMI, 0.5585, 0.305, []),
+    ],
+    ids=lambda one: one.stem if isinstance(one, Path) else None,
+)
+def test_every_mesh_has_its_documented_radius_and_grooves_within_a_millimetre(path, radius, width, depths):
+    tire = Tire.from_scan(path)
+    quality, surface = tire.quality, tire.surface
+    assert quality.crown_radius == pytest.approx(radius, abs=1e-3)
+    assert quality.width == pytest.approx(width, abs=1e-3)
+    found = []
+    for groove in quality.grooves:
+        if path == example_mesh():
+            # Its depths are told below the crown.
+            found.append(groove.floor)
+            continue
+        # Theirs are heights of the lower wall: a rounded crown makes one rib lower than the other.
+        beside = 0.5 * groove.width + np.array([1e-3, 6e-3])
+        sides = [(surface.across - groove.centre) * side for side in (-1, 1)]
+        tops = [surface.meridian[(at > beside[0]) & (at < beside[1])].max() for at in sides]
+        found.append(min(tops) - (quality.crown_radius - groove.floor))
+    assert found == pytest.approx(depths, abs=1e-3)
+
+
+def test_grooves_of_the_duro_are_those_of_its_corners():
+    """Depth counts from the mean of the ribs on both sides, 16.5 to 17.2 mm here; the lower wall is 15.9 to 16.5 mm."""
+    points = read_mesh(DURO).vertices
+    places = np.unique(np.round(np.stack([points[:, 1], np.hypot(points[:, 0], points[:, 2])], axis=1), 4), axis=0)
+    corner = {round(float(y), 4): float(r) for y, r in places if r > 0.44}
+    ribs = [(-0.0724, -0.0536), (-0.0441, -0.0253), (-0.0082, 0.0082), (0.0253, 0.0441), (0.0536, 0.0724)]
+    floors = [(-0.0645, -0.0546), (-0.0391, -0.028), (-0.0062, 0.0062), (0.028, 0.0391), (0.0546, 0.0645)]
+    exact = [
+        0.5 * (corner[a] + corner[b] - corner[c] - corner[d]) for (a, b), (c, d) in zip(ribs, floors, strict=True)
+    ]
+    measured = [groove.depth for groove in Tire.from_scan(DURO).quality.grooves]
+    # The meridian is read every millimetre, and ribs fall 0.1 mm in one.
+    assert measured == pytest.approx(exact, abs=0.2e-3)
 
 
 @pytest.mark.parametrize("path", [example_mesh(), CITY, DURO])

@@ -30,7 +30,8 @@ def axis_error(axis, turn, shift):
         (360, 0.0, 0.01, 2e-5),
         (360, 0.3e-3, 0.02, 5e-5),
         (360, 1e-3, 0.05, 0.3e-3),
-        (120, 0.3e-3, 0.08, 0.6e-3),
+        # The bound that was asked of a third of a turn; 0.033° and 0.07 mm are the worst of 18 draws.
+        (120, 0.3e-3, 0.05, 0.5e-3),
         (120, 1e-3, 0.08, 1.0e-3),
         (60, 0.3e-3, 0.13, 2.4e-3),
     ],
