@@ -104,7 +104,7 @@ def test_every_mesh_has_its_documented_radius_and_grooves_within_a_millimetre(pa
 
 
 def test_grooves_of_the_duro_are_those_of_its_corners():
-    """Depth counts from the mean of the ribs on both sides, 16.5 to 17.2 mm here; the lower wall is 15.9 to 16.5 mm."""
+    """Depth counts from the mean of the ribs beside it, 16.5 to 17.2 mm here; the lower wall is 15.9 to 16.5 mm."""
     points = read_mesh(DURO).vertices
     places = np.unique(np.round(np.stack([points[:, 1], np.hypot(points[:, 0], points[:, 2])], axis=1), 4), axis=0)
     corner = {round(float(y), 4): float(r) for y, r in places if r > 0.44}
