@@ -124,7 +124,7 @@ class BaseResult(ABC):
 
     def _repr_html_(self) -> str:
         """What a notebook shows."""
-        return as_html(type(self).__name__, self.summary(), self.warnings, self.dataset)
+        return as_html(type(self).__name__, self.summary(), self.warnings, self.dataset, small_picture(self))
 
 
 Source = xr.Dataset | HasDataset
@@ -141,6 +141,16 @@ def dataset_of(source: Source) -> xr.Dataset:
         f"this takes a result of treadload or its dataset, got {type(source).__name__}; give what a verb such as "
         "solve_response returned"
     )
+
+
+def small_picture(result: BaseResult) -> bytes | None:
+    """A small PNG of the figure that stands for a result, for a notebook; None where none can be drawn."""
+    try:
+        image: bytes | None = result.plot.thumbnail()
+    # A figure of whatever kind, ours or another package's, must not hide the numbers beside it.
+    except Exception:
+        return None
+    return image
 
 
 def result_classes() -> dict[str, type[BaseResult]]:

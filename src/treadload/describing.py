@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import dataclasses
 import html
 import math
@@ -23,6 +24,9 @@ _STYLE = (
     ".tl-result table.tl-rows th,.tl-result table.tl-rows td{border:0;background:transparent;padding:1px 14px 1px 0;"
     "text-align:left;vertical-align:top;font-size:13px;color:inherit;white-space:normal}"
     ".tl-result table.tl-rows th{font-weight:400;opacity:.7;white-space:nowrap}"
+    ".tl-result .tl-main{display:flex;flex-wrap:wrap;gap:12px;align-items:flex-start}"
+    ".tl-result .tl-main .tl-rows{flex:1 1 22em}"
+    ".tl-result .tl-picture{width:320px;max-width:100%;height:auto;margin:2px 0 6px;border-radius:3px}"
     ".tl-result .tl-warning{border-left:3px solid #d55e00;background:rgba(213,94,0,.12);padding:2px 8px;"
     "margin:3px 0}"
     ".tl-result details{margin:2px 0}.tl-result summary{cursor:pointer;opacity:.8}"
@@ -61,10 +65,13 @@ def first_line(result: HasSummary) -> str:
     return f"<{kind}: {_cut(said, 2 * _LINE)}>"
 
 
-def as_html(kind: str, summary: str, warnings: Sequence[str], dataset: Any = None) -> str:
-    """A result as a notebook shows it: its main numbers, warnings, and folded the whole summary and the dataset.
+def as_html(
+    kind: str, summary: str, warnings: Sequence[str], dataset: Any = None, picture: bytes | None = None
+) -> str:
+    """A result as a notebook shows it: its main numbers, a picture, warnings; folded, the summary and the dataset.
 
-    kind: of the result. dataset: with a `_repr_html_` of its own, None for none. All texts are escaped.
+    kind: of the result. dataset: with a `_repr_html_` of its own, None for none. picture: a PNG. All texts are
+    escaped.
     """
     lines = [line.strip() for line in summary.splitlines() if line.strip() and not line.startswith("warning: ")]
     said = next((line.removeprefix("Verdict: ") for line in lines if line.startswith("Verdict: ")), "")
@@ -86,12 +93,24 @@ def as_html(kind: str, summary: str, warnings: Sequence[str], dataset: Any = Non
             else f'<tr><td colspan="2">{escape(_cut(value, 3 * _LINE))}</td></tr>'
             for key, value in rows
         ]
-        page.append(f'<table class="tl-rows"><tbody>{"".join(cells[:_ROWS])}</tbody></table>')
+        page.append(
+            f'<div class="tl-main"><table class="tl-rows"><tbody>{"".join(cells[:_ROWS])}</tbody></table>'
+            f"{_image(kind, picture)}</div>"
+        )
+    else:
+        page.append(_image(kind, picture))
     page += [f'<div class="tl-warning">Warning: {escape(text)}</div>' for text in warnings]
     page.append(f'<details><summary>Summary</summary><pre class="tl-text">{escape(summary)}</pre></details>')
     if dataset is not None:
         page.append(f"<details><summary>Dataset</summary>{dataset._repr_html_()}</details>")
     return "".join([*page, "</div>"])
+
+
+def _image(kind: str, picture: bytes | None) -> str:
+    if picture is None:
+        return ""
+    data = base64.b64encode(picture).decode("ascii")
+    return f'<img class="tl-picture" alt="{html.escape(kind)} in a figure" src="data:image/png;base64,{data}">'
 
 
 def _is_default(field: dataclasses.Field[Any], value: Any) -> bool:

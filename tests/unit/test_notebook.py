@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import base64
 import io
+import re
 from pathlib import Path
 
 import numpy as np
@@ -58,6 +60,33 @@ def test_a_picture_is_shown_once_and_leaves_no_trace(contact, tmp_path):
     figure.savefig(tmp_path / "pressure.png")
     assert Image.open(tmp_path / "pressure.png").width == pytest.approx(100 * figure.get_figwidth(), abs=1)
     assert figure._repr_png_()[0] == first
+
+
+def shown_small(page: str) -> Image.Image:
+    (data,) = re.findall(r'<img class="tl-picture" alt="[^"]+" src="data:image/png;base64,([^"]+)">', page)
+    return Image.open(io.BytesIO(base64.b64decode(data)))
+
+
+def test_a_result_and_a_study_bring_a_small_picture(contact, response):
+    """Of the figure that stands for them, a few hundred pixels wide, so that a notebook stays small."""
+    picture = shown_small(contact._repr_html_())
+    assert picture.format == "PNG"
+    assert 400 < picture.width <= 800
+    assert np.asarray(picture).std() > 0
+    assert len(contact._repr_html_()) < 300_000
+    # A study shows the picture of its first part.
+    opened = tl.results.Results(tl.results.to_tree([contact, response]))
+    assert np.array_equal(np.asarray(shown_small(opened._repr_html_())), np.asarray(picture))
+
+
+def test_a_figure_that_fails_leaves_the_numbers(contact, monkeypatch):
+    def broken(*_, **__):
+        raise RuntimeError("the pen is dry")
+
+    monkeypatch.setattr("treadload.plots.contact.pressure", broken)
+    page = contact._repr_html_()
+    assert "<img" not in page
+    assert "peak pressure" in page
 
 
 def test_every_figure_of_the_house_is_one_that_shows():

@@ -17,12 +17,15 @@ from treadload.plots import response as response_figures
 from treadload.plots import rose as roses
 from treadload.plots import verdict as verdict_figures
 from treadload.plots.interactive import LinkedView, contact_view, response_view, verdict_view
+from treadload.plots.kit.offered import Figures
 from treadload.plots.response import Strain
 
 
 @offers("plot", "Contact", "Footprint")
-class ContactPlots:
+class ContactPlots(Figures):
     """Figures of a contact, or of its dataset. Each returns a matplotlib Figure but `interactive`, a page."""
+
+    main = "pressure"
 
     def __init__(self, contact: Source) -> None:
         self._contact = contact
@@ -56,8 +59,10 @@ class ContactPlots:
 
 
 @offers("plot", "Response")
-class ResponsePlots:
+class ResponsePlots(Figures):
     """Figures of a response, or of its dataset. Each returns a matplotlib Figure."""
+
+    main = "strain_directions"
 
     def __init__(self, response: Source) -> None:
         self._response = response
@@ -115,8 +120,10 @@ class ResponsePlots:
 
 
 @offers("plot", "Verdict")
-class VerdictPlots:
+class VerdictPlots(Figures):
     """Figures of a verdict, or of its dataset. Each returns a matplotlib Figure."""
+
+    main = "passes"
 
     def __init__(self, verdict: Source) -> None:
         self._verdict = verdict

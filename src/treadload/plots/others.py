@@ -21,6 +21,7 @@ from treadload.plots.growth import crack_depth, crack_intensity
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
 from treadload.plots.interface import bond_utilisation, bonded_and_parted
+from treadload.plots.kit.offered import Figures
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.passes import drum_contact, plastic_strain, residual_stress, rut_profile
 from treadload.plots.plain import losses, plain_map
@@ -36,7 +37,7 @@ from treadload.plots.uniform import uniform_comparison
 from treadload.plots.works import life_works
 
 
-class _Plots:
+class _Plots(Figures):
     """Figures of a result, or of its dataset. Each returns a matplotlib Figure."""
 
     def __init__(self, result: Source) -> None:
@@ -46,6 +47,8 @@ class _Plots:
 @offers("plot", "Life")
 class LifePlots(_Plots):
     """Figures of a life."""
+
+    main = "years"
 
     def years(self, *, ax: Axes | None = None) -> Figure:
         """Years by criterion, with the design life."""
@@ -80,6 +83,8 @@ class LifePlots(_Plots):
 class IndentationPlots(_Plots):
     """Figures of a body pressed into a road that yields."""
 
+    main = "dent"
+
     def dent(self) -> Figure:
         """Pressure and dent on a line through the middle, step by step."""
         return indentation(self._result)
@@ -88,6 +93,8 @@ class IndentationPlots(_Plots):
 @offers("plot", "Passes")
 class PassesPlots(_Plots):
     """Figures of passes over a road that yields."""
+
+    main = "rut"
 
     def rut(self, *, ax: Axes | None = None) -> Figure:
         """Shape of the surface across travel, pass by pass."""
@@ -112,6 +119,8 @@ class PassesPlots(_Plots):
 class HeterogeneousPlots(_Plots):
     """Figures of a window of mortar with stones."""
 
+    main = "section"
+
     def section(self, *, along: Literal["travel", "across"] = "across", at: float | None = None) -> Figure:
         """Largest tension in a vertical section with stones and without, and how it is spread. at: m."""
         return stones_in_mortar(self._result, along=along, at=at)
@@ -120,6 +129,8 @@ class HeterogeneousPlots(_Plots):
 @offers("plot", "TextureContact")
 class TexturePlots(_Plots):
     """Figures of rubber on a texture."""
+
+    main = "patch"
 
     def patch(self) -> Figure:
         """Texture, pressure on its peaks, area against mean pressure, and which pressures carry the load."""
@@ -130,6 +141,8 @@ class TexturePlots(_Plots):
 class EnvelopedPlots(_Plots):
     """Figures of an enveloped pressure."""
 
+    main = "pressure"
+
     def pressure(self, before: Source | None = None) -> Figure:
         """The enveloped pressure in plan. before: the contact itself, to be drawn beside it on its own scale."""
         return enveloped_pressure(self._result, before)
@@ -138,6 +151,8 @@ class EnvelopedPlots(_Plots):
 @offers("plot", "Sensitivity")
 class SensitivityPlots(_Plots):
     """Figures of a sensitivity."""
+
+    main = "inputs"
 
     def inputs(self, *, ax: Axes | None = None, most: int = 10) -> Figure:
         """Change of the life as each input grows by 5 %."""
@@ -148,6 +163,8 @@ class SensitivityPlots(_Plots):
 class ThicknessDesignPlots(_Plots):
     """Figures of a design."""
 
+    main = "lives"
+
     def lives(self, *, ax: Axes | None = None) -> Figure:
         """Years by criterion against the thickness that was looked for."""
         return design_thicknesses(self._result, ax=ax)
@@ -157,6 +174,8 @@ class ThicknessDesignPlots(_Plots):
 class EquivalentsPlots(_Plots):
     """Figures of a traffic in standard axles."""
 
+    main = "axles"
+
     def axles(self, *, ax: Axes | None = None) -> Figure:
         """What one passage of each class does, in standard axles, by criterion."""
         return standard_axles(self._result, ax=ax)
@@ -165,6 +184,8 @@ class EquivalentsPlots(_Plots):
 @offers("plot", "Reliability")
 class ReliabilityPlots(_Plots):
     """Figures of a reliability."""
+
+    main = "years"
 
     def years(self, *, ax: Axes | None = None) -> Figure:
         """Probability of failure against years, by criterion."""
@@ -179,6 +200,8 @@ class ReliabilityPlots(_Plots):
 class GrowthPlots(_Plots):
     """Figures of a crack that grows."""
 
+    main = "depth"
+
     def depth(self, *, ax: Axes | None = None) -> Figure:
         """Depth of the first crack against years, with what scatters."""
         return crack_depth(self._result, ax=ax)
@@ -192,6 +215,8 @@ class GrowthPlots(_Plots):
 class BondVerdictPlots(_Plots):
     """Figures of a verdict on bonds."""
 
+    main = "utilisation"
+
     def utilisation(self, *, contact: Source | None = None) -> Figure:
         """Utilisation of the bond of every interface, in plan."""
         return bond_utilisation(self._result, contact=contact)
@@ -201,6 +226,8 @@ class BondVerdictPlots(_Plots):
 class BondComparisonPlots(_Plots):
     """Figures of a road with its bond and without."""
 
+    main = "lives"
+
     def lives(self) -> Figure:
         """Lives by criterion: bonded, debonded, bonded until the bond fails."""
         return bonded_and_parted(self._result)
@@ -209,6 +236,8 @@ class BondComparisonPlots(_Plots):
 @offers("plot", "FootprintComparison")
 class FootprintComparisonPlots(_Plots):
     """Figures of a computed contact beside a measured footprint."""
+
+    main = "maps"
 
     def maps(self) -> Figure:
         """Both maps as the sensor tells them on one scale, and their difference, kPa."""
@@ -227,6 +256,8 @@ class FootprintComparisonPlots(_Plots):
 class CreepCurvePlots(_Plots):
     """Figures of a creep curve."""
 
+    main = "forces"
+
     def forces(self, *, along: str = "") -> Figure:
         """Force and slip against creepage. along: "x" or "y"; left out, that of the curve."""
         given = along or str(getattr(self._result, "along", "")) or _direction(dataset_of(self._result))
@@ -243,6 +274,8 @@ def _direction(data: object) -> str:
 class UniformPlots(_Plots):
     """Figures of a contact beside uniform loads."""
 
+    main = "strains"
+
     def strains(self) -> Figure:
         """Largest strains over depth, a line for each load."""
         return uniform_comparison(self._result)
@@ -251,6 +284,8 @@ class UniformPlots(_Plots):
 @offers("plot", "TireCard")
 class TireCardPlots(_Plots):
     """Figures of a tire card."""
+
+    main = "card"
 
     def card(self) -> Figure:
         """Deflection, footprint, load of the shoulders and slip stiffnesses over load."""
@@ -261,6 +296,8 @@ class TireCardPlots(_Plots):
 class TransientPlots(_Plots):
     """Figures of rolling from rest."""
 
+    main = "history"
+
     def history(self) -> Figure:
         """Forces and slip against the distance rolled."""
         return transient_history(self._result)
@@ -269,6 +306,8 @@ class TransientPlots(_Plots):
 @offers("plot", "Crossing")
 class CrossingPlots(_Plots):
     """Figures of a wheel over an obstacle."""
+
+    main = "history"
 
     def history(self) -> Figure:
         """Pressures, shares of the load and work along the way."""
@@ -283,6 +322,8 @@ class CrossingPlots(_Plots):
 class TurnPlots(_Plots):
     """Figures of a turn on the spot."""
 
+    main = "history"
+
     def history(self) -> Figure:
         """Torque and slip against the angle."""
         return turn_history(self._result)
@@ -291,6 +332,8 @@ class TurnPlots(_Plots):
 @offers("plot", "Calibration")
 class CalibrationPlots(_Plots):
     """Figures of a calibration; those of its footprints are `calibration.comparisons[0].plot`."""
+
+    main = "fit"
 
     def fit(self) -> Figure:
         """Data against the fitted tire, and the residuals of all readings."""
@@ -349,6 +392,8 @@ class SweepPlots(_Plots):
 class TornadoPlots(_Plots):
     """Figures of a tornado."""
 
+    main = "tornado"
+
     def tornado(self, *, ax: Axes | None = None) -> Figure:
         """Bars from the base case to both ends of every input."""
         return tornado_bars(self._result, ax=ax)
@@ -357,6 +402,8 @@ class TornadoPlots(_Plots):
 @offers("plot", "Sobol")
 class SobolPlots(_Plots):
     """Figures of Sobol indices."""
+
+    main = "sobol"
 
     def sobol(self, *, ax: Axes | None = None) -> Figure:
         """First-order and total indices with their intervals."""
@@ -367,6 +414,8 @@ class SobolPlots(_Plots):
 class MorrisPlots(_Plots):
     """Figures of a Morris screening."""
 
+    main = "morris"
+
     def morris(self, *, ax: Axes | None = None) -> Figure:
         """Spread of the effects of every input against their mean size."""
         return morris_effects(self._result, ax=ax)
@@ -375,6 +424,8 @@ class MorrisPlots(_Plots):
 @offers("plot", "RollingResistance")
 class RollingResistancePlots(_Plots):
     """Figures of rolling resistance."""
+
+    main = "losses"
 
     def losses(self, *, ax: Axes | None = None) -> Figure:
         """What resists, beside what the materials lose."""

@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, small_picture
 from treadload.describing import as_html
 
 
@@ -47,8 +47,10 @@ class Study(ABC):
         return self.summary()
 
     def _repr_html_(self) -> str:
-        """What a notebook shows."""
-        return as_html(type(self).__name__, self.summary(), self.warnings, self.to_tree())
+        """What a notebook shows: with the figure of the first part that has one."""
+        pictures = (small_picture(part) for part in self.parts.values())
+        picture = next((one for one in pictures if one is not None), None)
+        return as_html(type(self).__name__, self.summary(), self.warnings, self.to_tree(), picture)
 
 
 class PlotsOfParts:
