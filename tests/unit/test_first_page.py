@@ -25,7 +25,7 @@ from treadload.damage.traffic import AxleClass, Traffic
 from treadload.plots import VerdictPlots, first_places
 from treadload.plots.first import failing_order
 from treadload.reporting import write_report
-from treadload.reporting.first import first_of_life, first_of_response
+from treadload.reporting.first import first_of_life, first_of_response, reading_in_words
 from treadload.reporting.reading import ReportCase
 from treadload.results import to_tree
 
@@ -55,6 +55,13 @@ def a_life(dips=(90.0, 90.0, np.nan, np.nan), years=20.0):
     return tl.damage.Life(
         life.dataset.assign(read_depth=depth), life.criteria, life.traffic, life.climate, life.readings, life.laws
     )
+
+
+def test_a_small_reading_is_told_by_a_power_of_ten():
+    mean, extension = (tl.damage.known_quantities()[name] for name in ("mean_stress", "extension_strain"))
+    assert reading_in_words(mean, 16.9) == "1.7×10⁻⁵ MPa"
+    assert reading_in_words(mean, 0.782e6) == mean.in_words(0.782e6) == "0.782 MPa"
+    assert reading_in_words(extension, 223e-6) == "223 microstrain"
 
 
 def test_all_criteria_stand_side_by_side_in_the_order_in_which_they_fail():

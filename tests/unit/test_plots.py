@@ -8,6 +8,8 @@ import sys
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
@@ -246,6 +248,17 @@ def test_comparison_has_one_scale_and_one_bar(free, driving):
 def test_comparison_needs_a_label_for_each_case(free):
     with pytest.raises(InputError, match="1 labels for 2 cases"):
         compare_strain([free[1], free[1]], ["only one"])
+
+
+def test_words_beside_a_colour_bar_are_no_longer_than_the_bar(free, driving):
+    """They pressed the maps together in a report: the longest are those of the strain in the horizontal plane."""
+    figure = compare_strain([free[1], driving[1]], ["Free", "Driving"], strain="in-plane")
+    agg = FigureCanvasAgg(figure)
+    agg.draw()
+    labels = [(ax, ax.yaxis.label) for ax in figure.findobj(Axes) if "horizontal plane" in ax.get_ylabel()]
+    assert labels
+    for ax, label in labels:
+        assert label.get_window_extent().height <= ax.get_window_extent().height
 
 
 def test_section_runs_downwards_at_true_scale(driving):

@@ -24,6 +24,8 @@ _LIFE = (
     "fails after",
 )  # fmt: skip
 _RESPONSE = ("quantity", "by whom", "largest", "where", "which way", "calibrated")
+# A number as Python writes small and large ones.
+_TINY = re.compile(r"\d[\d.]*e[+-]\d+")
 CRACKS, FAILS = "Where would it crack first, by whom", "Where would it fail first, by whom"
 
 
@@ -161,9 +163,14 @@ def _response_row(quantity: Quantity, data: xr.Dataset) -> tuple[tuple[str, ...]
         elif normal is not None:
             way = "none: nothing is tensile"
     where = f"{_deep(depth)}, x = {signed(1e3 * x, 0)} mm, y = {signed(1e3 * y, 0)} mm" if largest > 0 else "–"
-    row = (str(quantity.words), short_source(quantity.source), quantity.in_words(largest) if largest > 0 else "none",
-           where, way, quantity.calibrated)  # fmt: skip
+    read = reading_in_words(quantity, largest) if largest > 0 else "none"
+    row = (str(quantity.words), short_source(quantity.source), read, where, way, quantity.calibrated)
     return row, opens
+
+
+def reading_in_words(quantity: Quantity, value: float) -> str:
+    """A reading with its unit, small ones by a power of ten."""
+    return _TINY.sub(lambda found: power_of_ten(float(found[0])), quantity.in_words(value))
 
 
 def _is_tensile(data: xr.Dataset, at: tuple[Any, ...]) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,6 +28,9 @@ MICRO = 1e6
 X_LABEL = "x, direction of travel (mm)"
 Y_LABEL = "y, right of travel (mm)"
 DEPTH_LABEL = "depth (mm)"
+
+# Letters in a line beside a colour bar.
+_LABEL = 46
 
 # A colour scale is cut when the peak stands this far above all but the highest 0.5 % of the loaded cells.
 _OUTSTANDING = 1.3
@@ -173,13 +177,15 @@ def frame_plan(ax: Axes, plan: Plan) -> None:
 def colour_bar(mesh: Any, ax: Axes, label: str, scale: Limits, beyond: float = 0.0) -> Colorbar:
     """Colour bar as high as its axes, with quantity and unit; an arrow where the scale is cut.
 
-    beyond: points that something else takes right of the axes.
+    label: in two lines where it would be longer than the bar. beyond: points that something else takes right of the
+    axes.
     """
     figure = figure_of(ax)
     # Own axes inside the map's: they follow its height whatever true scale leaves of it.
     shifted = offset_copy(ax.transAxes, figure, x=beyond, units="points")
     beside = ax.inset_axes((1.025, 0.0, 0.028, 1.0), transform=shifted)
-    bar = figure.colorbar(mesh, cax=beside, label=label, extend=scale.extend, extendfrac=0.035)
+    words = textwrap.fill(label, _LABEL, break_on_hyphens=False)
+    bar = figure.colorbar(mesh, cax=beside, label=words, extend=scale.extend, extendfrac=0.035)
     bar.outline.set(edgecolor=RULE, linewidth=0.7)
     return bar
 
