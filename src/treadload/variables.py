@@ -23,6 +23,9 @@ _COORDINATES = {
 
 _CONTACT = {
     "initial_gap": ("m", "separation before loading"),
+    "tread_wear": ("m", "worn off the ribs since an earlier scan, along the radius"),
+    "median_tread_wear": ("m", "worn off the ribs since an earlier scan, median round the tire"),
+    "wheel_angle": ("rad", "angle round the wheel, from the road towards travel"),
     "gap": ("m", "separation after loading"),
     "road_height": ("m", "height of the road's surface above its plane, up positive"),
     "pressure": ("Pa", "contact pressure"),
@@ -488,8 +491,8 @@ _ORDER = (
     "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
     "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure", "mode",
     "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "position", "pass", "interface",
-    "depth", "profile_depth", "sublayer", "point", "row", "column", "y", "across", "x", "road_x", "component",
-    "orientation",
+    "depth", "profile_depth", "sublayer", "point", "row", "column", "y", "across", "wheel_angle", "x", "road_x",
+    "component", "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
 

@@ -16,6 +16,9 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | meshes | 7 | 0 to 20 000 | 0 |
 | footprints | 11 | 0 to 41 000 | 3: frames of unlike shapes, a picture of 13 million pixels |
 | footprints | 12 | 0 to 60 000 | 0 |
+| textures | 3 | 0 to 100 000 | 0 |
+| surfaces | 3 | 0 to 40 000 | 0 |
+| clouds | 1 | 0 to 400, stopped | a LAZ file whose table of chunks lies, which ended the process |
 | results | 7 | 0 to 4 700, of an older form of the attack | 18, of which seven causes in the package |
 | results | 7 | 0 to 10 000 | 30 of 15 causes: parts that lack what a summary reads, numbers beyond all |
 | results | 8 | 0 to 1 500, which now break inputs of results too | 0 |
@@ -37,7 +40,7 @@ from pathlib import Path
 
 from fuzz.runner import Tally, batch
 
-KINDS = ("cases", "meshes", "tables", "results", "footprints", "textures", "surfaces")
+KINDS = ("cases", "meshes", "tables", "results", "footprints", "textures", "surfaces", "clouds", "fringes")
 _BATCH = 200
 
 

@@ -15,6 +15,8 @@ from fuzz.runner import attack_of, run
         ("footprints", 150),
         ("textures", 200),
         pytest.param("surfaces", 300, marks=pytest.mark.slow),
+        pytest.param("clouds", 300, marks=pytest.mark.slow),
+        pytest.param("fringes", 40, marks=pytest.mark.slow),
     ],
 )
 def test_nothing_breaks(kind, count):

@@ -174,10 +174,22 @@ def test_a_car_is_refused(tmp_path, how):
 def test_files_that_are_not_what_they_say(tmp_path):
     points = cloud(2_000)
     good = las(tmp_path / "a.las", points).read_bytes()
+    packed = las(tmp_path / "a.laz", points).read_bytes()
+    start = struct.unpack_from("<I", packed, 96)[0]
+    table = struct.unpack_from("<q", packed, start)[0]
+    billion = struct.pack("<I", 1_900_000_000)
     for name, content, told in [
         ("half.las", good[: len(good) // 2], "truncated|has"),
         ("many.las", good[:107] + struct.pack("<I", 2**31) + good[111:], "between 1 and"),
         ("records.las", good[:100] + struct.pack("<I", 2**31) + good[104:], "header"),
+        # The unpacker of LAZ would reserve 30 GB for these, and end the process.
+        ("chunks.laz", packed[: table + 4] + billion + packed[table + 8 :], "1900000000 chunks"),
+        (
+            "table.laz",
+            packed[:start] + struct.pack("<q", 2**40) + packed[start + 8 :],
+            "no table of its packed points",
+        ),
+        ("tail.laz", packed[: table + 2], "no table of its packed points"),
         ("text.las", b"1 2 3\n" * 500, "does not begin with a LAS header"),
         ("binary.xyz", good, "is no text"),
         ("words.xyz", b"hello\nworld\n", "no line of three numbers"),
@@ -252,6 +264,50 @@ def test_what_was_worn_off(tmp_path):
     save(drawn(data), tmp_path / "scan.png")
     save(drawn(scan_fields(new, spacing=6e-3)), tmp_path / "alone.png")
     assert (tmp_path / "scan.png").stat().st_size > 30_000
+
+
+@pytest.mark.slow
+def test_the_command_scales_both_scans_and_writes_the_wear(tmp_path):
+    from typer.testing import CliRunner
+
+    from treadload.cli import app
+    from treadload.files import read_tree
+
+    worn = 3e-3
+    now = replace(
+        RIB_TREAD,
+        rolling_radius=RIB_TREAD.rolling_radius - worn,
+        grooves=tuple(
+            replace(g, depth=g.depth - worn, width=g.width - 2 * worn * math.tan(g.wall_angle))
+            for g in RIB_TREAD.grooves
+        ),
+    )
+    # As two reconstructions from photographs leave them: each in a unit of its own.
+    for name, tread, unit in (("now", now, 0.731), ("then", RIB_TREAD, 0.912)):
+        vertices, faces = tire_mesh(tread, around=240, across=60)
+        write(tmp_path / f"{name}.ply", unit * vertices, faces)
+    asked = ["scan", str(tmp_path / "now.ply"), "--known-length", "0.731 = 1000 mm", "--spacing", "10 mm", "--quiet"]
+    both = [*asked, "--reference", str(tmp_path / "then.ply")]
+    output = tmp_path / "tread.nc"
+    done = CliRunner().invoke(app, [*both, "--reference-length", "0.912 = 1000 mm", "-o", str(output)])
+    assert done.exit_code == 0, done.output
+    data = read_tree(output, "NetCDF-4").to_dataset()
+    assert {"initial_gap", "tread_wear", "median_tread_wear"} <= set(data.data_vars)
+    # Facets of 1.5° lie 0.05 mm under the circle in both.
+    assert float(data.median_tread_wear.median()) == pytest.approx(worn, abs=0.1e-3)
+    assert float(data.tread_wear.median()) == pytest.approx(worn, abs=0.1e-3)
+    assert data.tread_wear.attrs["units"] == "m"
+    assert "worn off the ribs 3.0" in data.attrs["wear"]
+    assert "crown radius 53" in data.attrs["scan"]
+    # The file is a height map of the tread as before.
+    assert Tire.from_height_map(output, inflation_pressure=8e5).fixed_grid.dx == pytest.approx(10e-3)
+    # One known length for both: the earlier tire would be a quarter larger, and that is said.
+    wrong = CliRunner().invoke(app, both)
+    assert wrong.exit_code != 0
+    assert "larger, more than a tread is deep" in " ".join(wrong.output.split())
+    alone = CliRunner().invoke(app, [*asked, "--reference-length", "1 = 1 m"])
+    assert alone.exit_code != 0
+    assert "give it with --reference" in " ".join(alone.output.split())
 
 
 @pytest.mark.slow

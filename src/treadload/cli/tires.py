@@ -13,7 +13,7 @@ from treadload.cli.progress import stages
 # Options of a scan that a measurement with fringes states in its own file.
 _OF_MESHES = (
     "units", "nominal_diameter", "rotation", "camber", "revolve", "smooth", "outliers", "roundness", "spacing",
-    "known_length", "reference",
+    "known_length", "reference", "reference_length",
 )  # fmt: skip
 
 
@@ -38,6 +38,12 @@ def scan(
     reference: Annotated[
         Path | None, typer.Option(help="An earlier scan of the same tire: what was worn off.", show_default=False)
     ] = None,
+    reference_length: Annotated[
+        str | None,
+        typer.Option(
+            help="The known length as the earlier scan has it; --known-length if left out.", show_default=False
+        ),
+    ] = None,
     figure: Annotated[
         Path | None, typer.Option(help="Picture of what was read and done: .png, .svg or .pdf.", show_default=False)
     ] = None,
@@ -46,15 +52,16 @@ def scan(
     """Read a scan of a tire, or pictures of fringes, report the quality, draw it, and write the height map."""
     from treadload.errors import InputError
     from treadload.files import check_writable
-    from treadload.results import height_map
     from treadload.results.exports import check_output, write
-    from treadload.results.scanned import scan_fields, scan_wear
+    from treadload.results.scanned import scan_fields, scan_map, scan_wear
     from treadload.tire import Tire
     from treadload.tire.scan.options import revolve_choice, scale_choice, smooth_choice
     from treadload.units import quantity
 
     if output is not None:
         check_output(output)
+    if reference_length is not None and reference is None:
+        raise InputError("--reference-length is of an earlier scan: give it with --reference, or leave it out")
     if mesh.suffix.lower() == ".toml":
         sources = {name: context.get_parameter_source(name) for name in _OF_MESHES}
         given = [name for name, source in sources.items() if source is not None and source.name != "DEFAULT"]
@@ -81,7 +88,13 @@ def scan(
         earlier = None
         if reference is not None:
             tell(f"reading {reference}")
-            earlier = Tire.from_scan(reference, units=units, smooth=smooth_choice(smooth))
+            length = reference_length or known_length
+            earlier = Tire.from_scan(
+                reference,
+                units=units,
+                smooth=smooth_choice(smooth),
+                scale=None if length is None else scale_choice(length),
+            )
         if figure is not None:
             from treadload.plots import save
             from treadload.plots.scan import scan as drawn
@@ -90,7 +103,7 @@ def scan(
             save(drawn(scan_fields(tire, earlier)), figure)
         if output is not None:
             tell("casting rays")
-            files = write(height_map(tire, quantity(spacing, "m")), output)
+            files = write(scan_map(tire, earlier, spacing=quantity(spacing, "m")), output)
     shell.out.print(str(tire.quality), markup=False)
     if earlier is not None:
         shell.out.print(str(scan_wear(tire, earlier)), markup=False)

@@ -9,14 +9,34 @@ import xarray as xr
 
 from treadload.errors import InputError
 from treadload.grid import Grid
+from treadload.results.dataset import height_map
 from treadload.tire import Tire
 from treadload.tire.scan.surface import ScanSurface
 from treadload.tire.scan.wear import STEP, Wear, unroll, wear
+from treadload.variables import dataset
 
 
 def scan_wear(new: Tire, earlier: Tire) -> Wear:
     """What is gone of a scanned tire since an earlier scan of it; see `tire.scan.wear`. Raises InputError."""
     return wear(_surface(new), _surface(earlier))
+
+
+def scan_map(tire: Tire, earlier: Tire | None = None, *, spacing: float = 3e-3) -> xr.Dataset:
+    """What `treadload scan -o` writes: the gap over the road (y, x), how the scan was read, and the wear, if any.
+
+    tire, earlier, spacing: as in `scan_fields`. The wear is `tread_wear` (across, wheel_angle) and its median, m, NaN
+    off the ribs; the attributes `scan` and `wear` are what is printed of both. Raises InputError.
+    """
+    data = height_map(tire, spacing).assign_attrs(scan=str(_surface(tire).report))
+    if earlier is None:
+        return data
+    gone = scan_wear(tire, earlier)
+    fields = {
+        "tread_wear": (("across", "wheel_angle"), np.where(gone.land[:, None], gone.worn, np.nan)),
+        "median_tread_wear": (("across",), gone.by_place),
+    }
+    worn = dataset(fields, {"across": gone.y, "wheel_angle": gone.theta})
+    return data.merge(worn).assign_attrs(wear=str(gone), earlier=str(earlier))
 
 
 def scan_fields(tire: Tire, earlier: Tire | None = None, *, spacing: float = 3e-3) -> xr.Dataset:

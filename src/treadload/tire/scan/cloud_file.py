@@ -6,7 +6,7 @@ import re
 import struct
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 
@@ -19,6 +19,8 @@ MOST_POINTS = 50_000_000
 FEWEST_POINTS = 1000
 # A LAZ file packs a point into 2 bytes or more; one that says it holds more than this many a byte lies.
 _MOST_PER_BYTE = 20
+# A chunk of a LAZ file begins with one point as it is, 20 bytes or more.
+_SMALLEST_CHUNK, _MOST_CHUNKS = 20, 2**32
 _HEADER_LINES = 30
 _SPLIT = re.compile(r"[,;\s]+")
 
@@ -75,7 +77,10 @@ def _of_las(path: Path) -> Triangles:
             f"reading {path.suffix} needs laspy, which is not installed; {how_to_install('clouds')}"
         ) from error
     _check_las_header(path)
-    with reading(f"scan file {path.name!r}", path.suffix[1:].upper()), laspy.open(path) as file:
+    with (
+        reading(f"scan file {path.name!r}", path.suffix[1:].upper()),
+        laspy.open(path, laz_backend=_unpacker(laspy)) as file,
+    ):
         told = int(file.header.point_count)
         if not 0 < told <= min(MOST_POINTS, _MOST_PER_BYTE * path.stat().st_size):
             raise InputError(
@@ -90,6 +95,11 @@ def _of_las(path: Path) -> Triangles:
             "or copy it again"
         )
     return _checked(np.asarray(points, dtype=np.float64), path)
+
+
+def _unpacker(laspy: Any) -> Any:
+    """The one of LAZ that goes through the file; the parallel one reserves what a damaged table asks for."""
+    return laspy.LazBackend.Lazrs if laspy.LazBackend.Lazrs.is_available() else None
 
 
 def _check_las_header(path: Path) -> None:
@@ -119,6 +129,28 @@ def _check_las_header(path: Path) -> None:
                     f"a record of the header of {path.name!r} reaches beyond byte {offset}, where its points begin; "
                     "it is damaged, export or copy it again"
                 )
+        # The upper bits of the point format say that points are packed.
+        if head[104] & 0xC0:
+            _check_chunks(file, path, offset, size)
+
+
+def _check_chunks(file: BinaryIO, path: Path, offset: int, size: int) -> None:
+    """The table of chunks of a LAZ file: the unpacker reserves room for all of them, or aborts the process."""
+    file.seek(offset)
+    where = struct.unpack("<q", file.read(8).ljust(8, b"\0"))[0]
+    if where == -1:
+        # Written by a stream that could not go back: the place stands at the end.
+        file.seek(size - 8)
+        where = struct.unpack("<q", file.read(8))[0]
+    chunks = _MOST_CHUNKS
+    if offset + 8 <= where <= size - 8:
+        file.seek(where + 4)
+        chunks = struct.unpack("<I", file.read(4))[0]
+    if chunks > size // _SMALLEST_CHUNK:
+        raise InputError(
+            f"{path.name!r} has no table of its packed points where it says, or one of {chunks} chunks in {size} "
+            "bytes; it is truncated or damaged, export or copy it again"
+        )
 
 
 @READERS.register("e57")
