@@ -26,6 +26,7 @@ def main() -> None:
     import scaling
     import scans
     import studies
+    import year
 
     print(f"Python {platform.python_version()}, numpy {numpy.__version__}, scipy {scipy.__version__}, one thread\n")
     whole_chain.main()
@@ -39,6 +40,7 @@ def main() -> None:
     layered.main()
     moving.main()
     life.main()
+    year.main()
 
 
 if __name__ == "__main__":

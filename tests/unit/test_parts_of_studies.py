@@ -18,7 +18,7 @@ from treadload.pavement import Layer, Pavement
 from treadload.response import GridLoad
 from treadload.response.doubts import overlapping
 from treadload.study.altered import most
-from treadload.study.climate import nodes, over_the_climate, warmth_of
+from treadload.study.climate import curves, nodes, over_the_climate, warmth_of
 from treadload.study.groups import _harm, _one_axle, in_words
 from treadload.study.passage import _along, _between, _rows, _stride, _turns
 from treadload.study.run import map_grid, slice_depths
@@ -259,6 +259,29 @@ def life(growth=0.0, wander=None):
     row = AxleClass("one", 1.0, 3e4, 8e5)
     traffic = Traffic((row,), 1e5, growth=growth, wander=wander or Wander())
     return miner(values, criteria, traffic, Climate.constant(15.0), y=y)
+
+
+def test_the_year_is_held_closer_than_any_season_of_it():
+    """Errors of one sign add up over seasons: the sum that a life is made of asks for more roads than readings."""
+    warmth = np.linspace(0.0, 1.0, 12)
+    bent = 1e-4 * np.exp(0.8 * warmth**2)[:, None, None] * np.ones((1, 1, 5))
+    # Every season's harm weighs alike in the year.
+    weight = (bent.max() / bent) ** 5
+
+    def yearly(readings):
+        return ((readings / bent.max()) ** 5 * weight).sum(axis=1)
+
+    few, _ = nodes(warmth, bent, 0.02)
+    more, error = nodes(warmth, bent, 0.02, yearly=yearly)
+    assert set(few) < set(more)
+    assert error <= 0.02
+
+    def off(kept):
+        read, true = (yearly(one).sum(axis=0)[0] for one in (curves(warmth[kept], bent[kept], 0)(warmth), bent))
+        return abs(read / true - 1)
+
+    # A fifth of the tolerance.
+    assert off(more) <= 0.004 < off(few)
 
 
 def test_strength_weighs_as_the_slope_of_its_law_says():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from treadload import variables
+from treadload.contact import Maneuver
 from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchSubgrade, Traffic
 from treadload.damage.indices import tearing_work
 from treadload.damage.quantity import STRAIN, STRESS
@@ -224,3 +225,22 @@ def test_near_contacts_start_from_each_other_and_come_to_the_same():
     warm = warm.sel(x=alone["x"], y=alone["y"], method="nearest", tolerance=1e-6)
     np.testing.assert_allclose(warm, alone, rtol=0, atol=1e-4 * float(alone.max()))
     assert math.isclose(float(shared.known[heavy].dataset["normal_load"]), 21e3, rel_tol=1e-9)
+
+
+def test_other_maneuvers_begin_at_the_pressure_under_the_same_load_and_come_to_the_same():
+    tire = Tire.from_profile(TreadProfile(0.538, 1.678, 0.2, 0.0088), inflation_pressure=820e3)
+    turned = (Maneuver(), Maneuver.braking(2.0))
+    straight, braked = (state(AxleClass("one", 1.0, 20e3, 820e3, maneuver=one)) for one in turned)
+    asked = {"road": Pavement.half_space(Elastic(5e9, 0.35))}
+    with ThreadPoolExecutor(1) as pool:
+        shared, cold = Contacts(tire, 10e-3), Contacts(tire, 10e-3)
+        shared.solve([straight, braked], **asked, pool=pool, count=Counter(2, None))
+        cold.solve([braked], **asked, pool=pool, count=Counter(1, None))
+    warm, alone = shared.known[braked], cold.known[braked]
+    assert warm.stats["normal_iterations"] < alone.stats["normal_iterations"]
+    # The shear begins on half the grid, not with that of a free wheel.
+    assert warm.stats["newton_iterations"] <= alone.stats["newton_iterations"]
+    for name in ("pressure", "traction_x"):
+        # Both hold their conditions within 1e-6.
+        apart = np.abs(warm.dataset[name].to_numpy() - alone.dataset[name].to_numpy()).max()
+        assert apart < 1e-4 * float(alone.dataset["pressure"].max())

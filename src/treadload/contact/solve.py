@@ -35,6 +35,8 @@ _LOCATING_CELLS = 64
 _MARGIN = 0.024
 _MOST_CELLS = 4_000_000
 _FINEST, _COARSEST = 1e-12, 1e-2
+# Forces that differ by more than this part of friction make another shear than that of half the grid.
+_OTHERWISE = 0.1
 # A change of compliance by the layers that calls for a warning.
 _LAYERS_MATTER = 0.01
 
@@ -101,7 +103,7 @@ def solve_contact(
         grid, gap = _same_place(over, rolling, bodies.both, start, spacing)
     if relief is not None:
         check_step(relief, max(grid.dx, grid.dy))
-    near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start)
+    near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start, rolling)
     while True:
         scene = Scene(tire, road, bodies, grid, gap)
         tell(f"normal contact on {grid}")
@@ -204,9 +206,23 @@ def _same_place(
     return grid, tire.height_map(grid)
 
 
-def _near(start: Contact) -> Start:
-    """The fields of an earlier contact, for the solvers."""
-    return Start(start.dataset.pressure.values, tangential_of(start.dataset))
+def _near(start: Contact, rolling: Rolling) -> Start:
+    """The fields of an earlier contact, for the solvers; of the shear only where it is one as that sought."""
+    pressure = start.dataset.pressure.values
+    return Start(pressure, tangential_of(start.dataset) if _rolls_alike(rolling, start.rolling) else None)
+
+
+def _rolls_alike(rolling: Rolling, before: Rolling) -> bool:
+    """Whether prescribed forces, as shares of the load, differ by no more than a part of friction."""
+    if rolling.normal_load is None or before.normal_load is None:
+        return True
+    pairs = zip(rolling.forces, before.forces, strict=True)
+    return all(
+        own is None
+        or other is None
+        or abs(own / rolling.normal_load - other / before.normal_load) <= _OTHERWISE * rolling.law.largest
+        for own, other in pairs
+    )
 
 
 def _reach(positions: Array, touching: BoolArray) -> float:

@@ -18,6 +18,8 @@ NEVER = Wander.none()
 _SPREAD, _DIMENSIONS = 1e-3, 3
 # Below this part of the largest, readings are not told apart by their logarithm.
 _LINEAR = 0.1
+# Of the tolerance of a reading, in the damage of a year: in the sum over seasons errors of both signs meet.
+_OF_A_YEAR = 0.2
 # Of the reading, in the damage: from soils and steep mixes over asphalt to courses bound with cement.
 _POWERS = (3, 5, 12)
 
@@ -53,12 +55,18 @@ def _apart(moduli: Array) -> Array:
 
 
 def nodes(
-    warmth: Array | None, pilot: Array, tolerance: float, wander: Wander = NEVER, spacing: float = 1.0
+    warmth: Array | None,
+    pilot: Array,
+    tolerance: float,
+    wander: Wander = NEVER,
+    spacing: float = 1.0,
+    yearly: Callable[[Array], Array] | None = None,
 ) -> tuple[list[int], float]:
     """Roads to solve for the other classes, in the order of warmth, and the error of the rest on the pilot.
 
     pilot: (road, turn, y), peaks and valleys that one criterion reads, y `spacing` m apart. wander: that counts with
-    its law.
+    its law. yearly: damage of each road in a year (road, y) from readings such as the pilot; the sum over roads,
+    after wander, is held to a fifth of the tolerance where it is largest: that is what a life is made of.
     The error is that of the harm across the road, after wander, over its largest, as an error of the reading that
     does it: over the power of the reading, for the flattest, a usual and the steepest law. Where the crack under a
     tread's edge opens or not between one temperature and the next, single readings jump; the harm does not.
@@ -77,11 +85,24 @@ def nodes(
         apart = np.abs(_harm(read / largest, wander, spacing) - true) / most
         errors = (apart.max(axis=2) / np.array(_POWERS)[:, None]).max(axis=0)
         if errors.max() <= tolerance:
-            return kept, float(errors.max())
+            off = np.zeros(len(pilot)) if yearly is None else _off(yearly(pilot), yearly(read), wander, spacing)
+            if abs(off.sum()) <= _OF_A_YEAR * tolerance:
+                return kept, float(errors.max())
+            # The road that does most of what is wrong with the sum.
+            errors = np.abs(off)
         if len(kept) + 1 == len(pilot):
             return everything, 0.0
         errors[kept] = 0.0
         kept.append(int(errors.argmax()))
+
+
+def _off(true: Array, read: Array, wander: Wander, spacing: float) -> Array:
+    """By how much each road's damage (road, y) is read too large where the year's is largest, over that."""
+    sums = wander.spread(np.stack([true, read]), spacing)
+    year = sums[0].sum(axis=0)
+    worst = int(year.argmax())
+    off: Array = (sums[1] - sums[0])[:, worst] / year[worst] if year[worst] > 0 else np.zeros(len(true))
+    return off
 
 
 def _harm(readings: Array, wander: Wander, spacing: float) -> Array:

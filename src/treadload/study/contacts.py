@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 from treadload.contact import Contact
+from treadload.contact.maneuver import STRAIGHT
 from treadload.pavement import Pavement
 from treadload.study.wheels import State, contact_in_state
 from treadload.tire import Tire
@@ -48,20 +49,27 @@ class Contacts:
     def solve(self, states: Sequence[State], road: Pavement, pool: Executor, count: Counter) -> None:
         """Make the missing ones known, each from the nearest one known before in the same maneuver.
 
-        road: in any season, its moduli do not matter. Which one is the nearest does not depend on the order in which
-        threads come to their end.
+        One maneuver under each load first: the others begin at its pressure, which shear hardly changes. road: in any
+        season, its moduli do not matter. Which one is the nearest does not depend on the order in which threads come
+        to their end.
         """
-        starts = [(one, self._near(one)) for one in self.missing(states)]
 
         def touch(pair: tuple[State, Contact | None]) -> Contact:
             solved = contact_in_state(self.tire, road, pair[0], self.spacing, start=pair[1])
             return count.after(solved, "contact")
 
-        self.known.update(zip((one for one, _ in starts), pool.map(touch, starts), strict=True))
+        missing = self.missing(states)
+        firsts = list({one._replace(maneuver=STRAIGHT): one for one in reversed(missing)}.values())
+        for wave in (firsts[::-1], missing):
+            starts = [(one, self._near(one)) for one in self.missing(wave)]
+            self.known.update(zip((one for one, _ in starts), pool.map(touch, starts), strict=True))
 
     def _near(self, state: State) -> Contact | None:
-        """The contact known whose load, pressure and friction are nearest, relatively; None without one."""
-        alike = [one for one in self.known if one.maneuver == state.maneuver and one.tire == state.tire]
+        """The contact known whose load and pressure are nearest, relatively; None without one."""
+        own = [one for one in self.known if one.tire == state.tire]
+        alike = [one for one in own if one.maneuver == state.maneuver]
+        # Of another maneuver the pressure alone serves, and that under the same load.
+        alike = alike or [one for one in own if one.numbers == state.numbers]
 
         def apart(other: State) -> float:
             pairs = zip(state.numbers, other.numbers, strict=True)

@@ -6,12 +6,13 @@ import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import xarray as xr
 
 from treadload.contact.solve import DEFAULT_SPACING
-from treadload.damage.climate import Climate
+from treadload.damage.climate import Climate, Season
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.miner import wander_of
@@ -130,11 +131,13 @@ def solve_passages(
         others = [row for row in range(len(classes)) if row != heaviest]
         solve_all([heaviest], [(number, list(range(len(criteria)))) for number in range(len(distinct))])
         warmths = [warmth_of(seasons, [one.road for one in own]) for own in warm.by_class]
-        warmth = warmths[heaviest]
+        warmth, laws = warmths[heaviest], laws_of(warm, temperatures)
         kept, errors = [], []
         for k, criterion in enumerate(criteria):
             wander = wander_of(criterion.law_at(temperatures[k, 0]), traffic)
-            few, error = nodes(warmth, values[heaviest, :, k, :turns], tolerance, wander, float(y[1] - y[0]))
+            pilot, step = values[heaviest, :, k, :turns], float(y[1] - y[0])
+            yearly = partial(_yearly, laws=laws[k][heaviest], where=warm.where, seasons=seasons)
+            few, error = nodes(warmth, pilot, tolerance, wander, step, yearly)
             kept.append(few)
             errors.append(error)
         asked = [(n, [k for k, few in enumerate(kept) if n in few]) for n in sorted(set().union(*kept))]
@@ -169,8 +172,21 @@ def solve_passages(
         max(errors),
         max(one.moved for one in wheels),
         tuple(wheels),
-        laws_of(warm, temperatures),
+        laws,
         tuple(f"{one.name}: {text}" for one in wheels for text in overlapping(one.loads))
         + road_doubts(distinct[0].road)
         + bond_doubts(criteria, distinct, wheels),
     )
+
+
+def _yearly(readings: Array, laws: Sequence[FatigueLaw], where: Sequence[int], seasons: Sequence[Season]) -> Array:
+    """Damage of a passage (road, y), by the shares of the seasons, from readings (road, turn, y) of one class.
+
+    laws: by season. where: the road of each season, by number.
+    """
+    sign = np.where(np.arange(readings.shape[1]) % 2, -1.0, 1.0)[:, None]
+    damage = np.zeros((len(readings), readings.shape[2]))
+    for road, law, season in zip(where, laws, seasons, strict=True):
+        each = (sign / np.asarray(law.allowable_passes(np.maximum(readings[road], 0.0)))).sum(axis=0)
+        damage[road] += season.share * np.maximum(each, 0.0)
+    return damage

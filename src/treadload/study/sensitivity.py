@@ -191,7 +191,7 @@ def _of_days(question: Question, criterion: Criterion) -> float:
     return 0.0 if found is None else float(found.yearly[0])
 
 
-def _without_solves(life: Life, number: int, growth: float, steady: float) -> dict[str, float]:
+def _without_solves(life: Life, number: int, growth: float, steady: float = 0.0) -> dict[str, float]:
     """Elasticities for passes, wander and the law's strain, from the readings of the life."""
     traffic, climate, criterion = life.traffic, life.climate, life.criteria[number]
     readings = life.readings.to_numpy()[number : number + 1]

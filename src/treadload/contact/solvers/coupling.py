@@ -28,16 +28,21 @@ from treadload.kernels.mixing import Anderson
 
 _MOST_ROUNDS = 40
 _MEMORY = 6
+# A change of the pressure below it is round-off.
+_SAME = 1e-14
 
 Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class Start:
-    """A contact near the one sought, on the same grid: pressure (ny, nx), Pa, and shear with its creepages."""
+    """A contact near the one sought, on the same grid: pressure (ny, nx), Pa, and shear with its creepages.
+
+    tangential: None where the wheel is driven or turned otherwise, so that half the grid is a better start.
+    """
 
     pressure: Array
-    tangential: TangentialSolution
+    tangential: TangentialSolution | None
 
 
 @dataclass(frozen=True)
@@ -81,8 +86,9 @@ def solve_coupled(
     """
     coupled = abs(influence.dundurs) > tolerance
     offset: Array = np.zeros(grid.shape)
-    if coupled and start is not None:
-        offset = influence.gap_by_shear(start.tangential.shear)
+    last = None if start is None else start.tangential
+    if coupled and last is not None:
+        offset = influence.gap_by_shear(last.shear)
 
     def press(by_shear: Array, near: Array | None) -> NormalSolution:
         given = {"load": rolling.normal_load, "approach": rolling.approach}
@@ -96,7 +102,6 @@ def solve_coupled(
     rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
     if rows is not None:
         rigid[0] += rows
-    last = None if start is None else start.tangential
     mixing = Anderson(_MEMORY)
     iterations, newton, krylov, splitting, change = normal.iterations, 0, 0, 0, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
@@ -116,6 +121,11 @@ def solve_coupled(
         normal = press(offset, before)
         iterations += normal.iterations
         change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
+        if rounds > 1 and change <= _SAME:
+            # The shear that was found under the same pressure is that of this one.
+            check(before)
+            normal = replace(normal, pressure=before)
+            return Coupled(normal, slipping, rounds, change, iterations, newton, krylov, splitting)
     raise ConvergenceError(
         f"normal and tangential contact did not settle in {_MOST_ROUNDS} rounds: the pressure still changes by "
         f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.dundurs:.3f}); "

@@ -17,7 +17,7 @@ from treadload.kernels.complementarity.coulomb_newton import CoulombSolution
 
 # Below this many cells a side a solve costs nothing and needs no start from a coarser one.
 _COARSEST = 48
-_START_TOLERANCE = 1e-2
+_START_TOLERANCE = 1e-3
 
 Forces = tuple[float | None, float | None]
 Axes = tuple[float, float]
