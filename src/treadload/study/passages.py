@@ -137,7 +137,9 @@ def solve_passages(
             wander = wander_of(criterion.law_at(temperatures[k, 0]), traffic)
             pilot, step = values[heaviest, :, k, :turns], float(y[1] - y[0])
             yearly = partial(_yearly, laws=laws[k][heaviest], where=warm.where, seasons=seasons)
-            few, error = nodes(warmth, pilot, tolerance, wander, step, yearly)
+            # Roads below a weather differ in several ways: holding their sum as close would ask for most of them.
+            single = warmth is not None and warmth.ndim == 1
+            few, error = nodes(warmth, pilot, tolerance, wander, step, yearly if single else None)
             kept.append(few)
             errors.append(error)
         asked = [(n, [k for k, few in enumerate(kept) if n in few]) for n in sorted(set().union(*kept))]
