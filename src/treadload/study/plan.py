@@ -136,7 +136,7 @@ _MAP = {"half-space": 0.006, "layers": 0.012, "viscoelastic": 0.12}
 _SLICE = {"half-space": 0.15, "layers": 0.35, "viscoelastic": 6.0}
 
 
-def _seconds(road: Pavement, contact: int, mapped: int, sliced: int, contacts: float) -> float:
+def _seconds(road: Pavement, contact: int, mapped: int, sliced: int, contacts: float = 1.0) -> float:
     """About how long a case takes on this machine. contact: cells; mapped, sliced: points; contacts: how many."""
     kind = "viscoelastic" if road.is_viscoelastic else "half-space" if road.is_homogeneous else "layers"
     contact_cost = (_CONTACT + _CELL * contact) if contact else 0.0
