@@ -19,6 +19,7 @@ from treadload.case.criteria import CRITERION
 from treadload.read import Table
 from treadload.reporting import report, write_report
 from treadload.reporting.inputs import input_lists, input_table
+from treadload.reporting.others import OtherReport
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.words import SHOWN, entries, number, part_of, sentence, units_in, worded
 from treadload.units import Unit
@@ -297,3 +298,14 @@ def test_paper_does_not_scroll_and_keeps_rows_whole():
     padding = re.search(r"padding-left: ([\d.]+)em", rules["ol.references"])
     assert padding is not None
     assert float(padding[1]) >= 2
+
+
+def test_a_summary_wraps_unless_it_stands_in_columns():
+    """Long sentences would be cut at the page's edge; a table of numbers would be torn apart."""
+    sentences = (
+        "reliability: years until failure\n    base: 11.4, 49.2, 122 years; failure means half the stiffness lost"
+    )
+    table = (
+        "one passage:\n                 base     platform     by load\n  front axle     0.18         0.28       0.045"
+    )
+    assert [OtherReport("x", (), text).in_columns for text in (sentences, table)] == [False, True]

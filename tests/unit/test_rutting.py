@@ -83,6 +83,11 @@ def test_the_limit_is_reached_when_the_curve_meets_it(asked):
     assert rut_fields(road, traffic, climate, [wheels], Rutting(limit=0.19))[0].attrs["rut_years"] > 100
     figure = life_rut(data)
     assert len(figure.axes[0].collections) == 3
+    # The legend stands below, not on the line of the limit.
+    figure.canvas.draw()
+    legend = figure.axes[0].get_legend()
+    assert len(legend.get_texts()) == 3
+    assert legend.get_window_extent().y1 < figure.axes[0].bbox.y0
 
 
 @pytest.mark.parametrize(("years", "first"), [(12.0, "rut"), (100.0, "soil")])

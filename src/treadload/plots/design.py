@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from treadload.composing import Source
+from treadload.damage.miner import RUT
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, PAPER, headline, legend_below, measure, open_axes, plain, styled
@@ -47,7 +48,8 @@ def design_thicknesses(design: Source, *, ax: Axes | None = None) -> Figure:
     open_axes(ax)
     layer = str(data.attrs.get("layer", "the layer"))
     ax.set_xlabel(plain(f"thickness of {layer} (mm)"))
-    ax.set_ylabel("years until the damage is 1")
+    rutted = RUT in data["criterion"].to_numpy()
+    ax.set_ylabel("years until the damage is 1" + (",\nor the rut at its limit" if rutted else ""))
     risk = data.attrs.get("at_risk")
     exact = 1e3 * float(data["exact_thickness"])
     at = "" if risk is None else f" at a risk of {measure(100 * float(risk))} %"

@@ -80,7 +80,8 @@ def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
     ax.tick_params(axis="y", length=0)
     ax.spines[["top", "right", "left"]].set_visible(False)
     ax.grid(True, axis="x")
-    ax.set_xlabel("years until the damage is 1" + (", logarithmic" if log else ""))
+    ends = "years until the damage is 1" + (", or the rut at its limit" if "rut_limit" in data.attrs else "")
+    ax.set_xlabel(ends + (", logarithmic" if log else ""))
     headline(ax, "Life by criterion")
     return figure
 
@@ -106,6 +107,8 @@ def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
         colour = CASES[k % len(CASES)]
         where = "" if math.isnan(depth) else " (surface)" if depth == 0 else f" ({1e3 * depth:g} mm deep)"
         style = "-" if depth == 0 else "--"
+        if not float(row.max()) > _LEAST * float(damage.max()):
+            where += ", less than is drawn"
         (line,) = ax.plot(y, np.where(row > 0, row, np.nan), style, color=colour, label=plain(f"{name}{where}"))
         worst = int(row.argmax())
         ax.plot(y[worst], row[worst], "o", ms=5, color=colour, mec=PAPER, zorder=4)

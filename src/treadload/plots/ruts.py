@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from treadload.composing import Source
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import MM, fields_of
-from treadload.plots.kit.style import INK, headline, measure, plain, sequential, styled
+from treadload.plots.kit.style import INK, headline, legend_below, measure, plain, sequential, styled
 
 
 @styled
@@ -46,6 +46,7 @@ def life_rut(life: Source) -> Figure:
     ax.set_xlabel("years from opening")
     ax.set_ylabel("rut, down (mm)")
     ax.grid(True)
-    ax.legend(loc="lower left")
+    handles, _ = ax.get_legend_handles_labels()
+    legend_below(ax, handles, columns=min(3, len(handles)))
     headline(ax, "Rut", told)
     return figure

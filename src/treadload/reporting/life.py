@@ -227,7 +227,8 @@ def _pictures(data: xr.Dataset) -> list[Picture]:
     return [
         *picture(
             "Life by criterion",
-            "Years from opening until Miner's sum is 1 at the worst place. Orange: the governing criterion.",
+            "Years from opening until Miner's sum is 1 at the worst place, or the rut is at its limit. Orange: what "
+            "governs.",
             lambda: life_years(data),
         ),
         *(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from treadload.plots import (
@@ -69,6 +70,10 @@ HEADINGS = {
 }
 
 
+# Two wide gaps in a line make it one of a table.
+_COLUMNS = re.compile(r"\S\s{3,}\S.*\S {3,}\S")
+
+
 @dataclass(frozen=True)
 class OtherReport:
     """A result under its heading. text: its summary. tables: of what figures do not tell."""
@@ -77,6 +82,11 @@ class OtherReport:
     pictures: tuple[Picture, ...]
     text: str
     tables: tuple[NamedTable, ...] = ()
+
+    @property
+    def in_columns(self) -> bool:
+        """True where lines of the summary stand below each other in columns, which wrapping would tear apart."""
+        return bool(_COLUMNS.search(self.text))
 
 
 def other_report(other: Other) -> OtherReport:
