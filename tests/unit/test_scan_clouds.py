@@ -261,7 +261,16 @@ def test_what_was_worn_off(tmp_path):
     assert [before - after for _, before, after in gone.grooves] == pytest.approx([worn] * 4, abs=0.2e-3)
     data = scan_fields(new, old, spacing=6e-3)
     assert float(data.worn.median()) == pytest.approx(worn, abs=0.1e-3)
-    save(drawn(data), tmp_path / "scan.png")
+    figure = drawn(data)
+    save(figure, tmp_path / "scan.png")
+    unrolled, _, tops, over = figure.axes[:4]
+    # An even wear is not one colour: the scale lies about it. What was scanned fills the panel, right is below.
+    low, high = unrolled.collections[0].get_clim()
+    assert low < 1e3 * worn < high
+    assert high - low < 2
+    assert 75 < tops.get_xlim()[1] - tops.get_xlim()[0] - 75 < 110
+    assert unrolled.yaxis_inverted()
+    assert over.yaxis_inverted()
     save(drawn(scan_fields(new, spacing=6e-3)), tmp_path / "alone.png")
     assert (tmp_path / "scan.png").stat().st_size > 30_000
 

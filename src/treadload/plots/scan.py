@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import MM, limits
 from treadload.plots.kit.style import (
@@ -46,13 +47,15 @@ def _unrolled(ax: Axes, data: xr.Dataset) -> None:
     across, turn = data.across.to_numpy() * 1e3, np.degrees(data.turn.to_numpy())
     ax.set_facecolor(_HOLE)
     if worn:
-        largest = float(np.nanquantile(np.abs(field), 0.98)) if np.isfinite(field).any() else 1.0
-        mesh = ax.pcolormesh(turn, across, field, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
+        low, high = _range(field)
+        mesh = ax.pcolormesh(turn, across, field, cmap=sequential("height"), vmin=low, vmax=high, rasterized=True)
     else:
         scale = limits(field)
         mesh = ax.pcolormesh(turn, across, field, cmap=sequential("height"), vmin=0, vmax=scale.high, rasterized=True)
     figure_of(ax).colorbar(mesh, ax=ax, label="worn off, mm" if worn else "depth below the crown, mm")
-    ax.set(xlabel="angle from the road, degrees", ylabel="y, mm")
+    ax.set(xlabel="angle from the road, degrees", ylabel="y, mm", xlim=_seen(data))
+    # As on the plans of contacts: the right of travel is below.
+    ax.invert_yaxis()
     headline(
         ax,
         "Worn off since the earlier scan" if worn else "Unrolled",
@@ -80,7 +83,7 @@ def _across(ax: Axes, data: xr.Dataset) -> None:
 def _round(ax: Axes, data: xr.Dataset) -> None:
     turn = np.degrees(data.turn.to_numpy())
     ax.plot(turn, data.tops.to_numpy() * -1e3, ".", ms=2, color=STICK)
-    ax.set(xlabel="angle from the road, degrees", ylabel="tops over the crown, mm", xlim=(-180, 180))
+    ax.set(xlabel="angle from the road, degrees", ylabel="tops over the crown, mm", xlim=_seen(data))
     low, high = ax.get_ylim()
     ax.set_ylim(min(low, -0.5), max(high, 0.5))
     open_axes(ax)
@@ -92,11 +95,30 @@ def _gap(ax: Axes, data: xr.Dataset) -> None:
     gap = data.initial_gap.to_numpy() * MM
     ax.set_facecolor(_HOLE)
     mesh = ax.pcolormesh(x, y, gap, cmap=sequential("height"), vmin=0, vmax=30, rasterized=True)
-    ax.contour(x, y, data.filled.to_numpy().astype(float), levels=[0.5], colors=[SLIP], linewidths=0.7)
+    share = float(data.filled.mean())
+    if 0 < share < 1:
+        ax.contour(x, y, data.filled.to_numpy().astype(float), levels=[0.5], colors=[SLIP], linewidths=0.7)
     figure_of(ax).colorbar(mesh, ax=ax, label="gap to the road, mm")
     ax.set_aspect("equal")
     ax.set(xlabel="x, mm", ylabel="y, mm")
-    share = float(data.filled.mean())
-    headline(
-        ax, "Over the road", f"outlined: {signed(100 * share)} % filled from the rest of the turn".replace("+", "")
-    )
+    ax.invert_yaxis()
+    told = f"outlined: {signed(100 * share)} % filled from the rest of the turn".replace("+", "")
+    headline(ax, "Over the road", told if share else "nothing was filled")
+
+
+def _range(worn: Array) -> tuple[float, float]:
+    """Where the wear, mm, lies, single points aside; a millimetre wide or more, so that noise is seen as such."""
+    known = worn[np.isfinite(worn)]
+    low, high = np.quantile(known, [0.02, 0.98]) if known.size else (0.0, 1.0)
+    wide = max(float(high - low), 1.0)
+    middle = 0.5 * float(low + high)
+    return middle - 0.5 * wide, middle + 0.5 * wide
+
+
+def _seen(data: xr.Dataset) -> tuple[float, float]:
+    """Angles that have tread, degrees, with room beside them; the whole turn of a scan with tread at its ends."""
+    turn = np.degrees(data.turn.to_numpy())[np.isfinite(data.tops.to_numpy())]
+    if not turn.size:
+        return -180.0, 180.0
+    room = 0.05 * float(np.ptp(turn)) + 1.0
+    return max(-180.0, float(turn.min()) - room), min(180.0, float(turn.max()) + room)
