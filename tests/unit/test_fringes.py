@@ -414,3 +414,9 @@ def test_matrices_that_no_lens_has_are_refused():
         CameraProjector(RIG.model.camera, RIG.model.camera, 1000.0)
     with pytest.raises(InputError, match="3 to 64 pictures"):
         solve_steps(np.zeros((2, 3, 3)))
+
+
+@pytest.mark.parametrize("lengths", [{"distance": 5e-324}, {"baseline": 1e300}, {"period": 1e-12}])
+def test_lengths_that_no_rig_has_are_refused(lengths):
+    with pytest.raises(InputError, match="no rig has one beyond"):
+        ReferencePlane(PIXEL, **({"distance": 0.5, "baseline": 0.2, "period": 4e-3} | lengths))

@@ -22,6 +22,10 @@ _GRAZING = 1e-3
 Matrix = tuple[tuple[Number, ...], ...]
 
 
+# Lengths of a rig, m.
+_SHORTEST, _LONGEST = 1e-6, 1e3
+
+
 @dataclass(frozen=True, eq=False)
 class Points:
     """Places of pixels, m, in a right-handed frame: x, y and the height towards the camera.
@@ -72,6 +76,11 @@ class ReferencePlane:
             )
         if self.baseline is not None and not (math.isfinite(self.baseline) and self.baseline != 0):
             raise InputError(f"baseline must be a length other than 0 m, got {self.baseline:g}")
+        for name, length in zip(("distance", "baseline", "period"), lengths, strict=True):
+            if length is not None and not _SHORTEST <= abs(length) <= _LONGEST:
+                raise InputError(
+                    f"{name} is {length:g} m, no rig has one beyond {_SHORTEST:g} to {_LONGEST:g} m; what unit is it?"
+                )
         if len(set(self.heights)) != len(self.heights) or 0.0 in self.heights:
             raise InputError(
                 f"heights must differ and none may be 0, the reference itself, got {list(self.heights)} m"
