@@ -414,6 +414,21 @@ def test_borders_enclose_a_cell():
     assert {tuple(p) for p in segments.reshape(-1, 2)} == {(-0.5, 0.5), (0.5, 0.5), (-0.5, 1.5), (0.5, 1.5)}
 
 
+def test_strokes_are_chosen_as_by_looking_at_all_pairs():
+    """The largest first, each unless one that was chosen before is near: whatever the grid, NaN and equal weights."""
+    rng = np.random.default_rng(5)
+    for ny, nx, apart in ((1, 30, 2.0), (23, 17, 3.5), (20, 25, 7.0)):
+        weight = np.round(rng.random((ny, nx)), 1)
+        weight[rng.random((ny, nx)) < 0.1] = np.nan
+        x, y = np.cumsum(rng.uniform(0.1, 1.5, nx)), np.cumsum(rng.uniform(0.1, 1.5, ny))
+        told = [(r, c) for r in range(ny) for c in range(nx) if weight[r, c] >= 0.2]
+        chosen: list[tuple[int, int]] = []
+        for r, c in sorted(told, key=lambda at: -weight[at]):
+            if all((x[c] - x[k]) ** 2 + (y[r] - y[j]) ** 2 >= apart**2 for j, k in chosen):
+                chosen.append((r, c))
+        assert choose(weight, x, y, 0.2, apart).tolist() == [list(one) for one in chosen]
+
+
 def test_chosen_strokes_keep_their_distance():
     weight = np.random.default_rng(1).random((40, 50))
     x, y = np.arange(50.0), np.arange(40.0)

@@ -44,20 +44,17 @@ def choose(weight: Array, x: Array, y: Array, threshold: float, apart: float) ->
     if not rows.size:
         return np.zeros((0, 2), dtype=int)
     order = np.argsort(-weight[rows, columns], kind="stable")
-    rows, columns = rows[order], columns[order]
-    # Boxes of half the distance hold at most one stroke; so only near boxes need a look.
-    box = apart / 2
-    boxes_x = np.floor((x[columns] - x[0]) / box).astype(int)
-    boxes_y = np.floor((y[rows] - y[0]) / box).astype(int)
-    taken: dict[tuple[int, int], tuple[float, float]] = {}
+    free = np.ones(weight.shape, dtype=bool)
     chosen = []
-    for row, column, i, j in zip(rows.tolist(), columns.tolist(), boxes_x.tolist(), boxes_y.tolist(), strict=True):
-        here = (float(x[column]), float(y[row]))
-        near = (taken.get((i + di, j + dj)) for di in range(-2, 3) for dj in range(-2, 3))
-        if any(p is not None and (p[0] - here[0]) ** 2 + (p[1] - here[1]) ** 2 < apart**2 for p in near):
+    for row, column in zip(rows[order].tolist(), columns[order].tolist(), strict=True):
+        if not free[row, column]:
             continue
-        taken[i, j] = here
         chosen.append((row, column))
+        # What lies near it is no longer free; where the cells are listed in order, a small block of the map.
+        down, along = (y - y[row]) ** 2, (x - x[column]) ** 2
+        near_y, near_x = np.flatnonzero(down < apart**2), np.flatnonzero(along < apart**2)
+        block = np.ix_(near_y, near_x)
+        free[block] &= along[near_x] + down[near_y, None] >= apart**2
     return np.array(chosen, dtype=int)
 
 
