@@ -50,15 +50,25 @@ class Grid:
         return cls(nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy)
 
     @classmethod
-    def on_lattice(cls, length: float, width: float, dx: float, dy: float | None = None) -> Grid:
+    def on_lattice(
+        cls,
+        length: float,
+        width: float,
+        dx: float,
+        dy: float | None = None,
+        *,
+        offset: tuple[float, float] = (0.0, 0.0),
+    ) -> Grid:
         """Smallest grid that covers length (x) by width (y), m, with a cell's centre at the origin in its middle.
 
         Its cells stand at whole multiples of dx and dy, as those of every other such grid: fields of two of them
-        concatenate, and lines at x = 0 and y = 0 run through centres.
+        concatenate, and lines at x = 0 and y = 0 run through centres. offset: by which all of its cells are moved
+        along x and y, in cells.
         """
         fewest = cls.centred(length, width, dx, dy)
         nx, ny = fewest.nx + 1 - fewest.nx % 2, fewest.ny + 1 - fewest.ny % 2
-        return cls(nx, ny, fewest.dx, fewest.dy, -(nx // 2) * fewest.dx, -(ny // 2) * fewest.dy)
+        along, across = offset
+        return cls(nx, ny, fewest.dx, fewest.dy, (along - nx // 2) * fewest.dx, (across - ny // 2) * fewest.dy)
 
     @property
     def shape(self) -> tuple[int, int]:

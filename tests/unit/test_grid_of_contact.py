@@ -182,3 +182,29 @@ def test_without_friction_no_step_is_counted():
 
 def test_the_clock_runs_forward(light):
     assert 0 < light.stats["seconds"] < 600
+
+
+def test_an_offset_moves_the_cells_by_parts_of_one():
+    plain, moved = (
+        solve_contact(TIRE, ROAD, wheel(), spacing=CELL, offset=by).dataset for by in ((0, 0), (0.5, -0.25))
+    )
+    # x = 0 lies between two cells, y = 0 a quarter of a cell beside a centre.
+    assert float(np.abs(moved.x / CELL).min()) == pytest.approx(0.5)
+    assert float(moved.y[np.argmin(np.abs(moved.y.to_numpy()))]) == pytest.approx(-0.25 * CELL)
+    assert (plain.sizes["x"], plain.sizes["y"]) == (moved.sizes["x"], moved.sizes["y"])
+    load = float(moved.pressure.sum()) * CELL**2
+    assert load == pytest.approx(1e3)
+    # Edges stand elsewhere, by half a cell at most: so does what the wheel sinks in.
+    assert float(plain.approach) != float(moved.approach)
+    assert float(plain.approach) == pytest.approx(float(moved.approach), rel=0.02)
+
+
+def test_an_offset_is_refused_where_it_means_nothing():
+    start = solve_contact(TIRE, ROAD, wheel(), spacing=CELL)
+    for tire, given, words in [
+        (TIRE, {"offset": (0.0, 0.7), "spacing": CELL}, "two parts of a cell from -0.5 to 0.5"),
+        (MAP, {"offset": (0.5, 0.0)}, "keeps its own cells"),
+        (TIRE, {"offset": (0.5, 0.0), "start": start}, "leave one of the two out"),
+    ]:
+        with pytest.raises(InputError, match=words):
+            solve_contact(tire, ROAD, wheel(), **given)

@@ -31,6 +31,7 @@ from treadload.pavement.stack import stack_of
 from treadload.tire import Tire
 
 DEFAULT_SPACING = 3e-3
+NO_OFFSET = (0.0, 0.0)
 _LOCATING_CELLS = 64
 _MARGIN = 0.024
 _MOST_CELLS = 4_000_000
@@ -55,6 +56,7 @@ def solve_contact(
     rolling: Rolling,
     *,
     spacing: float | None = None,
+    offset: tuple[float, float] = NO_OFFSET,
     tolerance: float = 1e-6,
     road_compliance: RoadCompliance = "half_space",
     relief: Relief | None = None,
@@ -72,7 +74,8 @@ def solve_contact(
     relief: how far the road's surface rises above its plane, as a `pavement.Texture` or any `pavement.Relief`; None
     for a plane. The approach is then counted from the plane, and the dataset has `road_height`. A texture
     whose points lie further apart than the cells is refused.
-    spacing: cell size, m; 3 mm if left out. A height map keeps its own cells.
+    spacing: cell size, m; 3 mm if left out. A height map keeps its own cells. offset: by which the cells are moved
+    along x and y, in parts of a cell from -0.5 to 0.5, so that other cells hold the edges of ribs.
     tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp,
     and of the coupling between them. start: a contact near this one: its grid serves again where it
     is large enough, and the search then begins at its fields. progress: called with a line of text at every stage.
@@ -98,7 +101,9 @@ def solve_contact(
     # A tire that remembers makes its largest contact where it rolls slowly.
     over = tire if relief is None else above(tire, relief)
     if start is None:
-        grid, gap = place(over, rolling, bodies.both, spacing)
+        grid, gap = place(over, rolling, bodies.both, spacing, offset)
+    elif tuple(offset) != NO_OFFSET:
+        raise InputError("a start has its own cells, and offset moves them; leave one of the two out")
     else:
         grid, gap = _same_place(over, rolling, bodies.both, start, spacing)
     if relief is not None:
@@ -121,7 +126,7 @@ def solve_contact(
                 tell=tell,
             )
         except BorderError as error:
-            wider = _widened(tire, grid, error)
+            wider = _widened(tire, grid, error, offset)
             if wider is None:
                 raise
             # Shear of dissimilar bodies has carried the contact beyond its grid.
@@ -130,9 +135,19 @@ def solve_contact(
             return _contact(scene, rolling, pair, road_compliance, relief, time.perf_counter() - began)
 
 
-def place(tire: Tire, rolling: Rolling, bodies: Body, spacing: float | None) -> tuple[Grid, Array]:
+def place(
+    tire: Tire,
+    rolling: Rolling,
+    bodies: Body,
+    spacing: float | None,
+    offset: tuple[float, float] = NO_OFFSET,
+) -> tuple[Grid, Array]:
     """Grid that holds the contact of two bodies with a margin, and the initial gap on it."""
+    if len(offset) != 2 or not all(abs(part) <= 0.5 for part in offset):
+        raise InputError(f"offset must be two parts of a cell from -0.5 to 0.5, along x and y, got {offset}")
     if tire.fixed_grid is not None:
+        if tuple(offset) != NO_OFFSET:
+            raise InputError(f"a height map keeps its own cells, got offset = {offset}; leave it out")
         grid = tire.fixed_grid
         if spacing is not None and not math.isclose(spacing, grid.dx, rel_tol=1e-9):
             raise InputError(
@@ -166,12 +181,15 @@ def place(tire: Tire, rolling: Rolling, bodies: Body, spacing: float | None) -> 
     reach_x = _reach(coarse.x, np.any(touching, axis=0)) + coarse.dx
     reach_y = _reach(coarse.y, np.any(touching, axis=1)) + coarse.dy
     grid = Grid.on_lattice(
-        min(length, 2 * (reach_x + _MARGIN)), min(width + 2 * _MARGIN, 2 * (reach_y + _MARGIN)), step
+        min(length, 2 * (reach_x + _MARGIN)),
+        min(width + 2 * _MARGIN, 2 * (reach_y + _MARGIN)),
+        step,
+        offset=offset,
     )
     return grid, tire.height_map(grid)
 
 
-def _widened(tire: Tire, grid: Grid, cut: BorderError) -> Grid | None:
+def _widened(tire: Tire, grid: Grid, cut: BorderError, offset: tuple[float, float] = NO_OFFSET) -> Grid | None:
     """A grid that holds the whole tread where the border cut; None where the tire is known no further.
 
     Whole, since a border that comes to lie in a groove would not show what it cuts.
@@ -180,7 +198,10 @@ def _widened(tire: Tire, grid: Grid, cut: BorderError) -> Grid | None:
         return None
     length, width = tire.extent
     wider = Grid.on_lattice(
-        length if cut.along else grid.nx * grid.dx, width + 2 * _MARGIN if cut.across else grid.ny * grid.dy, grid.dx
+        length if cut.along else grid.nx * grid.dx,
+        width + 2 * _MARGIN if cut.across else grid.ny * grid.dy,
+        grid.dx,
+        offset=offset,
     )
     grown = (wider.nx > grid.nx or not cut.along) and (wider.ny > grid.ny or not cut.across)
     return wider if grown else None

@@ -49,8 +49,8 @@ class Verdict(BaseResult, group="damage"):
         numbers="largest_principal_strain largest_in_plane_strain largest_unread",
         texts="reading",
         lists="warnings",
-        maybe_numbers="coarse_strain coarse_spacing spacing",
-        together=("coarse_strain coarse_spacing spacing",),
+        maybe_numbers="coarse_strain coarse_spacing spacing lattice_strain shifted_strain",
+        together=("coarse_strain coarse_spacing spacing", "lattice_strain shifted_strain"),
     )  # fmt: skip
 
     dataset: xr.Dataset
@@ -92,6 +92,7 @@ class Verdict(BaseResult, group="damage"):
             _plane_in_words(self.orientation, angle, dip),
             f"allowable passes: {passes:.3g}",
             *self._error_estimate(),
+            *self._lattices(),
             *(f"warning: {text}" for text in self.warnings),
         ]
         few = "fewer" if passes < 1e6 else "more"
@@ -114,6 +115,17 @@ class Verdict(BaseResult, group="damage"):
         return [
             f"error estimate: {coarse * 1e6:.1f} microstrain on cells of {wide:g} mm; {read * 1e6:.1f} on cells "
             f"of {cells:g} mm holds within {100 * error / read:.2g} %, {fewest:.2g} to {most:.2g} passes"
+        ]
+
+    def _lattices(self) -> list[str]:
+        """What either lattice of cells reads alone, see `treadload.study.assess_on_two_lattices`."""
+        about = self.dataset.attrs
+        if "shifted_strain" not in about:
+            return []
+        here, shifted = (1e6 * float(about[name]) for name in ("lattice_strain", "shifted_strain"))
+        return [
+            f"read under the mean of two lattices of cells: {here:.1f} microstrain on the first alone, "
+            f"{shifted:.1f} on the one half a cell beside it"
         ]
 
     __repr__ = first_line

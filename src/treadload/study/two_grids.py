@@ -32,8 +32,9 @@ def assess_on_two_grids(
     """A verdict with an estimate of how much the contact's cells change it.
 
     Contact, response and verdict are solved on cells of `spacing`, m, and on cells twice as large. The difference of
-    the two readings bounds the error of the finer one as long as the error falls with the cells at all: it is the
-    error itself where that is of first order, three times as much where it is of second.
+    the two readings is the error of the finer one where that is of first order, three times as much where it is of
+    second. The part that depends on where the cells lie at the edges of ribs need not fall: see
+    `assess_on_two_lattices`.
     depths, speed: of `solve_response`. reading: keywords of `assess`.
     Returns the verdict on the finer cells, with the estimate in its summary and the coarser reading in its
     attributes.
