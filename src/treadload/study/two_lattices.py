@@ -46,10 +46,10 @@ def assess_on_two_lattices(
         GridLoad.from_dataset(solve_contact(tire, road, rolling, spacing=spacing, offset=offset))
         for offset in (NO_OFFSET, SHIFTED)
     )
-    at = {"x": here.grid.x, "y": here.grid.y}
+    x, y = here.grid.x, here.grid.y
 
     def judged(loads: Sequence[GridLoad]) -> Verdict:
-        return assess(solve_response(loads, road, depths=depths, speed=speed, **at), line, **reading)
+        return assess(solve_response(loads, road, depths=depths, speed=speed, x=x, y=y), line, **reading)
 
     alone = [float(judged([load]).dataset["worst_strain"]) for load in (here, shifted)]
     verdict = judged([_halved(here), _halved(shifted)])
