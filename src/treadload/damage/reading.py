@@ -169,11 +169,23 @@ def _deeper(response: Response, field: Field, best: Field) -> Field:
 
 
 def _rivals(field: Field) -> list[tuple[int, int, int]]:
-    """Maxima of a map that may be the largest between its points, the largest first."""
+    """Maxima of a map that may be the largest between its points, the largest first.
+
+    Beside the line where tension ends the reading may rise, up to that line, to the extension beyond it.
+    """
     value = np.where(np.isnan(field.value), -np.inf, field.value)
-    top = (value == maximum_filter(value, (1, 3, 3), mode="nearest")) & (value >= _RIVAL * value[field.worst])
-    places = sorted(map(tuple, np.argwhere(top)), key=lambda at: -value[at])
-    return [(int(row), int(j), int(i)) for row, j, i in places[:_RIVALS]]
+    around = maximum_filter(np.where(np.isnan(field.extension), -np.inf, field.extension), (1, 3, 3), mode="nearest")
+    shut = maximum_filter((value < field.extension).astype(np.uint8), (1, 3, 3), mode="nearest").astype(bool)
+    ends = shut & (value > 0)
+    most = np.where(ends, around, value)
+    alone = np.where(ends, value, -np.inf)
+    top = (value == maximum_filter(value, (1, 3, 3), mode="nearest")) | (
+        ends & (alone == maximum_filter(alone, (1, 3, 3), mode="nearest"))
+    )
+    top &= most >= _RIVAL * value[field.worst]
+    places = sorted(map(tuple, np.argwhere(top)), key=lambda at: -most[at])
+    first = [(int(row), int(j), int(i)) for row, j, i in places[:_RIVALS]]
+    return first if field.worst in first else [field.worst, *first]
 
 
 def _nearer(response: Response, field: Field, at: tuple[int, int, int]) -> Field | None:
