@@ -113,8 +113,9 @@ class Verdict(BaseResult, group="damage"):
         error = abs(coarse - read)
         fewest, most = (self.line.allowable_passes(read + part) for part in (error, -error))
         return [
-            f"error estimate: {coarse * 1e6:.1f} microstrain on cells of {wide:g} mm; {read * 1e6:.1f} on cells "
-            f"of {cells:g} mm holds within {100 * error / read:.2g} %, {fewest:.2g} to {most:.2g} passes"
+            f"error estimate: {coarse * 1e6:.1f} microstrain on cells of {wide:g} mm, {read * 1e6:.1f} on cells of "
+            f"{cells:g} mm: they differ by {100 * error / read:.2g} %, {fewest:.2g} to {most:.2g} passes",
+            "    (no bound: where cells lie at the edges of ribs may do more, see `study.assess_on_two_lattices`)",
         ]
 
     def _lattices(self) -> list[str]:
