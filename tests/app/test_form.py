@@ -152,7 +152,7 @@ def test_uploaded_files_are_kept_under_names_of_ours():
 def test_two_browsers_share_nothing():
     one, other = Session(Engines()), Session(Engines())
     try:
-        run = one.new_run(one.form, "mine")
+        run = one.new_run(one.forms["bench"], "mine", "bench")
         assert run.name not in other.runs
         assert one.folder != other.folder
         assert len(run.name) == 32

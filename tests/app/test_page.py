@@ -15,9 +15,14 @@ import pytest
 import treadload as tl
 from tire_meshes import tire_mesh, write
 from treadload.app.form import Form
-from treadload.case import Case
+from treadload.app.life_form import LifeForm
+from treadload.case import Case, LifeCase
 from treadload.errors import TreadloadError
+from treadload.plots.kit.shown import shown
+from treadload.results import save_results
+from treadload.study import sweep
 from treadload.study.run import judge, load_case
+from treadload.study.run_life import run_life
 
 pytestmark = pytest.mark.browser
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or "/usr/bin/chromium"
@@ -70,11 +75,16 @@ def chromium():
         browser.close()
 
 
+# Maps of the road of another run than one before are on the screen, or of its verdict where that was quicker.
+DRAWN = """(was) => { const [run, part] = (document.body.dataset.maps ?? "").split(":");
+  return run && run !== was && part !== "contact" }"""
+
+
 class Visit:
     """One browser: its page, what it asked for, and what went wrong in it."""
 
-    def __init__(self, chromium, address, **more):
-        self.context = chromium.new_context(viewport={"width": 1280, "height": 860}, **more)
+    def __init__(self, chromium, address, context=None):
+        self.context = context or chromium.new_context(viewport={"width": 1280, "height": 860})
         self.page = self.context.new_page()
         self.page.set_default_timeout(PATIENCE)
         self.asked, self.errors = [], []
@@ -83,6 +93,10 @@ class Visit:
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", lambda told: self.errors.append(told.text) if told.type == "error" else None)
         self.page.goto(address)
+
+    def tab(self, path):
+        """Another page of the same browser."""
+        return Visit(None, re.match("http://[^/]+/", self.page.url)[0] + path, self.context)
 
     def ready(self, count):
         """Wait for so many solved cases, drawn."""
@@ -149,9 +163,10 @@ def test_the_first_sight(visit):
 
 def test_a_changed_load_gives_what_python_gives(visit):
     """Every number of the verdict, to the printed digit."""
-    before, start = visit.solves(), time.monotonic()
+    before, was = visit.solves(), visit.page.get_attribute("#bench", "data-run")
+    start = time.monotonic()
     visit.set("rolling.normal_load", "36")
-    visit.page.wait_for_selector('#bench[data-state="drawn"][data-part="response"], #bench[data-ready="2"]')
+    visit.page.wait_for_function(DRAWN, arg=was)
     drawn = time.monotonic() - start
     visit.ready(before + 1)
     within(drawn, 1.5, "a case of 3 mm, contact and road, solved and redrawn")
@@ -379,13 +394,19 @@ PALE = """() => { const light = (c) => { const v = c.match(/[0-9.]+/g).slice(0, 
     if (ratio < 4.5) bad.push([ratio, e.outerHTML.slice(0, 120)]) } return bad }"""
 
 
+def in_theme(page, dark):
+    """Bring a page to one of its two themes, and wait until every colour has come to rest."""
+    if page.evaluate("document.body.classList.contains('body--dark')") != dark:
+        page.locator("#theme").click()
+        page.wait_for_function("(dark) => document.body.classList.contains('body--dark') === dark", arg=dark)
+    page.wait_for_function("document.getAnimations().every((one) => one.playState !== 'running')")
+
+
 @pytest.mark.parametrize("dark", [False, True])
 def test_everything_has_a_name_and_can_be_read(visit, dark):
     """The main rules of accessibility: names of controls, contrast 4.5, one heading, the way of the tabulator."""
     page = visit.page
-    if dark == (page.evaluate("document.body.classList.contains('body--dark')") is False):
-        page.locator("#theme").click()
-        page.wait_for_timeout(700)
+    in_theme(page, dark)
     assert page.evaluate(NAMELESS) == []
     assert page.evaluate(PALE) == []
     assert page.locator("h1").count() == page.locator("main").count() == 1
@@ -393,9 +414,128 @@ def test_everything_has_a_name_and_can_be_read(visit, dark):
     reached = set()
     for _ in range(80):
         page.keyboard.press("Tab")
-        reached.add(page.evaluate("document.activeElement.closest('nav, main, aside, header')?.tagName ?? ''"))
-    assert {"NAV", "MAIN"} <= reached
+        reached.add(page.evaluate("document.activeElement.closest('section')?.ariaLabel ?? ''"))
+    assert {"the case", "maps and slices"} <= reached
 
 
-def test_nothing_went_wrong_in_the_browser(visit):
+@pytest.fixture(scope="module")
+def life(visit):
+    """The page of a life, in another tab of the same browser."""
+    one = visit.tab("life")
+    one.page.wait_for_selector('#bench[data-state="idle"]')
+    return one
+
+
+def test_a_life_is_what_python_gives(life, tmp_path):
+    """From a case of one's own: years by criterion, who does it, when, what it depends on, and home with it."""
+    page = life.page
+    form = LifeForm.first().with_climate("temperature").with_values({"spacing": "16 mm", "reliability": None})
+    path = tmp_path / "mine.toml"
+    path.write_text(form.to_toml(), encoding="utf-8")
+    chosen(life, "open a TOML …", path)
+    run = life.ready(1)
+    result = run_life(LifeCase.from_toml(path), sensitivity=False)
+    told = life.verdict()
+    assert told["governs"] == result.life.governing
+    summary = result.summary()
+    names = [one.name for one in result.life.criteria]
+    assert len(names) == 3
+    for name in names:
+        assert f"{name}: {told[f'years:{name}']}" in summary
+    assert {"who", "when", "input"} <= {key.partition(":")[0] for key in told}
+    drawn = page.locator("#pictures img")
+    assert {drawn.nth(k).get_attribute("data-picture") for k in range(drawn.count())} >= {"years", "inputs", "shares"}
+    assert page.evaluate("[...document.querySelectorAll('#pictures img')].every((one) => one.naturalWidth > 100)")
+    # Who does it, and when, by another criterion than the first to fail.
+    other = next(name for name in names if name != result.life.governing_criterion)
+    page.locator(f'#verdict [data-row="years:{other}"] button').click()
+    page.wait_for_selector(f'#bench[data-criterion="{other}"]')
+    base = re.match("http://[^/]+/", page.url)[0]
+    for kind in ("nc", "csv"):
+        assert life.context.request.get(f"{base}take/{run}/{kind}", timeout=PATIENCE).status == 200
+
+
+def test_a_life_is_cancelled_and_the_bench_is_left_alone(life, visit):
+    page, before = life.page, visit.verdict()
+    runs = page.locator("#runs [role=listitem]").count()
+    life.set("spacing", "1.5")
+    page.wait_for_selector('#bench[data-state="solving"]')
+    page.locator("#cancel").click()
+    page.wait_for_selector('#bench[data-state="cancelled"]')
+    assert page.locator("#runs [role=listitem]").count() == runs
+    assert life.solves() == 1
+    assert visit.verdict() == before
+
+
+def test_a_wrong_number_of_a_life_is_told_at_its_field(life):
+    life.set("traffic.classes.0.axle_load", "3 mm")
+    told = life.page.locator(".q-field--error [role=alert]").first
+    told.wait_for()
+    assert "3 mm" in told.inner_text()
+    life.set("traffic.classes.0.axle_load", "70")
+
+
+@pytest.fixture(scope="module")
+def study(visit, tmp_path_factory):
+    """The page of a study, in another tab of the same browser, with a study of six cases opened."""
+    form = Form.first().with_values({"spacing": "24 mm", "damage": None})
+    varied = {"rolling.friction": [0.5, 0.6, 0.8], "rolling.normal_load": [20e3, 30e3]}
+    made = sweep(Case.from_dict(dict(form.table)), varied, fields=("pressure",))
+    path = tmp_path_factory.mktemp("study") / "mine.nc"
+    save_results(made, path)
+    one = visit.tab("study")
+    one.made = made
+    one.page.wait_for_selector('#bench[data-state="idle"]')
+    chosen(one, "open a study …", path)
+    one.page.wait_for_selector('body[data-curve="1"][data-field="1"]')
+    return one
+
+
+def test_a_study_opens_as_sliders_over_its_dimensions(study):
+    """Moved from the keyboard: what is told and drawn is the dataset at that point."""
+    page, data = study.page, study.made.dataset
+    assert page.locator("#sliders [data-dim]").count() == 2
+    page.locator('[data-dim="rolling.normal_load"] [tabindex="0"]').focus()
+    start = time.monotonic()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_selector('body[data-curve="2"][data-field="2"]')
+    within(time.monotonic() - start, 0.2, "a move of a slider of a study")
+    here = {"rolling.friction": 0, "rolling.normal_load": 1}
+    assert page.locator('[data-at="rolling.normal_load"]').inner_text() == "30 kN"
+    told = study.verdict()
+    assert told["at:rolling.normal_load"] == "30 kN"
+    largest = float(data["largest_pressure"].isel(here))
+    assert told["solved:largest_pressure"] == shown(data["largest_pressure"], "largest_pressure").number(largest)
+    mark = page.evaluate("document.querySelector('.curve').data[1].y[0]")
+    assert mark == pytest.approx(float(told["solved:largest_pressure"].split()[0]), rel=1e-3)
+    run = page.evaluate("document.querySelector('[data-take=csv]').getAttribute('href')")
+    assert study.context.request.get(re.match("http://[^/]+", page.url)[0] + run, timeout=PATIENCE).status == 200
+
+
+def test_a_file_that_is_no_study_is_refused_with_a_sentence(study, tmp_path):
+    path = tmp_path / "garbage.nc"
+    path.write_bytes(b"no file of results")
+    chosen(study, "open a study …", path)
+    study.page.locator("#problems .problem").first.wait_for()
+    assert study.page.locator("#sliders [data-dim]").count() == 2
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+@pytest.mark.parametrize("which", ["visit", "life", "study"])
+def test_axe_finds_no_serious_fault(which, dark, request):
+    sync_playwright = pytest.importorskip("axe_playwright_python.sync_playwright")
+    page = request.getfixturevalue(which).page
+    in_theme(page, dark)
+    found = sync_playwright.Axe().run(page).response
+    assert found["passes"] or found["violations"]
+    faults = [
+        (one["id"], one["impact"], [node["html"][:160] for node in one["nodes"]][:4])
+        for one in found["violations"] if one["impact"] in ("serious", "critical")
+    ]  # fmt: skip
+    assert faults == []
+
+
+def test_nothing_went_wrong_in_the_browser(visit, life, study):
     assert not visit.errors
+    assert not life.errors
+    assert not study.errors

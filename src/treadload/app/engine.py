@@ -15,28 +15,36 @@ import sys
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from treadload.app import drawing
+from treadload.app.life_telling import life_rows, pictures_of, shares_of
+from treadload.app.studies import about_study, point_of, point_rows
 from treadload.app.telling import rows_of
-from treadload.case import Case
+from treadload.case import Case, LifeCase
+from treadload.case.file import FilePart
 from treadload.case.first import first_case
 from treadload.case.loading import FootprintPart
 from treadload.composing import BaseResult
 from treadload.contact import Contact
+from treadload.damage.miner import Life
 from treadload.errors import InputError, TreadloadError
 from treadload.files import parse_toml
 from treadload.results import open_results, save_results, to_tree
 from treadload.study.run import Loaded, contact_of, judge, load_case, read_loaded
+from treadload.study.run_life import run_life
+from treadload.study.sweeps import Sweep
 from treadload.tire import Tire
 
 # Results held in memory; others are read from their files again.
 _HELD = 4
 # Depths of the block of road below the maps, from which slices along any line are cut.
 _BLOCK_DEPTHS = 12
+# Progress is told so often at most, s.
+_SELDOM = 0.2
 
 Say = Callable[..., None]
 
@@ -49,7 +57,7 @@ class Stopped(Exception):
 class Held:
     """What is known of one run. parts: by their names in a file. load: of the case, to be read elsewhere."""
 
-    case: Case | None
+    case: FilePart | None
     parts: dict[str, BaseResult] = field(default_factory=dict)
     load: Loaded | None = None
     block: Any = None
@@ -73,15 +81,17 @@ class Engine:
         if do == "stop":
             self._stop.set()
             return
-        if do == "solve":
+        if do in ("solve", "life"):
             self._wait()
             self._stop.clear()
-            self._solving = threading.Thread(target=self._guarded, args=(say, self._solve, request), daemon=True)
+            solves = self._solve if do == "solve" else self._life
+            self._solving = threading.Thread(target=self._guarded, args=(say, solves, request), daemon=True)
             self._solving.start()
             return
         made: dict[str, Callable[..., None]] = {
             "folder": self._take_folder, "maps": self._maps, "cut": self._cut, "difference": self._difference,
             "tread": self._tread, "export": self._export, "section": self._section, "open": self._open,
+            "study": self._study, "point": self._point, "shares": self._shares, "pictures": self._pictures,
         }  # fmt: skip
         self._guarded(say, made[do], request)
 
@@ -92,11 +102,12 @@ class Engine:
 
     def _said(self, number: int) -> Say:
         def say(figures: dict[str, Any] | None = None, **told: Any) -> None:
-            # Figures are JSON already.
+            # Figures are JSON already, which the browser alone reads.
+            if figures:
+                told["figures"] = {name: one.to_json() for name, one in figures.items()}
             whole = json.dumps({"id": number, **told}, default=float)
-            inner = "".join(f', "{name}": {one.to_json()}' for name, one in (figures or {}).items())
             with self._lock:
-                self._write(f"{whole[:-1]}{inner}}}\n")
+                self._write(f"{whole}\n")
 
         return say
 
@@ -165,6 +176,55 @@ class Engine:
         held.block = held.load.solve(drawing.block_depths(bottom, held.load.road.interfaces.tolist(), _BLOCK_DEPTHS))
         say(done=True, seconds=time.monotonic() - began)
 
+    def _life(self, say: Say, run: str, table: dict[str, Any], theme: str) -> None:
+        began, used, told = time.monotonic(), time.process_time(), 0.0
+        case = LifeCase.from_dict(table, folder=self._folder, name="case")
+        held = Held(case)
+
+        def tell(done: int, total: int, what: str) -> None:
+            nonlocal told
+            if self._stop.is_set():
+                raise Stopped
+            now = time.monotonic()
+            if now - told > _SELDOM or done == total:
+                told = now
+                say(stage=f"{what} {done} of {total}", seconds=now - began)
+
+        def shown(name: str, part: BaseResult) -> None:
+            held.parts[name] = part
+            self._keep(run, held)
+            say(part=name, pictures=pictures_of(name, part), **self._told(held),
+                seconds=time.monotonic() - began, process=time.process_time() - used)  # fmt: skip
+
+        say(stage="reading the case", seconds=0.0)
+        result = run_life(case, progress=tell, shown=shown)
+        self._keep(run, held)
+        save_results(result.to_tree(), self._folder / f"{run}.nc")
+        say(ready=True, seconds=time.monotonic() - began, process=time.process_time() - used)
+        say(done=True)
+
+    def _told(self, held: Held, criterion: str = "") -> dict[str, Any]:
+        """Rows, warnings and criteria of a life."""
+        warnings = [text for part in held.parts.values() for text in part.warnings]
+        names = [str(name) for name in held.parts["life"].dataset["criterion"].to_numpy()]
+        return {
+            "rows": life_rows(held.parts, criterion),
+            "warnings": list(dict.fromkeys(warnings)),
+            "criteria": names,
+        }
+
+    def _shares(self, say: Say, run: str, criterion: str) -> None:
+        held = self._held(run)
+        life = held.parts["life"]
+        assert isinstance(life, Life)
+        told = self._told(held, criterion)
+        say(pictures=shares_of(life, criterion or life.governing_criterion), **told, done=True)
+
+    def _pictures(self, say: Say, run: str) -> None:
+        held = self._held(run)
+        drawn = {key: url for name, part in held.parts.items() for key, url in pictures_of(name, part).items()}
+        say(pictures=drawn, **self._told(held), done=True)
+
     def _tire(self, case: Case, tell: Callable[[str], None]) -> Tire:
         """The tire of a case; reading a scan takes longer than a small solve."""
         assert case.tire is not None
@@ -194,14 +254,14 @@ class Engine:
         if run not in self._runs:
             opened = open_results(self._folder / f"{run}.nc")
             case = opened.case
-            self._keep(run, Held(case if isinstance(case, Case) else None, dict(opened.parts)))
+            self._keep(run, Held(case if isinstance(case, FilePart) else None, dict(opened.parts)))
         return self._runs[run]
 
     def _loaded(self, held: Held) -> Loaded:
         """The road of a run under its wheels. Raises InputError for a run without a case."""
         if held.load is None:
-            if held.case is None:
-                raise InputError("this result holds no case, so its road cannot be read anew")
+            if not isinstance(held.case, Case):
+                raise InputError("this result holds no case of a wheel, so its road cannot be read anew")
             # The case in a file has lost the folder that its tire stands in.
             case = Case.from_dict(held.case.given(), folder=self._folder)
             contact = held.parts.get("contact")
@@ -250,11 +310,24 @@ class Engine:
             footprint = FootprintPart(file=file).read(self._folder)
             self._keep(run, Held(None, {"contact": footprint}))
             save_results(to_tree({"contact": footprint}), self._folder / f"{run}.nc")
+        elif kind == "study":
+            opened = open_results(path)
+            about_study(_study_of(opened.parts))
+            shutil.copyfile(path, self._folder / f"{run}.nc")
         else:
             opened = open_results(path)
             drawing.maps(dict(opened.parts), theme="light")
             shutil.copyfile(path, self._folder / f"{run}.nc")
         say(done=True)
+
+    def _study(self, say: Say, run: str) -> None:
+        say(**about_study(_study_of(self._held(run).parts)), done=True)
+
+    def _point(self, say: Say, run: str, at: dict[str, int], reading: str, along: str, field: str, theme: str,
+               width: float) -> None:  # fmt: skip
+        study = _study_of(self._held(run).parts)
+        say(point_of(study, at, reading, along, field, theme, width), rows=point_rows(study, at),
+            warnings=list(study.warnings), done=True)  # fmt: skip
 
     # Taking home.
 
@@ -264,12 +337,20 @@ class Engine:
         held = self._held(run)
 
         def whole() -> Any:
-            if held.case is None:
+            if not isinstance(held.case, Case):
                 return open_results(self._folder / f"{run}.nc")
             load = self._loaded(held)
             return read_loaded(load)
 
         say(done=True, file=write_export(held.parts, whole, kind, self._folder, run, view or {}))
+
+
+def _study_of(parts: Mapping[str, BaseResult]) -> Sweep:
+    """The study among the results of a file. Raises InputError."""
+    found = next((part for part in parts.values() if isinstance(part, Sweep)), None)
+    if found is None:
+        raise InputError(f"this file holds {', '.join(parts)} and no study; results of one case open on the bench")
+    return found
 
 
 def warm() -> None:

@@ -53,7 +53,7 @@ class Field:
         except ValueError:
             return str(value)
         text = f"{number:.10g}"
-        return f"{text} {self.unit}" if several else text
+        return f"{text} {self.unit}".strip() if several else text
 
     @functools.cached_property
     def _factor(self) -> float:

@@ -6,13 +6,14 @@ import copy
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import tomli_w
 
 from treadload.app.fields import SURFACES, Field
 from treadload.case import Case
 from treadload.case.changes import changed, set_key
+from treadload.case.file import FilePart
 from treadload.case.first import first_case
 from treadload.errors import InputError
 from treadload.files import parse_toml
@@ -27,7 +28,7 @@ _WORDS = ("title", "name", "source", "notes", "doubts")
 class Checked:
     """What the reader of cases says of a form: the case, or sentences by the path of their key, "" of the whole."""
 
-    case: Case | None
+    case: FilePart | None
     wrong: Mapping[str, str]
 
     def at(self, path: str, known: set[str]) -> str:
@@ -48,7 +49,15 @@ def _nearest(key: str, known: set[str]) -> str:
 
 @dataclass(frozen=True)
 class Form:
-    """Tables of a case, and the paths of the keys that are the user's own; the others are where the page began."""
+    """Tables of a case, and the paths of the keys that are the user's own; the others are where the page began.
+
+    kind: of case. solver: what the process is asked to do with it. road_temperature: True where
+    the road has a temperature of its own.
+    """
+
+    kind: ClassVar[type[FilePart]] = Case
+    solver: ClassVar[str] = "solve"
+    road_temperature: ClassVar[bool] = True
 
     table: Mapping[str, Any]
     yours: frozenset[str] = frozenset()
@@ -71,7 +80,7 @@ class Form:
         _settle(table, files)
         form = cls(table, frozenset(_paths(table)))
         # Whatever else is wrong with it is said at its field; what has no field could not be repaired there.
-        Case._check_kind(table, name)
+        cls.kind._check_kind(table, name)
         return form
 
     def with_text(self, field: Field, text: str) -> Self:
@@ -109,7 +118,7 @@ class Form:
         """What the reader of `treadload run` says. folder: of uploaded files."""
         try:
             _settle(self.table, None)
-            return Checked(Case.from_dict(dict(self.table), folder=folder, name="case"), {})
+            return Checked(self.kind.from_dict(dict(self.table), folder=folder, name="case"), {})
         except InputError as error:
             return Checked(None, by_key(error) or {"": str(error).removeprefix("case: ")})
 
@@ -173,6 +182,8 @@ class Form:
             "layers": first,
             "structure": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15},
         }[kind]
+        if not self.road_temperature:
+            made = {key: value for key, value in made.items() if key in ("layers", "structure")}
         kept = frozenset(one for one in self.yours if not one.startswith("pavement"))
         return replace(self, table={**self.table, "pavement": copy.deepcopy(made)}, yours=kept | {"pavement"})
 

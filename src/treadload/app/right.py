@@ -8,17 +8,24 @@ from typing import Any
 
 from nicegui import ui
 
-from treadload.app.left import plain
+from treadload.app.fielding import plain
 
-_GROUPS = {"contact": "Contact", "road": "Road", "solver": "Solver"}
+_GROUPS = {
+    "contact": "Contact", "road": "Road", "life": "Years by criterion", "who": "Who does it", "when": "When",
+    "point": "Point", "solved": "Solved", "depends": "What it depends on, by 5 %", "risk": "Probability",
+    "solver": "Solver",
+}  # fmt: skip
 _HOME = {"nc": "NetCDF", "html": "report", "csv": "tables, CSV"}
 
 
 class Right:
-    """Rows of the verdict, warnings, and what can be taken home. fly: called with a place, m. take: with a kind."""
+    """Rows of the verdict, warnings, what is taken home. go: called with a row that is clicked. take: with a kind."""
 
-    def __init__(self, fly: Callable[[float, float], Any], take: Callable[[str], Any]) -> None:
-        self._fly, self._take = fly, take
+    def __init__(
+        self, go: Callable[[dict[str, Any]], Any], take: Callable[[str], Any], home: dict[str, str] | None = None
+    ) -> None:
+        self._home, self._case = home or _HOME, home is None
+        self._go, self._take = go, take
 
     def build(self) -> None:
         """Put the empty verdict on the page."""
@@ -41,12 +48,14 @@ class Right:
                 return
             ui.element("h2").props('innerHTML="Take home"')
             with ui.element("div").classes("home"):
-                plain("TOML", lambda: self._take("toml"), label="take the case home as TOML")
-                plain("copy as Python", lambda: self._take("python"))
-                for kind, words in _HOME.items():
+                if self._case:
+                    plain("TOML", lambda: self._take("toml"), label="take the case home as TOML")
+                    plain("copy as Python", lambda: self._take("python"))
+                for kind, words in self._home.items():
                     with ui.element("a").props(f'href="/take/{run}/{kind}" download data-take="{kind}"'):
                         ui.html(words, sanitize=False)
-            ui.label("NetCDF and report hold what `treadload run` gives; they take some seconds.").classes("note")
+            if self._case:
+                ui.label("NetCDF and report hold what `treadload run` gives; they take some seconds.").classes("note")
 
     def _table(self, rows: list[dict[str, Any]]) -> None:
         with ui.element("table").classes("rows"):
@@ -55,18 +64,17 @@ class Right:
                     with ui.element("td"):
                         ui.label(row["label"]).style("display:inline")
                     with ui.element("td").props(f'data-row="{row["key"]}"') as cell:
-                        if row.get("x") is not None:
-                            x, y = float(row["x"]), float(row["y"])
+                        if row.get("x") is not None or row.get("criterion"):
                             with ui.element("button").classes("go").props('type="button"') as go:
                                 ui.label(row["value"]).style("display:inline")
-                            go.on("click", lambda x=x, y=y: self._fly(x, y)).tooltip("show it on the maps")
+                            go.on("click", lambda row=row: self._go(row)).tooltip("show it")
                         else:
                             ui.label(row["value"]).style("display:inline")
                 if row.get("note"):
                     cell.tooltip(row["note"])
         # A verdict without passes is a sentence, or it reads as a road that lasts for ever.
         for row in rows:
-            if row["key"] == "verdict":
+            if row["key"] in ("verdict", "probability"):
                 ui.label(row["note"]).classes("note")
 
     def program(self, text: str) -> None:

@@ -16,8 +16,9 @@ from nicegui import app, core, ui
 
 from treadload.app.engines import EngineLost, Engines
 from treadload.app.guard import SESSION, Guard, Keys
-from treadload.app.page import LOOK, build
+from treadload.app.page import KINDS_OF_PAGES, LOOK, build
 from treadload.app.session import Session
+from treadload.app.tab import PAGES, Tab
 from treadload.app.takehome import KINDS
 from treadload.errors import InputError
 
@@ -67,6 +68,8 @@ def run(host: str, port: int, *, open_browser: bool) -> None:
         host=host, port=keys.port, show=False, reload=False, title="treadload", favicon=_ICON, dark=None,
         tailwind=False, show_welcome_message=False, language="en-US", reconnect_timeout=10.0, on_air=None,
         proxy_headers=False, server_header=False, binding_refresh_interval=None, access_log=False,
+        # On this machine it takes longer to pack than to send.
+        gzip_middleware_factory=None, ws_per_message_deflate=False,
     )  # fmt: skip
 
 
@@ -80,12 +83,8 @@ def prepare(keys: Keys, engines: Engines, sessions: dict[str, Session]) -> None:
             sessions[name] = Session(engines)
         return sessions[name]
 
-    @ui.page("/", title="treadload", response_timeout=30.0)
-    async def bench(request: Request) -> None:
-        client = ui.context.client
-        keys.owners[client.id] = request.scope[SESSION]
-        client.on_delete(lambda: keys.owners.pop(client.id, None))
-        build(session_of(request))
+    for kind in KINDS_OF_PAGES:
+        _page(keys, session_of, kind)
 
     @app.get("/take/{run}/{kind}")
     async def take(request: Request, run: str, kind: str) -> Response:
@@ -94,7 +93,7 @@ def prepare(keys: Keys, engines: Engines, sessions: dict[str, Session]) -> None:
         if held is None or kind not in KINDS:
             return PlainTextResponse("treadload: this browser has no such result\n", status_code=404)
         try:
-            answer = await session.last("export", run=run, kind=kind)
+            answer = await session.last(held.room, "export", run=run, kind=kind)
         except EngineLost as error:
             return PlainTextResponse(f"treadload: {error}\n", status_code=503)
         if "file" not in answer:
@@ -107,6 +106,17 @@ def prepare(keys: Keys, engines: Engines, sessions: dict[str, Session]) -> None:
     app.add_static_files("/look", LOOK, max_cache_age=0)
     _own_events(keys)
     _around_everything(keys)
+
+
+def _page(keys: Keys, session_of: Callable[[Request], Session], kind: type[Tab]) -> None:
+    """A page at its address, for tabs of whoever asks."""
+
+    @ui.page(kind.address, title=f"treadload, {PAGES[kind.address]}", response_timeout=30.0)
+    async def made(request: Request) -> None:
+        client = ui.context.client
+        keys.owners[client.id] = request.scope[SESSION]
+        client.on_delete(lambda: keys.owners.pop(client.id, None))
+        build(session_of(request), kind)
 
 
 def _around_everything(keys: Keys) -> None:

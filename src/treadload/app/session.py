@@ -15,6 +15,7 @@ from typing import Any
 
 from treadload.app.engines import Engine, Engines
 from treadload.app.form import Form
+from treadload.app.life_form import LifeForm
 from treadload.errors import InputError
 
 # Files and runs that one browser keeps; the oldest go.
@@ -23,15 +24,18 @@ _MOST_BYTES = 512 * 2**20
 MESHES = (".obj", ".ply", ".stl", ".glb", ".off")
 MAPS = (".nc", ".csv", ".npy", ".npz")
 FOOTPRINTS = (".csv", ".nc", ".asf", ".txt")
+STUDIES = (".nc",)
+_STORES = (".zarr", ".zip")
 
 
 @dataclass
 class Run:
-    """A solved case. rows: of the verdict. thumb: a small picture, as data URL."""
+    """A solved case. room: of the page that asked for it. rows: of the verdict. thumb: a picture, as data URL."""
 
     name: str
     title: str
     form: Form | None
+    room: str = "bench"
     rows: list[dict[str, Any]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     ready: bool = False
@@ -44,37 +48,38 @@ class Session:
 
     engines: Engines
     folder: Path = field(default_factory=lambda: Path(tempfile.mkdtemp(prefix="treadload-app-")))
-    form: Form = field(default_factory=Form.first)
+    forms: dict[str, Form] = field(default_factory=lambda: {"bench": Form.first(), "life": LifeForm.first()})
     runs: dict[str, Run] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
-    _engine: Engine | None = None
+    _engines: dict[str, Engine] = field(default_factory=dict)
     _lock: asyncio.Lock = field(default_factory=asyncio.Lock)
 
-    async def engine(self) -> Engine:
-        """The process of this browser."""
+    async def engine(self, room: str) -> Engine:
+        """The process of this browser for a page: a life goes on while the bench solves another wheel."""
         async with self._lock:
-            if self._engine is None or not self._engine.lives:
-                self._engine = await self.engines.take(self.folder)
-            return self._engine
+            engine = self._engines.get(room)
+            if engine is None or not engine.lives:
+                engine = self._engines[room] = await self.engines.take(self.folder)
+            return engine
 
-    async def ask(self, do: str, **told: Any) -> AsyncIterator[dict[str, Any]]:
-        """Answers of the process, see `Engine.ask`."""
-        engine = await self.engine()
+    async def ask(self, room: str, do: str, **told: Any) -> AsyncIterator[dict[str, Any]]:
+        """Answers of the process of a page, see `Engine.ask`."""
+        engine = await self.engine(room)
         async for answer in engine.ask(do, **told):
             yield answer
 
-    async def last(self, do: str, **told: Any) -> dict[str, Any]:
-        """The last answer of the process."""
-        return await (await self.engine()).last(do, **told)
+    async def last(self, room: str, do: str, **told: Any) -> dict[str, Any]:
+        """The last answer of the process of a page."""
+        return await (await self.engine(room)).last(do, **told)
 
-    async def stop(self) -> None:
-        """End what is being solved; what was finished stays."""
-        if self._engine is not None:
-            await self._engine.stop()
+    async def stop(self, room: str) -> None:
+        """End what is being solved for a page; what was finished stays."""
+        if room in self._engines:
+            await self._engines[room].stop()
 
-    def new_run(self, form: Form | None, title: str) -> Run:
+    def new_run(self, form: Form | None, title: str, room: str) -> Run:
         """A run with a name that nobody guesses."""
-        run = Run(secrets.token_hex(16), title, form)
+        run = Run(secrets.token_hex(16), title, form, room)
         self.runs[run.name] = run
         while len(self.runs) > _MOST_RUNS:
             oldest = next(iter(self.runs))
@@ -86,6 +91,12 @@ class Session:
         """Keep an uploaded file under a name of ours; returns that name. Raises InputError for another suffix."""
         shown = re.split(r"[/\\]", name)[-1][:120]
         suffix = os.path.splitext(shown)[1].lower()
+        if suffixes == STUDIES and suffix in _STORES:
+            raise InputError(
+                f"{shown} is a store of Zarr or an archive; what is in one says itself which code unpacks it, so no "
+                "page opens one; bring the study as one file: "
+                "tl.save_results(tl.study.open_sweep('a.zarr'), 'a.nc')"
+            )
         if suffix not in suffixes:
             raise InputError(f"{shown} is none of the files that go here: {', '.join(suffixes)}")
         held = sum(one.stat().st_size for one in self.folder.iterdir() if one.is_file())
@@ -108,7 +119,7 @@ class Session:
         return text
 
     def close(self) -> None:
-        """End its process and remove its files."""
-        if self._engine is not None:
-            self._engine.kill()
+        """End its processes and remove its files."""
+        for engine in self._engines.values():
+            engine.kill()
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -38,23 +38,23 @@ def contact_rows(contact: Any) -> list[Row]:
     load = float(pressure.sum()) * data.attrs["dx"] * data.attrs["dy"]
     mean = load / area / 1e3 if area else 0.0
     rows = [
-        _row("load", "Load", f"{load / 1e3:.3f} kN"),
-        _row("area", "Contact area", f"{area * 1e6:.0f} mm²"),
-        _row("mean", "Mean pressure", f"{mean:.0f} kPa"),
-        _row("peak", "Peak pressure", f"{float(pressure.max()) / 1e3:.0f} kPa", x=peak.x, y=peak.y),
+        row("load", "Load", f"{load / 1e3:.3f} kN"),
+        row("area", "Contact area", f"{area * 1e6:.0f} mm²"),
+        row("mean", "Mean pressure", f"{mean:.0f} kPa"),
+        row("peak", "Peak pressure", f"{float(pressure.max()) / 1e3:.0f} kPa", x=peak.x, y=peak.y),
     ]
     if isinstance(contact, Contact):
         shear = (data["traction_x"] ** 2 + data["traction_y"] ** 2) ** 0.5
         at = shear.argmax(dim=("y", "x"))
         x, y = float(data["x"][at["x"]]), float(data["y"][at["y"]])
         rows += [
-            _row("shear", "Peak shear", f"{float(shear.max()) / 1e3:.0f} kPa", x=x, y=y),
-            _row("slip", "Slip share", f"{100 * contact.slip_fraction:.1f} %"),
-            _row("approach", "Approach", f"{float(data['approach']) * 1e3:.2f} mm"),
-            _row("along", "Force along travel", f"{float(data['tractive_force']):z.1f} N"),
-            _row("aside", "Force aside", f"{float(data['lateral_force']):z.1f} N"),
-            _row("creepage_x", "Creepage along", f"{float(data['creepage_x']):z.5f}"),
-            _row("creepage_y", "Creepage aside", f"{float(data['creepage_y']):z.5f}"),
+            row("shear", "Peak shear", f"{float(shear.max()) / 1e3:.0f} kPa", x=x, y=y),
+            row("slip", "Slip share", f"{100 * contact.slip_fraction:.1f} %"),
+            row("approach", "Approach", f"{float(data['approach']) * 1e3:.2f} mm"),
+            row("along", "Force along travel", f"{float(data['tractive_force']):z.1f} N"),
+            row("aside", "Force aside", f"{float(data['lateral_force']):z.1f} N"),
+            row("creepage_x", "Creepage along", f"{float(data['creepage_x']):z.5f}"),
+            row("creepage_y", "Creepage aside", f"{float(data['creepage_y']):z.5f}"),
         ]  # fmt: skip
     return rows
 
@@ -62,7 +62,7 @@ def contact_rows(contact: Any) -> list[Row]:
 def response_rows(response: BaseResult) -> list[Row]:
     """Of a response without a verdict."""
     return [
-        _row(f"extension{number}", "Largest extension", place.text.partition(": ")[2], group="road", x=place.x,
+        row(f"extension{number}", "Largest extension", place.text.partition(": ")[2], group="road", x=place.x,
              y=place.y, depth=place.depth, note=place.text)
         for number, place in enumerate(places_of(response))
     ]  # fmt: skip
@@ -74,15 +74,15 @@ def verdict_rows(verdict: Verdict) -> list[Row]:
     strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
     sentence = verdict.summary().splitlines()[-1].removeprefix("Verdict: ")
     if not strain > 0:
-        return [_row("verdict", "Life", "this law sees no crack", group="road", note=sentence)]
+        return [row("verdict", "Life", "this law sees no crack", group="road", note=sentence)]
     x, y, depth = (float(data[f"worst_{name}"]) for name in ("x", "y", "depth"))
     at = {"x": x, "y": y, "depth": depth}
     where = f"x {x * 1e3:.1f}, y {y * 1e3:.1f}, {depth * 1e3:g} mm deep"
     return [
-        _row("extension", "Largest extension", f"{strain * 1e6:.1f} microstrain", group="road", **at),
-        _row("place", "Where", where, group="road", **at),
-        _row("crack", "Crack", verdict.orientation, group="road", note=verdict.summary().splitlines()[4], **at),
-        _row("passes", "Passes", f"{passes:.3g}", group="road", note=f"{verdict.line}. {sentence}", **at),
+        row("extension", "Largest extension", f"{strain * 1e6:.1f} microstrain", group="road", **at),
+        row("place", "Where", where, group="road", **at),
+        row("crack", "Crack", verdict.orientation, group="road", note=verdict.summary().splitlines()[4], **at),
+        row("passes", "Passes", f"{passes:.3g}", group="road", note=f"{verdict.line}. {sentence}", **at),
     ]
 
 
@@ -91,16 +91,17 @@ def solver_rows(contact: Any) -> list[Row]:
     stats = contact.stats
     told = []
     if "normal_residual" in stats:
-        told.append(_row("normal", "Normal contact", f"residual {stats['normal_residual']:.1e}", group="solver",
+        told.append(row("normal", "Normal contact", f"residual {stats['normal_residual']:.1e}", group="solver",
                          note=f"{stats['normal_iterations']} iterations"))  # fmt: skip
     if "rolling_residual" in stats:
-        told.append(_row("rolling", "Rolling", f"residual {stats['rolling_residual']:.1e}", group="solver",
+        told.append(row("rolling", "Rolling", f"residual {stats['rolling_residual']:.1e}", group="solver",
                          note=f"{stats['newton_iterations']} Newton steps"))  # fmt: skip
     data = contact.dataset
     size = f"{data.attrs['dx'] * 1e3:g} × {data.attrs['dy'] * 1e3:g} mm"
-    return [*told, _row("cells", "Cells", f"{data.sizes['x']} × {data.sizes['y']}", group="solver"),
-            _row("size", "Cell size", size, group="solver")]  # fmt: skip
+    return [*told, row("cells", "Cells", f"{data.sizes['x']} × {data.sizes['y']}", group="solver"),
+            row("size", "Cell size", size, group="solver")]  # fmt: skip
 
 
-def _row(key: str, label: str, value: str, *, group: str = "contact", **more: Any) -> Row:
+def row(key: str, label: str, value: str, *, group: str = "contact", **more: Any) -> Row:
+    """A row of the verdict."""
     return {"key": key, "label": label, "value": value, "group": group, **more}

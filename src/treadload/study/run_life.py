@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,6 +25,8 @@ from treadload.study.life import solve_life
 from treadload.study.reliability import Reliability, life_reliability, roads_asked
 from treadload.study.seasons import warmed
 from treadload.study.sensitivity import Sensitivity, life_sensitivity
+
+Shown = Callable[[str, BaseResult], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +70,21 @@ class LifeResult(Study):
 
 
 def run_life(
-    case: LifeCase, *, sensitivity: bool = True, workers: int | None = None, progress: Progress | None = None
+    case: LifeCase,
+    *,
+    sensitivity: bool = True,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    shown: Shown | None = None,
 ) -> LifeResult:
     """The life of the road of a case and its sensitivities; its reliability, a crack's growth where the case asks.
 
     sensitivity: False to leave them out. workers: threads; all cores if left out. progress: called after every solve.
+    shown: called with the name of each result and the result as soon as it is there.
     Raises the errors of reading, contact and response.
     """
     tire, road, spacing = case.build_tire(), case.build_road(), case.spacing
+    tell = shown or (lambda name, part: None)
     if case.reliability is not None:
         # What cannot scatter is refused before anything is solved.
         roads_asked(road, case.build_criteria(), case.reliability.build())
@@ -91,15 +100,22 @@ def run_life(
         rutting=None if case.rutting is None else case.rutting.build(),
         **shared,
     )
+    tell("life", life)
     ends = np.isfinite(life.years(life.governing_criterion))
     depends = life_sensitivity(tire, road, life, **shared) if sensitivity and ends else None
+    if depends is not None:
+        tell("sensitivity", depends)
     part = case.reliability
     scatters = None if part is None or not ends else life_reliability(tire, road, life, **part.asked(), **shared)
+    if scatters is not None:
+        tell("reliability", scatters)
     crack = None
     if case.growth is not None:
         asked = case.growth.build(case.build_criteria())
         crack = grow_cracks(tire, road, life, asked, contacts=contacts, workers=workers, progress=progress)
+        tell("growth", crack)
     alike = life_equivalents(road, life, workers=workers)
+    tell("equivalents", alike)
     return LifeResult(case, road, life, depends, scatters, crack, alike)
 
 

@@ -1,0 +1,221 @@
+"""The bench: the form at the left, linked maps in the middle, the verdict at the right, slices and runs below."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import Any
+
+from nicegui import background_tasks, ui
+
+from treadload.app.fielding import plain
+from treadload.app.figures import Place
+from treadload.app.form import Form
+from treadload.app.left import Left
+from treadload.app.right import Right
+from treadload.app.runs import Runs
+from treadload.app.session import Run, Session
+from treadload.app.slices import Slice
+from treadload.app.tab import Tab
+
+# Of a thumbnail, letters of its data URL.
+_MOST_LETTERS = 200_000
+
+
+class Bench(Tab):
+    """A wheel on a road: contact, response, verdict."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        self._view: dict[str, Any] = {"left": "contact/pressure", "right": "response/principal_strain_1", "depth": 0}
+        self._over: str | None = None
+        self._pair: tuple[Run, Run] | None = None
+        self._depths: list[float] = []
+        self._slice = Slice(lambda: background_tasks.create(self._cut()), self.js)
+        self._runs = Runs(session, self.room, self._show, self._compare)
+
+    def inside(self) -> None:
+        """The form, the maps and what is below them, the verdict."""
+        with ui.element("section").classes("left").props('aria-label="the case"'):
+            self._form = self.left = Left(self.session, self.solve, self.opened)
+            self.left.build()
+        with ui.element("section").classes("centre").props('aria-label="maps and slices"'):
+            self._centre()
+        with ui.element("section").classes("right").props('aria-label="the verdict"'):
+            self.right = Right(lambda row: self.fly(float(row["x"]), float(row["y"])), self.take_home)
+            self.right.build()
+
+    def _centre(self) -> None:
+        with ui.element("div").classes("tools"):
+            self._maps_of = {
+                side: ui.select({self._view[side]: "…"}, value=self._view[side], label=f"{side} map",
+                                on_change=lambda event, side=side: self._look(**{side: event.value}))
+                .props(f'dense outlined options-dense data-map="{side}"') for side in ("left", "right")
+            }  # fmt: skip
+            self._depth = ui.select({0: "surface"}, value=0, label="depth of maps",
+                                    on_change=lambda event: self._look(depth=event.value))  # fmt: skip
+            self._depth.props('dense outlined options-dense data-map="depth"').style("max-width:150px")
+            plain("whole contact", lambda: self.js("treadloadWhole()"))
+            plain("SVG", lambda: self.js("treadloadPicture('svg')"), label="take the maps home as SVG")
+            plain("PNG", lambda: self.js("treadloadPicture('png')"), label="take the maps home as PNG")
+        self._maps = Place("maps", "two linked maps of the result")
+        self._slice.build()
+        with ui.element("div").classes("tools"):
+            ui.element("h2").props('innerHTML="Runs"').style("margin:8px 0")
+            self._runs.button()
+            plain("Tread in space", self._show_tread).props('id="tread"')
+        self._runs.build()
+        self._space = ui.element("div").props('id="space"')
+
+    async def started(self) -> None:
+        """A page that is loaded again leaves what it had begun, and solves its form anew."""
+        self._runs.list(self.now)
+        await self.session.stop(self.room)
+        self.solve(self.session.forms[self.room])
+
+    # The run that is shown.
+
+    def asked(self) -> dict[str, Any]:
+        """The maps of a part as soon as it is there."""
+        self._pair = None
+        return {"view": self._seen()}
+
+    def _seen(self) -> dict[str, Any]:
+        return {**self._view, "width": self.width, "line": self._slice.line}
+
+    def title(self, form: Form) -> str:
+        """The load and what the wheel does."""
+        load = form.value("rolling.normal_load")
+        return f"{load}, {form.state}" if load is not None else super().title(form)
+
+    def drawn(self, run: Run, answer: dict[str, Any]) -> None:
+        """Draw what an answer holds, and tell its verdict."""
+        figures = answer.get("figures", {})
+        if "maps" in figures:
+            self._maps.draw(figures["maps"], f"{run.name}:{answer.get('part', 'maps')}")
+        self._slice.draw(figures)
+        if "choices" in answer:
+            self._offer(answer["choices"], answer["depths"])
+        if "rows" in answer:
+            self.right.show(run.rows, run.warnings, run.name, done=run.ready)
+
+    def finished(self, run: Run) -> None:
+        """A card for it, with a thumbnail once the maps are drawn."""
+        self.stage.text += "; slices follow"
+        self._runs.list(self.now)
+        background_tasks.create(self._thumb(run))
+
+    def settled(self) -> None:
+        """The road below the maps is known: cut it."""
+        self.stage.text = "solved"
+        background_tasks.create(self._cut())
+
+    def _offer(self, choices: dict[str, str], depths: list[float]) -> None:
+        """Fill the lists of maps without asking for what they show already."""
+        for side, select in self._maps_of.items():
+            wanted = self._view[side]
+            options = choices if wanted in choices else {**choices, wanted: "follows when it is solved"}
+            if select.options != options:
+                select.set_options(options, value=wanted)
+        if depths and depths != self._depths:
+            self._depths = depths
+            named = {number: f"{depth * 1e3:g} mm" for number, depth in enumerate(depths)}
+            self._view["depth"] = min(self._view["depth"], len(depths) - 1)
+            self._depth.set_options(named, value=self._view["depth"])
+
+    def _look(self, **view: Any) -> None:
+        if all(self._view.get(key) == value for key, value in view.items()):
+            return
+        self._view.update(view)
+        self._pair = None
+        self.redraw()
+
+    def redraw(self) -> None:
+        """Draw the run, or the two, of now."""
+        self._space.clear()
+        if self._pair is not None:
+            background_tasks.create(self._draw_pair(*self._pair))
+        elif self.now is not None:
+            background_tasks.create(self._draw_run(self.now))
+
+    async def _draw_run(self, run: Run) -> None:
+        answer = await self.last("maps", run=run.name, theme=self.theme, view=self._seen())
+        if "error" not in answer:
+            run.rows, run.warnings = answer["rows"], answer["warnings"]
+            with self.client:
+                self.drawn(run, answer)
+        await self._cut()
+
+    async def _cut(self) -> None:
+        if self.now is None or self.now.name not in self.session.runs:
+            return
+        answer = await self.last("cut", run=self.now.name, theme=self.theme, line=self._slice.line,
+                                 name=self._slice.section_of, over=self._over)  # fmt: skip
+        self._slice.draw(answer.get("figures", {}))
+
+    def fly(self, x: float, y: float) -> None:
+        """Show the maps around a place, m."""
+        self.js(f"treadloadFly({x * 1e3:.3f}, {y * 1e3:.3f})")
+
+    async def _show_tread(self) -> None:
+        """Show the tread in space, or put it away."""
+        if self._space.default_slot.children:
+            self._space.clear()
+            return
+        if self.now is None:
+            return
+        answer = await self.last("tread", run=self.now.name, theme=self.theme)
+        if "error" not in answer:
+            with self.client, self._space:
+                Place("tread", "the tread in space").draw(answer["figures"]["tread"])
+
+    # Other runs.
+
+    def _show(self, run: Run) -> None:
+        self.now, self._pair = run, None
+        if run.form is not None:
+            self._form.take(run.form)
+        self._runs.list(run)
+        background_tasks.create(self._draw_run(run))
+
+    def _compare(self, first: Run, second: Run) -> None:
+        self._pair = (first, second)
+        background_tasks.create(self._draw_pair(first, second))
+
+    async def _draw_pair(self, first: Run, second: Run) -> None:
+        answer = await self.last("difference", first=first.name, second=second.name, name=self._view["left"],
+                                 theme=self.theme, width=self.width, labels=["A", "B"])  # fmt: skip
+        if "error" not in answer:
+            self._maps.draw(answer["figures"]["maps"], "compared")
+        with self.client:
+            self.state("compared")
+
+    async def _thumb(self, run: Run) -> None:
+        with self.client:
+            picture = None
+            with contextlib.suppress(TimeoutError):
+                picture = await ui.run_javascript("treadloadThumb()", timeout=30)
+            if not isinstance(picture, str) or len(picture) > _MOST_LETTERS or '"' in picture:
+                return
+            if picture.startswith("data:image/png;base64,"):
+                run.thumb = picture
+                self._runs.list(self.now)
+
+    # Files.
+
+    async def opened(self, kind: str, kept: str) -> None:
+        """Show a result that was uploaded, or lay a measured footprint over the contact."""
+        run = self.session.new_run(None, self.session.known_as(kept), self.room)
+        answer = await self.last("open", run=run.name, file=kept, kind=kind)
+        with self.client:
+            if "error" in answer:
+                self.session.runs.pop(run.name, None)
+                return
+            run.ready = True
+            if kind == "footprint":
+                self._over = run.name
+                self._runs.list(self.now)
+                await self._cut()
+                return
+            self.now, self._depths, self._pair = run, [], None
+            await self._draw_run(run)
+            self._runs.list(run)

@@ -1,0 +1,99 @@
+"""The runs of a session as cards, and which two of them are compared."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from nicegui import ui
+
+from treadload.app.fielding import plain
+from treadload.app.session import Run, Session
+
+
+@dataclass
+class _Card:
+    """What changes of a card: its picture, what is said of the run, which side it is on."""
+
+    whole: Any
+    picture: Any
+    said: Any
+    sides: dict[str, Any]
+
+
+class Runs:
+    """Cards of the runs of a room. show: called with a run. compare: called with two; left out, none are compared.
+
+    A card stays where it is while it changes: a click on one that is drawn anew would be lost.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        room: str,
+        show: Callable[[Run], Any],
+        compare: Callable[[Run, Run], Any] | None = None,
+    ) -> None:
+        self._session, self._room, self._show, self._compare = session, room, show, compare
+        self._pair: dict[str, Run] = {}
+        self._cards: dict[str, _Card] = {}
+
+    def build(self) -> None:
+        """Put the empty list on the page."""
+        self._runs = ui.element("div").classes("runs").props('id="runs" role="list" aria-label="runs"')
+
+    def button(self) -> None:
+        """Put the button that compares on the page."""
+        self._go = plain("Compare A with B", self._both).props('id="compare" disabled')
+
+    def list(self, now: Run | None) -> None:
+        """List the runs that are solved, the newest first. now: that which is shown."""
+        runs = {one.name: one for one in self._session.runs.values() if one.ready and one.room == self._room}
+        for name in [name for name in self._cards if name not in runs]:
+            self._cards.pop(name).whole.delete()
+        for name, run in runs.items():
+            if name not in self._cards:
+                with self._runs:
+                    self._cards[name] = self._card(run)
+                self._cards[name].whole.move(target_index=0)
+            card = self._cards[name]
+            if run.thumb and card.picture.props.get("src") != run.thumb:
+                card.picture.props["src"] = run.thumb
+                card.picture.update()
+            card.picture.set_visibility(bool(run.thumb))
+            card.said.set_content(f"<b>{html.escape(run.title)}</b>{html.escape(_first(run.rows))}")
+            shown = now is not None and name == now.name
+            card.whole.classes(add="now" if shown else "", remove="" if shown else "now")
+
+    def _card(self, run: Run) -> _Card:
+        with ui.element("div").classes("run").props('role="listitem"') as whole:
+            picture = ui.element("img").props('alt="pressure of this run"')
+            with ui.element("div").classes("say"):
+                said = ui.html("", sanitize=False)
+            with ui.element("div").classes("line"):
+                plain("show", lambda: self._show(run), label=f"show the run {run.title}")
+                sides = {
+                    side: plain(side, lambda side=side: self._choose(side, run),
+                                label=f"take as {side} for a comparison")
+                    for side in (("A", "B") if self._compare is not None else ())
+                }  # fmt: skip
+        return _Card(whole, picture, said, sides)
+
+    def _choose(self, side: str, run: Run) -> None:
+        self._pair[side] = run
+        for name, card in self._cards.items():
+            chosen = name == run.name
+            card.sides[side].classes(add="chosen" if chosen else "", remove="" if chosen else "chosen")
+        if len(self._pair) == 2:
+            self._go.props(remove="disabled")
+
+    def _both(self) -> None:
+        if len(self._pair) == 2 and self._compare is not None:
+            self._compare(self._pair["A"], self._pair["B"])
+
+
+def _first(rows: list[dict[str, Any]]) -> str:
+    told = {row["key"]: row["value"] for row in rows}
+    return ", ".join(told[key] for key in ("peak", "extension", "passes", "governs") if key in told)

@@ -1,0 +1,230 @@
+"""One tab of a browser: its head, what it waits for, and the solves that it asks of the process of its session."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+from typing import Any, ClassVar
+
+from nicegui import background_tasks, ui
+
+from treadload.app.engines import EngineLost
+from treadload.app.fielding import Fields, Uploads, plain
+from treadload.app.form import Form
+from treadload.app.right import Right
+from treadload.app.session import Run, Session
+from treadload.study.as_python import case_as_python
+
+PAGES = {"/": "the bench", "/life": "life", "/study": "study"}
+"""Addresses of the pages and what they are called."""
+# What a browser is like, as it says.
+_ABOUT = (
+    "({width: document.querySelector('.centre').clientWidth - 26, "
+    "dark: matchMedia('(prefers-color-scheme: dark)').matches})"
+)
+
+
+class Tab:
+    """A page in one tab. Kinds of pages say what is inside, what they ask for and what they draw."""
+
+    address: ClassVar[str] = "/"
+    room: ClassVar[str] = "bench"
+    solves: ClassVar[bool] = True
+    left: Uploads
+    right: Right
+
+    def __init__(self, session: Session) -> None:
+        self.session, self.client = session, ui.context.client
+        self.theme, self.width = "light", 1100.0
+        self.now: Run | None = None
+        self._solving: asyncio.Task[None] | None = None
+        self._count = 0
+
+    def build(self) -> None:
+        """Put everything on the page."""
+        self._dark = ui.dark_mode(value=None)
+        with ui.element("header").classes("bar"):
+            ui.element("h1").props(f'innerHTML="treadload, {PAGES[self.address]}"')
+            with ui.element("nav").classes("pages").props('aria-label="pages"'):
+                for address, words in PAGES.items():
+                    with ui.element("a").props(f'href="{address}"') as link:
+                        ui.html(words, sanitize=False)
+                    if address == self.address:
+                        link.props('aria-current="page"')
+            self.stage = ui.label("starting").classes("stage").props('role="status" aria-live="polite" id="stage"')
+            if self.solves:
+                self._cancel = plain("Cancel", self.cancel).props('id="cancel" disabled')
+                plain("Solve", lambda: self.solve(self.session.forms[self.room]), main=True).props('id="solve"')
+            plain("Light or dark", self._other_theme).props('id="theme"')
+        self._root = ui.element("div").classes("bench").props('id="bench" data-state="starting" data-ready="0"')
+        with self._root:
+            self.inside()
+
+    # What kinds of pages do.
+
+    def inside(self) -> None:
+        """Put what is below the head on the page."""
+        raise NotImplementedError
+
+    async def started(self) -> None:
+        """The browser is there, and what it is like is known."""
+
+    def asked(self) -> dict[str, Any]:
+        """What a solve is asked for, besides the run, its tables and the theme."""
+        return {}
+
+    def drawn(self, run: Run, answer: dict[str, Any]) -> None:
+        """Draw a part of a run that is there."""
+
+    def finished(self, run: Run) -> None:
+        """All parts of a run are there."""
+
+    def settled(self) -> None:
+        """Nothing more comes of a run."""
+
+    def redraw(self) -> None:
+        """Draw once more what stands on the page, in the theme of now."""
+
+    def title(self, form: Form) -> str:
+        """What a run of a form is called."""
+        return str(form.value("title") or "a case")
+
+    # What the browser is and wants.
+
+    async def begin(self) -> None:
+        """Wait for the browser, and show where its session stands."""
+        with contextlib.suppress(Exception):
+            await self.client.connected(timeout=60)
+        with self.client:
+            about = None
+            with contextlib.suppress(TimeoutError):
+                about = await ui.run_javascript(_ABOUT, timeout=10)
+            if about:
+                self.width = max(560.0, float(about["width"]))
+                self.theme = "dark" if about["dark"] else "light"
+                self._dark.value = bool(about["dark"])
+            await self.started()
+
+    def _other_theme(self) -> None:
+        self.theme = "light" if self.theme == "dark" else "dark"
+        self._dark.value = self.theme == "dark"
+        self.redraw()
+
+    def js(self, code: str) -> None:
+        """Run a script of ours in the browser."""
+        with self.client:
+            ui.run_javascript(code)
+
+    def state(self, state: str, **more: str) -> None:
+        """Say on the page where it stands."""
+        self._root.props["data-state"] = state
+        for key, value in more.items():
+            self._root.props[f"data-{key}"] = value
+        self._root.update()
+
+    # Solving.
+
+    def solve(self, form: Form) -> None:
+        """Solve a form in the process of the session; what was being solved is left."""
+        if form.check(self.session.folder).case is None:
+            if isinstance(self.left, Fields):
+                self.left.tell()
+            return
+        if self._solving is not None:
+            self._solving.cancel()
+        self._solving = background_tasks.create(self._solve(form))
+
+    async def _solve(self, form: Form) -> None:
+        with self.client:
+            run = self.session.new_run(form, self.title(form), self.room)
+            self.state("solving")
+            self._cancel.props(remove="disabled")
+            self.stage.text = "waiting for the process that solves"
+            try:
+                await self.session.stop(self.room)
+                told = {"run": run.name, "table": dict(form.table), "theme": self.theme, **self.asked()}
+                async for answer in self.session.ask(self.room, form.solver, **told):
+                    self._hear(run, answer)
+            except EngineLost as error:
+                # The process is ended where it does not stop of itself.
+                self._failed(run, "cancelled" if self._solving is None else str(error))
+            except asyncio.CancelledError:
+                if not run.ready:
+                    self.session.runs.pop(run.name, None)
+                raise
+            self._cancel.props("disabled")
+
+    def _hear(self, run: Run, answer: dict[str, Any]) -> None:
+        """Show what the process says of a run."""
+        if "stage" in answer:
+            self.stage.text = f"{answer['seconds']:.1f} s  {answer['stage']}"
+        if "part" in answer:
+            run.rows, run.warnings = answer["rows"], answer["warnings"]
+            self.now = run
+            self.drawn(run, answer)
+            self.state("drawn", part=answer["part"], **{f"drawn-{answer['part']}": f"{answer['process']:.3f}"})
+        if "ready" in answer:
+            run.ready = True
+            self._count += 1
+            self.right.show(run.rows, run.warnings, run.name, done=True)
+            self.state("ready", ready=str(self._count), seconds=f"{answer['seconds']:.3f}",
+                       process=f"{answer['process']:.3f}", run=run.name)  # fmt: skip
+            self.stage.text = f"solved in {answer['seconds']:.1f} s"
+            self.finished(run)
+        if "done" in answer:
+            self.state("done")
+            self.settled()
+        if "error" in answer:
+            self._failed(run, answer["error"])
+        if "stopped" in answer and not run.ready:
+            self._failed(run, "cancelled")
+
+    def _failed(self, run: Run, why: str) -> None:
+        if not run.ready:
+            self.session.runs.pop(run.name, None)
+            self.state("cancelled" if why == "cancelled" else "failed")
+            self.stage.text = why if why == "cancelled" else "not solved"
+            if why != "cancelled":
+                self.left.say(why.removeprefix("case: "))
+        self._cancel.props("disabled")
+
+    async def cancel(self) -> None:
+        """Leave what is being solved, or waits to be."""
+        solving, self._solving = self._solving, None
+        if solving is None or solving.done():
+            return
+        self.stage.text = "cancelling"
+        await self.session.stop(self.room)
+        solving.cancel()
+        await asyncio.wait([solving])
+        self.stage.text = "cancelled"
+        self._cancel.props("disabled")
+        # A run that was ready before its slices were cut stays; so does what another click began meanwhile.
+        if self._solving is None and self._root.props.get("data-state") in ("solving", "drawn", "failed"):
+            self.state("cancelled")
+
+    # Asking for figures, and taking home.
+
+    async def last(self, do: str, **asked: Any) -> dict[str, Any]:
+        """The last answer of the process; what is wrong is said on the page."""
+        with self.client:
+            try:
+                answer = await self.session.last(self.room, do, **asked)
+            except EngineLost as error:
+                answer = {"error": str(error)}
+            if "error" in answer:
+                self.left.say(answer["error"])
+            return answer
+
+    def take_home(self, kind: str) -> None:
+        """Give the case as TOML or Python."""
+        form = self.now.form if self.now is not None and self.now.form is not None else self.session.forms[self.room]
+        toml = self.session.to_toml(form)
+        with self.client:
+            if kind == "toml":
+                ui.download.content(toml, "case.toml", "application/toml")
+            else:
+                program = case_as_python(form.kind.from_text(toml))
+                self.right.program(program)
+                ui.run_javascript(f"treadloadCopy({json.dumps(program)})")

@@ -1,0 +1,101 @@
+"""A life in the process of a browser: part by part, in the digits of its summary, and not a solve too many."""
+
+import base64
+import json
+
+import pytest
+
+from treadload.app import life_telling
+from treadload.app.engine import Engine
+from treadload.app.life_form import LifeForm
+from treadload.case import LifeCase
+from treadload.results import open_results
+from treadload.study.run_life import run_life
+
+pytestmark = pytest.mark.slow
+
+
+def quick():
+    """Tables of a life that takes a second or two."""
+    form = LifeForm.first().with_climate("temperature")
+    return dict(form.with_values({"spacing": "16 mm", "reliability": None}).table)
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory):
+    """An engine that has solved a life as run "a", and what it said."""
+    said = []
+    engine = Engine(lambda line: said.append(json.loads(line)))
+    engine.answer({"id": 1, "do": "folder", "folder": str(tmp_path_factory.mktemp("life"))})
+    engine.answer({"id": 2, "do": "life", "run": "a", "table": quick(), "theme": "light"})
+    engine._solving.join()
+    return engine, said
+
+
+def test_parts_are_shown_as_they_come_in_the_digits_of_the_summary(solved):
+    _, said = solved
+    parts = [one for one in said if "part" in one]
+    assert [one["part"] for one in parts] == ["life", "sensitivity", "equivalents"]
+    assert any("of" in one.get("stage", "") for one in said)
+    assert said[-1]["done"]
+    result = run_life(LifeCase.from_dict(quick()))
+    summary = result.summary()
+    told = {row["key"]: row["value"] for row in parts[-1]["rows"]}
+    assert told["governs"] == result.life.governing
+    for name in parts[0]["criteria"]:
+        assert f"  {name}: {told[f'years:{name}']}" in summary
+    who = [float(value.split()[0]) for key, value in told.items() if key.startswith("who:")]
+    # Of three classes, each rounded to one per cent, those below half a per cent left out.
+    assert sum(who) == pytest.approx(100, abs=2.5)
+    assert told["contacts"] == str(result.life.stats["contacts"])
+    assert any(key.startswith("input:") for key in told)
+    for name, url in parts[0]["pictures"].items():
+        head, _, body = url.partition(",")
+        assert head == "data:image/svg+xml;base64", name
+        assert b"<svg" in base64.b64decode(body)[:2000]
+
+
+def test_who_does_it_is_told_for_the_chosen_criterion(solved):
+    engine, said = solved
+    said.clear()
+    names = [row["name"] for row in quick()["criteria"]]
+    for name in names:
+        engine.answer({"id": 3, "do": "shares", "run": "a", "criterion": name})
+    assert len({one["pictures"]["shares"] for one in said}) == len(names)
+    for one, name in zip(said, names, strict=True):
+        assert {row["note"] for row in one["rows"] if row["group"] == "who"} == {f"of {name}"}
+
+
+@pytest.mark.parametrize("kind", ["nc", "csv"])
+def test_a_life_is_taken_home_also_after_the_process_was_ended(solved, kind):
+    engine, said = solved
+    other = Engine(lambda line: said.append(json.loads(line)))
+    other.answer({"id": 1, "do": "folder", "folder": str(engine._folder)})
+    said.clear()
+    other.answer({"id": 4, "do": "export", "run": "a", "kind": kind})
+    file = engine._folder / said[-1]["file"]
+    assert file.stat().st_size > 500
+    if kind == "nc":
+        held = open_results(file)
+        assert set(held.parts) == {"life", "sensitivity", "equivalents"}
+        assert isinstance(held.case, LifeCase)
+    other.answer({"id": 5, "do": "pictures", "run": "a"})
+    assert set(said[-1]["pictures"]) >= {"years", "shares", "inputs"}
+
+
+def test_a_life_without_an_end_says_never(solved):
+    assert life_telling.years(float("inf")) == "never"
+    assert life_telling.life_rows({}) == []
+
+
+def test_a_life_is_stopped_between_two_solves(solved, tmp_path):
+    said = []
+    engine = Engine(lambda line: said.append(json.loads(line)))
+    engine.answer({"id": 1, "do": "folder", "folder": str(tmp_path)})
+    engine._stop.set()
+    engine.answer({"id": 2, "do": "life", "run": "b", "table": dict(LifeForm.first().table), "theme": "light"})
+    engine.answer({"id": 0, "do": "stop"})
+    engine._solving.join()
+    assert said[-1].get("stopped")
+    assert not any("ready" in one for one in said)
+    assert not list(tmp_path.glob("b*"))
