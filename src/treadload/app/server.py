@@ -76,6 +76,8 @@ def run(host: str, port: int, *, open_browser: bool) -> None:
 def prepare(keys: Keys, engines: Engines, sessions: dict[str, Session]) -> None:
     """Put the page and its guard into the application."""
     logging.getLogger("nicegui").setLevel(logging.ERROR)
+    # A bar over the page at each upload, which has no name for who does not see it.
+    app.config.quasar_config["loadingBar"]["skipHijack"] = True
 
     def session_of(request: Request) -> Session:
         name = request.scope[SESSION]
