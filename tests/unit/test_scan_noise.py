@@ -165,7 +165,7 @@ def test_a_clump_and_a_speck_beside_the_tire_are_outliers(tmp_path):
 def test_nothing_of_a_clean_tire_is_taken(tmp_path):
     meshes = example_mesh().parents[0], MESHES
     paths = [path for folder in meshes for path in sorted(folder.glob("*.obj"))]
-    assert len(paths) == 3
+    assert len(paths) == 4
     # With every noise that a scanner has: one point in 500 million lies beyond six deviations.
     paths += [ribs(tmp_path, 0.3e-3, seed=7), lugs(tmp_path, 0.0)]
     bars = lugged_mesh(angle=0, lugs=18, overlap=0.12, around=600, across=41)[:2]
