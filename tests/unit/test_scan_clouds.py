@@ -233,6 +233,14 @@ def test_meshes_as_photogrammetry_writes_them(tmp_path):
     assert textured.n_points == len(np.unique(faces))
 
 
+def worn_by(worn):
+    """The tread with ribs, evenly worn by a depth, m."""
+    grooves = (
+        replace(g, depth=g.depth - worn, width=g.width - 2 * worn * math.tan(g.wall_angle)) for g in RIB_TREAD.grooves
+    )
+    return replace(RIB_TREAD, rolling_radius=RIB_TREAD.rolling_radius - worn, grooves=tuple(grooves))
+
+
 @pytest.mark.slow
 def test_what_was_worn_off(tmp_path):
     from treadload.plots import save
@@ -240,14 +248,7 @@ def test_what_was_worn_off(tmp_path):
     from treadload.results.scanned import scan_fields, scan_wear
 
     worn = 4e-3
-    now = replace(
-        RIB_TREAD,
-        rolling_radius=RIB_TREAD.rolling_radius - worn,
-        grooves=tuple(
-            replace(g, depth=g.depth - worn, width=g.width - 2 * worn * math.tan(g.wall_angle))
-            for g in RIB_TREAD.grooves
-        ),
-    )
+    now = worn_by(worn)
     tires = []
     for k, (tread, arc) in enumerate([(RIB_TREAD, 360), (now, 150)]):
         vertices, faces = tire_mesh(tread, noise=0.2e-3, arc=math.radians(arc), around=500)
@@ -283,14 +284,7 @@ def test_the_command_scales_both_scans_and_writes_the_wear(tmp_path):
     from treadload.files import read_tree
 
     worn = 3e-3
-    now = replace(
-        RIB_TREAD,
-        rolling_radius=RIB_TREAD.rolling_radius - worn,
-        grooves=tuple(
-            replace(g, depth=g.depth - worn, width=g.width - 2 * worn * math.tan(g.wall_angle))
-            for g in RIB_TREAD.grooves
-        ),
-    )
+    now = worn_by(worn)
     # As two reconstructions from photographs leave them: each in a unit of its own.
     for name, tread, unit in (("now", now, 0.731), ("then", RIB_TREAD, 0.912)):
         vertices, faces = tire_mesh(tread, around=240, across=60)
