@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any
 
@@ -81,7 +82,7 @@ class Uploads:
         """A case was uploaded. name: that the user knows."""
 
 
-class Fields(Uploads):
+class Fields(Uploads, ABC):
     """The fields of a room, and what is said of them. changed: called with a form that the reader takes.
 
     opened: called with a kind and the kept name of a file that is no case.
@@ -111,9 +112,9 @@ class Fields(Uploads):
         self.groups()
         self.tell()
 
+    @abstractmethod
     def groups(self) -> None:
         """The groups of fields."""
-        raise NotImplementedError
 
     def refresh(self) -> None:
         """Show the fields anew."""
