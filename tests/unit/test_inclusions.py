@@ -164,41 +164,37 @@ def test_stiff_and_soft_together_are_solved_and_satisfy_their_laws():
     np.testing.assert_allclose(compliant(inner, own), compliant(inner, matrix) + strain, atol=1e-7)
 
 
-def _dipole(centres, cells, contrast, load, beyond):
-    """Volume of the cells of spheres, and their eigenstrain times volume under a stress."""
-    grid, at, _ = _block(beyond, 0)
-    inside = np.zeros(grid.shape, bool)
-    for x, y, z in centres:
-        inside |= (at[:, None, None] - z) ** 2 + (at[:, None] - y) ** 2 + (at - x) ** 2 < cells**2
-    apply = operator.cells(grid, 0.5 / (1 + _NU), _NU, averaged=True, surface=False, single=True)
-    own = tuple(np.full(inside.sum(), contrast * one) for one in _moduli(1.0))
-    stress = load[:, None, None, None] * np.ones((6, *grid.shape))
-    found = equivalent(apply, stress, inside, own, _moduli(1.0), grid.thickness)
-    return inside.sum(), found.eigenstrain[int(np.argmax(load))].sum()
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("load", "part", "shape"), [(_ONE, 0, _VOLUME), (np.eye(6)[3], 1, _SHEAR)], ids=["volume", "shear"]
-)
-def test_sixteen_soft_spheres_are_mori_and_tanakas(load, part, shape):
+def test_sixteen_soft_spheres_are_mori_and_tanakas():
     cells, fraction, contrast = 4, 0.26, 0.1
     # Close-packed places around a hole between four: 4 and 12 of them, as dense as the fraction says.
     side = cells * (16 / 3 * np.pi / fraction) ** (1 / 3)
     steps = np.stack(np.meshgrid(*[np.arange(-4, 5)] * 3), axis=-1).reshape(-1, 3)
     centres = steps[steps.sum(axis=1) % 2 == 0] * side / 2 - side / 4
-    centres = centres[np.linalg.norm(centres, axis=1) < 0.84 * side]
+    x, y, z = centres[np.linalg.norm(centres, axis=1) < 0.84 * side].T
     volume = 4 * side**3
-    assert len(centres) == 16
-    held, dipole = _dipole(centres, cells, contrast, load, int(np.abs(centres).max() + cells) + 1)
-    # What the staircase of a radius of four cells adds is that of each sphere alone: 3 to 4 %, see above.
-    alone = [_dipole(place[None] % 1, cells, contrast, load, cells + 1) for place in centres]
+    assert len(x) == 16
+    grid, at, _ = _block(int(np.abs(x).max() + cells) + 1, 0)
+    spheres = Spheres(x, y, z + len(at) / 2, np.full(16, float(cells)))
+    fullest, holder, part = shares(spheres, at, at, grid.depths)
+    apply = operator.cells(grid, 0.5 / (1 + _NU), _NU, averaged=True, surface=False, single=True)
+
+    def effective(inside, share, load, modulus, shape):
+        """Modulus over that of the matrix. Maxwell: the cluster's dipole is that of one sphere of the material."""
+        # A cell of two parts as stiff as their mean; all of it stone where the share is one.
+        own = tuple(one * (share * contrast + 1 - share) for one in _moduli(1.0))
+        stress = load[:, None, None, None] * np.ones((6, *grid.shape))
+        found = equivalent(apply, stress, inside, own, _moduli(1.0), grid.thickness)
+        relative = found.eigenstrain[int(np.argmax(load))].sum() / volume * modulus
+        return 1 - relative / (1 + relative * shape)
+
     change = contrast - 1
-    exact = -change / (1 + change * shape) / _moduli(1.0)[part]
-    steps_of = sum(own for _, own in alone) / sum(size for size, _ in alone) / exact
-    # Maxwell: the cluster's dipole is that of one sphere of the effective material.
-    relative = dipole / steps_of / volume * _moduli(1.0)[part]
-    effective = 1 - relative / (1 + relative * shape)
-    share = held / volume
-    expected = 1 + share * change / (1 + (1 - share) * change * shape)
-    assert effective == pytest.approx(expected, rel=1e-2)
+    for load, modulus, shape in ((_ONE, _moduli(1.0)[0], _VOLUME), (np.eye(6)[3], _moduli(1.0)[1], _SHEAR)):
+        expected = 1 + fraction * change / (1 + (1 - fraction) * change * shape)
+        whole = effective(fullest > 0, np.ones((fullest > 0).sum()), load, modulus, shape) / expected - 1
+        mixed_in = effective(holder > 0, part[holder > 0], load, modulus, shape) / expected - 1
+        # Whole cells of the spheres' volume, as stones are computed, look larger by their steps; borders as stiff as
+        # the mean of both parts look smaller. Measured: -2.0 and 2.7 %, -1.4 and 1.9 %; with 6 cells a radius -1.5
+        # and 1.4 %, -1.1 and 1.1 %. Between them stand Mori and Tanaka.
+        assert -2.2e-2 < whole < 0 < mixed_in < 3e-2
+        assert abs(whole + mixed_in) / 2 < 1e-2

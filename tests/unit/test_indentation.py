@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.contact import indentation
+from treadload.contact import indentation, yielding
 from treadload.materials import MohrCoulomb, Perzyna, VonMises
 
 MODULUS, YIELD, POISSON, RADIUS = 1000.0, 2.0, 0.3, 100.0
@@ -84,6 +84,32 @@ def test_a_step_that_does_not_settle_is_halved(monkeypatch):
     monkeypatch.setattr(indentation, "_MOST_ROUNDS", 1)
     with pytest.raises(tl.ConvergenceError, match=r"step 1 did not settle at \S+ N in 2 rounds: .*smaller steps"):
         pressed([3.0], n=16, layers=6)
+
+
+@pytest.mark.parametrize(
+    ("law", "loads"),
+    [(VonMises(YIELD, hardening=1.0), [5.0, 0.0]), (MohrCoulomb(0.4, math.radians(35), 0.1), [5.0, 0.0])],
+    ids=["von Mises", "Mohr-Coulomb"],
+)
+def test_what_is_known_of_the_zone_that_yields_does_not_change_what_yields(monkeypatch, law, loads):
+    road = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, law))
+
+    def solved(zone):
+        monkeypatch.setattr(yielding.Ground, "zone", zone)
+        return pressed(loads, n=24, layers=9, reach=1.9, depth=None, road=road)
+
+    guess = yielding.Ground.zone
+    all_of_it = solved(lambda ground, pressure: yielding.Zone((0, 0, 0), ground.shape))
+    predicted = solved(guess)
+    # From a few cells in the middle it grows until nothing yields at its border.
+    grown = solved(lambda ground, pressure: yielding.Zone.around(np.zeros(ground.shape, bool)))
+    assert predicted.stats["rounds"] == all_of_it.stats["rounds"] < grown.stats["rounds"]
+    assert max(predicted.stats["memory_mb"], grown.stats["memory_mb"]) < 0.7 * all_of_it.stats["memory_mb"]
+    for name in ("pressure", "residual_displacement_z", "equivalent_plastic_strain"):
+        whole = all_of_it.dataset[name].to_numpy()
+        for part in (predicted, grown):
+            # Kernels of single precision, under transforms of other sizes.
+            np.testing.assert_allclose(part.dataset[name], whole, rtol=0, atol=1e-5 * np.abs(whole).max())
 
 
 @pytest.mark.slow

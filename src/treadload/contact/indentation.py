@@ -17,7 +17,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import pairwise
 from typing import Any, ClassVar
 
@@ -31,15 +30,12 @@ from treadload.contact.bodies.influence import Influence
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solve import check_border, place
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
+from treadload.contact.yielding import Ground, Yielding
 from treadload.describing import first_line
 from treadload.errors import ConvergenceError, InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.kernels.eigenstrain.operator import Grid as Cells
-from treadload.kernels.eigenstrain.operator import cells, moved_by_cells
 from treadload.kernels.eigenstrain.rows import graded_edges
-from treadload.kernels.gridding.below import Below
-from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.mixing import Anderson
 from treadload.kernels.plasticity.state import State
 from treadload.materials import ElastoPlastic, PassesPowerLaw, Perzyna
@@ -104,45 +100,11 @@ class Indentation(BaseResult, group="indentation"):
     __repr__ = first_line
 
 
-@dataclass(frozen=True, eq=False)
-class _Body:
-    """The road below the contact's cells: how pressure stresses it, what plastic strain does."""
-
-    grid: Grid
-    material: ElastoPlastic
-    edges: Array
-
-    @property
-    def cells(self) -> Cells:
-        return Cells(self.grid.nx, self.grid.ny, self.grid.dx, self.grid.dy, self.edges)
-
-    @cached_property
-    def own(self) -> Any:
-        """Stress of plastic strain."""
-        elastic = self.material.elastic
-        return cells(self.cells, elastic.shear_modulus, elastic.poisson, single=True)
-
-    @cached_property
-    def moved(self) -> Any:
-        """Displacement of the surface by plastic strain."""
-        return moved_by_cells(self.cells, self.material.elastic.poisson)
-
-    @cached_property
-    def stress(self) -> Below:
-        """Stress of a pressure."""
-        grid, one = self.grid, np.zeros((3, 1, 1))
-        one[0] = 1.0
-        x, y = grid.dx * np.arange(1 - grid.nx, grid.nx), grid.dy * np.arange(1 - grid.ny, grid.ny)
-        poisson = self.material.elastic.poisson
-        stress = fields_on_grid(one, grid.dx, grid.dy, self.cells.depths, 1.0, poisson, x, y, moves=False)[0]
-        return Below.of(np.moveaxis(stress, 1, 0))
-
-
 @dataclass
 class _Pressing:
-    """Brings a body from one load to the next. rounds, halved: of all steps so far."""
+    """Brings a body from one load to the next. rounds, halved: of all steps so far; zone: grows where it must."""
 
-    body: _Body
+    zone: Yielding
     influence: Influence
     gap: Array
     tolerance: float
@@ -168,19 +130,30 @@ class _Pressing:
         self, load: float, state: State, near: Array, name: str, most: int
     ) -> tuple[State, NormalSolution | None]:
         """The same in one jump of so many rounds at most. Raises ConvergenceError."""
-        body, material = self.body, self.body.material
+        while True:
+            inner, touching = self._settled(load, self.zone.of(state), near, name, most)
+            after = self.zone.put(state, inner)
+            if self.zone.held(state, after):
+                return after, touching
+            self.zone = self.zone.grown(state, after)
+
+    def _settled(
+        self, load: float, state: State, near: Array, name: str, most: int
+    ) -> tuple[State, NormalSolution | None]:
+        """The same in the zone alone."""
+        zone, material = self.zone, self.zone.ground.material
         law, change, mixing = material.return_map(), np.zeros_like(state.strain), Anderson(_MEMORY)
         still = self.tolerance
         touching: NormalSolution | None = None
         for _ in range(most):
             self.rounds += 1
-            stress = body.own(state.strain + change) + law.elastic(change)
+            stress = zone.own(state.strain + change) + law.elastic(change)
             if load:
-                dented = self.gap + body.moved(state.strain + change)[2, 0]
+                dented = self.gap + zone.sunk(state.strain + change)
                 inner = min(max(_INNER * still, _FINEST), _INNER)
                 touching = solve_normal(self.influence, dented, load=load, start=near, tolerance=inner)
                 near = touching.pressure
-                stress = stress + body.stress(near)
+                stress = stress + zone.pressed(near)
             after = law(stress, state)
             step = after.strain - state.strain
             size, off = float(np.linalg.norm(step)), float(np.linalg.norm(step - change))
@@ -227,10 +200,10 @@ def solve_indentation(
         touched = normal.pressure > 0
         radius = 0.5 * max(touched.any(axis=0).sum() * grid.dx, touched.any(axis=1).sum() * grid.dy)
         depth = _DEEP * radius
-    body = _Body(grid, material, graded_edges(0.0, depth, 0.8 * grid.dx, layers))
-    tell(f"operators of {grid.nx} x {grid.ny} cells in {len(body.edges) - 1} rows")
-    pressing = _Pressing(body, influence, gap, tolerance)
-    state, pressure = State.virgin((len(body.edges) - 1, *grid.shape)), normal.pressure
+    ground = Ground(grid, material, graded_edges(0.0, depth, 0.8 * grid.dx, layers))
+    tell(f"operators of {grid.nx} x {grid.ny} cells in {len(ground.depths)} rows")
+    pressing = _Pressing(Yielding(ground, ground.zone(normal.pressure)), influence, gap, tolerance)
+    state, pressure = State.virgin(ground.shape), normal.pressure
     found: list[tuple[float, float, Array, State, Array]] = []
     for number, (before, load) in enumerate(pairwise([0.0, *steps]), start=1):
         tell(f"step {number} of {len(steps)}")
@@ -241,14 +214,14 @@ def solve_indentation(
         _check_sides(state, depth, number)
         held = np.zeros(grid.shape) if touching is None else touching.pressure
         level = 0.0 if touching is None else touching.approach
-        found.append((load, level, held, state, body.moved(state.strain)[2, 0]))
+        found.append((load, level, held, state, pressing.zone.sunk(pressing.zone.of(state).strain)))
     stats = {
         "seconds": time.perf_counter() - start,
         "rounds": pressing.rounds,
         "halved_steps": pressing.halved,
-        "memory_mb": body.own.bytes / 1e6,
+        "memory_mb": pressing.zone.own.bytes / 1e6,
     }
-    data = _dataset(grid, body, found, type(material.law).__name__)
+    data = _dataset(grid, ground, found, type(material.law).__name__)
     largest = float(data["largest_plastic_strain"].max())
     warnings = () if largest <= _SMALL else (
         f"the plastic strain reaches {100 * largest:.1f} %, above {100 * _SMALL:g} %: strains are taken as small",
@@ -307,7 +280,7 @@ def _check_sides(state: State, depth: float, number: int) -> None:
             )
 
 
-def _dataset(grid: Grid, body: _Body, found: Sequence[tuple[Any, ...]], law: str) -> xr.Dataset:
+def _dataset(grid: Grid, ground: Ground, found: Sequence[tuple[Any, ...]], law: str) -> xr.Dataset:
     loads, levels, pressures, states, moved = zip(*found, strict=True)
     pressure, hardening = np.array(pressures), np.array([one.hardening for one in states])
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
@@ -320,5 +293,5 @@ def _dataset(grid: Grid, body: _Body, found: Sequence[tuple[Any, ...]], law: str
         "residual_displacement_z": (("step", "y", "x"), np.array(moved)),
         "equivalent_plastic_strain": (("step", "depth", "y", "x"), hardening),
     }
-    places = {"step": np.arange(1, len(loads) + 1), "depth": body.cells.depths, "y": grid.y, "x": grid.x}
+    places = {"step": np.arange(1, len(loads) + 1), "depth": ground.depths, "y": grid.y, "x": grid.x}
     return variables.dataset(fields, places, law=f"yields by {law}", dx=grid.dx, dy=grid.dy)
