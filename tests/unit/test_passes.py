@@ -8,8 +8,10 @@ import pytest
 import treadload as tl
 from treadload.kernels.eigenstrain.operator import moved_by_endless
 from treadload.materials import MohrCoulomb, PassesPowerLaw, Perzyna, VonMises
+from treadload.response.passes import verdict
 from treadload.response.passes.box import Box, courses, row_edges
 from treadload.response.passes.counts import told_counts
+from treadload.response.passes.melan import enclosing
 from treadload.response.passes.surface import surface_profile
 from treadload.response.passes.verdict import in_words, judged, still_falls
 
@@ -306,6 +308,31 @@ def test_passes_of_a_case_need_a_layer_that_yields(hot):
     table = hot.given() | {"passes": {"count": 0}}
     with pytest.raises(tl.InputError, match="count must be >= 1, got 0"):
         tl.Case.from_dict(table, folder=hot.folder)
+
+
+def test_the_smallest_balls_around_paths():
+    # Of two points, and of the corners of a simplex in five dimensions beside points inside it.
+    one = np.array([[[0.0, 0.0, 0.0], [1.0, 2.0, 2.0]]])
+    assert enclosing(one) == pytest.approx(1.5, rel=1e-5)
+    corners = np.eye(6) - 1 / 6
+    inner = np.random.default_rng(2).dirichlet(np.ones(6), 30) @ corners
+    assert enclosing(np.concatenate([inner, corners])[None]) == pytest.approx((5 / 6) ** 0.5, rel=1e-5)
+    # The largest of many counts.
+    assert enclosing(np.stack([0.5 * corners, corners, 0.9 * corners])) == pytest.approx((5 / 6) ** 0.5, rel=1e-5)
+
+
+@pytest.mark.slow
+def test_melans_limit_is_where_passes_come_to_rest(monkeypatch):
+    load = tl.UniformRectangle(0.2, 0.2, 0.5e6)
+    road = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, VonMises(2e5, kinematic=SOFT.modulus / 10)))
+
+    def limit():
+        return float(tl.study.shakedown_map(load, road, [0.2], spacing=0.04, layers=5).dataset.shakedown_load[0])
+
+    direct = limit()
+    monkeypatch.setattr(verdict, "unbounded", lambda law: False)
+    # The search by passes is good to 3 % of what lies between 0.7 and 3 times the load of first yield.
+    assert direct == pytest.approx(limit(), abs=0.1)
 
 
 @pytest.mark.slow

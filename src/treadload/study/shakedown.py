@@ -29,8 +29,9 @@ def shakedown_map(
 
     load: whose pressure is taken, with shear along travel of a ratio of it everywhere, as of a wheel that slides or
     brakes hard. road: with a layer that can yield step by step. frictions: the ratios, >= 0. spacing, layers: of the
-    box, as in `roll_passes`. The limit of shakedown is searched by passes, between the load of first yield and three
-    times that, to 3 % of the distance.
+    box, as in `roll_passes`. The limit of shakedown is Melan's for von Mises' law with Prager's hardening; for other
+    laws it is searched by passes, to 3 % of what lies between the load of first yield and three times that. No load
+    above three times is looked at.
     Returns Fields over friction: elastic_limit_load and shakedown_load, over the load at first yield without shear;
     `plots.shakedown_map` draws them. Raises InputError.
     """

@@ -9,6 +9,7 @@ import numpy as np
 
 from treadload.kernels.arrays import Array
 from treadload.response.passes.box import over_strength
+from treadload.response.passes.melan import melan_factor, unbounded
 from treadload.response.passes.steady import NoSteadyPassError, Track, roll
 
 Kind = Literal["elastic", "shakedown", "cyclic", "ratchetting"]
@@ -68,10 +69,13 @@ def elastic_factor(road: Track, stress: Array) -> float:
 
 
 def shakedown_factor(road: Track, stress: Array, *, most: float = 1.0, duration: float = 0.0) -> float:
-    """Largest part of a load that comes to rest after a few passes, found by halving between yield and `most`.
+    """Largest part of a load that comes to rest, up to `most`.
 
-    stress: (6, nz, ny, nx), Pa, on the elastic road. Within 3 % of the part between both.
+    stress: (6, nz, ny, nx), Pa, on the elastic road. By Melan's theorem where all laws are Prager's; else found by
+    passes, a few for a load, halving between yield and `most`, within 3 % of the part between both.
     """
+    if all(unbounded(one.material.law) for one in road.parts):
+        return min(melan_factor(road, stress), most)
     low, high = min(elastic_factor(road, stress), most), most
     for _ in range(_STEPS):
         middle = 0.5 * (low + high)
