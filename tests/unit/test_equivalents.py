@@ -9,6 +9,8 @@ import pytest
 from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchSubgrade, Traffic
 from treadload.damage.miner import miner
 from treadload.pavement import Pavement
+from treadload.plots import standard_axles
+from treadload.reporting import report
 from treadload.response import dual_wheels, solve_response
 from treadload.response.loads import UniformDisc
 from treadload.study import life_equivalents, solve_life
@@ -111,3 +113,14 @@ def test_a_climate_of_one_temperature_has_no_other():
     found = life_equivalents(ROAD, still, workers=1)
     assert np.isnan(found.dataset["equivalent_temperature"]).all()
     assert "equivalent temperature" not in found.summary()
+
+
+def test_a_report_of_them_alone_is_titled_by_them_and_promises_no_dots_that_are_not_drawn(found, tmp_path):
+    text = report(found, tmp_path / "axles.html").read_text()
+    assert "<h1>A traffic in standard axles</h1>" in text
+    # A criterion by which nothing does damage has no dots.
+    none = found.dataset.copy(deep=True)
+    none["standard_axles"][list(none["criterion"].to_numpy()).index("soil")] = np.nan
+    drawn = [text.get_text() for text in standard_axles(none).axes[0].get_legend().get_texts()]
+    assert len(drawn) == 2
+    assert "base" in drawn

@@ -166,7 +166,9 @@ def test_a_response_names_the_largest_of_every_quantity_and_denies_cracks_where_
     page = first_of_response(pressed)
     assert page.heading == "What is largest where, by whom"
     rows = {row[0]: row for row in page.rows}
-    assert rows["octahedral shear stress"][1] == "Lytton, with mean_stress"
+    assert rows["octahedral shear stress"][1] == "Lytton, with the mean stress"
+    # A table for people has no names of code in it.
+    assert not any("_" in cell for row in page.rows for cell in row)
     assert rows["principal tension"][2:5] == ("none", "–", "–")
     assert not any(opens_down(row[4].split(" ")[0]) for row in page.rows if row[4] in ORIENTATIONS)
     drag = tl.UniformRectangle(0.2, 0.2, 8e5, traction_x=-4e5)

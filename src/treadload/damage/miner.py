@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,20 +13,16 @@ import xarray as xr
 from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.climate import MONTHS, Climate
-from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
+from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
-from treadload.damage.laws.fatigue import FatigueLaw, warnings_of
+from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.thermal import DailyCycles, years_until
 from treadload.damage.traffic import Traffic, Wander
+from treadload.damage.words import RUT, asked_in_words, cautions, life_in_words, verdict_in_words
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-
-RUT = "rut"
-"""What a life calls its rut among what ends it."""
-# Damage across flat planes above this share of a criterion's is worth a sentence.
-_MOSTLY = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,36 +116,8 @@ class Life(BaseResult, group="life"):
 
     def summary(self) -> str:
         """Life of every criterion, the governing one, and what does most of its damage."""
-        data = self.dataset
-        lines = [
-            f"life under {self.traffic.passes_per_year:.4g} passes in the first year, growth "
-            f"{100 * self.traffic.growth:g} % per year, {self.traffic.wander}, {len(self.climate.seasons)} season(s)"
-        ]
-        years = self.traffic.years
-        allowed = "the passes of a year" if years is None else f"the passes of {years:g} years"
-        between = json.loads(data.attrs.get("between", "{}"))
-        for criterion in self.criteria:
-            row = data.sel(criterion=criterion.name)
-            law = criterion.law_at(15.0)
-            used = ""
-            if "design_utilisation" in row:
-                used = f", {float(row['design_utilisation']):.2g} of what is allowed for {allowed}"
-            lines.append(
-                f"  {criterion.name}{_of(between.get(criterion.name))}: {_years(float(row['life_years']))}, "
-                f"{float(row['life_passes']):.3g} passes; "
-                f"largest {criterion.quantity} {criterion.quantity.in_words(float(row['largest_reading']))} at "
-                f"y = {float(row['worst_y']) * 1e3:z.0f} mm{used}; {_by_whom(row)}; "
-                f"damage 1 means {law.end_of_life}"
-            )
-        lines += [f"  {text}" for text in json.loads(data.attrs.get("groups", "[]"))]
-        rut = rut_in_words(data)
-        lines += [f"  {rut}"] if rut else []
-        if self.governing == RUT:
-            lines.append(f"Verdict: the rut governs, after {_years(self.rut_years)}.")
-        elif math.isinf(self.years(self.governing)):
-            lines.append("Verdict: no criterion ever fails under this traffic.")
-        else:
-            lines.append(f"Verdict: {self.governing} governs, after {_years(self.years(self.governing))}.")
+        lines = life_in_words(self.dataset, self.criteria, self.traffic, self.climate)
+        lines.append(verdict_in_words(self.governing, self.years(self.governing)))
         if self.stats:
             lines.append(
                 "solved: {contacts} contacts and {responses} responses for {combinations} combinations; what is "
@@ -161,46 +127,6 @@ class Life(BaseResult, group="life"):
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
     __repr__ = first_line
-
-
-def _by_whom(row: xr.Dataset) -> str:
-    """The class and season that do most of a criterion's damage, and what the weather does."""
-    share = row["damage_share"].to_numpy()
-    worst = np.unravel_index(int(np.argmax(share)), share.shape)
-    by = (
-        f"most by {row['axle_class'].to_numpy()[worst[0]]}, {row['season'].to_numpy()[worst[1]]} "
-        f"({100 * share[worst]:.0f} %)"
-    )
-    told = [by] if share[worst] > 0 else []
-    told += filter(None, [weather_in_words(row)])
-    return ", ".join(told) or "no damage"
-
-
-def weather_in_words(row: xr.Dataset) -> str:
-    """What daily thermal stress does of a criterion's damage, in words; empty where it does nothing."""
-    if "weather_share" not in row or not float(row["weather_share"].sum()) > 0:
-        return ""
-    share = row["weather_share"].to_numpy()
-    month = int(share.argmax())
-    return (
-        f"by the weather alone {100 * share.sum():.2g} %, most in {MONTHS[month]}, "
-        f"{float(row['weather_stress'][month]) / 1e6:.2g} MPa"
-    )
-
-
-def rut_in_words(data: xr.Dataset) -> str:
-    """The rut of a life, layer by layer, and when it reaches its limit; empty without one."""
-    if "rut_depth" not in data:
-        return ""
-    last = 1e3 * data["rut_depth"].to_numpy()[:, -1]
-    names = json.loads(data.attrs["rut_names"])
-    by = ", ".join(f"{name} {depth:.2g}" for name, depth in zip(names, last, strict=True) if depth > 0)
-    told = f"rut after {float(data['year'][-1]):g} years: {last.sum():.3g} mm ({by})"
-    if "rut_limit" not in data.attrs:
-        return told
-    when = float(data.attrs["rut_years"])
-    reached = "is never reached" if math.isinf(when) else f"is reached after {_years(when)}"
-    return f"{told}; the limit of {1e3 * float(data.attrs['rut_limit']):g} mm {reached}"
 
 
 def miner(
@@ -321,9 +247,6 @@ def miner(
     if cracks is not None:
         fields |= _cracks(damage, cracks, wanders, spacing, columns, peak)
         coordinates["orientation"] = list(ORIENTATIONS)
-    doubts = [
-        "; ".join(filter(None, (law.doubt, one.quantity.doubt))) for law, one in zip(firsts, criteria, strict=True)
-    ]
     dataset = variables.dataset(
         fields,
         coordinates,
@@ -332,30 +255,10 @@ def miner(
         growth_kind=traffic.kind,
         wander=str(traffic.wander),
         **({} if traffic.years is None else {"design_years": traffic.years}),
-        laws=json.dumps([str(criterion.law_at(15.0)) for criterion in criteria], ensure_ascii=False),
-        sources=json.dumps([criterion.law_at(15.0).source for criterion in criteria], ensure_ascii=False),
-        doubts=json.dumps(doubts, ensure_ascii=False),
-        ends=json.dumps([law.end_of_life for law in firsts], ensure_ascii=False),
-        reads=json.dumps([criterion.quantity.about for criterion in criteria], ensure_ascii=False),
-        proposed=json.dumps(
-            [_proposed(one, law) for one, law in zip(criteria, firsts, strict=True)], ensure_ascii=False
-        ),
-        places=json.dumps([criterion.place for criterion in criteria]),
+        **asked_in_words(criteria, firsts),
     )
-    said = [
-        f"{criterion.name}: {text}"
-        for k, criterion in enumerate(criteria)
-        for text in _warnings(laws[k], values[k], shares[k])
-    ]
-    said += [f"{one.name}: {one.quantity}: {one.quantity.doubt}" for one in criteria if one.quantity.doubt]
-    said += [
-        f"{name}: its law was calibrated on roads on which wheels wander, so that the traffic's wander is left out "
-        f"here and the life is {_years(float(dataset['life_years'][k]))}; counted twice it would be "
-        f"{_years(float(dataset['life_years_with_wander'][k]))}"
-        for k, name in enumerate(names)
-        if wanders[k] != traffic.wander
-    ]
-    said += _flat(dataset, criteria)
+    twice = [wander != traffic.wander for wander in wanders]
+    said = cautions(dataset, criteria, laws, values, shares, twice)
     dims = ("criterion", "axle_class", "season", "turn", "y")
     places = {name: coordinates[name] for name in ("criterion", "axle_class", "season")}
     kept = xr.DataArray(values, dims=dims, coords={**places, "y": at})
@@ -366,17 +269,11 @@ def miner(
         climate,
         kept,
         tuple(tuple(row[0]) for row in laws),
-        warnings=tuple(dict.fromkeys(said)),
+        warnings=said,
         by_class=tuple(tuple(map(tuple, row)) for row in laws)
         if any(row[0] != one for row in laws for one in row)
         else (),
     )
-
-
-def _proposed(criterion: Criterion, law: FatigueLaw) -> str:
-    """Who proposed a criterion: of a law of any quantity whoever proposed that, else the law's source."""
-    any_quantity = dataclasses.is_dataclass(law) and any(one.name == "reads" for one in dataclasses.fields(law))
-    return criterion.quantity.source if any_quantity else law.source
 
 
 def _worst(yearly: Array, readings: Array, margin: int) -> int:
@@ -474,34 +371,5 @@ def _cracks(
     }
 
 
-def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
-    """Sentences on criteria of extension whose damage splits the road parallel to its surface."""
-    if "orientation_damage" not in data:
-        return []
-    shares = data["orientation_damage"].sel(orientation=ORIENTATIONS[HORIZONTAL]).to_numpy()
-    return [
-        f"{name}: {100 * share:.0f} % of its damage is read across planes closer to horizontal than 45°, which "
-        "split the road parallel to its surface: no crack from the surface down, nor from the bottom up; read "
-        + ('strain = "in-plane" for those' if one.quantity.extends else "in_plane_extension for those")
-        for name, share, one in zip(data["criterion"].to_numpy(), shares, criteria, strict=True)
-        if share > _MOSTLY and not one.quantity.between_layers
-    ]
-
-
-def _warnings(laws: Sequence[Sequence[FatigueLaw]], values: Array, shares: Array) -> list[str]:
-    """Sentences on a criterion: of the season that does most, and of that which is read largest."""
-    seasons = dict.fromkeys([int(shares.sum(axis=0).argmax()), int(values.max(axis=(0, 2, 3)).argmax())])
-    heaviest = int(values.max(axis=(1, 2, 3)).argmax())
-    return [text for season in seasons for text in warnings_of(laws[heaviest][season], values[:, season])]
-
-
 def _over(part: Any, whole: float) -> Any:
     return part / whole if whole > 0 else np.zeros_like(part)
-
-
-def _of(place: str | None) -> str:
-    return f" ({place})" if place else ""
-
-
-def _years(years: float) -> str:
-    return "never" if math.isinf(years) else f"{years:.3g} years"

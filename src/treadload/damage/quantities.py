@@ -286,8 +286,8 @@ class OctahedralShear(Quantity):
     name = "octahedral_shear_stress"
     words = "octahedral shear stress"
     unit, shown = "Pa", "MPa"
-    source = "Lytton, with mean_stress"
-    calibrated = "read together with the mean stress it is, see octahedral_shear_ratio; alone it is not"
+    source = "Lytton, with the mean stress"
+    calibrated = "together with the mean stress, as the octahedral shear over its strength; alone it is not"
     needs = STRESS
 
     def of(self, stress: Array, strain: Array) -> Array:
@@ -303,7 +303,7 @@ class MeanStress(Quantity):
     name = "mean_stress"
     words = "mean stress"
     unit, shown = "Pa", "MPa"
-    source = "Lytton, with octahedral_shear_stress"
+    source = "Lytton, with the octahedral shear stress"
     calibrated = "not by itself: a confining stress, part of a strength"
     needs = STRESS
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from treadload.composing import Source
-from treadload.damage.miner import RUT
+from treadload.damage.words import RUT
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, PAPER, headline, legend_below, measure, open_axes, plain, styled

@@ -30,6 +30,9 @@ def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
     handles = []
     for k, name in enumerate(data["criterion"].to_numpy()):
         values = data["standard_axles"].to_numpy()[k]
+        if not (values > 0).any():
+            # No class does any damage by it, and a legend would promise dots.
+            continue
         shown = np.where(values > 0, values, np.nan)
         handles += ax.plot(
             shown, rows, "o", ms=7, mec=PAPER, color=CASES[k % (len(CASES) - 1)], label=plain(str(name))

@@ -22,12 +22,26 @@ from treadload.reporting.inputs import input_lists, input_table
 from treadload.reporting.life import COLUMNS as LIFE_COLUMNS
 from treadload.reporting.life import WORKS, life_report
 from treadload.reporting.others import other_report
-from treadload.reporting.reading import ReportCase
+from treadload.reporting.reading import ReportCase, kind_of
 from treadload.reporting.road import COLUMNS, road_tables
 from treadload.reporting.tables import result_table, statistics_table
 from treadload.results import Study, as_tree, bibtex, to_tree
+from treadload.results.tree import ASKED
 
 _TITLE = "What a tire does to a road"
+# What a page of one kind of results is about, where they come without a case.
+_ABOUT = {
+    "life": "How long a road lasts",
+    "design": "How thick a layer must be",
+    "equivalents": "A traffic in standard axles",
+    "reliability": "How long a road lasts, with a probability",
+    "growth": "How a crack grows through a layer",
+    "sensitivity": "What the life of a road depends on",
+    "bonds": "What the bonds of a road bear",
+    "indentation": "A body pressed into a road",
+    "passes": "What passes leave in a road",
+    "heterogeneous": "Stones in the mortar of a road",
+}
 
 
 def write_report(cases: Mapping[str, Any], path: str | PathLike[str], title: str = "") -> Path:
@@ -75,13 +89,21 @@ def report(results: Any, path: str | PathLike[str], *, title: str = "") -> Path:
         else:
             single[name] = one
     if single:
-        cases = {title or _TITLE: to_tree(single if given is results else list(single.values()), title=title)} | cases
+        tree = to_tree(single if given is results else list(single.values()), title=title)
+        cases = {title or _untitled(tree): tree} | cases
     return write_report(cases, path, title)
 
 
 def _is_whole(one: Any) -> bool:
     """True for what holds several results of one question."""
     return isinstance(one, xr.DataTree | Study)
+
+
+def _untitled(tree: xr.DataTree) -> str:
+    """What results without a case are about: by the one kind that they are of."""
+    nodes = [(str(name), node.attrs) for name, node in tree.children.items() if node.data_vars and name != ASKED]
+    kinds = {kind_of(name, attrs) for name, attrs in nodes if not attrs.get("part_of")}
+    return _ABOUT.get(kinds.pop(), _TITLE) if len(kinds) == 1 else _TITLE
 
 
 def _title(cases: list[ReportCase]) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.indices import NO_WORK
-from treadload.damage.miner import rut_in_words, weather_in_words
+from treadload.damage.words import rut_in_words, weather_in_words
 from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.life import life_change, life_damage, life_inputs, life_shares, life_years

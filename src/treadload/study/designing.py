@@ -17,10 +17,11 @@ from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.miner import RUT, Life
+from treadload.damage.miner import Life
 from treadload.damage.rutting import Rutting
 from treadload.damage.scatter import Scatter, check_risks
 from treadload.damage.traffic import Traffic
+from treadload.damage.words import RUT
 from treadload.describing import first_line
 from treadload.errors import InputError, nearest, positive
 from treadload.kernels.arrays import Array

@@ -16,9 +16,10 @@ from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.interface import interface_in_words
-from treadload.damage.miner import RUT, Life, miner
+from treadload.damage.miner import Life, miner
 from treadload.damage.rutting import Rutting
 from treadload.damage.traffic import Traffic
+from treadload.damage.words import RUT
 from treadload.errors import InputError
 from treadload.pavement import Pavement, lift_below
 from treadload.study.contacts import Contacts, Progress

@@ -17,9 +17,10 @@ from treadload.composing import BaseResult, Holds
 from treadload.contact.friction import Coulomb
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.damage.criterion import Criterion
-from treadload.damage.miner import RUT, Life, damage_of, wander_of
+from treadload.damage.miner import Life, damage_of, wander_of
 from treadload.damage.thermal import years_until
 from treadload.damage.traffic import Traffic, Wander
+from treadload.damage.words import RUT
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
