@@ -166,3 +166,19 @@ def test_a_footprint_has_no_wheel_to_cross_with():
     text += "[[pavement.layers]]\nmaterial = { modulus = 5e9, poisson = 0.35 }\n[crossing]\nstep = { rise = 0.005 }\n"
     with pytest.raises(tl.InputError, match=r"\[crossing\] needs a wheel"):
         tl.Case.from_text(text)
+
+
+def test_a_study_reads_a_crossing():
+    """Numbers of /crossing stand beside those of the contact, and its fields can be asked for."""
+    case = tl.Case.from_text(CASE)
+    swept = tl.sweep(case, {"normal_load": ["20 kN", "32.5 kN"]}, fields=["max(crossing.closing_work)"]).dataset
+    heavy, alone = swept.isel(normal_load=1), tl.run_case(case).crossing.dataset
+    for name in ("plain_pressure", "plain_work", "edge_work"):
+        assert float(heavy[name]) == pytest.approx(float(alone[name]), rel=1e-6)
+    for name in ("largest_pressure", "edge_pressure"):
+        assert float(heavy[f"max_{name}"]) == pytest.approx(float(alone[name].max()), rel=1e-6)
+    assert float(heavy.max_closing_work) == pytest.approx(float(alone.closing_work.max()), rel=1e-6)
+    # The largest of a contact is that of the plane.
+    assert float(heavy.largest_pressure) < float(heavy.max_edge_pressure)
+    assert float(heavy.edge_work) > 1.1 * float(swept.edge_work[0])
+    assert swept.edge_work.attrs["units"] == "J/m^2"

@@ -10,7 +10,7 @@ import numpy as np
 from treadload.case import Case, LifeCase
 from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair
-from treadload.contact.crossing import STRIDE
+from treadload.contact.crossing_fields import STRIDE
 from treadload.contact.relief import above
 from treadload.contact.solve import place
 from treadload.grid import Grid

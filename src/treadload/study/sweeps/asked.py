@@ -24,8 +24,8 @@ _LABELS = {"max": "max", "min": "min", "mean": "mean_of"}
 _ASKED = re.compile(r"(?:(?P<how>\w+)\()?(?:(?P<part>\w+)\.)?(?P<name>\w+)\)?")
 # Parts with places of their own: sections, whose depths are not those of the maps.
 _OF_THEIR_OWN = ("slice_along", "slice_across", "bowl")
-# Dimensions that a reduction leaves: it goes over the places of a plane.
-_PLACES = ("y", "x", "point")
+# Dimensions that a reduction leaves: it goes over the places of a plane, or of a way.
+_PLACES = ("y", "x", "point", "position", "road_x")
 
 
 @dataclass(frozen=True)

@@ -12,18 +12,20 @@ import xarray as xr
 
 from treadload.case import Case, LifeCase
 from treadload.composing import BaseResult
-from treadload.contact import Contact
+from treadload.contact import Contact, Crossing
 from treadload.damage import Verdict
 from treadload.response import MATERIAL_LENGTH, Response
-from treadload.study.run import Loaded, judge, load_case, on_two_grids, read_loaded
+from treadload.study.run import Loaded, crossing_of, judge, load_case, on_two_grids, read_loaded
 from treadload.study.run_life import run_life
 from treadload.study.sweeps.record import Values
 from treadload.study.uniform import READINGS
 
-CASE_PARTS = ("contact", "response", "damage", "slice_along", "slice_across", "bowl")
+CASE_PARTS = ("contact", "response", "damage", "slice_along", "slice_across", "bowl", "crossing")
 LIFE_PARTS = ("life", "sensitivity")
 # Where a name without a part is looked for, in this order.
 _SEARCHED = ("contact", "response", "damage")
+# Of a crossing, the largest over its positions.
+_PEAKS = ("largest_pressure", "edge_pressure")
 
 
 def quiet(text: str) -> None:
@@ -106,6 +108,15 @@ class CaseParts(Parts):
         return verdict
 
     @cached_property
+    def crossing(self) -> Crossing | None:
+        """The way over the obstacle of the case."""
+        if self.case.crossing is None:
+            return None
+        way = crossing_of(self.case, self.load)
+        self._solved["crossing"] = way
+        return way
+
+    @cached_property
     def _sections(self) -> Mapping[str, BaseResult]:
         return read_loaded(self.load).parts
 
@@ -117,12 +128,14 @@ class CaseParts(Parts):
             result = self.points
         elif part == "damage":
             result = self.verdict
+        elif part == "crossing":
+            result = self.crossing
         else:
             result = self._sections.get(part)
         return None if result is None else result.dataset
 
     def numbers(self) -> dict[str, Values]:
-        """Numbers of contact and verdict, and the largest strains and stress of the plane at every depth."""
+        """Numbers of contact, verdict and crossing, and the largest strains and stress of the plane at every depth."""
         contact = self.load.contact
         told: dict[str, Values] = {}
         if contact is not None:
@@ -140,8 +153,12 @@ class CaseParts(Parts):
             told |= {name: ((), np.array(value)) for name, value in measures.items()}
         mean = self.mean.dataset
         told |= {name: (("depth",), quantity.values(mean).max(axis=(1, 2))) for name, quantity in READINGS.items()}
-        verdict = self.dataset("damage")
-        return told if verdict is None else told | _of_dataset(verdict)
+        verdict, way = self.dataset("damage"), self.dataset("crossing")
+        if verdict is not None:
+            told |= _of_dataset(verdict)
+        if way is not None:
+            told |= _of_dataset(way) | {f"max_{name}": ((), np.array(float(way[name].max()))) for name in _PEAKS}
+        return told
 
     def coordinates(self) -> dict[str, np.ndarray]:
         """The depths."""
