@@ -135,7 +135,7 @@ class CaseParts(Parts):
         return None if result is None else result.dataset
 
     def numbers(self) -> dict[str, Values]:
-        """Numbers of contact, verdict and crossing, and the largest strains and stress of the plane at every depth."""
+        """Numbers of contact, verdict and crossing; the largest strains and stress of the plane at every depth."""
         contact = self.load.contact
         told: dict[str, Values] = {}
         if contact is not None:
