@@ -16,6 +16,8 @@ from fuzz.runner import attack_of, run
         ("textures", 200),
         pytest.param("surfaces", 300, marks=pytest.mark.slow),
         pytest.param("clouds", 300, marks=pytest.mark.slow),
+        pytest.param("fits", 40, marks=pytest.mark.slow),
+        ("laser", 200),
         pytest.param("fringes", 40, marks=pytest.mark.slow),
     ],
 )

@@ -20,7 +20,10 @@ _OF_MESHES = (
 def scan(
     context: typer.Context,
     mesh: Annotated[
-        Path, typer.Argument(help="Mesh (OBJ, PLY, STL, GLB, OFF), cloud (PLY, XYZ, LAS, E57), or a TOML of fringes.")
+        Path,
+        typer.Argument(
+            help="Mesh (OBJ, PLY, STL, GLB, OFF), cloud (PLY, XYZ, LAS, E57), or a TOML of fringes or of a laser."
+        ),
     ],
     output: shell.Output = None,
     units: Annotated[str | None, typer.Option(help="Unit of the file: m, cm, mm or inch.")] = None,
@@ -49,7 +52,7 @@ def scan(
     ] = None,
     quiet: shell.Quiet = False,
 ) -> None:
-    """Read a scan of a tire, or pictures of fringes, report the quality, draw it, and write the height map."""
+    """Read a scan, pictures of fringes or lines of a laser, report the quality, draw it, write the height map."""
     from treadload.errors import InputError
     from treadload.files import check_writable
     from treadload.results.exports import check_output, write
@@ -62,13 +65,17 @@ def scan(
         check_output(output)
     if reference_length is not None and reference is None:
         raise InputError("--reference-length is of an earlier scan: give it with --reference, or leave it out")
-    if mesh.suffix.lower() == ".toml":
+    if mesh.suffix.lower() == ".toml" and not (lines_of_wheel := _turned(mesh)):
         sources = {name: context.get_parameter_source(name) for name in _OF_MESHES}
         given = [name for name, source in sources.items() if source is not None and source.name != "DEFAULT"]
         if given:
             option = given[0].replace("_", "-")
-            raise InputError(f"--{option} belongs to a mesh; {mesh} has its own keys, see docs/howto/fringes.md")
-        return _fringes(mesh, output, figure, quiet=quiet)
+            page = "fringes" if lines_of_wheel is None else "laser"
+            raise InputError(
+                f"--{option} belongs to a scan of a tire; {mesh} has its own keys, see docs/howto/{page}.md"
+            )
+        evaluate = _fringes if lines_of_wheel is None else _piece
+        return evaluate(mesh, output, figure, quiet=quiet)
     if figure is not None:
         check_writable(figure)
     with stages(shell.err, quiet=quiet) as tell:
@@ -108,6 +115,36 @@ def scan(
     if earlier is not None:
         shell.out.print(str(scan_wear(tire, earlier)), markup=False)
     if output is not None:
+        shell.written(files)
+
+
+def _turned(file: Path) -> bool | None:
+    """Whether a wheel turned before the laser whose lines a TOML file names; None where it names none."""
+    from treadload.tire.scan.laser_file import asked_of, is_laser
+
+    return asked_of(file).turns if is_laser(file) else None
+
+
+def _piece(file: Path, output: Path | None, figure: Path | None, *, quiet: bool) -> None:
+    """Level the piece of tread under a laser whose lines a file names."""
+    from treadload.files import check_writable
+    from treadload.results.exports import write
+    from treadload.tire.scan.laser import piece_of_lines
+
+    if figure is not None:
+        check_writable(figure)
+    with stages(shell.err, quiet=quiet) as tell:
+        tell(f"reading the lines of {file}")
+        found = piece_of_lines(file)
+        files = list(write(found.dataset, output)) if output is not None else []
+        if figure is not None:
+            from treadload.plots import save
+            from treadload.plots.contact import height_map
+
+            tell("drawing")
+            files.append(save(height_map(found.dataset), figure))
+    shell.out.print(found.summary(), markup=False)
+    if files:
         shell.written(files)
 
 

@@ -29,7 +29,13 @@ def mesh_of_points(points: Array, name: str) -> tuple[Array, NDArray[np.int64]]:
     Cells without points stay open where more than two lie side by side; nothing is carried over a hole.
     Raises GeometryError when the points are too few or make no surface.
     """
+    given = len(points)
     points = points[_single(points)]
+    if len(points) < NEIGHBOURS**2:
+        raise GeometryError(
+            f"the {given} points of {name!r} stand at {len(points)} places, too few for a surface; is it the right "
+            "file?"
+        )
     few = points[:: max(1, len(points) // SAMPLES)]
     normals, spacing = _normals(few, len(points))
     axis = fit_axis(few, normals)
@@ -52,7 +58,7 @@ def mesh_of_points(points: Array, name: str) -> tuple[Array, NDArray[np.int64]]:
     column = np.minimum(((turn + math.pi) * (round_cells / (2 * math.pi))).astype(np.int64), round_cells - 1)
     key = ((y - low) / cell).astype(np.int64) * round_cells + column
     grid = _cells(key, r, turn, y, rows * round_cells, LAYER * axis.radius)
-    grid = [_bridged(part.reshape(rows, round_cells)) for part in grid]
+    grid = [bridged(part.reshape(rows, round_cells)) for part in grid]
     radius, angle, along = grid
     known = np.isfinite(radius)
     number = np.cumsum(known.ravel()).reshape(known.shape) - 1
@@ -109,7 +115,7 @@ def _cells(key: NDArray[np.int64], r: Array, turn: Array, y: Array, count: int, 
     return out
 
 
-def _bridged(field: Array) -> Array:
+def bridged(field: Array) -> Array:
     """The field (rows, columns) with runs of up to two empty cells along the turn filled from both their ends."""
     known = np.isfinite(field)
     holes = ~known

@@ -13,7 +13,7 @@ from scipy import ndimage
 from treadload.errors import GeometryError, InputError
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire.quality import Outlier, ScanQuality
-from treadload.tire.scan import cloud_file  # noqa: F401  # its readers register themselves
+from treadload.tire.scan import cloud_file, laser  # noqa: F401  # their readers register themselves
 from treadload.tire.scan import meridian as unrolling
 from treadload.tire.scan import outliers as sticking
 from treadload.tire.scan.axis import Axis, across, fit_axis, sample_surface
@@ -40,10 +40,10 @@ DEEP_GROOVE = 0.9  # a groove is one on so much of the turn
 def read_scan(path: str | Path, options: ScanOptions | None = None) -> ScanSurface:
     """Tread surface of a mesh file in any pose.
 
-    path: OBJ, PLY, STL, GLB or OFF. options, as in `Tire.from_scan`: nominal_diameter gives the unit or, when none
-    fits within 3 %, the scale; without it and units, the one unit that gives a diameter between 0.4 and 1.6 m
-    serves. The reference of rotation is the file's -z (or -y, -x when the axle lies along it), for a partial scan
-    its middle. A flat floor in the scan is removed when no tire is found with it.
+    path: OBJ, PLY, STL, GLB, OFF, a cloud, or the TOML of a laser's lines. options, as in `Tire.from_scan`:
+    nominal_diameter gives the unit or, when none fits within 3 %, the scale; without it and units, the one unit that
+    gives a diameter between 0.4 and 1.6 m serves. The reference of rotation is the file's -z (or -y, -x when the axle
+    lies along it), for a partial scan its middle. A flat floor in the scan is removed when no tire is found with it.
     The axle's right end is the one that points along the positive axis of the file.
     Raises InputError, GeometryError.
     """
