@@ -25,8 +25,9 @@ BELT = As(str | Belt)
 class TirePart(Table):
     """`[tire]`: exactly one of scan, profile and height_map, and what the tire is made of.
 
-    scan: a mesh, OBJ, PLY, STL, GLB, OFF, a cloud of points, PLY, text, LAS, LAZ, E57, a format that another package
-    reads, or "example", the mesh that ships with treadload. profile: a name of the library, a TOML file, or a table.
+    scan: a mesh, OBJ, PLY, STL, GLB, OFF, a cloud of points, PLY, text, LAS, LAZ, E57, lines of a laser, TOML, a
+    format that another package reads, or "example", the mesh that ships with treadload. profile: a name of the
+    library, a TOML file, or a table.
     height_map: a file of the initial gap, or of a surface, X3P, SDF, SUR or AL3D.
     units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names no unit.
     cell: of a height map without coordinates. decimal: "." or ",", of a height map as text. inflation_pressure: gives

@@ -163,8 +163,8 @@ class Tire:
     ) -> Tire:
         """Tire of a scan in any pose, of the whole turn or of a part of it from 45° on.
 
-        path: a mesh, OBJ, PLY, STL, GLB or OFF, or a cloud of points, PLY, text (XYZ, TXT, CSV, ASC, PTS), LAS, LAZ
-        or E57. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter: outer, m; scale: m per unit of the
+        path: a mesh, OBJ, PLY, STL, GLB or OFF, a cloud of points, PLY, text (XYZ, TXT, CSV, ASC, PTS), LAS, LAZ
+        or E57, or the TOML of a laser's lines. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter: outer, m; scale: m per unit of the
         file, a known length over its measure there; without any, the unit is the one that gives a diameter between
         0.4 and 1.6 m. rotation: rad, brings the
         tread that much ahead down to the road. camber: rad, positive when the top leans to the right.
