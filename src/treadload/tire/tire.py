@@ -164,10 +164,10 @@ class Tire:
         """Tire of a scan in any pose, of the whole turn or of a part of it from 45° on.
 
         path: a mesh, OBJ, PLY, STL, GLB or OFF, a cloud of points, PLY, text (XYZ, TXT, CSV, ASC, PTS), LAS, LAZ
-        or E57, or the TOML of a laser's lines. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter: outer, m; scale: m per unit of the
-        file, a known length over its measure there; without any, the unit is the one that gives a diameter between
-        0.4 and 1.6 m. rotation: rad, brings the
-        tread that much ahead down to the road. camber: rad, positive when the top leans to the right.
+        or E57, or the TOML of a laser's lines. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter:
+        outer, m; scale: m per unit of the file, a known length over its measure there; without any, the unit is the
+        one that gives a diameter between 0.4 and 1.6 m. rotation: rad, brings the tread that much ahead down to the
+        road. camber: rad, positive when the top leans to the right.
         revolve: replace the facets by their revolved meridian; "auto": when they cut deeper than 0.1 mm under the
         circle and the tread does not depend on the angle, so that ribs are revolved and lugs and blocks are not.
         fill_holes: by the median round the tire; "auto": in grooves round the tire, elsewhere up to 2 %.
