@@ -97,7 +97,7 @@ def solve_life(
     life = replace(life, dataset=dataset.merge(climate_fields(road, climate), combine_attrs="override"))
     rut: tuple[str, ...] = ()
     if rutting is not None:
-        fields_of_rut, rut = rut_fields(road, traffic, climate, passages.wheels, rutting)
+        fields_of_rut, rut = rut_fields(road, traffic, climate, passages.wheels, rutting, tolerance=tolerance)
         life = replace(life, dataset=life.dataset.merge(fields_of_rut, combine_attrs="no_conflicts"))
     stats = {
         "contacts": passages.contacts,

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from treadload import variables
@@ -22,7 +23,8 @@ from treadload.materials import PassesPowerLaw, Unbound
 from treadload.materials.plastic import elastic_part
 from treadload.pavement import Pavement, TemperatureProfile, bituminous_thickness
 from treadload.response import solve_response
-from treadload.study.seasons import warmed
+from treadload.study.climate import curves, first_nodes, warmth_of
+from treadload.study.seasons import Warmed, roads_of
 from treadload.study.wheels import Wheels
 
 # Parts of a course over depth, m, at whose middles it is read; depth of soil that counts, and its parts, which grow.
@@ -31,14 +33,23 @@ _PART, _DEEP, _BELOW = 0.03, 2.0, 8
 _ACROSS, _ALONG = 0.02, 5
 # Years of the curve where the traffic has no design life, and the longest that a limit is looked for.
 _USUAL, _LONGEST = 20, 1000.0
+# How often in a row what is interpolated must be right.
+_RIGHT = 3
 
 
 def rut_fields(
-    road: Pavement, traffic: Traffic, climate: Climate, wheels: Sequence[Wheels], asked: Rutting
+    road: Pavement,
+    traffic: Traffic,
+    climate: Climate,
+    wheels: Sequence[Wheels],
+    asked: Rutting,
+    *,
+    tolerance: float = 5e-3,
 ) -> tuple[xr.Dataset, tuple[str, ...]]:
     """Rut of a life, m, over (rut_layer, year) where it is deepest, and sentences for the user.
 
-    wheels: of each class. One response is solved for each class and each road that differs. Bituminous layers,
+    wheels: of each class. One response is solved for each class and each road that differs, or for as few of the
+    climate's roads as give the compression of the others to a tolerance, relative; 0 solves all. Bituminous layers,
     unbound ones of the catalogue and the last layer rut; others are stiff and do not. Attributes: rut_names,
     rut_years, until the limit, inf if never, rut_limit. Raises InputError for a road without asphalt at its surface.
     """
@@ -49,26 +60,19 @@ def rut_fields(
     y = _places(wheels)
     rate: Array = np.zeros((len(depths), len(y)))
     strain: Array = np.zeros((len(depths), len(y)))
-    known: dict[int, Array] = {}
-    roads: list[Any] = []
     axles = np.array([len(one.x) for one in wheels])
     power = PassesPowerLaw.asphalt(COLDEST).exponent
     deep = depth_factor(depths, whole)
-    for k, (row, own) in enumerate(zip(traffic.classes, wheels, strict=True)):
-        known.clear()
-        roads.clear()
-        for season in climate.seasons:
-            warm = warmed(road, (), season, row).road
-            if warm not in roads:
-                roads.append(warm)
-                known[len(roads) - 1] = _compression(own, warm, depths, y)
-            found = known[roads.index(warm)]
+    warm = roads_of(road, (), climate.seasons, traffic.classes)
+    found = _over_the_climate(wheels, warm, climate, traffic, (depths, thick), y, tolerance)
+    for k, row in enumerate(traffic.classes):
+        for which, season in zip(warm.where, climate.seasons, strict=True):
             part = row.share * season.share * axles[k]
             factor = np.array(
                 [PassesPowerLaw.asphalt(one).factor for one in _temperatures(road, season, depths, owner)]
             )
-            rate += part * (found * (factor * deep)[:, None]) ** (1 / power)
-            strain += part * found
+            rate += part * (found[k, which] * (factor * deep)[:, None]) ** (1 / power)
+            strain += part * found[k, which]
     step = float(y[1] - y[0])
     rate, strain = (traffic.wander.spread(one, step) for one in (rate, strain))
     mean = float(np.sum(axles * [row.share for row in traffic.classes]))
@@ -103,6 +107,65 @@ def rut_fields(
             f"rut: asphalt below {COLDEST:g} °C counts as if at {COLDEST:g} °C, where its data end: {cold[0]}"
         )
     return data, tuple(said)
+
+
+def _over_the_climate(
+    wheels: Sequence[Wheels],
+    warm: Warmed,
+    climate: Climate,
+    traffic: Traffic,
+    parts: tuple[Array, Array],
+    y: Array,
+    tolerance: float,
+) -> Array:
+    """Largest vertical compression (class, road, depth, y) on all roads of a climate.
+
+    parts: depths and thicknesses, m. Under the heaviest class the road that is furthest from those solved is solved
+    next, until what the others said of it was right three times in a row: the sum of what is wrong over depth within
+    the tolerance of the largest sum of all. The other classes are solved on the same roads.
+    """
+    depths, thick = parts
+    heaviest = int(np.argmax([row.wheel_load for row in traffic.classes]))
+    roads = [[one.road for one in own] for own in warm.by_class]
+    warmths = [warmth_of(climate.seasons, own) for own in roads]
+    count = len(warm.distinct)
+
+    def solved(row: int, number: int) -> Array:
+        return _compression(wheels[row], roads[row][number], depths, y)
+
+    warmth, kept, right = warmths[heaviest], list(range(count)), 0
+    if warmth is not None and tolerance > 0 and count > 3 and all(one is not None for one in warmths):
+        kept = first_nodes(warmth)
+    pilot = {number: solved(heaviest, number) for number in kept}
+    while len(pilot) < count and right < _RIGHT:
+        assert warmth is not None
+        places = warmth.reshape(count, -1)
+        known = sorted(pilot, key=lambda k: tuple(places[k]))
+        far = np.linalg.norm(places[:, None] - places[known], axis=-1).min(axis=1)
+        number = int(far.argmax())
+        told = _between(warmth, known, np.array([pilot[k] for k in known]))[number]
+        pilot[number] = solved(heaviest, number)
+        off = (thick[:, None] * np.abs(told - pilot[number])).sum(axis=0).max()
+        right = right + 1 if off <= tolerance * (thick[:, None] * pilot[number]).sum(axis=0).max() else 0
+    found = np.empty((len(wheels), count, len(depths), len(y)))
+    for row, warmth in enumerate(warmths):
+        own = pilot if row == heaviest else {number: solved(row, number) for number in pilot}
+        if len(own) == count:
+            found[row] = [own[number] for number in range(count)]
+            continue
+        assert warmth is not None
+        known = sorted(own, key=lambda k: tuple(np.atleast_1d(warmth[k])))
+        found[row] = _between(warmth, known, np.array([own[k] for k in known]))
+    return found
+
+
+def _between(warmth: Array, known: list[int], values: Array) -> Array:
+    """Compression on all roads (road, depth, y) from that on some, in the order of their warmth."""
+    # Compression is a smooth function of it everywhere, as extension under a tread's edge is not.
+    through = CubicSpline(warmth[known], values) if warmth.ndim == 1 else curves(warmth[known], values, 0)
+    result: Array = np.maximum(through(warmth), 0.0)
+    result[known] = values
+    return result
 
 
 def _until(over: Any) -> float:
