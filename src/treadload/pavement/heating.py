@@ -39,7 +39,8 @@ class Heat:
     bound_conductivity: of layers bound by cement, W/(m K). bound_capacity: what they store, J/(m³ K).
     unbound_conductivity: of all other layers, W/(m K). unbound_capacity: what they store, J/(m³ K).
     Defaults: those of the MEPDG for asphalt, 0.85, 0.93, 0.67 BTU/(h ft °F) and 0.23 BTU/(lb °F) at 2300 kg/m³; usual
-    ones for the rest; from memory, to verify. Raises InputError.
+    ones for the rest; from memory, to verify. ProductOneME (commit c89fe2b) has an emissivity of 0.93, too, but also
+    an absorptivity of 0.93, and the guide's mean conductivity, 1.08 W/(m K). Raises InputError.
     """
 
     absorptivity: Share = 0.85
@@ -223,7 +224,8 @@ def bells(
     surface: infrared temperature, °C. depth: m, > 0, in the asphalt. hour: local, [0, 24). mean_air_before: of the
     day before, (max + min) / 2, °C. shaded: True for BELLS2, of a surface in the shade for five minutes, as under a
     test vehicle; else BELLS3, for routine measurements. Shapes broadcast. Raises InputError.
-    Source: Lukanen, Stubstad & Briggs, FHWA-RD-98-085; the constants of BELLS3 from memory, to verify.
+    Source: Lukanen, Stubstad & Briggs, FHWA-RD-98-085, for BELLS2; those of BELLS3 as a public
+    script for deflections codes them, the source's page was not had to its end.
     """
     positive("depth", depth, "metres", "BELLS holds inside the asphalt")
     ir, air, at = (np.asarray(one, dtype=float) for one in (surface, mean_air_before, hour))
