@@ -14,7 +14,7 @@ from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.study import wheels
 from treadload.study.life import solve_life
-from treadload.study.passage import _turns
+from treadload.study.peaks import peaks_and_valleys
 from treadload.study.uniform import RECTANGLE, compare_uniform
 from treadload.tire import Tire
 
@@ -107,11 +107,17 @@ def test_a_peak_between_two_points_is_that_of_the_parabola():
     tops, places = np.array([3.0, 5.0, 2.0]), np.array([0.013, -0.24, 0.449])
     read = tops[:, None] - 1.7 * (x[None] - places[:, None]) ** 2
     assert (read.max(axis=1) < tops - 1e-5).all()
-    np.testing.assert_allclose(_turns(x, read, np.array([0.0]), 1, smooth=True)[0], tops, rtol=1e-12)
-    np.testing.assert_allclose(_turns(x, read, np.array([0.0]), 1, smooth=False)[0], read.max(axis=1), rtol=1e-15)
+    np.testing.assert_allclose(
+        peaks_and_valleys(x, read, centres=np.zeros(1), turns=1, smooth=True)[0], tops, rtol=1e-12
+    )
+    np.testing.assert_allclose(
+        peaks_and_valleys(x, read, centres=np.zeros(1), turns=1, smooth=False)[0], read.max(axis=1), rtol=1e-15
+    )
     # A ramp has no top but its end; a plateau none above itself.
     flat = np.array([x + 2, np.ones_like(x)])
-    np.testing.assert_allclose(_turns(x, flat, np.array([0.0]), 1, smooth=True)[0], [3.0, 1.0], rtol=1e-12)
+    np.testing.assert_allclose(
+        peaks_and_valleys(x, flat, centres=np.zeros(1), turns=1, smooth=True)[0], [3.0, 1.0], rtol=1e-12
+    )
 
 
 def test_a_life_does_not_know_how_far_beside_the_wheels_readings_end(monkeypatch):

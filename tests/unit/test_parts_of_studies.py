@@ -1,6 +1,7 @@
 """The parts of a life and of a case on their own: where is read, what is solved, what stands between."""
 
 import math
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -20,7 +21,8 @@ from treadload.response.doubts import overlapping
 from treadload.study.altered import most
 from treadload.study.climate import curves, nodes, over_the_climate, warmth_of
 from treadload.study.groups import _harm, _one_axle, in_words
-from treadload.study.passage import _along, _between, _rows, _stride, _turns
+from treadload.study.passage import _along, _rows, _stride
+from treadload.study.peaks import onto_lines, over_strips, peaks_and_valleys
 from treadload.study.run import map_grid, slice_depths
 from treadload.study.sensitivity import _growth, _without_solves
 from treadload.study.wheels import across, wheels_of
@@ -133,26 +135,41 @@ def test_rows_are_every_cell_beside_wheels_and_few_elsewhere(wheels, y):
     assert np.diff(deep)[:-1] == pytest.approx(2 * DY)
 
 
-@pytest.mark.parametrize("smooth", [True, False])
-def test_curves_go_through_the_peaks(smooth):
-    y = np.linspace(0, 1, 9)
-    peaks = np.array([np.sin(y), np.maximum(0, y - 0.5)])
-    np.testing.assert_allclose(_between(y, peaks, smooth=smooth)(y), peaks, atol=1e-14)
-    fine = _between(y, peaks, smooth=smooth)(np.linspace(0, 1, 65))
-    # A cubic spline follows a sine to the fourth order, (1/8)⁴; makima does not swing beside an end.
-    assert fine[0] == pytest.approx(np.sin(np.linspace(0, 1, 65)), abs=1e-4 if smooth else 2e-3)
-    if not smooth:
-        np.testing.assert_allclose(fine[1, :30], 0, atol=1e-12)
+def test_fields_between_rows_are_cubic_where_rows_are_even_and_straight_elsewhere():
+    rows = np.array([0.0, 1, 2, 3, 4, 9, 14, 19, 24])
+    y = np.linspace(0, 24, 97)
+    onto = onto_lines(rows, y)
+    # What goes through the rows, and gives one of ones.
+    np.testing.assert_allclose((onto @ np.eye(9))[np.searchsorted(y, rows)], np.eye(9), atol=1e-14)
+    cubic, found = y**3 - 7 * y**2, onto @ (rows**3 - 7 * rows**2)[:, None]
+    inside = ((y >= 1) & (y <= 3)) | ((y >= 9) & (y <= 19))
+    np.testing.assert_allclose(found[inside, 0], cubic[inside], atol=1e-10)
+    # Beside a change of step and at the ends straight lines.
+    ends = (y < 1) | ((y > 4) & (y < 9)) | (y > 19)
+    np.testing.assert_allclose(found[ends, 0], np.interp(y[ends], rows, rows**3 - 7 * rows**2), atol=1e-10)
+
+
+def test_a_strip_does_the_mean_damage_of_its_lines():
+    """A reading with a step between two lines: the damage over all y is that of the step, wherever it lies."""
+    rows, x = 3e-3 * np.arange(40), np.zeros(1)
+    y = 1.5e-3 * np.arange(79)
+    peaks = partial(peaks_and_valleys, x, centres=np.zeros(1), turns=1, smooth=False)
+    for edge in np.linspace(0.05, 0.053, 7):
+        uncut, margin = np.full((40, 1), 2e-4), (edge - rows)[:, None]
+        strips = over_strips(rows, y, uncut, margin, peaks, 5.0)[0]
+        # As wide as the tensile part, to a part of a line in eight.
+        width = 1.5e-3 * ((strips / 2e-4) ** 5).sum() - 0.75e-3
+        assert width == pytest.approx(edge, abs=1.5e-3 / 8)
 
 
 def test_peaks_and_valleys_in_turn():
     """Two axles of 3 and 5 over a ground of 1: the valley is what lies between, and nothing comes after."""
     x = np.linspace(-2, 2, 81)
     read = (1 + 2 * np.exp(-((x + 1) ** 2) / 0.02) + 4 * np.exp(-((x - 1) ** 2) / 0.02))[None]
-    found = _turns(x, read, np.array([-1.0, 1.0]), 5, smooth=False)
+    found = peaks_and_valleys(x, read, centres=np.array([-1.0, 1.0]), turns=5, smooth=False)
     np.testing.assert_allclose(found[:, 0], [3, 1, 5, 0, 0], atol=1e-6)
     # What is pressed together all along does no harm.
-    assert (_turns(x, -read, np.array([-1.0, 1.0]), 3, smooth=False) == 0).all()
+    assert (peaks_and_valleys(x, -read, centres=np.array([-1.0, 1.0]), turns=3, smooth=False) == 0).all()
 
 
 def readings(warmth, power):

@@ -21,6 +21,7 @@ from treadload.damage.quantity import (
     check_reading,
     in_tension,
     ordered,
+    tension,
 )
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -230,11 +231,21 @@ class Criterion:
 
     def read(self, data: xr.Dataset) -> Array:
         """What the law reads (y, x) of a response at one depth, or (depth, y, x), positive where it does harm."""
+        values, margin = self._uncut(data)
+        return values if margin is None else np.where(margin > 0, values, np.minimum(values, 0.0))
+
+    def read_uncut(self, data: xr.Dataset) -> tuple[Array, Array | None]:
+        """What the law would read were there tension everywhere, and the tension, Pa, without which it reads nothing.
+
+        data: as in `read`. None where tension does not matter, or where a subclass reads in its own way. Both vary
+        steadily where `read` ends abruptly.
+        """
+        return self._uncut(data) if type(self).read is Criterion.read else (self.read(data), None)
+
+    def _uncut(self, data: xr.Dataset) -> tuple[Array, Array | None]:
         quantity = self.quantity
-        values = quantity.values(data)
-        if self.place == "top" and quantity.needs_tension:
-            return np.where(quantity.opens(data), values, np.minimum(values, 0.0))
-        return values
+        known = self.place == "top" and quantity.needs_tension and set(STRESS) <= set(data)
+        return quantity.values(data), tension(data) if known else None
 
     def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
         """Angle of the trace and dip (y, x), rad, of the crack across what it reads; NaN for none.

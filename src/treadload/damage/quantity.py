@@ -255,13 +255,21 @@ def in_tension(data: xr.Dataset, *, upright: bool = False) -> BoolArray:
     names = IN_THE_PLANE if upright else STRESS
     if any(name not in data for name in names):
         return np.ones([data.sizes[dim] for dim in ordered(data)], dtype=bool)
-    stress = np.stack([part(data, name) for name in names])
+    tensile: BoolArray = tension(data, upright=upright) > 0
+    return tensile
+
+
+def tension(data: xr.Dataset, *, upright: bool = False) -> Array:
+    """The largest principal stress of a response's dataset, Pa, above what round-off leaves: (depth, y, x), or fewer.
+
+    upright: see `in_tension`.
+    """
+    stress = np.stack([part(data, name) for name in (IN_THE_PLANE if upright else STRESS)])
     limit = _TENSION * np.abs(stress).max(initial=0.0)
     if upright:
         x, y, xy = stress
-        return np.asarray(0.5 * (x + y) + np.hypot(0.5 * (x - y), xy) > limit)
-    tensile: BoolArray = tensors.principal_values(stress)[0] > limit
-    return tensile
+        return np.asarray(0.5 * (x + y) + np.hypot(0.5 * (x - y), xy) - limit)
+    return np.asarray(tensors.principal_values(stress)[0] - limit)
 
 
 def check_reading(strain: str) -> None:

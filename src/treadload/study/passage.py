@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.interpolate import Akima1DInterpolator, CubicSpline
+from scipy.interpolate import CubicSpline
 
 from treadload.damage.criterion import Criterion, Side
 from treadload.kernels.arrays import Array
 from treadload.response import solve_response
 from treadload.response.several import Question, tensors_of_many
 from treadload.study.contacts import Counter
+from treadload.study.peaks import cut, over_strips, peaks_and_valleys
 from treadload.study.seasons import Warm
 from treadload.study.wheels import MARGIN, Wheels
 
@@ -25,6 +27,8 @@ _BESIDE = 0.06
 # at 60 mm.
 _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
 _DIMS = ("depth", "y", "x")
+# Of a law that tells none, and any temperature: exponents hardly depend on it.
+_USUAL, _ANY_TEMPERATURE = -0.2, 15.0
 # Points of all fields that are solved together: some 200 MB with what is made of them.
 _TOGETHER = 900_000
 
@@ -152,12 +156,20 @@ def _read(result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, 
     y, turns = task.y, task.turns
     smooth = plane.stride > 0
     every = data if data.sizes["depth"] > 1 else data.isel(depth=0)
-    read = criterion.read(every)
-    deepest = read.argmax(axis=0) if read.ndim > 2 else np.zeros(read.shape, dtype=int)
-    read = read.max(axis=0) if read.ndim > 2 else read
+    uncut, margin = criterion.read_uncut(every)
+    by_depth = cut(uncut, margin).reshape(-1, *uncut.shape[-2:])
+    deepest, read = by_depth.argmax(axis=0), by_depth.max(axis=0)
     centres = task.wheels.x.mean(axis=1)
-    peaks = _turns(data["x"].to_numpy(), read, centres, turns, smooth=smooth or plane.mean_over is not None)
-    result[:turns] = np.maximum(_between(y[rows], peaks, smooth=smooth)(y), 0.0)
+    averaged = plane.mean_over is not None
+    peaks = partial(peaks_and_valleys, data["x"].to_numpy(), centres=centres, turns=turns, smooth=smooth or averaged)
+    if smooth:
+        result[:turns] = np.maximum(CubicSpline(y[rows], peaks(uncut, margin), axis=1)(y), 0.0)
+    elif plane.mean_over is not None and task.wheels.cell <= plane.mean_over:
+        power = 1 / abs(getattr(criterion.law_at(_ANY_TEMPERATURE), "exponent", _USUAL))
+        result[:turns] = over_strips(y[rows], y, uncut, margin, peaks, power)
+    else:
+        # Cells do not tell what is between them.
+        result[:turns] = [np.interp(y, y[rows], one) for one in peaks(uncut, margin)]
     instant = read.argmax(axis=1)
     deep = np.take_along_axis(deepest, instant[:, None], axis=1)[:, 0]
     worst = _at_worst(data, deep, instant)
@@ -208,41 +220,3 @@ def _rows(wheels: Wheels, y: Array, stride: int) -> Any:
             low, high = load.grid.y[0] - _BESIDE, load.grid.y[-1] + _BESIDE
             wanted |= (y[cells] > low) & (y[cells] < high)
     return cells[wanted]
-
-
-def _between(y: Array, peaks: Array, *, smooth: bool) -> CubicSpline | Akima1DInterpolator:
-    """Curves through peaks (turns, ny) over y. smooth: as they are deep down; near the surface they end abruptly
-    where nothing is tensile, and must not overshoot beside such an end.
-    """
-    return CubicSpline(y, peaks, axis=1) if smooth else Akima1DInterpolator(y, peaks, axis=1, method="makima")
-
-
-def _turns(x: Array, read: Array, centres: Array, turns: int, *, smooth: bool) -> Array:
-    """Peak under each axle and valley between (turns, ny) of a passage (ny, nx), zeros behind the last.
-
-    centres: of the axles along x, m, rising. A peak belongs to the axle that it is nearest to; a valley is the
-    least between two centres, which changes steadily as peaks wander below an axle and never hides a cycle.
-    smooth: peaks lie between points too, on the parabola through three of them.
-    """
-    result = np.zeros((turns, len(read)))
-    ends = np.concatenate([[-np.inf], 0.5 * (centres[1:] + centres[:-1]), [np.inf]])
-    for axle in range(len(centres)):
-        inside = np.flatnonzero((x >= ends[axle]) & (x <= ends[axle + 1]))
-        at = inside[read[:, inside].argmax(axis=1)]
-        result[2 * axle] = _vertex(read, at) if smooth else np.take_along_axis(read, at[:, None], axis=1)[:, 0]
-    for axle in range(len(centres) - 1):
-        between = (x >= centres[axle]) & (x <= centres[axle + 1])
-        result[2 * axle + 1] = read[:, between].min(axis=1)
-    return np.maximum(result, 0.0)
-
-
-def _vertex(read: Array, at: Any) -> Array:
-    """Top of the parabola through each row's largest value, in the columns `at`, and its even neighbours."""
-    inner = np.clip(at, 1, read.shape[1] - 2)
-    before, peak, after = (np.take_along_axis(read, (inner + k)[:, None], axis=1)[:, 0] for k in (-1, 0, 1))
-    bend = 2 * peak - before - after
-    # At the ends of the row, and on a plateau, there is nothing to add.
-    good = (inner == at) & (bend > 0) & (peak >= before) & (peak >= after)
-    rise = (after - before) ** 2 / (8 * np.where(good, bend, 1.0))
-    own: Array = np.take_along_axis(read, at[:, None], axis=1)[:, 0]
-    return np.where(good, own + rise, own)

@@ -1,0 +1,141 @@
+"""Peaks and valleys of a passage, between the points where it is read too.
+
+A reading ends abruptly where nothing is tensile any more, along travel and across it, and is often largest just
+there. What it would be beyond, and the tension itself, vary steadily, so that both are followed up to that place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy import sparse
+
+from treadload.kernels.arrays import Array
+
+# Beside points of this part of the largest reading of a line a larger one may lie.
+_RIVAL = 0.8
+# Lines in a strip of a passage, and the part of the largest reading below which they are not worth while: less than
+# a hundredth of its damage.
+_LINES, _FAINT = 8, 0.3
+# Steps that differ by less than this part are even.
+_EVEN = 1e-6
+
+
+def onto_lines(rows: Array, y: Array) -> sparse.csr_array:
+    """What makes values at y of those at rows: cubics through four even rows, straight lines where these are uneven.
+
+    rows, y: m, rising; y within the rows.
+    """
+    at = np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
+    apart = np.diff(rows)
+    t = (y - rows[at]) / apart[at]
+    step = np.pad(apart, 1, constant_values=np.inf)
+    even = (np.abs(step[at] / apart[at] - 1) < _EVEN) & (np.abs(step[at + 2] / apart[at] - 1) < _EVEN)
+    cubic = np.array(
+        [
+            -t * (t - 1) * (t - 2) / 6,
+            (t + 1) * (t - 1) * (t - 2) / 2,
+            -(t + 1) * t * (t - 2) / 2,
+            (t + 1) * t * (t - 1) / 6,
+        ]
+    )
+    straight = np.array([np.zeros(len(t)), 1 - t, t, np.zeros(len(t))])
+    weights = np.where(even, cubic, straight)
+    columns = np.clip(at + np.arange(-1, 3)[:, None], 0, len(rows) - 1)
+    lines = np.broadcast_to(np.arange(len(y)), columns.shape)
+    return sparse.coo_array((weights.ravel(), (lines.ravel(), columns.ravel())), (len(y), len(rows))).tocsr()
+
+
+def over_strips(
+    rows: Array, y: Array, uncut: Array, margin: Array | None, peaks: Callable[..., Array], power: float
+) -> Array:
+    """Peaks and valleys (turns, ny) of fields (..., rows, nx): of strips around each y, by their mean damage.
+
+    Readings end abruptly across travel too, so that those of single lines would depend on where the lines lie. Strips
+    are as wide as y are apart; where readings are faint, straight lines between the rows will do.
+    rows, y: m. peaks: turns of fields. power: of the law, by which damage grows with the reading.
+    """
+    own = peaks(uncut, margin)
+    result = np.stack([np.interp(y, rows, one) for one in own])
+    largest = own.max()
+    loud = np.convolve(own[::2].max(axis=0) >= _FAINT * largest, np.ones(3), "same") > 0
+    at = np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
+    asked = np.flatnonzero(loud[at] | loud[at + 1])
+    if not largest > 0:
+        return result
+    within = (y[1] - y[0]) * ((np.arange(_LINES) + 0.5) / _LINES - 0.5)
+    onto = onto_lines(rows, np.clip(y[asked, None] + within, rows[0], rows[-1]).ravel())
+    fields = (None if one is None else _across(onto, one) for one in (uncut, margin))
+    lines = (peaks(*fields) / largest).reshape(len(own), len(asked), _LINES)
+    result[:, asked] = largest * (lines**power).mean(axis=2) ** (1 / power)
+    return result
+
+
+def _across(onto: sparse.csr_array, field: Array) -> Array:
+    """A field (..., rows, nx) at the lines of `onto`."""
+    many = field.reshape(-1, *field.shape[-2:])
+    result: Array = np.stack([onto @ one for one in many])
+    return result.reshape(*field.shape[:-2], *result.shape[-2:])
+
+
+def cut(uncut: Array, margin: Array | None) -> Array:
+    """Readings, nothing where there is no tension."""
+    return uncut if margin is None else np.where(margin > 0, uncut, np.minimum(uncut, 0.0))
+
+
+def peaks_and_valleys(
+    x: Array, uncut: Array, margin: Array | None = None, *, centres: Array, turns: int, smooth: bool
+) -> Array:
+    """Peak under each axle and valley between (turns, ny) of a passage (..., ny, nx), zeros behind the last.
+
+    uncut, margin: see `Criterion.read_uncut`; of several depths the largest reading counts. centres: of the axles
+    along x, m, rising. A peak belongs to the axle that it is nearest to; a valley is the least between two centres,
+    which changes steadily as peaks wander below an axle and never hides a cycle.
+    smooth: peaks lie between points too.
+    """
+    shape = (-1, *uncut.shape[-2:])
+    uncut, margin = uncut.reshape(shape), None if margin is None else margin.reshape(shape)
+    read = cut(uncut, margin).max(axis=0)
+    tops = _between_points(uncut, margin) if smooth else None
+    result = np.zeros((turns, len(read)))
+    ends = np.concatenate([[-np.inf], 0.5 * (centres[1:] + centres[:-1]), [np.inf]])
+    for axle in range(len(centres)):
+        inside = np.flatnonzero((x >= ends[axle]) & (x <= ends[axle + 1]))
+        result[2 * axle] = read[:, inside].max(axis=1)
+        if tops is not None and len(inside) > 1:
+            result[2 * axle] = np.maximum(result[2 * axle], tops[:, inside[:-1]].max(axis=1))
+    for axle in range(len(centres) - 1):
+        between = (x >= centres[axle]) & (x <= centres[axle + 1])
+        result[2 * axle + 1] = read[:, between].min(axis=1)
+    return np.maximum(result, 0.0)
+
+
+def _between_points(uncut: Array, margin: Array | None) -> Array:
+    """Largest reading of all depths (ny, nx - 1) between each of even points (nz, ny, nx) along x and the next one.
+
+    Values follow the parabola through both with the mean curvature of either; tension, straight, ends between a point
+    that has it and one that has none. Nothing where neither comes near the largest of its line.
+    """
+    tops = np.zeros((uncut.shape[1], uncut.shape[2] - 1))
+    if uncut.shape[2] < 3:
+        return tops
+    tensile = np.ones(uncut.shape, dtype=bool) if margin is None else margin > 0
+    near = uncut >= _RIVAL * np.where(tensile, uncut, -np.inf).max(axis=(0, 2))[:, None]
+    left, right = slice(None, -1), slice(1, None)
+    asked = (near[..., left] | near[..., right]) & (tensile[..., left] | tensile[..., right])
+    z, j, i = np.nonzero(asked)
+    first, last = uncut[z, j, i], uncut[z, j, i + 1]
+    inner = np.clip(np.stack([i, i + 1]), 1, uncut.shape[2] - 2)
+    bend = 0.25 * (uncut[z, j, inner - 1] - 2 * uncut[z, j, inner] + uncut[z, j, inner + 1]).sum(axis=0)
+    # Where tension begins and ends, in parts of the way between the two points.
+    low, high = np.zeros(len(i)), np.ones(len(i))
+    if margin is not None:
+        before, after = margin[z, j, i], margin[z, j, i + 1]
+        ends = np.divide(before, before - after, out=np.zeros(len(i)), where=before != after)
+        low, high = np.where(before > 0, low, ends), np.where(after > 0, high, ends)
+    slope = last - first - bend
+    summit = np.divide(-0.5 * slope, bend, out=low.copy(), where=bend < 0)
+    places = np.stack([low, high, np.clip(summit, low, high)])
+    np.maximum.at(tops, (j, i), (first + places * (slope + places * bend)).max(axis=0))
+    return tops
