@@ -16,6 +16,7 @@ from treadload.materials import Elastic, ElastoPlastic, MohrCoulomb, VonMises
 from treadload.pavement import Layer, Pavement
 from treadload.response import GridLoad, roll_drum, roll_passes
 from treadload.response.passes.box import Box
+from treadload.response.passes.limits import limit_loads
 from treadload.response.passes.surface import surface_profile
 from treadload.tire import Tire, TreadProfile
 from treadload.validation.check import Check, absolute, relative
@@ -38,9 +39,30 @@ def yielding_checks() -> Iterator[Check]:
         worst = float(np.abs(back.excess(stress, after)[yields]).max()) / law.strength
         yield absolute("return maps", f"{name}: yield function over strength", worst, 0, 1e-12, "consistency")
     yield _first_yield()
+    yield _at_rest()
     yield _surface()
     yield from _pressed()
     yield from _drum()
+
+
+def _sphere() -> GridLoad:
+    """Pressure of a sphere, 1 MPa at most, on a radius of 1 m."""
+    grid = Grid.centred(2.1, 2.1, 2.1 / 64)
+    radius = grid.x[None] ** 2 + grid.y[:, None] ** 2
+    return GridLoad(grid, 1e6 * np.sqrt(np.clip(1 - radius, 0, None)))
+
+
+def _at_rest() -> Check:
+    law = VonMises(1e6, kinematic=2e7)
+    _, factor, _ = limit_loads(_sphere(), Pavement.half_space(ElastoPlastic(_ELASTIC, law)), spacing=0.1, layers=12)
+    return relative(
+        "rolling sphere",
+        "peak pressure over k at the limit of shakedown",
+        factor * 3**0.5,
+        4.68,
+        0.02,
+        "Johnson (1985)",
+    )
 
 
 def _first_yield() -> Check:
@@ -49,11 +71,8 @@ def _first_yield() -> Check:
         return -abs(down + (1 + _ELASTIC.poisson) * (1 - z * math.atan(1 / z)) + 0.5 * down)
 
     exact = 1 / -float(minimize_scalar(along_axis, bounds=(0.2, 1.0), method="bounded").fun)
-    grid = Grid.centred(2.1, 2.1, 2.1 / 64)
-    radius = grid.x[None] ** 2 + grid.y[:, None] ** 2
-    load = GridLoad(grid, 1e6 * np.sqrt(np.clip(1 - radius, 0, None)))
     road = Pavement.half_space(ElastoPlastic(_ELASTIC, VonMises(1e6)))
-    found = roll_passes(load, road, passes=1, spacing=0.05).dataset.attrs["elastic_load_factor"]
+    found = roll_passes(_sphere(), road, passes=1, spacing=0.05).dataset.attrs["elastic_load_factor"]
     return relative("rolling sphere", "peak pressure over yield stress at first yield", found, exact, 0.01, "Hertz")
 
 
