@@ -25,6 +25,11 @@ _CONTACT = {
     "initial_gap": ("m", "separation before loading"),
     "tread_wear": ("m", "worn off the ribs since an earlier scan, along the radius"),
     "median_tread_wear": ("m", "worn off the ribs since an earlier scan, median round the tire"),
+    "tread_height": ("m", "tread over its crown, median round the tire"),
+    "earlier_tread_height": ("m", "tread of an earlier scan over the crown of the later one, median round the tire"),
+    "groove": ("m", "middle of a groove round the tire, to the right of the middle of the tread"),
+    "groove_depth": ("m", "depth of a groove below the ribs beside it"),
+    "earlier_groove_depth": ("m", "depth of a groove below the ribs beside it in an earlier scan"),
     "wheel_angle": ("rad", "angle round the wheel, from the road towards travel"),
     "gap": ("m", "separation after loading"),
     "road_height": ("m", "height of the road's surface above its plane, up positive"),
@@ -490,9 +495,9 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 _ORDER = (
     "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
     "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure", "mode",
-    "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "step", "position", "pass", "interface",
-    "depth", "profile_depth", "sublayer", "point", "row", "column", "y", "across", "wheel_angle", "x", "road_x",
-    "component", "orientation",
+    "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "groove", "step", "position", "pass",
+    "interface", "depth", "profile_depth", "sublayer", "point", "row", "column", "y", "across", "wheel_angle", "x",
+    "road_x", "component", "orientation",
 )  # fmt: skip
 _RANK = {name: rank for rank, name in enumerate(_ORDER)}
 

@@ -227,6 +227,23 @@ def screened(verb, **more):
         return verb(CASE, {"friction": (0.3, 0.9), "normal_load": (2e4, 4e4)}, "worst_strain", **more)
 
 
+def worn():
+    """Wear of two bare surfaces, a millimetre between them and a groove."""
+    across, angle = np.linspace(-0.1, 0.1, 21), np.linspace(-3.1, 3.1, 12)
+    gone = np.where(np.abs(across) > 0.02, 1e-3, np.nan)
+    flat = np.where(np.abs(across) > 0.02, 0.0, -8e-3)
+    fields = {
+        "tread_wear": (("across", "wheel_angle"), np.tile(gone[:, None], 12)),
+        "median_tread_wear": (("across",), gone),
+        "tread_height": (("across",), flat),
+        "earlier_tread_height": (("across",), flat + 1e-3 * (flat == 0)),
+        "groove_depth": (("groove",), [8e-3]),
+        "earlier_groove_depth": (("groove",), [9e-3]),
+    }
+    places = {"across": across, "wheel_angle": angle, "groove": [0.0]}
+    return tl.tire.Wear(dataset(fields, places, datum=0.0, shift=1e-4))
+
+
 MADE = {
     "Contact": contact,
     "Response": response,
@@ -274,6 +291,7 @@ MADE = {
     "Heterogeneous": heterogeneous,
     "TextureContact": on_texture,
     "Enveloped": lambda: tl.contact.envelop(contact(), 0.03),
+    "Wear": worn,
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
 FIGURES = {
@@ -285,7 +303,7 @@ FIGURES = {
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",
     "TextureContact": "patch", "Enveloped": "pressure",
-    "Crossing": "history",
+    "Crossing": "history", "Wear": "wear",
     "Sweep": lambda plot: plot.curve("worst_strain"), "Tornado": "tornado", "Sobol": "sobol", "Morris": "morris",
 }  # fmt: skip
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 
+import treadload as tl
 from tire_meshes import RIB_TREAD, pose, tire_mesh, write
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
@@ -294,14 +295,30 @@ def test_the_command_scales_both_scans_and_writes_the_wear(tmp_path):
     output = tmp_path / "tread.nc"
     done = CliRunner().invoke(app, [*both, "--reference-length", "0.912 = 1000 mm", "-o", str(output)])
     assert done.exit_code == 0, done.output
-    data = read_tree(output, "NetCDF-4").to_dataset()
-    assert {"initial_gap", "tread_wear", "median_tread_wear"} <= set(data.data_vars)
+    tree = read_tree(output, "NetCDF-4")
+    gap, data = tree.to_dataset(), tree["wear"].to_dataset()
+    assert set(gap.data_vars) == {"initial_gap"}
     # Facets of 1.5° lie 0.05 mm under the circle in both.
     assert float(data.median_tread_wear.median()) == pytest.approx(worn, abs=0.1e-3)
     assert float(data.tread_wear.median()) == pytest.approx(worn, abs=0.1e-3)
     assert data.tread_wear.attrs["units"] == "m"
-    assert "worn off the ribs 3.0" in data.attrs["wear"]
-    assert "crown radius 53" in data.attrs["scan"]
+    assert "worn off the ribs 3.0" in data.attrs["summary"]
+    assert "crown radius 53" in gap.attrs["scan"]
+    # It opens as a result, and a report tells it and draws it.
+    opened = tl.open_results(output).wear
+    assert opened.mean == pytest.approx(worn, abs=0.1e-3)
+    assert [before - now for _, before, now in opened.grooves] == pytest.approx([worn] * 4, abs=0.2e-3)
+    page = tmp_path / "wear.html"
+    done = CliRunner().invoke(app, ["report", str(output), "-o", str(page), "--quiet"])
+    assert done.exit_code == 0, done.output
+    text = page.read_text()
+    for told in ("Wear of a tread since an earlier scan", "worn off the ribs 3.0", "Worn off since the earlier scan"):
+        assert told in text
+    # As tables the gap keeps the name of the file.
+    done = CliRunner().invoke(app, [*both, "--reference-length", "0.912 = 1000 mm", "-o", str(tmp_path / "t.csv")])
+    assert done.exit_code == 0, done.output
+    assert "initial_gap" in (tmp_path / "t.csv").read_text()[:200]
+    assert "tread_wear" in (tmp_path / "t_wear.csv").read_text()[:200]
     # The file is a height map of the tread as before.
     assert Tire.from_height_map(output, inflation_pressure=8e5).fixed_grid.dx == pytest.approx(10e-3)
     # One known length for both: the earlier tire would be a quarter larger, and that is said.

@@ -67,6 +67,7 @@ from treadload.plots.texture import enveloped_pressure, texture_contact
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 from treadload.plots.verdict import fatigue_line
+from treadload.plots.wear import WearPlots, tread_wear
 from treadload.plots.works import life_works
 
 __all__ = [
@@ -100,6 +101,7 @@ __all__ = [
     "TurnPlots",
     "UniformPlots",
     "VerdictPlots",
+    "WearPlots",
     "black_diagram",
     "bond_utilisation",
     "bonded_and_parted",
@@ -167,6 +169,7 @@ __all__ = [
     "tornado_bars",
     "trace_rose",
     "transient_history",
+    "tread_wear",
     "turn_history",
     "uniform_comparison",
 ]

@@ -7,7 +7,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import MM, limits
 from treadload.plots.kit.style import (
@@ -22,6 +21,7 @@ from treadload.plots.kit.style import (
     signed,
     styled,
 )
+from treadload.plots.wear import wear_range
 
 _HOLE = "#f3c9b0"
 
@@ -47,7 +47,7 @@ def _unrolled(ax: Axes, data: xr.Dataset) -> None:
     across, turn = data.across.to_numpy() * 1e3, np.degrees(data.turn.to_numpy())
     ax.set_facecolor(_HOLE)
     if worn:
-        low, high = _range(field)
+        low, high = wear_range(field)
         mesh = ax.pcolormesh(turn, across, field, cmap=sequential("height"), vmin=low, vmax=high, rasterized=True)
     else:
         scale = limits(field)
@@ -104,15 +104,6 @@ def _gap(ax: Axes, data: xr.Dataset) -> None:
     ax.invert_yaxis()
     told = f"outlined: {signed(100 * share)} % filled from the rest of the turn".replace("+", "")
     headline(ax, "Over the road", told if share else "nothing was filled")
-
-
-def _range(worn: Array) -> tuple[float, float]:
-    """Where the wear, mm, lies, single points aside; a millimetre wide or more, so that noise is seen as such."""
-    known = worn[np.isfinite(worn)]
-    low, high = np.quantile(known, [0.02, 0.98]) if known.size else (0.0, 1.0)
-    wide = max(float(high - low), 1.0)
-    middle = 0.5 * float(low + high)
-    return middle - 0.5 * wide, middle + 0.5 * wide
 
 
 def _seen(data: xr.Dataset) -> tuple[float, float]:

@@ -33,6 +33,7 @@ from treadload.plots import (
     TransientPlots,
     TurnPlots,
     UniformPlots,
+    WearPlots,
 )
 from treadload.reporting.inputs import NamedTable
 from treadload.reporting.pictures import Picture, picture
@@ -67,6 +68,7 @@ HEADINGS = {
     "sobol": "Sobol indices",
     "morris": "Morris screening",
     "passes": "Passes over a road that yields",
+    "wear": "Wear of a tread since an earlier scan",
 }
 
 
@@ -225,6 +227,9 @@ def _pictures(other: Other) -> list[Picture]:
         case "morris":
             caption = "Right: inputs that matter. High: inputs whose effect bends or depends on others."
             return picture("Morris screening", caption, MorrisPlots(data).morris)
+        case "wear":
+            caption = "Unrolled from the place over the road; across: the tread then and now, and the median wear."
+            return picture("Worn off since the earlier scan", caption, WearPlots(data).wear, wide=True)
         case "life":
             return picture("Life by criterion", "Years until the damage is 1.", LifePlots(data).years)
         case "crossing":

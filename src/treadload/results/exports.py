@@ -155,6 +155,9 @@ def _tables(results: Any) -> list[Table]:
         groups = {str(name): node.to_dataset() for name, node in results.children.items() if name != ASKED}
         groups = {name: data for name, data in groups.items() if data.data_vars}
         single = len(groups) == 1
+        if results.data_vars:
+            # What stands at the root takes the name of the file.
+            groups, single = {"": results.to_dataset(), **groups}, False
         tables = [table for name, data in groups.items() for table in _of_group("" if single else name, data)]
         tables += [_about(results)] if tables else []
     if not tables:

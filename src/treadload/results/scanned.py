@@ -10,10 +10,11 @@ import xarray as xr
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.results.dataset import height_map
+from treadload.results.tree import to_tree
 from treadload.tire import Tire
 from treadload.tire.scan.surface import ScanSurface
-from treadload.tire.scan.wear import STEP, Wear, unroll, wear
-from treadload.variables import dataset
+from treadload.tire.scan.wear import STEP, unroll, wear
+from treadload.tire.wear import Wear
 
 
 def scan_wear(new: Tire, earlier: Tire) -> Wear:
@@ -21,22 +22,19 @@ def scan_wear(new: Tire, earlier: Tire) -> Wear:
     return wear(_surface(new), _surface(earlier))
 
 
-def scan_map(tire: Tire, earlier: Tire | None = None, *, spacing: float = 3e-3) -> xr.Dataset:
-    """What `treadload scan -o` writes: the gap over the road (y, x), how the scan was read, and the wear, if any.
+def scan_map(tire: Tire, earlier: Tire | None = None, *, spacing: float = 3e-3) -> xr.Dataset | xr.DataTree:
+    """What `treadload scan -o` writes: the gap over the road (y, x) and how the scan was read; beside it the wear.
 
-    tire, earlier, spacing: as in `scan_fields`. The wear is `tread_wear` (across, wheel_angle) and its median, m, NaN
-    off the ribs; the attributes `scan` and `wear` are what is printed of both. Raises InputError.
+    tire, earlier, spacing: as in `scan_fields`. With an earlier scan a tree: the gap at its root, so that the file is
+    a height map all the same, and `Wear` in the group /wear. The attribute `scan` is what is printed of the scan.
+    Raises InputError.
     """
     data = height_map(tire, spacing).assign_attrs(scan=str(_surface(tire).report))
     if earlier is None:
         return data
-    gone = scan_wear(tire, earlier)
-    fields = {
-        "tread_wear": (("across", "wheel_angle"), np.where(gone.land[:, None], gone.worn, np.nan)),
-        "median_tread_wear": (("across",), gone.by_place),
-    }
-    worn = dataset(fields, {"across": gone.y, "wheel_angle": gone.theta})
-    return data.merge(worn).assign_attrs(wear=str(gone), earlier=str(earlier))
+    tree = to_tree(scan_wear(tire, earlier), title=f"Wear of {tire.name or 'a tread'}")
+    tree.dataset = data.assign_attrs(tree.attrs | data.attrs | {"earlier": str(earlier)})
+    return tree
 
 
 def scan_fields(tire: Tire, earlier: Tire | None = None, *, spacing: float = 3e-3) -> xr.Dataset:
@@ -66,11 +64,11 @@ def scan_fields(tire: Tire, earlier: Tire | None = None, *, spacing: float = 3e-
     }
     if earlier is not None:
         old = _surface(earlier)
-        gone = wear(surface, old)
-        worn = np.where(gone.land[:, None], gone.worn, np.nan)
-        rows = np.clip(np.searchsorted(gone.y, across), 0, len(gone.y) - 1)
-        before = np.interp(across - gone.shift, old.across, old.meridian)
-        fields |= {"worn": (("across", "turn"), worn[rows]), "earlier": (("across",), crown + gone.datum - before)}
+        gone = wear(surface, old).dataset
+        rows = np.clip(np.searchsorted(gone.across.to_numpy(), across), 0, gone.sizes["across"] - 1)
+        worn, before = gone.tread_wear.to_numpy()[rows], gone.earlier_tread_height.to_numpy()
+        then = np.interp(across, gone.across, before, left=np.nan, right=np.nan)
+        fields |= {"worn": (("across", "turn"), worn), "earlier": (("across",), -then)}
     noise = "noise unknown" if math.isnan(quality.noise) else f"noise {quality.noise * 1e3:.2f} mm"
     about = {
         "said": f"crown {crown * 1e3:.1f} mm, tread on {seen.mean() * 360:.0f}°, {noise}",

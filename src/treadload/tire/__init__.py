@@ -8,6 +8,7 @@ from treadload.tire.quality import GrooveMeasure, ScanQuality
 from treadload.tire.surface import HeightMapSurface, Surface
 from treadload.tire.tire import Tire
 from treadload.tire.tread import ProfileSurface, TreadProfile
+from treadload.tire.wear import Wear
 
 __all__ = [
     "Belt",
@@ -23,6 +24,7 @@ __all__ = [
     "Tire",
     "TireMesh",
     "TreadProfile",
+    "Wear",
     "equal_ribs",
     "example_mesh",
     "modulus_from_inflation",

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from treadload.errors import GeometryError
-from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.arrays import Array
 from treadload.tire.scan import meridian as unrolling
 from treadload.tire.scan.rays import Caster, radial
 from treadload.tire.scan.surface import EXTENT_DROP, ScanSurface
+from treadload.tire.wear import Wear
+from treadload.variables import dataset
 
 STEP = math.radians(0.5)
 ACROSS = 1e-3
@@ -29,58 +29,6 @@ def unroll(surface: ScanSurface, theta: Array, y: Array) -> Array:
     radius = surface.report.crown_radius
     caster = Caster(surface.vertices, surface.faces)
     return radial(caster, theta, y, 1.5 * radius, radius - surface.deepest - DEEPER)
-
-
-@dataclass(frozen=True, eq=False)
-class Wear:
-    """What was worn off a tread between two scans of it, m, along the radius.
-
-    y: (ny,) places across. theta: (nt,) rad. worn: (ny, nt), positive where material is gone, NaN where one of the
-    scans knows nothing. land: (ny,) True on ribs. datum: by which the radii of the earlier scan were lowered so that
-    the floors of the grooves, which do not wear, agree; 0 without grooves. shift: of the earlier scan across.
-    grooves: (centre, depth before, depth now) of those in both.
-    """
-
-    y: Array
-    theta: Array
-    worn: Array
-    land: BoolArray
-    datum: float
-    shift: float
-    grooves: tuple[tuple[float, float, float], ...]
-
-    @cached_property
-    def by_place(self) -> Array:
-        """(ny,) median round the tire, m; NaN off the ribs."""
-        out = np.full(len(self.y), np.nan)
-        rows = self.land & np.isfinite(self.worn).any(axis=1)
-        out[rows] = unrolling.row_quantile(self.worn[rows], 0.5)
-        return out
-
-    @property
-    def mean(self) -> float:
-        """Of the ribs, m."""
-        return float(np.nanmean(self.by_place))
-
-    @property
-    def uneven(self) -> float:
-        """Most minus least across, m: 95 % less 5 % of the places."""
-        low, high = np.nanquantile(self.by_place, [0.05, 0.95])
-        return float(high - low)
-
-    def __str__(self) -> str:
-        place = int(np.nanargmax(self.by_place))
-        lines = [
-            f"worn off the ribs {self.mean * 1e3:.2f} mm on average, most {self.by_place[place] * 1e3:.2f} mm at "
-            f"y = {self.y[place] * 1e3:+.0f} mm; uneven across by {self.uneven * 1e3:.2f} mm",
-            f"radii agree in the grooves after {self.datum * 1e3:+.2f} mm" if self.grooves else
-            "no groove in both scans: the radii are compared as they are, swelling and scale included",
-        ]  # fmt: skip
-        lines += [
-            f"groove at y = {centre * 1e3:+.1f} mm: {before * 1e3:.1f} mm deep before, {now * 1e3:.1f} mm now"
-            for centre, before, now in self.grooves
-        ]
-        return "\n".join(lines)
 
 
 def wear(new: ScanSurface, reference: ScanSurface) -> Wear:
@@ -117,7 +65,25 @@ def wear(new: ScanSurface, reference: ScanSurface) -> Wear:
     over = before[:, None] - turn
     known = over[floors]
     datum = float(np.nanmedian(known)) if np.isfinite(known).any() else 0.0
-    grooves = tuple((now.centre, before.depth, now.depth) for now, before in pairs)
     # Walls move sideways by tenths of a millimetre and up and down by millimetres.
     steep = np.abs(np.gradient(before, ACROSS)) > 0.5
-    return Wear(y, theta, over - datum, np.asarray(tread & ~low & ~steep, dtype=bool), datum, shift, grooves)
+    land = tread & ~low & ~steep
+    worn = np.where(land[:, None], over - datum, np.nan)
+    median = np.full(len(y), np.nan)
+    seen = np.isfinite(worn).any(axis=1)
+    median[seen] = unrolling.row_quantile(worn[seen], 0.5)
+    if not seen.any():
+        raise GeometryError("the two scans have no rib in common: check that both are of one tire, and their units")
+    crown = new.report.crown_radius
+    fields = {
+        "tread_wear": (("across", "wheel_angle"), worn),
+        "median_tread_wear": (("across",), median),
+        "tread_height": (("across",), np.interp(y, new.across, new.meridian) - crown),
+        "earlier_tread_height": (("across",), before - datum - crown),
+    }
+    places: dict[str, Array] = {"across": y, "wheel_angle": theta}
+    if pairs:
+        places["groove"] = np.array([now.centre for now, _ in pairs])
+        fields["groove_depth"] = (("groove",), np.array([now.depth for now, _ in pairs]))
+        fields["earlier_groove_depth"] = (("groove",), np.array([before.depth for _, before in pairs]))
+    return Wear(dataset(fields, places, datum=datum, shift=shift))

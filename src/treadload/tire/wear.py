@@ -1,0 +1,88 @@
+"""What has been worn off a tread since an earlier scan of it, as a result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+import xarray as xr
+
+from treadload.composing import BaseResult, Holds
+from treadload.describing import first_line
+from treadload.kernels.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Wear(BaseResult, group="wear"):
+    """What was worn off a tread between two scans of it, along the radius.
+
+    dataset: tread_wear (across, wheel_angle), positive where material is gone, and its median round the tire, NaN off
+    the ribs and where one of the scans knows nothing; tread_height and earlier_tread_height (across), the medians of
+    both scans over the crown of the later one, m, the earlier as it was shifted; groove_depth and
+    earlier_groove_depth over groove, those in both. Attributes: datum, by which the radii of the earlier scan were
+    lowered so that the floors of the grooves, which do not wear, agree; shift, of the earlier scan across, m.
+    """
+
+    holds: ClassVar[Holds] = Holds(
+        {
+            "across": "across", "wheel_angle": "wheel_angle",
+            "tread_wear": "across wheel_angle",
+            "median_tread_wear tread_height earlier_tread_height": "across",
+        },
+        maybe={"groove groove_depth earlier_groove_depth": "groove"},
+        known="median_tread_wear",
+        numbers="datum shift",
+    )  # fmt: skip
+
+    dataset: xr.Dataset
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def by_place(self) -> Array:
+        """(ny,) median round the tire, m; NaN off the ribs."""
+        return np.asarray(self.dataset["median_tread_wear"].to_numpy(), dtype=np.float64)
+
+    @property
+    def mean(self) -> float:
+        """Of the ribs, m."""
+        return float(np.nanmean(self.by_place))
+
+    @property
+    def uneven(self) -> float:
+        """Most minus least across, m: 95 % less 5 % of the places."""
+        low, high = np.nanquantile(self.by_place, [0.05, 0.95])
+        return float(high - low)
+
+    @property
+    def datum(self) -> float:
+        """By which the radii of the earlier scan were lowered, m."""
+        return float(self.dataset.attrs["datum"])
+
+    @property
+    def grooves(self) -> tuple[tuple[float, float, float], ...]:
+        """(place across, depth before, depth now) of the grooves in both scans, m."""
+        if "groove_depth" not in self.dataset or "earlier_groove_depth" not in self.dataset:
+            return ()
+        parts = (self.dataset[name].to_numpy() for name in ("groove", "earlier_groove_depth", "groove_depth"))
+        return tuple((float(at), float(before), float(now)) for at, before, now in zip(*parts, strict=True))
+
+    def summary(self) -> str:
+        """How much, where most, how unevenly; the grooves then and now."""
+        place = int(np.nanargmax(self.by_place))
+        at = float(self.dataset["across"][place])
+        lines = [
+            f"worn off the ribs {self.mean * 1e3:.2f} mm on average, most {self.by_place[place] * 1e3:.2f} mm at "
+            f"y = {at * 1e3:+.0f} mm; uneven across by {self.uneven * 1e3:.2f} mm",
+            f"radii agree in the grooves after {self.datum * 1e3:+.2f} mm" if self.grooves else
+            "no groove in both scans: the radii are compared as they are, swelling and scale included",
+        ]  # fmt: skip
+        lines += [
+            f"groove at y = {centre * 1e3:+.1f} mm: {before * 1e3:.1f} mm deep before, {now * 1e3:.1f} mm now"
+            for centre, before, now in self.grooves
+        ]
+        return "\n".join(lines)
+
+    __repr__ = first_line
