@@ -65,7 +65,8 @@ def principal_values(tensor: Array) -> Array:
     largest = float(np.abs(tensor).max(initial=0.0))
     # Squares neither overflow nor vanish; by a power of two no digit changes.
     unit = math.ldexp(0.5, math.frexp(largest)[1]) if 0 < largest < math.inf else 1.0
-    tensor = tensor / unit
+    # Single numbers would leave the root of their round-off where two values are near each other.
+    tensor = np.divide(tensor, unit, dtype=float)
     middle = mean(tensor)
     xx, yy, zz = tensor[:3] - middle
     xy, xz, yz = tensor[3:]

@@ -11,9 +11,9 @@ from treadload.kernels.anisotropy import interior
 from treadload.kernels.anisotropy.interior import Modes
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
-from treadload.kernels.half_space.bilinear import bilinear_on_grid
+from treadload.kernels.half_space.bilinear import bilinear_sums_on_grid
 from treadload.kernels.half_space.disc import disc_fields
-from treadload.kernels.half_space.interior import fields_on_grid
+from treadload.kernels.half_space.interior import sums_on_grid
 from treadload.kernels.half_space.upright import Medium
 from treadload.materials.kinds import AnyElastic, Solid
 from treadload.pavement.stack import medium_of, plane_of
@@ -68,17 +68,21 @@ def half_space_fields(
     *,
     moves: bool = True,
     precision: type[np.floating[Any]] = np.float64,
+    mean: Array | None = None,
 ) -> list[tuple[Array, str]]:
     """Stress and displacement times the shear modulus, (nz, 9, my, mx), and the method, for each of some loads.
 
     loads: each superposed from several. medium: Poisson's ratio, or what stands in its place where the half-space is
     another along z; the shear modulus is then that of the horizontal plane. Or the modes of any other anisotropy, and
     the unit of its stiffness, for loads on cells alone. The others as in `half_space_response`;
-    moves: False leaves the displacement out, zero. precision: of convolutions. What cells do to each other is
-    computed once for all loads that stand on the same cells, and once for wheels behind each other that press alike.
+    moves: False leaves the displacement out, (nz, 6, my, mx). precision: of convolutions and of what is returned.
+    mean: weights (rows, nz) of sums over the depths, which are given in their place; not of modes. What cells do to
+    each other is computed once for all loads that stand on the same cells, and once for wheels behind each other that
+    press alike.
     """
     shape = (len(y), len(x)) if at is None else at.shape
-    results = [np.zeros((len(depths), 9, *shape)) for _ in loads]
+    sums = np.eye(len(depths)) if mean is None else mean
+    results = [np.zeros((len(sums), 9 if moves else 6, *shape), precision) for _ in loads]
     methods: list[set[str]] = [set() for _ in loads]
     many = [load for several in loads for load in several]
     number = 0
@@ -95,12 +99,12 @@ def half_space_fields(
             if isinstance(load, UniformDisc):
                 assert not isinstance(medium, Modes)
                 said(1)
-                _add_disc(result, load, medium, depths, x, y, at)
+                _add_disc(result, load, medium, depths, sums, x, y, at)
                 used.add("disc")
     for (print_, places), members in _prints(loads).items():
         said(len(places) * len(members))
         array = np.stack([member for _, member in members], axis=1).astype(precision, copy=False)
-        fields, method = _under_print(print_, places, array, medium, depths, x, y, at, moves=moves)
+        fields, method = _under_print(print_, places, array, medium, depths, sums, x, y, at, moves=moves)
         for column, (owner, _) in enumerate(members):
             results[owner] += fields[:, :, column]
             methods[owner].add(method)
@@ -141,29 +145,34 @@ def _under_print(
     array: Array,
     medium: Medium | Modes,
     depths: Array,
+    mean: Array,
     x: Array,
     y: Array,
     at: Points | None,
     *,
     moves: bool,
 ) -> tuple[Array, str]:
-    """Fields (nz, 9, n, my, mx) of arrays (3, n, ny, nx) on the same cells, summed over the places of these."""
+    """Fields (rows, 9 or 6, n, my, mx) of arrays (3, n, ny, nx) on the same cells, summed over the places of these."""
     _, _, dx, dy, y0, interpolation = cells
     methods: set[str] = set()
 
-    def on_grid(x: Array, y: Array) -> tuple[Array, Array, str]:
+    def on_grid(x: Array, y: Array) -> tuple[Array, str]:
         if isinstance(medium, Modes):
-            return interior.fields_on_grid(array, dx, dy, depths, 1.0, medium, x, y, moves=moves)
-        closed = bilinear_on_grid if interpolation == "bilinear" else fields_on_grid
-        return closed(array, dx, dy, depths, 1.0, medium, x, y, moves=moves)
+            stress, displacement, method = interior.fields_on_grid(
+                array, dx, dy, depths, 1.0, medium, x, y, moves=moves
+            )
+            return np.concatenate([stress, displacement] if moves else [stress], axis=1), method
+        closed = bilinear_sums_on_grid if interpolation == "bilinear" else sums_on_grid
+        return closed(array, dx, dy, depths, mean, medium, x, y, moves=moves)
 
     def fields(x: Array, y: Array) -> Array:
         apart = (x - np.array(places)[:, None]).ravel()
         _, first, back = np.unique(np.round(apart / (_SAME * dx)), return_index=True, return_inverse=True)
-        stress, displacement, method = on_grid(apart[first], y - y0)
+        both, method = on_grid(apart[first], y - y0)
         methods.add(method)
-        both = np.concatenate([stress, displacement], axis=1)
         turns = back.reshape(len(places), -1)
+        if len(turns) == 1 and np.array_equal(turns[0], np.arange(len(first))):
+            return both
         total: Array = both[..., turns[0]]
         for own in turns[1:]:
             total += both[..., own]
@@ -174,11 +183,12 @@ def _under_print(
 
 
 def _add_disc(
-    result: Array, disc: UniformDisc, medium: Medium, depths: Array, x: Array, y: Array, at: Points | None
+    result: Array, disc: UniformDisc, medium: Medium, depths: Array, mean: Array, x: Array, y: Array, at: Points | None
 ) -> None:
     lines = np.meshgrid(x, y) if at is None else (x[None, at.columns], y[None, at.rows])
     across_x, across_y = lines[0] - disc.x, lines[1] - disc.y
     for row, depth in enumerate(depths):
         stress, displacement = disc_fields(disc.radius, across_x, across_y, float(depth), 1.0, medium)
-        result[row, :6] += disc.pressure * stress
-        result[row, 6:] += disc.pressure * displacement
+        both = np.concatenate([stress, displacement])[: result.shape[1]]
+        for place in np.flatnonzero(mean[:, row]):
+            result[place] += (mean[place, row] * disc.pressure) * both

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,6 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.gridded import grid_cost
 from treadload.kernels.gridding.points import Points
-from treadload.kernels.half_space.upright import Medium
 from treadload.kernels.layers.hankel import AxialPlanes, Disc, synthesise_discs
 from treadload.kernels.layers.layered import Stack, transfer
 from treadload.kernels.layers.synthesis import FULL, Accuracy, Cells, ElasticPlane, rule, synthesise_cells
@@ -60,14 +60,22 @@ class View:
 
 @dataclass(frozen=True, eq=False)
 class Site:
-    """Where in a road something is asked: an elastic road and its depths, (nz,), m, >= 0."""
+    """Where in a road something is asked: an elastic road and its depths, (nz,), m, >= 0.
+
+    mean: weights (rows, nz) of sums over the depths, each within one layer, which are asked in their place; None for
+    the depths themselves.
+    """
 
     road: Pavement
     depths: Array
+    mean: Array | None = None
 
 
 Solved = tuple[Array, Array, Array, str]
-"""Stress (6, nz, my, mx) in Pa, strain likewise, displacement (3, nz, my, mx) in m, z down; and the method."""
+"""Stress (6, nz, my, mx) in Pa, strain likewise, displacement (3, nz, my, mx) in m, z down; and the method.
+
+In the precision of what was asked; rows of sums in place of nz where these were asked.
+"""
 
 
 def layered_response(
@@ -113,32 +121,40 @@ def layered_responses(
     tops = _Top(discs, view), _Top(gridded, view)
     # One after the other: what is made of the waves is larger than they are.
     for load, site in pairs:
-        fields = np.zeros((len(layouts[site].depths), 9, *view.shape))
+        # (components, rows, my, mx)
+        fields = np.zeros((len(view.components), len(layouts[site].mean), *view.shape), view.accuracy.precision)
         methods = {"layered"}
-        if discs[load]:
-            fields += _under_discs(discs[load], layouts[site], view)
-            methods.add(tops[0].add(fields, load, layouts[site]))
         if gridded[load]:
-            fields[:, view.components] += next(waves)
+            fields = next(waves)
             methods.add(tops[1].add(fields, load, split[site]))
+        if discs[load]:
+            fields += np.einsum("rz,zcyx->cryx", layouts[site].mean, _under_discs(discs[load], layouts[site], view))
+            methods.add(tops[0].add(fields, load, layouts[site]))
         yield _solved(fields, layouts[site], loads[load], methods, view.components)
 
 
 def _solved(
     fields: Array, layout: _Layout, loads: Sequence[SurfaceLoad], methods: set[str], components: Sequence[int]
 ) -> Solved:
-    """Stress, strain and displacement of one pair from its fields (nz, 9, my, mx)."""
-    stack = layout.stack
-    unasked = [component for component in ALL if component not in components]
-    fields[:, unasked] = np.nan
-    stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0)
-    for component, drifts in enumerate(drifting(stack, loads)):
-        if drifts:
-            # A sheet that nothing holds: the displacement under a net force has no finite value.
-            loose = [row for row, layer in enumerate(layout.where) if layer <= stack.spring.index(0.0)]
-            displacement[component, loose] = np.nan
+    """Stress, strain and displacement of one pair from its fields (components, rows, my, mx)."""
+    stack, shape = layout.stack, fields.shape[1:]
+    asked = list(components)
+    if asked[:6] == list(range(6)):
+        stress = fields[:6]
+    else:
+        stress = np.full((6, *shape), np.nan, fields.dtype)
+        stress[[one for one in asked if one <= _YZ]] = fields[[k for k, one in enumerate(asked) if one <= _YZ]]
+    displacement = np.broadcast_to(np.array(np.nan, fields.dtype), (3, *shape))
+    if max(asked) > _YZ:
+        displacement = displacement.copy()
+        displacement[[one - 6 for one in asked if one > _YZ]] = fields[[k for k, one in enumerate(asked) if one > _YZ]]
+        for component, drifts in enumerate(drifting(stack, loads)):
+            if drifts:
+                # A sheet that nothing holds: the displacement under a net force has no finite value.
+                loose = [row for row, layer in enumerate(layout.rows_in) if layer <= stack.spring.index(0.0)]
+                displacement[component, loose] = np.nan
     strain = np.empty_like(stress)
-    for row, layer in enumerate(layout.where):
+    for row, layer in enumerate(layout.rows_in):
         strain[:, row] = layout.materials[layer].strain(stress[:, row])
     method = "+".join(sorted(methods - {"none"}, key=lambda name: (name != "layered", name)))
     return stress, strain, displacement, method
@@ -158,7 +174,7 @@ def drifting(stack: Stack, loads: Sequence[SurfaceLoad]) -> tuple[bool, bool]:
 class _Layout:
     """Depths in a stack: the layer of each, its side of an interface, whether the top's half-space is split off.
 
-    fall: waves are cut where they have fallen to e^-fall.
+    fall: waves are cut where they have fallen to e^-fall. mean: weights (rows, nz) of the sums that are asked.
     """
 
     materials: tuple[Solid, ...]
@@ -168,6 +184,7 @@ class _Layout:
     below: bool
     split: list[bool]
     fall: float
+    mean: Array
 
     @classmethod
     def of(cls, site: Site, below: bool, fall: float) -> _Layout:
@@ -177,7 +194,8 @@ class _Layout:
         where = [stack.layer_at(float(z), below) for z in depths]
         near = [layer == 0 and z < _SPLIT * stack.interfaces[0] for z, layer in zip(depths, where, strict=True)]
         materials = tuple(layer.elastic for layer in site.road.distinct_layers)
-        return cls(materials, stack, depths, where, below, near, fall)
+        mean = np.eye(len(depths)) if site.mean is None else site.mean
+        return cls(materials, stack, depths, where, below, near, fall, mean)
 
     @property
     def length(self) -> float:
@@ -197,6 +215,11 @@ class _Layout:
         """Depths at which the half-space is split off."""
         return [row for row, near in enumerate(self.split) if near]
 
+    @property
+    def rows_in(self) -> list[int]:
+        """The layer of each sum."""
+        return [self.where[int(np.flatnonzero(weights)[0])] for weights in self.mean]
+
     def kernels(self, k: Array) -> tuple[Array, Array]:
         """What unit loads do, (nz, 4, 2, nk) and (nz, 2, nk), without the half-space where it is split off."""
         result = transfer(k, self.stack, list(self.depths), [self.below] * len(self.depths))
@@ -208,42 +231,49 @@ class _Layout:
         return result.plane, result.transverse
 
     def plane(self, row: int) -> ElasticPlane:
-        """One of its depths, with its table if that was made before."""
-        layer = self.where[row]
-        return _plane(self.stack, float(self.depths[row]), layer, self.below, self.split[row], self.fall)
+        """One of its sums, with its table if that was made before."""
+        own = np.flatnonzero(self.mean[row])
+        parts = tuple((float(self.mean[row, k]), float(self.depths[k]), self.split[k]) for k in own)
+        return _plane(self.stack, parts, self.where[own[0]], self.below, self.fall)
 
 
 @lru_cache(maxsize=256)
-def _plane(stack: Stack, depth: float, layer: int, below: bool, split: bool, fall: float) -> ElasticPlane:
-    layout = _Layout((), stack, np.array([depth]), [layer], below, [split], fall)
+def _plane(
+    stack: Stack, parts: tuple[tuple[float, float, bool], ...], layer: int, below: bool, fall: float
+) -> ElasticPlane:
+    """A sum over depths in a layer. parts: weight, depth, and whether the half-space is split off."""
+    weights, depths, split = (list(each) for each in zip(*parts, strict=True))
+    layout = _Layout((), stack, np.array(depths), [layer] * len(parts), below, split, fall, np.array([weights]))
 
     def kernels(k: Array) -> tuple[Array, Array]:
         plane, transverse = layout.kernels(k)
-        return plane[0], transverse[0]
+        return np.tensordot(weights, plane, axes=1), np.tensordot(weights, transverse, axes=1)
 
     lift = None if stack.upright_of(layer) is None else stack.lift_of(layer)
-    return ElasticPlane(kernels, stack.shear[layer], stack.poisson[layer], float(layout.limit[0]), lift)
+    return ElasticPlane(kernels, stack.shear[layer], stack.poisson[layer], float(layout.limit.max()), lift)
 
 
 @dataclass(frozen=True, eq=False)
 class _Top:
     """The half-space of the top layer in a view, under loads that are seen together.
 
-    known: its fields (nz, 9, my, mx) under each of the loads, with displacement times the shear modulus, and the
-    method that gave them; by the medium, Poisson's ratio in isotropy, and depths, all that they depend on.
+    known: its fields (rows, 9 or 6, my, mx) under each of the loads, with displacement times the shear modulus, and
+    the method that gave them; by the medium, Poisson's ratio in isotropy, depths and their weights, all that they
+    depend on.
     """
 
     loads: Sequence[Sequence[SurfaceLoad]]
     view: View
-    known: dict[tuple[Medium, ...], list[tuple[Array, str]]] = field(default_factory=dict)
+    known: dict[tuple[Any, ...], list[tuple[Array, str]]] = field(default_factory=dict)
 
     def add(self, fields: Array, load: int, layout: _Layout) -> str:
-        """Add that of a load to fields (nz, 9, my, mx) where it was split off; the method."""
+        """Add that of a load to fields (components, rows, my, mx) where it was split off; the method."""
         if not layout.rows:
             return "none"
         material, depths, view = layout.materials[0], layout.depths[layout.rows], self.view
-        medium = medium_of(material)
-        key = (medium, *depths)
+        medium, mean = medium_of(material), layout.mean[:, layout.rows]
+        rows = np.flatnonzero(mean.any(axis=1))
+        key = (medium, *depths, mean.tobytes())
         if key not in self.known:
             self.known[key] = half_space_fields(
                 self.loads,
@@ -254,10 +284,13 @@ class _Top:
                 view.at,
                 moves=max(view.components) > _YZ,
                 precision=view.accuracy.precision,
+                mean=mean[rows],
             )
         top, method = self.known[key][load]
-        fields[layout.rows, :6] += top[:, :6]
-        fields[layout.rows, 6:] += top[:, 6:] / plane_of(material)[0]
+        for place, component in enumerate(view.components):
+            part = top[:, component] if component <= _YZ else top[:, component] / plane_of(material)[0]
+            for row, own in zip(rows, part, strict=True):
+                fields[place, row] += own
         return method
 
 
@@ -329,7 +362,7 @@ def _rules(
 
 
 def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, view: View) -> Array:
-    """Fields (nz, 9, my, mx) of discs by Hankel's integrals."""
+    """Fields (nz, components, my, mx) of discs by Hankel's integrals."""
     widest = max(max(np.abs(view.x - disc.x).max(), np.abs(view.y - disc.y).max()) + disc.radius for disc in discs)
     if layout.limit.max() * widest > _MOST_ALONG:
         raise InputError(_too_many(layout, float(widest), f"{layout.limit.max() * widest:.2g}", _MOST_ALONG))
@@ -342,13 +375,13 @@ def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, view: View) -> A
         np.array([layout.stack.lift_of(layer) for layer in layout.where]) if layout.stack.upright else None,
     )
     places = [Disc(one.radius, one.pressure, one.x, one.y) for one in discs]
-    return synthesise_discs(places, planes, view.x, view.y, layout.length, view.at)
+    return synthesise_discs(places, planes, view.x, view.y, layout.length, view.at)[:, list(view.components)]
 
 
 def _under_cells(
     loads: Sequence[Sequence[GridLoad]], layouts: Sequence[_Layout], pairs: Sequence[tuple[int, int]], view: View
 ) -> list[Array]:
-    """Fields (nz, components, my, mx) of pairs of a gridded load and a layout, by wavenumbers in both directions."""
+    """Fields (components, rows, my, mx) of pairs of a gridded load and a layout, by wavenumbers both ways."""
     used = [layouts[site] for site in sorted({site for _, site in pairs})]
     every = [one for number in sorted({load for load, _ in pairs}) for one in loads[number]]
     steepest = max(used, key=lambda layout: float(layout.limit.max()))
@@ -361,7 +394,7 @@ def _under_cells(
     planes: list[ElasticPlane] = []
     tasks: list[tuple[int, int]] = []
     for load, site in pairs:
-        for row in range(len(layouts[site].depths)):
+        for row in range(len(layouts[site].mean)):
             plane = layouts[site].plane(row)
             if plane not in planes:
                 planes.append(plane)
@@ -370,8 +403,8 @@ def _under_cells(
     fields = synthesise_cells(
         cells, planes, tasks, view.x, view.y, along, across, view.at, view.components, view.accuracy.precision
     )
-    ends = np.cumsum([len(layouts[site].depths) for _, site in pairs])[:-1]
-    return np.split(fields, ends)
+    ends = np.cumsum([len(layouts[site].mean) for _, site in pairs])[:-1]
+    return np.split(fields.swapaxes(0, 1), ends, axis=1)
 
 
 def _cells(loads: Sequence[GridLoad]) -> list[Cells]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -37,11 +37,15 @@ _PARTS = _ALONE | {f"strain_{name}": _STRESS_OF[name] for name in COMPONENTS}
 
 @dataclass(frozen=True, eq=False)
 class Question:
-    """Loads, whose responses add up, on a road, as it is at the speed, at depths (nz,), m, >= 0."""
+    """Loads, whose responses add up, on a road, as it is at the speed, at depths (nz,), m, >= 0.
+
+    mean: weights (rows, nz) of sums over the depths, each within one layer, that are asked in their place.
+    """
 
     loads: Loads
     road: Pavement
     depths: Array
+    mean: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +107,7 @@ def answers(
     def solve(several: Sequence[Question]) -> Iterator[MovingFields]:
         limits = [one.road.bond_limits for one in several]
         single = [
-            Question(one.loads, road, one.depths)
+            replace(one, road=road)
             for one, roads in zip(several, limits, strict=True)
             for road in roads
         ]
@@ -134,7 +138,10 @@ def _over_windows(
         if len(read.nodes):
             if id(one.loads) not in spread:
                 spread[id(one.loads)] = merged([spread_over(load, length) for load in one.loads])
-            parts.append((Question(spread[id(one.loads)], one.road, read.nodes), read.mean))
+            within, own = np.unique(read.mean[~read.local], axis=0, return_inverse=True)
+            share = np.zeros((len(one.depths), len(within)))
+            share[~read.local] = np.eye(len(within))[own.ravel()]
+            parts.append((Question(spread[id(one.loads)], one.road, read.nodes, within), share))
         if read.local.any():
             every = np.eye(len(one.depths))
             parts.append((Question(one.loads, one.road, one.depths[read.local]), every[:, read.local]))
@@ -148,6 +155,9 @@ def _over_windows(
 
 def _weighted(parts: Sequence[tuple[MovingFields, Array]], count: int) -> MovingFields:
     """The sum of fields at depths with weights (nz, n) of each."""
+    first, weights = parts[0]
+    if len(parts) == 1 and np.array_equal(weights, np.eye(count)):
+        return replace(first, energy=np.zeros((count, 0)))
     stress, strain, displacement = (
         sum(np.einsum("zn,cnyx->czyx", weights, getattr(one, name)) for one, weights in parts)
         for name in ("stress", "strain", "displacement")
@@ -174,19 +184,23 @@ def _solve(
                 "friction on a parted face is followed between elastic layers, and this road has a viscoelastic one; "
                 "take its limit, speed=0 or speed=math.inf, or a FRICTIONLESS face"
             )
-    asked, questions = questions, [Question(one.loads, one.road.sticking, one.depths) for one in questions]
+    asked = questions
+    questions = [
+        Question(one.loads, one.road.sticking, one.depths, None if one.road.parted is not None else one.mean)
+        for one in asked
+    ]
     layered = [one for one in questions if not (one.road.is_viscoelastic or one.road.is_homogeneous)]
     several = list({id(one.loads): one.loads for one in layered}.values())
     place = {id(loads): number for number, loads in enumerate(several)}
     # Loads on one road at the same depths stand on one site.
     sites: list[Site] = []
-    numbers: dict[tuple[int, tuple[float, ...]], int] = {}
+    numbers: dict[tuple[Any, ...], int] = {}
     pairs = []
     for one in layered:
-        key = (id(one.road), tuple(map(float, one.depths)))
+        key = (id(one.road), tuple(map(float, one.depths)), None if one.mean is None else one.mean.tobytes())
         if key not in numbers:
             numbers[key] = len(sites)
-            sites.append(Site(one.road, one.depths))
+            sites.append(Site(one.road, one.depths, one.mean))
         pairs.append((place[id(one.loads)], numbers[key]))
     found = layered_responses(several, sites, pairs, view, below=below)
     for one, parted in zip(questions, asked, strict=True):
@@ -202,7 +216,12 @@ def _solve(
             fields = MovingFields(*solved[:3], np.zeros((len(one.depths), len(y))), solved[3])
         if parted.road.parted is not None:
             fields = _with_face(fields, parted, view, below=below)
-        _check(fields, one.depths, [part for part in view.components if part < 6])
+        depths = one.depths
+        if parted.mean is not None:
+            depths = parted.mean @ depths
+            if one.mean is None or one.road.is_viscoelastic or one.road.is_homogeneous:
+                fields = _weighted([(fields, parted.mean)], len(parted.mean))
+        _check(fields, depths, [part for part in view.components if part < 6])
         yield fields
 
 
@@ -222,8 +241,10 @@ def _check(fields: MovingFields, depths: Array, stresses: Sequence[int]) -> None
     """Raise ConvergenceError where a stress that was asked for, or a strain that follows from it, is not a number."""
     normal = {0, 1, 2} <= set(stresses)
     strains = [part for part in stresses if part > 2 or normal]
-    for part in (fields.stress[list(stresses)], fields.strain[strains]):
-        wrong = ~np.isfinite(part).all(axis=(0, *range(2, part.ndim)))
+    for part in (*(fields.stress[k] for k in stresses), *(fields.strain[k] for k in strains)):
+        if np.isfinite(part.sum()):
+            continue
+        wrong = ~np.isfinite(part).all(axis=tuple(range(1, part.ndim)))
         if wrong.any():
             raise ConvergenceError(
                 f"stress or strain at {depths[wrong][0]:g} m is not a number: loads, moduli and thicknesses lie too "

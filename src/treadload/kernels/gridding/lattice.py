@@ -34,6 +34,7 @@ Corners = Callable[[Array, Array, float], Iterator[Corner]]
 
 A plain number stands for a function that is the same everywhere, of which no cell has a field.
 """
+AtDepth = Callable[..., Iterator[Corner]]
 Kernels = Callable[[Array, Array, tuple[int, int], float], Iterator[Corner]]
 """(x, y, (m, n), z) → fields of one cell, (b, m, a, n), each with the (load, component) pairs it serves.
 
@@ -74,6 +75,32 @@ def of_corners(corners: Corners, dx: float, dy: float) -> Kernels:
             yield lines[:, 1:] - lines[:, :-1], uses
 
     return kernels
+
+
+def over_depths(functions: AtDepth, depths: Array, mean: Array) -> tuple[AtDepth, Array]:
+    """`Corners` or `Kernels` whose depths stand for sums over several, and the depths that stand for them.
+
+    depths: (n,), m. mean: weights (rows, n) of each in the sums. Returns as well (rows,), the shallowest of each.
+    """
+    sums: dict[float, list[tuple[float, float]]] = {}
+    stand = []
+    for weights in mean:
+        own = [(float(weight), float(depth)) for weight, depth in zip(weights, depths, strict=True) if weight]
+        depth = min(depth for _, depth in own)
+        while sums.setdefault(depth, own) != own:
+            depth = math.nextafter(depth, math.inf)
+        stand.append(depth)
+
+    def summed(*at: Any) -> Iterator[Corner]:
+        *place, z = at
+        if len(sums[z]) == 1 and sums[z][0][0] == 1:
+            yield from functions(*at)
+            return
+        weights, each = zip(*sums[z], strict=True)
+        for parts in zip(*(functions(*place, depth) for depth in each), strict=True):
+            yield sum(weight * values for weight, (values, _) in zip(weights, parts, strict=True)), parts[0][1]
+
+    return summed, np.array(stand)
 
 
 def loaded(source: Source, x: Array, y: Array) -> tuple[Source, Array, Array] | None:

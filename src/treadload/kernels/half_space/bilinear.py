@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.gridding.gridded import Method, on_grid
-from treadload.kernels.gridding.lattice import Corner, Kernels, Source
+from treadload.kernels.gridding.lattice import Corner, Kernels, Source, over_depths
 from treadload.kernels.half_space.corners import at_corners, at_nodes, is_surface
 from treadload.kernels.half_space.upright import Medium, fields_of
 from treadload.kernels.layers.wavenumbers import Spectrum, cells_spectrum
@@ -57,9 +57,28 @@ def bilinear_on_grid(
     Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and the methods, see
     `kernels.gridding.gridded.on_grid`.
     """
-    source = Source(load, dx, dy, hat_kernels(dx, dy, poisson, moves=moves), 9, half=1.0)
-    both, used = on_grid(source, depths, x, y, method)
+    both, used = bilinear_sums_on_grid(load, dx, dy, depths, np.eye(len(depths)), poisson, x, y, method, moves=moves)
+    if not moves:
+        return both, np.zeros((len(both), 3, *both.shape[2:])), used
     return both[:, :6], both[:, 6:] / shear, used
+
+
+def bilinear_sums_on_grid(
+    load: Array,
+    dx: float,
+    dy: float,
+    depths: Array,
+    mean: Array,
+    poisson: Medium,
+    x: Array,
+    y: Array,
+    method: Method = "auto",
+    *,
+    moves: bool = True,
+) -> tuple[Array, str]:
+    """As `kernels.half_space.interior.sums_on_grid`, of such a load."""
+    summed, stand = over_depths(hat_kernels(dx, dy, poisson, moves=moves), depths, mean)
+    return on_grid(Source(load, dx, dy, summed, 9 if moves else 6, half=1.0), stand, x, y, method)
 
 
 def bilinear_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -> Spectrum:

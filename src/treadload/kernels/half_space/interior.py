@@ -20,7 +20,7 @@ import numpy as np
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.gridded import Method, on_grid
-from treadload.kernels.gridding.lattice import Corner, Source, of_corners
+from treadload.kernels.gridding.lattice import Corner, Source, of_corners, over_depths
 from treadload.kernels.half_space.corners import at_corners, is_surface, snapped
 from treadload.kernels.half_space.upright import Medium, fields_of, own_share
 
@@ -51,28 +51,57 @@ def fields_on_grid(
     Returns stress (nz, 6, …, my, mx), Pa, displacement (nz, 3, …, my, mx), m, and the methods, see
     `kernels.gridding.gridded.on_grid`.
     """
+    both, used = sums_on_grid(load, dx, dy, depths, np.eye(len(depths)), poisson, x, y, method, moves=moves)
+    if not moves:
+        return both, np.zeros((len(both), 3, *both.shape[2:])), used
+    return both[:, :6], both[:, 6:] / shear, used
+
+
+def sums_on_grid(
+    load: Array,
+    dx: float,
+    dy: float,
+    depths: Array,
+    mean: Array,
+    poisson: Medium,
+    x: Array,
+    y: Array,
+    method: Method = "auto",
+    *,
+    moves: bool = True,
+) -> tuple[Array, str]:
+    """Sums over depths of stress and, where it moves, displacement times the shear modulus, (rows, 6 or 9, …, my, mx).
+
+    mean: weights (rows, nz) of the depths in each sum. The others as in `fields_on_grid`. Returns the methods as well.
+    """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
         deep = not is_surface(z, dx, dy)
         return fields_of(lambda stretch: at_corners(x, y, z, dx, dy, stretch), poisson, deep, moves=moves)
 
-    both, used = on_grid(Source(load, dx, dy, of_corners(corners, dx, dy), 9), depths, x, y, method)
-    _add_standing_load(both, load, dx, dy, depths, poisson, x, y)
-    return both[:, :6], both[:, 6:] / shear, used
+    summed, stand = over_depths(corners, depths, mean)
+    source = Source(load, dx, dy, of_corners(summed, dx, dy), 9 if moves else 6)
+    both, used = on_grid(source, stand, x, y, method)
+    _add_standing_load(both, load, dx, dy, mean @ is_surface(depths, dx, dy), poisson, x, y)
+    return both, used
 
 
 def _add_standing_load(
-    stress: Array, load: Array, dx: float, dy: float, depths: Array, poisson: Medium, x: Array, y: Array
+    stress: Array, load: Array, dx: float, dy: float, weights: Array, poisson: Medium, x: Array, y: Array
 ) -> None:
-    """Add to stress (nz, 6 or more, my, mx) what the load gives where it stands itself, at depths of the surface."""
-    rows = np.flatnonzero(is_surface(depths, dx, dy))
+    """Add to stress (nz, 6 or more, my, mx) what the load gives where it stands itself.
+
+    weights: (nz,), of the surface in each row.
+    """
+    rows = np.flatnonzero(weights)
     if not rows.size:
         return
     ny, nx = load.shape[-2:]
     share_x, share_y = _share(x[:, None] - dx * np.arange(nx), dx), _share(y[:, None] - dy * np.arange(ny), dy)
-    local = share_y @ load @ share_x.T
+    at_rest = share_y @ load @ share_x.T
     share = own_share(poisson)
     for row in rows:
+        local = weights[row] * at_rest
         stress[row, _XX] += share * local[_P]
         stress[row, _YY] += share * local[_P]
         stress[row, _ZZ] -= local[_P]

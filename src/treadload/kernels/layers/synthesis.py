@@ -171,9 +171,9 @@ def synthesise_cells(
     x: (mx,), y: (my,), m, any coordinates. along, across: nodes and weights in kx and in ky, see `rule`. at: of the
     grid of x and y only these points. components: those to compute of xx, yy, zz, xy, xz, yz in Pa, tension positive,
     and u_x, u_y, u_z in m, z down. precision: in which waves are multiplied and added up, see `Accuracy`.
-    Returns (n, len(components), my, mx). Every load is transformed once, every plane gives its functions of |k| once,
-    and a pair is their product. Works in blocks of kx; the cost is that of the wavenumbers, whatever the number of
-    cells times points.
+    Returns (n, len(components), my, mx) in that precision, a component's side by side. Every load is transformed once, every plane gives its
+    functions of |k| once, and a pair is their product. Works in blocks of kx; the cost is that of the wavenumbers,
+    whatever the number of cells times points.
     """
     (kx_all, wx_all), (ky_all, wy_all) = along, across
     sources = sorted(set().union(*(_FROM[component] for component in components)))
@@ -185,7 +185,7 @@ def synthesise_cells(
     ky_all, wy_all = ky_all[: max(rows)], wy_all[: max(rows)]
     back = _back(ky_all, wy_all / math.pi**2, y).astype(precision)
     transforms = [_Transform.of(one, ky_all) for one in loads]
-    sums = np.zeros((len(pairs), len(sources), *((len(y), len(x)) if at is None else at.shape)))
+    sums = np.zeros((len(pairs), len(sources), *((len(y), len(x)) if at is None else at.shape)), precision)
     step = max(1, _BLOCK // max(rows))
     for start in range(0, len(kx_all), step):
         kx, wx = kx_all[start : start + step], wx_all[start : start + step]
@@ -205,8 +205,10 @@ def synthesise_cells(
                 waves = _waves(spectra[load][..., :n, :count], radial, short_x[:count], short_y[:n], sources)
                 _add(sums[place], waves, back[:, :n], out[:, :count], at)
     places = dict(zip(sources, range(len(sources)), strict=True))
-    solved = zip(sums, (planes[own] for _, own in pairs), strict=True)
-    return np.stack([_components(total, places, plane, components) for total, plane in solved])
+    fields = np.empty((len(components), *sums[:, 0].shape), precision)
+    for number, (total, (_, own)) in enumerate(zip(sums, pairs, strict=True)):
+        _components(total, places, planes[own], components, fields[:, number])
+    return fields.swapaxes(0, 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -329,14 +331,23 @@ def _waves(spectrum: Array, radial: Mapping[int, Array], kx: Array, ky: Array, s
 def _add(total: Array, waves: Array, back: Array, out: Array, at: Points | None) -> None:
     """Add a block to the sources (n, my, mx). back: (2, nky, my); out: (2, nkx, mx)."""
     _, count, _, rows, columns = waves.shape
-    lines = back.reshape(2 * rows, -1).T @ waves.reshape(2, count, 2 * rows, columns)
+    to_y = back.reshape(2 * rows, -1).T
+    my, mx = len(to_y), out.shape[2]
+    if at is None and mx * (2 * columns + my) < my * (2 * columns + mx * columns / rows):
+        # Along x first, which is fewer products here.
+        lines = waves[0].reshape(-1, columns) @ out[0]
+        lines += waves[1].reshape(-1, columns) @ out[1]
+        total += to_y @ lines.reshape(count, 2 * rows, mx)
+        return
     product = np.matmul if at is None else at.product
-    for part, matrix in zip(lines, out, strict=True):
+    for part, matrix in zip(to_y @ waves.reshape(2, count, 2 * rows, columns), out, strict=True):
         total += product(part, matrix)
 
 
-def _components(total: Array, place: Mapping[int, int], plane: ElasticPlane, components: Sequence[int]) -> Array:
-    """Stress and displacement (n, my, mx) from what was summed up. place: of each source in the sum."""
+def _components(
+    total: Array, place: Mapping[int, int], plane: ElasticPlane, components: Sequence[int], out: Array
+) -> None:
+    """Stress and displacement, into (n, my, mx), from what was summed up. place: of each source in the sum."""
     nu, double = plane.poisson, 2 * plane.shear
     lifted = nu if plane.lift is None else plane.lift * (1 - nu)
 
@@ -355,4 +366,5 @@ def _components(total: Array, place: Mapping[int, int], plane: ElasticPlane, com
         lambda: total[place[_UY]],
         lambda: total[place[_UZ]],
     )
-    return np.stack([make[component]() for component in components])
+    for part, component in zip(out, components, strict=True):
+        part[...] = make[component]()
