@@ -20,6 +20,8 @@ from treadload.response.loads import SurfaceLoad
 from treadload.response.superposition import merged
 from treadload.tire import Tire
 
+# Of contact and slip in a passage: ten times as coarse moves lives by 2e-4, ten times as fine by 3e-5, measured.
+_TOLERANCE = 1e-4
 # Points beyond the outer edges of the wheels, m: strain there is a few per cent of the largest.
 MARGIN = 0.3
 # Readings stand at least this close to each other across travel, m: a fifth of the length they are averaged over.
@@ -101,7 +103,7 @@ def contact_in_state(
     """The contact in a state. start: one near it."""
     inflated = replace(one.tire or tire, inflation_pressure=one.inflation_pressure)
     rolling = one.maneuver.rolling(one.wheel_load, one.friction, speed=one.speed)
-    return solve_contact(inflated, road, rolling, spacing=spacing, start=start)
+    return solve_contact(inflated, road, rolling, spacing=spacing, start=start, tolerance=_TOLERANCE)
 
 
 def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
