@@ -18,6 +18,9 @@ wander. Plain runs with the page took 262 s before and 48 s then:
     reading                         13      4      3   the crack at its worst instant alone
     rest                            13      8      7
     all                            297     38     23
+
+On another machine that took 10.7 s, and 7.8 s once means over cubes of road were taken of functions, not of fields,
+and contacts solved to 3e-5: contacts 1.8, closed form 0.7, waves 2.3, reading 1.5, rest 1.4.
 """
 
 import os

@@ -28,6 +28,7 @@ from treadload.pavement import Layer, Pavement
 from treadload.response import solve_response
 from treadload.study.life import solve_life
 from treadload.study.passages import solve_passages
+from treadload.study.wheels import contact_in_state, state
 from treadload.tire import Groove, Tire, TreadProfile
 
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
@@ -68,12 +69,11 @@ def test_equal_states_share_a_contact_and_equal_roads_a_response():
 
 def test_the_readings_are_those_of_the_response():
     """One class on one road: the largest over x of the fields that solve_response gives on its own."""
-    from treadload.contact import Rolling, solve_contact
-
-    traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 820e3),), 1e5)
+    row = AxleClass("one", 1.0, 32.5e3, 820e3)
+    traffic = Traffic((row,), 1e5)
     passages = solve_passages(TIRE, ROAD, traffic, Climate.constant(15.0), CRITERIA, **COARSE)
     road = ROAD.at_temperature(15.0)
-    contact = solve_contact(TIRE, road, Rolling(normal_load=32.5e3, friction=0.7), spacing=12e-3)
+    contact = contact_in_state(TIRE, road, state(row), 12e-3)
     mean = solve_response(contact, road, depths=[0.0], mean_over=0.01).dataset
     top = mean["principal_strain_1"].where(in_tension(mean)).max().item()
     # Curves through the cells find what lies between them: a few per cent of a field some cells wide.

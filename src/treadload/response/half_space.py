@@ -152,7 +152,7 @@ def _under_print(
     *,
     moves: bool,
 ) -> tuple[Array, str]:
-    """Fields (rows, 9 or 6, n, my, mx) of arrays (3, n, ny, nx) on the same cells, summed over the places of these."""
+    """Fields (rows, 9 or 6, n, my, mx) of arrays (3, n, ny, nx) on the same cells, summed over their places."""
     _, _, dx, dy, y0, interpolation = cells
     methods: set[str] = set()
 
@@ -183,7 +183,14 @@ def _under_print(
 
 
 def _add_disc(
-    result: Array, disc: UniformDisc, medium: Medium, depths: Array, mean: Array, x: Array, y: Array, at: Points | None
+    result: Array,
+    disc: UniformDisc,
+    medium: Medium,
+    depths: Array,
+    mean: Array,
+    x: Array,
+    y: Array,
+    at: Points | None,
 ) -> None:
     lines = np.meshgrid(x, y) if at is None else (x[None, at.columns], y[None, at.rows])
     across_x, across_y = lines[0] - disc.x, lines[1] - disc.y

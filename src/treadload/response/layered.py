@@ -147,7 +147,9 @@ def _solved(
     displacement = np.broadcast_to(np.array(np.nan, fields.dtype), (3, *shape))
     if max(asked) > _YZ:
         displacement = displacement.copy()
-        displacement[[one - 6 for one in asked if one > _YZ]] = fields[[k for k, one in enumerate(asked) if one > _YZ]]
+        displacement[[one - 6 for one in asked if one > _YZ]] = fields[
+            [k for k, one in enumerate(asked) if one > _YZ]
+        ]
         for component, drifts in enumerate(drifting(stack, loads)):
             if drifts:
                 # A sheet that nothing holds: the displacement under a net force has no finite value.

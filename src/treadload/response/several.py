@@ -102,15 +102,11 @@ def answers(
     tell: Callable[[str], None] | None = None,
 ) -> list[Answer]:
     """Stress, strain and displacement for each question in a view; arguments as in `solve_response`."""
-    asked = [Question(one.loads, at_speed(one.road, speed), one.depths) for one in questions]
+    asked = [replace(one, road=at_speed(one.road, speed)) for one in questions]
 
     def solve(several: Sequence[Question]) -> Iterator[MovingFields]:
         limits = [one.road.bond_limits for one in several]
-        single = [
-            replace(one, road=road)
-            for one, roads in zip(several, limits, strict=True)
-            for road in roads
-        ]
+        single = [replace(one, road=road) for one, roads in zip(several, limits, strict=True) for road in roads]
         solved = _solve(single, speed, view, below=side == "below", tell=tell)
         return (_mean([next(solved) for _ in roads]) for roads in limits)
 

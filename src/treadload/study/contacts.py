@@ -16,6 +16,9 @@ from treadload.study.wheels import State, contact_in_state
 from treadload.tire import Tire
 
 Solved = TypeVar("Solved")
+# Cells of a tread from which on contacts gain from threads: smaller ones wait for each other at every step and take
+# up to half as long again on two threads as on one, measured.
+_MANY_CELLS = 80_000
 Progress = Callable[[int, int, str], None]
 """Called with (done, of how many, what) after each solve of a contact or a response."""
 
@@ -59,10 +62,12 @@ class Contacts:
             return count.after(solved, "contact")
 
         missing = self.missing(states)
+        large = all(math.prod((one.tire or self.tire).extent) > _MANY_CELLS * self.spacing**2 for one in missing)
+        each = pool.map if large else map
         firsts = list({one._replace(maneuver=STRAIGHT): one for one in reversed(missing)}.values())
         for wave in (firsts[::-1], missing):
             starts = [(one, self._near(one)) for one in self.missing(wave)]
-            self.known.update(zip((one for one, _ in starts), pool.map(touch, starts), strict=True))
+            self.known.update(zip((one for one, _ in starts), each(touch, starts), strict=True))
 
     def _near(self, state: State) -> Contact | None:
         """The contact known whose load and pressure are nearest, relatively; None without one."""

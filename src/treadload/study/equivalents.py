@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -28,6 +26,7 @@ from treadload.response import GridLoad
 from treadload.study.contacts import Counter
 from treadload.study.passage import Passing, solve_passings
 from treadload.study.seasons import warmed
+from treadload.study.threads import pool_of
 from treadload.study.wheels import Wheels
 
 # The French axle: twin discs on each side, N, Pa, m between their middles; the American one, N.
@@ -159,7 +158,7 @@ def _of_the_axle(road: Pavement, life: Life, seasons: list[int], workers: int | 
     y = life.readings["y"].to_numpy()
     wheels = _twin(y, next((row.speed for row in life.traffic.classes if row.speed is not None), None))
     tasks = [Passing(wheels, warmed(road, life.criteria, life.climate.seasons[one]), y, 1) for one in seasons]
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+    with pool_of(workers) as pool:
         return dict(zip(seasons, solve_passings(tasks, pool, Counter(len(tasks), None)), strict=True))
 
 

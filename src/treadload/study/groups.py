@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -16,6 +14,7 @@ from treadload.study.contacts import Counter
 from treadload.study.passage import Passing, solve_passings
 from treadload.study.passages import Passages
 from treadload.study.seasons import warmed
+from treadload.study.threads import how_many, pool_of
 from treadload.study.wheels import Wheels
 
 
@@ -44,8 +43,9 @@ def group_factors(road: Pavement, life: Life, passages: Passages, workers: int |
         Passing(_one_axle(passages.wheels[number]), warm[number, season], y, 1)
         for number, season in zip(several, seasons, strict=True)
     ]
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        solved = solve_passings(tasks, pool, Counter(len(tasks), None))
+    threads = how_many(workers)
+    with pool_of(threads) as pool:
+        solved = solve_passings(tasks, pool, Counter(len(tasks), None), threads)
     for number, season, alone in zip(several, seasons, solved, strict=True):
         group = readings[:, number, season]
         for k, law in enumerate(row[number][season] for row in life.class_laws):

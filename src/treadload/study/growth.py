@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import time
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from scipy.special import ndtri
@@ -48,6 +46,7 @@ from treadload.study.crossings import (
     stresses,
 )
 from treadload.study.seasons import Warm, Warmed, roads_of
+from treadload.study.threads import pool_of
 from treadload.study.wheels import across, states_of, wheels_of
 from treadload.tire import Tire
 
@@ -104,7 +103,7 @@ def grow_cracks(
     count = Counter(touched + len(classes) * len(nodes), progress)
     solved = np.geomspace(length, CLOSE * thickness, asked.steps)
     trace = _trace(life, number, asked)
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+    with pool_of(workers) as pool:
         contacts.solve(states, warm.distinct[0].road, pool, count)
         by_class = [[contacts.known[one] for one in states_of(row, tire)] for row in classes]
         y = across([one[0] for one in by_class], classes)

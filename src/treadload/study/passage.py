@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -61,22 +62,26 @@ class Passing:
         return self.wheels.speed if self.warm.road.is_viscoelastic else None
 
 
-def solve_passings(tasks: Sequence[Passing], pool: Executor, count: Counter) -> list[Array]:
-    """Peaks, valleys and cracks, see `passages`, for each task, those that share much together."""
+def solve_passings(tasks: Sequence[Passing], pool: Executor, count: Counter, threads: int = 1) -> list[Array]:
+    """Peaks, valleys and cracks, see `passages`, for each task, those that share much together.
+
+    threads: that the pool has.
+    """
     solved: dict[int, Array] = {}
 
     def solve(members: list[int]) -> None:
         for number, one in zip(members, passages([tasks[k] for k in members]), strict=True):
             solved[number] = count.after(one, "response")
 
-    list(pool.map(solve, batches(tasks)))
+    list(pool.map(solve, batches(tasks, threads)))
     return [solved[number] for number in range(len(tasks))]
 
 
-def batches(tasks: Sequence[Passing]) -> list[list[int]]:
+def batches(tasks: Sequence[Passing], threads: int = 1) -> list[list[int]]:
     """Tasks by number that are worth solving together: their wheels stand on the same cells, at the same speed.
 
-    Those of one road follow each other, and so many go together that their fields stay small.
+    Those of one road follow each other, and so many go together that their fields stay small, and that no thread is
+    left without.
     """
     alike: dict[Any, list[int]] = {}
     for number, task in enumerate(tasks):
@@ -89,7 +94,7 @@ def batches(tasks: Sequence[Passing]) -> list[list[int]]:
         points = max(len(_along(first.wheels, one)) * len(_rows(first.wheels, first.y, one)) for one in strides)
         roads = [id(tasks[number].warm.road) for number in members]
         members.sort(key=lambda number: roads.index(id(tasks[number].warm.road)))
-        size = max(1, _TOGETHER // points)
+        size = max(1, min(_TOGETHER // points, math.ceil(len(members) * len(alike) / threads)))
         parts += [members[start : start + size] for start in range(0, len(members), size)]
     return parts
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 
@@ -26,6 +24,7 @@ from treadload.study.contacts import Contacts, Counter, Progress
 from treadload.study.doubts import bond_doubts
 from treadload.study.passage import Passing, solve_passings
 from treadload.study.seasons import laws_of, layer_temperatures, roads_of
+from treadload.study.threads import how_many, pool_of
 from treadload.study.wheels import Wheels, across, check_speed, states_of, wheels_of
 from treadload.tire import Tire
 
@@ -109,7 +108,8 @@ def solve_passages(
     contacts = contacts or Contacts(tire, spacing)
     touched = len(contacts.missing(states))
     count = Counter(touched + len(classes) * len(distinct), progress)
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+    threads = how_many(workers)
+    with pool_of(threads) as pool:
         contacts.solve(states, distinct[0].road, pool, count)
         by_class = [[contacts.known[one] for one in states_of(row, tire)] for row in classes]
         y = across([one[0] for one in by_class], classes)
@@ -124,7 +124,7 @@ def solve_passages(
             passings = [
                 Passing(wheels[row], warm.by_class[row][number].reading(own), y, turns) for row, number, own in tasks
             ]
-            for (row, number, own), read in zip(tasks, solve_passings(passings, pool, count), strict=True):
+            for (row, number, own), read in zip(tasks, solve_passings(passings, pool, count, threads), strict=True):
                 values[row, number, own] = read
 
         heaviest = int(np.argmax([row.wheel_load for row in classes]))

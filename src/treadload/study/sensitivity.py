@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
@@ -30,6 +28,7 @@ from treadload.pavement import Pavement
 from treadload.study.altered import Question, Solver, in_seasons, most, names_of, stiffer, thicker
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.thermal import daily_cycles
+from treadload.study.threads import pool_of
 from treadload.tire import Tire
 
 TEMPERATURE = "temperature (per °C)"
@@ -128,7 +127,7 @@ def life_sensitivity(
         if steady:
             days[name] = [_of_days(changed, criterion) for _, _, changed in both]
     solver = Solver(criterion, pairs, contacts or Contacts(tire, spacing), progress)
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+    with pool_of(workers) as pool:
         damage = solver.damages([question for _, _, question in asked], pool)
     for (name, _, _), less, more in zip(asked[::2], damage[::2], damage[1::2], strict=True):
         apart = 2 * _DEGREES if name == TEMPERATURE else math.log((1 + _STEP) / (1 - _STEP))

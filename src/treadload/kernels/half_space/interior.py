@@ -70,9 +70,9 @@ def sums_on_grid(
     *,
     moves: bool = True,
 ) -> tuple[Array, str]:
-    """Sums over depths of stress and, where it moves, displacement times the shear modulus, (rows, 6 or 9, …, my, mx).
+    """Sums over depths (rows, 6 or 9, …, my, mx) of stress and, if it moves, displacement times the shear modulus.
 
-    mean: weights (rows, nz) of the depths in each sum. The others as in `fields_on_grid`. Returns the methods as well.
+    mean: weights (rows, nz) of the depths in each sum. The others as in `fields_on_grid`. Returns the methods, too.
     """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:

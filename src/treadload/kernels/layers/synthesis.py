@@ -171,9 +171,9 @@ def synthesise_cells(
     x: (mx,), y: (my,), m, any coordinates. along, across: nodes and weights in kx and in ky, see `rule`. at: of the
     grid of x and y only these points. components: those to compute of xx, yy, zz, xy, xz, yz in Pa, tension positive,
     and u_x, u_y, u_z in m, z down. precision: in which waves are multiplied and added up, see `Accuracy`.
-    Returns (n, len(components), my, mx) in that precision, a component's side by side. Every load is transformed once, every plane gives its
-    functions of |k| once, and a pair is their product. Works in blocks of kx; the cost is that of the wavenumbers,
-    whatever the number of cells times points.
+    Returns (n, len(components), my, mx) in that precision, the pairs of a component side by side. Every load is
+    transformed once, every plane gives its functions of |k| once, and a pair is their product. Works in blocks of kx;
+    the cost is that of the wavenumbers, whatever the number of cells times points.
     """
     (kx_all, wx_all), (ky_all, wy_all) = along, across
     sources = sorted(set().union(*(_FROM[component] for component in components)))
@@ -184,14 +184,14 @@ def synthesise_cells(
     rows = [int(np.searchsorted(ky_all, plane.limit, side="right")) for plane in planes]
     ky_all, wy_all = ky_all[: max(rows)], wy_all[: max(rows)]
     back = _back(ky_all, wy_all / math.pi**2, y).astype(precision)
-    transforms = [_Transform.of(one, ky_all) for one in loads]
+    transforms = [_Transform.of(one, ky_all, precision) for one in loads]
     sums = np.zeros((len(pairs), len(sources), *((len(y), len(x)) if at is None else at.shape)), precision)
     step = max(1, _BLOCK // max(rows))
     for start in range(0, len(kx_all), step):
         kx, wx = kx_all[start : start + step], wx_all[start : start + step]
         if all(kx[0] > plane.limit for plane in planes):
             break
-        spectra = [one.at(kx, ky_all).astype(precision, copy=False) for one in transforms]
+        spectra = [one.at(kx, ky_all) for one in transforms]
         out = _back(kx, wx, x).astype(precision, copy=False)
         short_x, short_y = kx.astype(precision, copy=False), ky_all.astype(precision, copy=False)[:, None]
         for number, (plane, n) in enumerate(zip(planes, rows, strict=True)):
@@ -213,13 +213,18 @@ def synthesise_cells(
 
 @dataclass(frozen=True, eq=False)
 class _Transform:
-    """A load that goes into wavenumbers: cells of one load in several places along x, (place,), go together."""
+    """A load that goes into wavenumbers: cells of one load in several places along x, (place,), go together.
 
-    parts: list[tuple[Cells, list[float], Array]]
+    parts: the cells, their places, the way into ky, (rows, 2 nky), and what is loaded: the load (3 or 1, rows,
+    columns) and the columns, by number.
+    """
+
+    parts: list[tuple[Cells, list[float], Array, Array, Any]]
+    precision: type[np.floating[Any]]
 
     @classmethod
-    def of(cls, loads: Sequence[Cells], ky: Array) -> _Transform:
-        """With the way into ky, (ny, 2 nky), of each."""
+    def of(cls, loads: Sequence[Cells], ky: Array, precision: type[np.floating[Any]]) -> _Transform:
+        """With the way into ky, in a precision."""
         together: list[tuple[Cells, list[float]]] = []
         for cells in loads:
             alike = next((places for one, places in together if _moved_along(one, cells)), None)
@@ -227,27 +232,34 @@ class _Transform:
                 together.append((cells, [cells.x0]))
             else:
                 alike.append(cells.x0)
-        return cls(
-            [(one, places, _towards(ky, one.dy, one.y0, one.load.shape[1], one.order)) for one, places in together]
-        )
+        sheared = any(one.load[1:].any() for one, _ in together)
+        parts = []
+        for one, places in together:
+            # Grooves and the rim of the grid bear nothing.
+            rows, columns = (np.flatnonzero(one.load.any(axis=(0, axis))) for axis in (2, 1))
+            into = _towards(ky, one.dy, one.y0, rows, one.order).astype(precision, copy=False)
+            load = one.load[: 3 if sheared else 1, rows[:, None], columns].astype(precision, copy=False)
+            parts.append((one, places, into, load, columns))
+        return cls(parts, precision)
 
     def at(self, kx: Array, ky: Array) -> Array:
         """Cosine and sine parts along x and along y, (3 or 6, 2, 2, nky, nkx).
 
         Of the pressure, its shears q_x and q_y, ∂x q_x, ∂y q_y and ∂x q_y + ∂y q_x; without shear of the pressure.
         """
-        sheared = any(cells.load[1:].any() for cells, _, _ in self.parts)
-        spectrum = np.zeros((6 if sheared else 1, 2, 2, len(ky), len(kx)))
+        sheared = any(len(load) > 1 for *_, load, _ in self.parts)
+        spectrum = np.zeros((6 if sheared else 1, 2, 2, len(ky), len(kx)), self.precision)
         direct = spectrum[: 3 if sheared else 1]
-        for cells, places, narrow in self.parts:
-            count = cells.load.shape[2]
-            wide = sum(_towards(kx, cells.dx, place, count, cells.order) for place in places)
+        for cells, places, narrow, load, columns in self.parts:
+            wide = sum(_towards(kx, cells.dx, place, columns, cells.order) for place in places)
+            wide = np.asarray(wide, self.precision)
             for turned, by_x in zip(direct.swapaxes(0, 1), np.split(wide, 2, axis=1), strict=True):
-                turned += (narrow.T @ (cells.load[: len(direct)] @ by_x)).reshape(turned.shape)
+                turned += (narrow.T @ (load @ by_x)).reshape(turned.shape)
         if sheared:
+            kx, ky = kx.astype(self.precision, copy=False), ky.astype(self.precision, copy=False)[:, None]
             _slope_x(spectrum[1], kx, spectrum[3])
-            _slope_y(spectrum[2], ky[:, None], spectrum[4])
-            spectrum[5] = _slope_x(spectrum[2], kx) + _slope_y(spectrum[1], ky[:, None])
+            _slope_y(spectrum[2], ky, spectrum[4])
+            spectrum[5] = _slope_x(spectrum[2], kx) + _slope_y(spectrum[1], ky)
         return spectrum
 
 
@@ -257,9 +269,9 @@ def _moved_along(one: Cells, other: Cells) -> bool:
     return same and (one.load is other.load or np.array_equal(one.load, other.load))
 
 
-def _towards(k: Array, width: float, first: float, count: int, order: int) -> Array:
-    """Cosine and sine transforms of cells, (count, 2 nk)."""
-    turn = np.outer(first + width * np.arange(count), k)
+def _towards(k: Array, width: float, first: float, cells: Any, order: int) -> Array:
+    """Cosine and sine transforms of cells (n,), by number, (n, 2 nk)."""
+    turn = np.outer(first + width * cells, k)
     # numpy's sinc takes half turns.
     share = width * np.sinc(k * width / (2 * math.pi)) ** order
     both: Array = np.concatenate([np.cos(turn) * share, np.sin(turn) * share], axis=1)

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import time
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -39,6 +37,7 @@ from treadload.study.reliability.inputs import (
 from treadload.study.reliability.propagation import Quadratic, drawn, first_order
 from treadload.study.reliability.solution import Reliability
 from treadload.study.reliability.surface import designed, fitted
+from treadload.study.threads import pool_of
 from treadload.tire import Tire
 
 # Years of the curves; distances β of the first order between which its probabilities are interpolated.
@@ -94,7 +93,7 @@ def life_reliability(
     contacts = contacts or Contacts(tire, spacing)
     surfaces, errors, covered, powers = [], [], [], []
     solved = responses = 0
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+    with pool_of(workers) as pool:
         for number, deviation in zip(chosen, deviations, strict=True):
             criterion = life.criteria[number]
             pairs, share = most(life.dataset["damage_share"].to_numpy()[number], coverage)
