@@ -79,8 +79,11 @@ def solve_tangential(
     elif min(g.shape) >= _COARSEST:
         q, xi = _start(small, g, w, forces, rolls, axes)
     else:
-        # Without shear the cells stick, and the first step is that of full adhesion.
-        q, xi = np.zeros_like(w), np.zeros(2)
+        # Without shear the cells stick, and the first step is that of full adhesion; a force that is known takes an
+        # equal share of friction everywhere, so that the first steps need not look for it.
+        total = float(g.sum()) * small.dx * small.dy
+        used = np.array([0.0 if force is None else force / total for force in forces])
+        q, xi = used[:, None, None] * g, np.zeros(2)
     # Stretched by the axes, the ellipse is a disc: q = D q', and S, w and Q become D S D, D w and D⁻¹ Q.
     stretch = np.array(axes)[:, None, None]
     problem = _problem(small, g, stretch * w, forces, rolls, axes)
