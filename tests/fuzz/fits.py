@@ -73,7 +73,8 @@ def _worn(rng: random.Random, random: np.random.Generator, points: np.ndarray) -
 
 def _tire(random: np.random.Generator, arc: float = 2 * np.pi) -> np.ndarray:
     turn, y = random.uniform(0, arc, _MOST), random.uniform(-0.5 * _WIDTH, 0.5 * _WIDTH, _MOST)
-    r = _RADIUS - 0.5 * y**2 / 0.5 - 0.012 * (np.abs(np.abs(y) - 0.04) < 0.008)
+    # Without grooves, whose walls so few points do not resolve.
+    r = _RADIUS - 0.5 * y**2 / 0.5
     return np.stack([r * np.sin(turn), y, r * np.cos(turn)], axis=1)
 
 

@@ -95,6 +95,26 @@ def test_every_format_of_clouds_gives_the_same_tire(tmp_path):
     assert any("less than 90°" in text for text in quality.warnings)
 
 
+def test_points_at_few_places_are_no_tire(tmp_path):
+    """Below twelve places there were no neighbours to lay a plane through."""
+    places = np.random.default_rng(1).normal(size=(6, 3))
+    with pytest.raises(GeometryError, match="stand at 6 places, too few"):
+        Tire.from_scan(text(tmp_path / "cloud.xyz", np.tile(places, (200, 1))), units="m")
+
+
+def test_a_tread_without_width_has_no_more_cells_than_any_other(monkeypatch):
+    """A ring, of which a hundredth is scanned a million times as densely: its cells were to fill 17 GB."""
+    from treadload.tire.scan import cloud as laid
+
+    turn = np.concatenate([np.linspace(0, 2 * np.pi, 2000), np.linspace(1.0, 1.0 + 1e-5, 10_000)])
+    asked = []
+    cells = laid._cells
+    monkeypatch.setattr(laid, "_cells", lambda *given: (asked.append(given[4]), cells(*given))[1])
+    points = np.stack([np.sin(turn), 1e-9 * np.sin(7 * turn), np.cos(turn)], axis=1)
+    laid.mesh_of_points(points, "ring")
+    assert asked[0] <= 2 * laid.MOST_CELLS
+
+
 @pytest.mark.parametrize("noise", [0.3e-3, 2e-3])
 def test_less_than_45_degrees_is_refused(tmp_path, noise):
     vertices, faces = tire_mesh(arc=math.radians(40), noise=noise, flipped=0.3, seed=2)

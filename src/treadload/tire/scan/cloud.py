@@ -52,8 +52,10 @@ def mesh_of_points(points: Array, name: str) -> tuple[Array, NDArray[np.int64]]:
     r, y, turn = r[keep], y[keep], np.arctan2(x[keep], z[keep])
     low = float(y.min())
     # Points that are spread over the tread alone are further apart than the samples say, never nearer.
-    cell = max(CELL * spacing, math.sqrt(2 * math.pi * axis.radius * float(np.ptp(y)) / MOST_CELLS))
-    round_cells = max(36, int(2 * math.pi * axis.radius / cell))
+    turn_length = 2 * math.pi * axis.radius
+    # The last bounds a tread without width, which has one row.
+    cell = max(CELL * spacing, math.sqrt(turn_length * float(np.ptp(y)) / MOST_CELLS), turn_length / MOST_CELLS)
+    round_cells = max(36, int(turn_length / cell))
     rows = int(float(np.ptp(y)) / cell) + 1
     column = np.minimum(((turn + math.pi) * (round_cells / (2 * math.pi))).astype(np.int64), round_cells - 1)
     key = ((y - low) / cell).astype(np.int64) * round_cells + column
