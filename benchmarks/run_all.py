@@ -22,6 +22,7 @@ def main() -> None:
     import rolling_contact
     import belt
     import indentation
+    import page
     import peers
     import scaling
     import scans
@@ -41,6 +42,7 @@ def main() -> None:
     moving.main()
     life.main()
     year.main()
+    page.main()
 
 
 if __name__ == "__main__":

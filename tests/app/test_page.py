@@ -10,14 +10,17 @@ import time
 from contextlib import closing
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import treadload as tl
 from tire_meshes import tire_mesh, write
+from treadload.app.drawing import block_depths
 from treadload.app.form import Form
 from treadload.app.life_form import LifeForm
 from treadload.case import Case, LifeCase
 from treadload.errors import TreadloadError
+from treadload.plots import interactive
 from treadload.plots.kit.shown import shown
 from treadload.results import save_results
 from treadload.study import sweep
@@ -131,10 +134,15 @@ def visit(chromium, address):
     one.context.close()
 
 
+def changed_case(**changes):
+    """The case of the page with keys changed."""
+    table = Form.first().with_values({key.replace("__", "."): value for key, value in changes.items()}).table
+    return Case.from_dict(dict(table))
+
+
 def python(**changes):
     """What Python says of the case of the page with keys changed."""
-    table = Form.first().with_values({key.replace("__", "."): value for key, value in changes.items()}).table
-    case = Case.from_dict(dict(table))
+    case = changed_case(**changes)
     load = load_case(case, lambda text: None)
     return load.contact, judge(case.damage, load.solve(case.response.depths))
 
@@ -206,12 +214,8 @@ def title_of(visit, figure):
     return visit.page.evaluate(f"document.querySelector('.{figure}')?.layout?.xaxis?.title?.text ?? ''")
 
 
-def test_the_slice_is_dragged(visit):
-    """With the mouse on the map, and with the slider, which a keyboard moves."""
-    page = visit.page
-    visit.done()
-    page.wait_for_function("document.querySelector('.section.js-plotly-plot')?.layout?.xaxis?.title?.text")
-    before = title_of(visit, "section")
+def drag(page, by):
+    """Take the line of the slice with the mouse, and let it go so many mm to the right of travel."""
     place = page.evaluate(
         "(() => { const m = document.querySelector('.maps'), l = m._fullLayout, s = m.layout.shapes[0];"
         "const b = m.getBoundingClientRect();"
@@ -220,9 +224,18 @@ def test_the_slice_is_dragged(visit):
     )
     page.mouse.move(place[0], place[1])
     page.mouse.down()
-    page.mouse.move(place[0], place[1] + 20 * place[2], steps=4)
-    page.mouse.move(place[0], place[1] + 60 * place[2], steps=4)
+    page.mouse.move(place[0], place[1] + 0.3 * by * place[2], steps=4)
+    page.mouse.move(place[0], place[1] + by * place[2], steps=4)
     page.mouse.up()
+
+
+def test_the_slice_is_dragged(visit):
+    """With the mouse on the map, and with the slider, which a keyboard moves; the browser draws it by itself."""
+    page = visit.page
+    visit.done()
+    page.wait_for_function("document.querySelector('.section.js-plotly-plot')?.layout?.xaxis?.title?.text")
+    before = title_of(visit, "section")
+    drag(page, 60)
     changed = "(was) => document.querySelector('.section').layout.xaxis.title.text !== was"
     page.wait_for_function(changed, arg=before)
     dragged = title_of(visit, "section")
@@ -232,10 +245,68 @@ def test_the_slice_is_dragged(visit):
     page.wait_for_function(changed, arg=dragged)
     was = title_of(visit, "section")
     page.locator('#place [tabindex="0"]').focus()
+    page.evaluate(
+        "window.__drawn = []; ((draw) => { treadloadDraw = (...told) => { __drawn.push(told[0]); draw(...told) } })"
+        "(treadloadDraw)"
+    )
     start = time.monotonic()
     page.keyboard.press("ArrowRight")
     page.wait_for_function(changed, arg=was)
     within(time.monotonic() - start, 0.2, "a move of the slider on a solved case")
+    assert page.locator("#placed").inner_text() == "1 mm"
+    # The line lies there on both maps, where plotly itself would draw it.
+    lines = "[...document.querySelectorAll('.maps .shapelayer path')].map((one) => one.getAttribute('d'))"
+    moved = page.evaluate(lines)
+    page.evaluate("Plotly.redraw(document.querySelector('.maps')).then(() => {})")
+    numbers = [[float(n) for one in told for n in re.findall(r"[-0-9.]+", one)]
+               for told in (moved, page.evaluate(lines))]  # fmt: skip
+    np.testing.assert_allclose(*numbers, atol=0.02)
+    # And there the mouse finds it.
+    was = title_of(visit, "section")
+    page.locator("#place [tabindex='0']").press("ArrowRight")
+    page.wait_for_function(changed, arg=was)
+    was = title_of(visit, "section")
+    drag(page, -40)
+    page.wait_for_function(changed, arg=was)
+    assert page.evaluate("__drawn") == []
+
+
+def drawn(visit, figure, key):
+    """What stands in the traces of a figure, None where there is a gap."""
+    told = visit.page.evaluate(
+        f"document.querySelector('.{figure}').data.map((one) => Array.isArray(one.{key}?.[0])"
+        f" ? one.{key}.map((row) => [...row].map((v) => Number.isFinite(v) ? v : null))"
+        f" : [...one.{key}].map((v) => Number.isFinite(v) ? v : null))"
+    )
+    return [np.array(one, dtype=float) for one in told]
+
+
+@pytest.mark.parametrize("ends", [(-160, 7, 160, 7), (-31, -160, -31, 160), (-90.3, -60.7, 110.1, 75.4)])
+def test_what_the_browser_draws_along_a_line_is_what_python_draws(visit, ends):
+    """Profiles of the contact and the section of the road, number by number; single floats carry seven digits."""
+    page, case = visit.page, changed_case(rolling__normal_load="36 kN")
+    visit.done()
+    page.wait_for_function("document.querySelector('.section')?.data?.[0]?.z")
+    keys = [f"shapes[0].{key}" for key in ("x0", "y0", "x1", "y1")]
+    before = title_of(visit, "section")
+    page.evaluate(
+        "(told) => Plotly.relayout(document.querySelector('.maps'), told)", dict(zip(keys, ends, strict=True))
+    )
+    page.wait_for_function("(was) => document.querySelector('.section').layout.xaxis.title.text !== was", arg=before)
+    load = load_case(case, lambda text: None)
+    faces = load.road.interfaces.tolist()
+    block = load.solve(block_depths(case.response.slices_to(faces, rigid_base=False), faces, 12))
+    x0, y0, x1, y1 = (1e-3 * one for one in ends)
+    cut = interactive.Cut((x0, y0), (x1, y1))
+    profile, section = interactive.profiles(load.contact, cut), interactive.depth_slice(block, cut)
+    assert title_of(visit, "profile") == profile.layout.xaxis.title.text
+    assert title_of(visit, "section") == section.layout.xaxis.title.text
+    for key in ("x", "y"):
+        for shown_here, one in zip(drawn(visit, "profile", key), profile.data, strict=True):
+            np.testing.assert_allclose(shown_here, one[key], rtol=1e-5, atol=1e-3)
+    (here,), (at,) = drawn(visit, "section", "z"), drawn(visit, "section", "x")
+    np.testing.assert_allclose(at, section.data[0].x, atol=1e-3)
+    np.testing.assert_allclose(here, section.data[0].z, rtol=1e-5, atol=1e-4 * np.nanmax(section.data[0].z))
 
 
 def test_a_click_in_the_verdict_flies_to_the_place(visit):

@@ -90,8 +90,9 @@ class Bench(Tab):
     def drawn(self, run: Run, answer: dict[str, Any]) -> None:
         """Draw what an answer holds, and tell its verdict."""
         figures = answer.get("figures", {})
-        if "maps" in figures:
-            self._maps.draw(figures["maps"], f"{run.name}:{answer.get('part', 'maps')}")
+        for name in ("maps", "places"):
+            if name in figures:
+                self._maps.draw(figures[name], f"{run.name}:{answer.get('part', 'maps')}", add=name == "places")
         self._slice.draw(figures)
         if "choices" in answer:
             self._offer(answer["choices"], answer["depths"])

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from treadload.composing import BaseResult
@@ -46,7 +48,7 @@ def maps(
     width: float = 1100.0,
     line: Sequence[float] | None = None,
 ) -> dict[str, Any]:
-    """Two linked maps with the line of the slice, and the profile along it.
+    """Two linked maps with the line of the slice on them.
 
     left, right: of `choices_of`; one that is not there yet gives way to the plainest. depth: number of the depth.
     line: x and y of its start, then of its end, m; left out, along travel through the largest pressure.
@@ -59,9 +61,23 @@ def maps(
     chosen = [first, *beside[:1]]
     fields = [field_of(parts, name, depth) for name in chosen]
     cut = cut_of(parts, line)
-    places = interactive.places_of(parts["damage"]) if "damage" in parts and worst(parts) else []
-    figure = _narrowed(interactive.linked_maps(fields, cut=cut, places=places, theme=theme, width=width), width)
-    return {"maps": figure, **along(parts, None, line, theme=theme)}
+    figure = interactive.linked_maps(fields, cut=cut, places=named_places(parts), theme=theme, width=width)
+    return {"maps": _narrowed(figure, width)}
+
+
+def places(parts: Parts, *, theme: str) -> dict[str, Any]:
+    """Marks of the places that a verdict names, to be put on the two maps that are drawn already."""
+    return {"places": interactive.marked(named_places(parts), 2, theme=theme)}
+
+
+def shows_damage(*, left: str = "", right: str = "", **_: Any) -> bool:
+    """True where a map is to be drawn of the verdict itself."""
+    return any(name.startswith("damage/") for name in (left, right))
+
+
+def named_places(parts: Parts) -> list[interactive.Place]:
+    """Places that the verdict names."""
+    return interactive.places_of(parts["damage"]) if "damage" in parts and worst(parts) else []
 
 
 def _narrowed(figure: Any, width: float) -> Any:
@@ -105,18 +121,44 @@ def along(
     theme: str,
     name: str = "",
     over: BaseResult | None = None,
+    held: bool = True,
 ) -> dict[str, Any]:
     """The profile along the line, and the section below it where the road is known at several depths.
 
     name: variable of the section. over: another contact, or a measured footprint, whose pressure is drawn as well.
+    held: True where each comes with what it was read from, so that the browser draws other lines by itself.
     """
     cut = cut_of(parts, line)
     overlaid = None if over is None else {"the other": over}
     source = parts.get("contact") or next(iter(parts.values()))
-    made = {"profile": interactive.profiles(source, cut, overlaid=overlaid, theme=theme)}
+    profile = interactive.profiles(source, cut, overlaid=overlaid, theme=theme)
+    made = {"profile": Held.of(profile, interactive.profile_held(source, overlaid), cut) if held else profile}
     if block is not None:
-        made["section"] = interactive.depth_slice(block, cut, name or "principal_strain_1", theme=theme)
+        shown = name or "principal_strain_1"
+        section = interactive.depth_slice(block, cut, shown, theme=theme, whole=True)
+        made["section"] = Held.of(section, interactive.section_held(block, shown), cut)
     return made
+
+
+@dataclass(frozen=True)
+class Held:
+    """A figure along a line, mm, and the grids that a browser holds to draw other lines."""
+
+    figure: Any
+    grids: list[dict[str, Any]]
+    line: tuple[float, ...]
+
+    @classmethod
+    def of(cls, figure: Any, grids: list[dict[str, Any]], cut: Cut) -> Any:
+        """The figure with its grids, or the figure alone where they are too large to be sent."""
+        if interactive.held_numbers(grids) > interactive.MOST_HELD:
+            return figure
+        return cls(figure, grids, (*cut.start_mm, *cut.end_mm))
+
+    def to_json(self) -> str:
+        """As plotly's own text, with "held" besides."""
+        held = json.dumps({"grids": self.grids, "line": self.line})
+        return f'{{"held":{held},{self.figure.to_json()[1:]}'
 
 
 def difference(

@@ -144,7 +144,14 @@ class Engine:
         def shown(stage: str) -> None:
             self._keep(run, held)
             warnings = [text for part in held.parts.values() for text in part.warnings]
-            say(drawing.maps(held.parts, theme=theme, **view), part=stage, rows=rows_of(held.parts),
+            drawn = (
+                drawing.places(held.parts, theme=theme)
+                if stage == "verdict" and not drawing.shows_damage(**view)
+                else drawing.maps(held.parts, theme=theme, **view)
+            )
+            if stage == "contact":
+                drawn |= drawing.along(held.parts, None, view.get("line"), theme=theme, held=False)
+            say(drawn, part=stage, rows=rows_of(held.parts),
                 warnings=list(dict.fromkeys(warnings)), choices=drawing.choices_of(held.parts),
                 depths=drawing.depths_of(held.parts),
                 seconds=time.monotonic() - began, process=time.process_time() - used)  # fmt: skip

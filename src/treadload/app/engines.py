@@ -17,6 +17,8 @@ _LONGEST_LINE = 2**28
 _ENDS = ("done", "error", "stopped")
 # How long a solve may take to stop of itself, s; then its process ends.
 _PATIENCE = 0.4
+# When the next process is started after one was taken, s: not while the first case of a browser is solved.
+_LATER = 12.0
 
 
 class EngineLost(Exception):
@@ -130,6 +132,7 @@ class Engines:
 
     def __init__(self) -> None:
         self._spare: asyncio.Task[Engine] | None = None
+        self._later: asyncio.TimerHandle | None = None
         self._all: list[Engine] = []
 
     def warm(self) -> None:
@@ -156,11 +159,15 @@ class Engines:
         if not engine.lives:
             engine = await self._start()
         await engine.last("folder", folder=str(folder))
-        self.warm()
+        if self._later is not None:
+            self._later.cancel()
+        self._later = asyncio.get_running_loop().call_later(_LATER, self.warm)
         return engine
 
     def close(self) -> None:
         """End all processes."""
+        if self._later is not None:
+            self._later.cancel()
         if self._spare is not None:
             self._spare.cancel()
         for engine in self._all:

@@ -17,8 +17,11 @@ class Place:
         self._element = ui.element("div").classes(f"figure {name}")
         self._element.props(f'role="group" aria-label="{words}"')
 
-    def draw(self, figure: str, mark: str = "") -> None:
-        """Draw a figure, given as JSON; the newest wins. mark: stands on the body of the page once it is drawn."""
-        told = ", ".join(json.dumps(one) for one in (self.name, figure, mark, CONFIG))
+    def draw(self, figure: str, mark: str = "", *, add: bool = False) -> None:
+        """Draw a figure, given as JSON; the newest wins. mark: stands on the body of the page once it is drawn.
+
+        add: True to add its traces to what stands there.
+        """
+        told = ", ".join(json.dumps(one) for one in (self.name, figure, mark, CONFIG, add))
         with self._client:
             ui.run_javascript(f"treadloadDraw({told})")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import json
 from collections.abc import Callable
 from typing import Any
 
@@ -14,8 +13,6 @@ from treadload.app.figures import Place
 
 # Of a line as plotly holds it.
 _ENDS = ("x0", "y0", "x1", "y1")
-# Half the length of a line that is put, m.
-_HALF = 0.16
 _SECTIONS = {
     "principal_strain_1": "largest extension, in space", "in_plane_strain_1": "largest extension, in the plane",
     "strain_zz": "vertical strain", "von_mises_stress": "von Mises stress", "mean_stress": "mean stress",
@@ -24,23 +21,27 @@ _SECTIONS = {
 
 
 class Slice:
-    """Where the line lies and what is below it. cut: called when either changes. js: runs a script in the browser."""
+    """Where the line lies and what is below it.
+
+    The browser draws what lies along a line by itself where it holds the fields, which come with the figures.
+    cut: called where it does not, and when other fields are wanted. js: runs a script in the browser.
+    """
 
     def __init__(self, cut: Callable[[], Any], js: Callable[[str], Any]) -> None:
         self._cut, self._js = cut, js
         self.line: list[float] | None = None
         self.section_of = "principal_strain_1"
-        self._along = "x"
 
     def build(self) -> None:
         """Put the tools, the profile and the section on the page."""
         with ui.element("div").classes("tools").props('role="group" aria-label="slice"'):
             ui.label("Slice: drag the line on the left map, or put it")
-            plain("along travel", lambda: self._put("x")).props('id="along"')
-            plain("across", lambda: self._put("y")).props('id="across"')
-            self._at = ui.slider(min=-150, max=150, value=0, step=1, on_change=lambda event: self._moved(event.value))
-            self._at.props('label aria-label="place of the slice, mm" id="place"').style("width:170px;flex:none")
-            self._place = ui.label("0 mm").classes("place")
+            plain("along travel", lambda: self._js("treadloadPut({ along: 'x' })")).props('id="along"')
+            plain("across", lambda: self._js("treadloadPut({ along: 'y' })")).props('id="across"')
+            at = ui.slider(min=-150, max=150, value=0, step=1)
+            at.on("update:model-value", js_handler="(at) => treadloadPut({ at })")
+            at.props('label aria-label="place of the slice, mm" id="place"').style("width:170px;flex:none")
+            ui.element("span").classes("place").props('id="placed" innerHTML="0 mm"')
             section = ui.select(_SECTIONS, value=self.section_of, label="below the line",
                                 on_change=lambda event: self._below(event.value))  # fmt: skip
             section.props("dense outlined options-dense")
@@ -54,24 +55,12 @@ class Slice:
             if place.name in figures:
                 place.draw(figures[place.name])
 
-    def _dragged(self, ends: Any) -> None:
-        """The line was dragged on the first map."""
+    def _dragged(self, told: Any) -> None:
+        """The line lies elsewhere. told: its ends, mm, and whether the browser has drawn what lies along it."""
         with contextlib.suppress(TypeError, ValueError, KeyError):
-            self.line = [float(ends[key]) / 1e3 for key in _ENDS]
-            self._cut()
-
-    def _put(self, along: str) -> None:
-        self._along = along
-        self._moved(self._at.value)
-
-    def _moved(self, place: float) -> None:
-        """The line is put along travel or across it, at a place in mm."""
-        at = float(place) / 1e3
-        self._place.text = f"{float(place):g} mm"
-        self.line = [-_HALF, at, _HALF, at] if self._along == "x" else [at, -_HALF, at, _HALF]
-        ends = {key: 1e3 * one for key, one in zip(_ENDS, self.line, strict=True)}
-        self._js(f"treadloadLine({json.dumps(ends)})")
-        self._cut()
+            self.line = [float(told[key]) / 1e3 for key in _ENDS]
+            if not told["drawn"]:
+                self._cut()
 
     def _below(self, name: str) -> None:
         self.section_of = name

@@ -8,49 +8,83 @@ const plotly = () => (library ??= import("nicegui-plotly").then(({ Plotly }) => 
 const early = setInterval(() => {
   if (!document.getElementById("bench")) return;
   clearInterval(early);
+  document.getElementById("shell")?.remove();
   requestAnimationFrame(() => setTimeout(plotly, 0));
 }, 20);
 
-// Of each place, what is to be drawn next, and what is being drawn.
+// Of each place, what is to be drawn next, and what is being drawn; figures that are added follow the one they go on.
 const next = {}, busy = {};
-window.treadloadDraw = (name, text, mark, config) => {
-  next[name] = { text, mark, config };
+window.treadloadDraw = (name, text, mark, config, add) => {
+  next[name] = [...(add ? next[name] ?? [] : []), { text, mark, config, add }];
   busy[name] ??= drawAll(name).finally(() => { delete busy[name]; });
   return null;
 };
+// How long the drawing of each figure took, ms, the last time and at best; `benchmarks/page.py` reads it.
+const times = (window.treadloadTimes = {});
+function took(name, start, letters) {
+  const end = performance.now(), { count = 0, least = Infinity } = times[name] ?? {};
+  times[name] = { count: count + 1, least: Math.min(least, end - start), last: end - start, end, letters };
+}
 async function drawAll(name) {
   await plotly();
-  while (next[name]) {
-    const { text, mark, config } = next[name], place = here(name);
-    delete next[name];
+  while (next[name]?.length) {
+    const { text, mark, config, add } = next[name].shift(), place = here(name);
     if (!place) continue;
+    const start = performance.now();
     const figure = JSON.parse(text), fresh = !place._fullLayout;
-    await Plotly.react(place, figure.data, figure.layout, { ...config, responsive: false });
+    if (add && !fresh) await Plotly.addTraces(place, figure.data);
+    else await Plotly.react(place, figure.data, figure.layout, { ...config, responsive: false });
     if (fresh) begun(name, place);
     if (mark) document.body.setAttribute(`data-${name}`, mark);
+    if (name === "profile" || name === "section") hold(name, figure.held);
+    took(add ? `${name} marks` : name, start, text.length);
   }
 }
 function begun(name, place) {
   new ResizeObserver(() => { if (place.isConnected && place.offsetWidth) Plotly.Plots.resize(place); }).observe(place);
   if (name !== "maps") return;
-  window.treadloadLink(place, here("profile"), { ink: "#8a94a0", fields: [], x: [], y: [], step: 1, smooth: true });
+  window.treadloadLink(place, here("profile"), { ink: "#8a94a0", grids: [] });
   place.on("plotly_relayout", (change) => {
     const line = place.layout.shapes?.[0];
-    if (putting || !line || !Object.keys(change).some((key) => key.startsWith("shapes[0]."))) return;
-    emitEvent("line", { x0: line.x0, y0: line.y0, x1: line.x1, y1: line.y1 });
+    if (!line || !Object.keys(change).some((key) => key.startsWith("shapes[0]."))) return;
+    const { x0, y0, x1, y1 } = line;
+    moved({ x0, y0, x1, y1 });
   });
 }
 
-// The line of the slice, put by the page; what the page says itself it need not hear.
-let putting = 0;
-window.treadloadLine = (ends) => {
-  const place = maps(), told = {};
-  (place?.layout.shapes ?? []).forEach((_, n) => {
-    for (const [key, value] of Object.entries(ends)) told[`shapes[${n}].${key}`] = value;
+// The line of the slice. What lies along it is drawn here where the page holds the fields, else it is asked for.
+const held = {};
+let waiting = null, along = "x", at = 0;
+function hold(name, fields) {
+  if (name === "profile" && !fields) delete held.section;
+  held[name] = fields;
+  const line = maps()?.layout.shapes?.[0];
+  if (fields && line && ["x0", "y0", "x1", "y1"].some((key, n) => Math.abs(line[key] - fields.line[n]) > 1e-6)) slice(line);
+}
+function slice(line) {
+  if (!held.profile) return false;
+  if (!waiting) requestAnimationFrame(async () => {
+    const cut = waiting, start = performance.now();
+    waiting = null;
+    await Promise.all([
+      held.profile && window.treadloadProfile(here("profile"), held.profile.grids, cut),
+      held.section && window.treadloadSection(here("section"), held.section.grids, cut),
+    ]);
+    took("slice", start, 0);
   });
-  if (!Object.keys(told).length) return;
-  putting += 1;
-  Plotly.relayout(place, told).finally(() => { putting -= 1; });
+  waiting = line;
+  return true;
+}
+function moved(line) {
+  emitEvent("line", { ...line, drawn: slice(line) });
+}
+// The line put along travel or across it, at a place, mm.
+window.treadloadPut = (change) => {
+  ({ along, at } = { along, at, ...change });
+  const half = 160, ends = along === "x" ? { x0: -half, y0: at, x1: half, y1: at } : { x0: at, y0: -half, x1: at, y1: half };
+  document.getElementById("placed").textContent = `${at} mm`;
+  if (maps()) window.treadloadLine(maps(), ends);
+  moved(ends);
 };
 
 window.treadloadFly = (x, y) => {

@@ -18,7 +18,8 @@ from treadload.plots.interactive.field import (
     with_outline,
     zones_field,
 )
-from treadload.plots.interactive.maps import difference_map, linked_maps
+from treadload.plots.interactive.held import MOST_HELD, held_numbers, profile_held, section_held
+from treadload.plots.interactive.maps import difference_map, linked_maps, marked
 from treadload.plots.interactive.places import Place, places_of
 from treadload.plots.interactive.solid import tread
 from treadload.plots.interactive.theme import DARK, LIGHT, Theme, colour_scale, theme_of
@@ -37,6 +38,7 @@ __all__ = [
     "CONFIG",
     "DARK",
     "LIGHT",
+    "MOST_HELD",
     "Cut",
     "Field",
     "LinkedView",
@@ -52,13 +54,17 @@ __all__ = [
     "extension_field",
     "field_of",
     "figure",
+    "held_numbers",
     "link_script",
     "linked_maps",
+    "marked",
     "places_of",
     "plotly_script",
     "pressure_field",
+    "profile_held",
     "profiles",
     "response_view",
+    "section_held",
     "shear_field",
     "theme_of",
     "tread",

@@ -150,13 +150,14 @@ def depth_slice(
     *,
     theme: str | Theme = "light",
     height: float = _HEIGHT,
+    whole: bool = False,
 ) -> Any:
     """A vertical section of a response below a line, as a Figure of plotly, depth down the page in true scale.
 
     response: over (depth, y, x), or over (depth, point) where the points follow a line. cut: of a map of two
-    dimensions; left out, the line on which the response stands. name: of a variable over the depth.
-    Colours stop at interfaces, where stress and strain jump. Returns the figure. Raises InputError with
-    fewer than two depths, or without a line.
+    dimensions; left out, the line on which the response stands. name: of a variable over the depth. whole: True for
+    colours that reach over the whole response, so that they stay while a line moves. Colours stop at interfaces,
+    where stress and strain jump. Returns the figure. Raises InputError with fewer than two depths, or without a line.
     """
     look = theme_of(theme)
     data = dataset_of(response)
@@ -169,7 +170,8 @@ def depth_slice(
     at, label, values = _below(data, name, cut)
     told = shown(data[name])
     values = values * told.factor
-    trace, shapes = section_trace(at, values, data, name, told.unit, look)
+    reach = data[name].to_numpy() * told.factor if whole else values
+    trace, shapes = section_trace(at, values, data, name, told.unit, look, reach)
     words = str(data[name].attrs.get("long_name", told.words))
     bar = {"title": {"text": told.unit if told.unit != "–" else ""}, "thickness": 11, "outlinecolor": look.rule}
     layout = {
@@ -184,13 +186,16 @@ def depth_slice(
 
 
 def section_trace(
-    at: Array, values: Array, data: xr.Dataset, name: str, unit: str, look: Theme
+    at: Array, values: Array, data: xr.Dataset, name: str, unit: str, look: Theme, reach: Array
 ) -> tuple[Trace, list[Trace]]:
-    """Cells of a section and lines of its interfaces. at: (n,), mm. values: (nz, n) of the variable, in the unit."""
+    """Cells of a section and lines of its interfaces.
+
+    at: (n,), mm. values: (nz, n) of the variable, in the unit. reach: values that the colours reach over.
+    """
     layers = Layers.of(data)
     down = data["depth"].to_numpy() * MM
     sides = depth_edges(down, layers)
-    known = values[np.isfinite(values)]
+    known = reach[np.isfinite(reach)]
     both = name not in VARIABLE.values() and float(known.min(initial=0.0)) < 0
     scale = limits(np.abs(known) if both else known)
     trace: Trace = {

@@ -78,14 +78,25 @@ def laid_out(
         bar = {"x": domain[0], "y": 1 + 4 / inner_height, "len": domain[1] - domain[0], "yref": "paper"}
         traces += [cells(field, axes, look, bar), *overlays(field, axes, look)]
         if places:
-            spots = [(MM * one.x, MM * one.y, one.text) for one in places if one.x is not None]
-            traces.append(marks(spots, axes, look, "places"))
+            traces.append(_marks(places, axes, look))
         layout |= plan_axes(number, field.plan, domain)
         title = field.title + (f" (means of {field.blocks} x {field.blocks} cells)" if field.blocks > 1 else "")
         layout["annotations"].append(heading(title, domain, look, 52, panel))
         if cut is not None:
             layout["shapes"].append(cut_shape(cut.start_mm, cut.end_mm, axes, look, number == 1))
     return traces, layout
+
+
+def marked(places: Sequence[Place], count: int, *, theme: str | Theme = "light") -> Any:
+    """The marks alone that `linked_maps` puts on so many maps, as a Figure of plotly, for maps that stand already."""
+    look = theme_of(theme)
+    axes = [("x" if n == 1 else f"x{n}", "y" if n == 1 else f"y{n}") for n in range(1, count + 1)]
+    return figure([_marks(places, pair, look) for pair in axes if places], {}, look)
+
+
+def _marks(places: Sequence[Place], axes: tuple[str, str], look: Theme) -> Trace:
+    spots = [(MM * one.x, MM * one.y, one.text) for one in places if one.x is not None]
+    return marks(spots, axes, look, "places")
 
 
 def difference_map(

@@ -40,9 +40,46 @@ window.treadloadLink = function (maps, below, load) {
   });
   maps.on("plotly_unhover", () => { if (!hovering) cursor(null); });
 
-  if (!below || !load.fields.length) return;
-  const floats = (text) => new Float32Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
-  const fields = load.fields.map(floats), nx = load.x.length, ny = load.y.length;
+  if (!below || !load.grids?.length) return;
+  maps.on("plotly_relayout", (change) => {
+    const key = Object.keys(change).find((one) => one.startsWith("shapes["));
+    if (!key) return;
+    const cut = maps.layout.shapes[parseInt(key.slice(7), 10)];
+    window.treadloadLine(maps, cut);
+    window.treadloadProfile(below, load.grids, cut);
+  });
+};
+
+// Puts the line of a cut elsewhere on all maps. Plotly would draw the whole figure anew for it.
+window.treadloadLine = (maps, { x0, y0, x1, y1 }) => {
+  const full = maps._fullLayout;
+  (maps.layout.shapes ?? []).forEach((shape, n) => {
+    if (shape.name !== "cut") return;
+    const own = full.shapes[n], name = (ref) => ref.replace(/^([xy])/, "$1axis");
+    Object.assign(shape, { x0, y0, x1, y1 });
+    Object.assign(own, { x0, y0, x1, y1 });
+    const xa = full[name(own.xref)], ya = full[name(own.yref)];
+    const at = (x, y) => [xa._offset + xa.d2p(x), ya._offset + ya.d2p(y)], start = at(x0, y0), end = at(x1, y1);
+    // The line, and what plotly lays over it to be caught by the mouse: a broader one and its two ends.
+    for (const one of maps.querySelectorAll(`.shapelayer path[data-index="${n}"], .shapelayer [data-index="${n}"] path`))
+      one.setAttribute("d", `M${start}L${end}`);
+    maps.querySelectorAll(`.shapelayer [data-index="${n}"] circle`).forEach((one) => {
+      const [cx, cy] = one.dataset.linePoint === "start-point" ? start : end;
+      one.setAttribute("cx", cx);
+      one.setAttribute("cy", cy);
+    });
+  });
+};
+
+// What the page holds of fields over x and y, and reads along a line: `plots/interactive/held.py` says what a grid is.
+(() => {
+  const decoded = new WeakMap();
+  const floats = (text) => {
+    const letters = atob(text), bytes = new Uint8Array(letters.length);
+    for (let k = 0; k < letters.length; k++) bytes[k] = letters.charCodeAt(k);
+    return new Float32Array(bytes.buffer);
+  };
+  const fieldsOf = (grid) => decoded.get(grid) ?? decoded.set(grid, grid.fields.map(floats)).get(grid);
   const between = (at, c) => {
     const n = c.length, h = n > 1 ? (c[1] - c[0]) / 2 : 0.5, t = n > 1 ? (c[n - 1] - c[n - 2]) / 2 : 0.5;
     if (at < c[0] - h - 1e-6 || at > c[n - 1] + t + 1e-6) return null;
@@ -51,48 +88,52 @@ window.treadloadLink = function (maps, below, load) {
     const share = n > 1 ? Math.min(1, Math.max(0, (at - c[low]) / (c[high] - c[low]))) : 0;
     return [low, high, share];
   };
-  function sample(field, x, y) {
-    const i = between(x, load.x), j = between(y, load.y);
-    if (!i || !j) return NaN;
-    if (!load.smooth) return field[(j[2] < 0.5 ? j[0] : j[1]) * nx + (i[2] < 0.5 ? i[0] : i[1])];
-    const row = (k) => field[k * nx + i[0]] * (1 - i[2]) + field[k * nx + i[1]] * i[2];
-    return row(j[0]) * (1 - j[2]) + row(j[1]) * j[2];
-  }
-  window.treadloadSample = (n, x, y) => sample(fields[n], x, y);
-
-  function draw(cut) {
-    const length = Math.hypot(cut.x1 - cut.x0, cut.y1 - cut.y0);
-    if (!(length > 0)) return;
-    let count = Math.max(2, Math.min(800, Math.ceil(length / load.step) + 1));
-    const along = Math.abs(cut.y1 - cut.y0) < 1e-9, across = Math.abs(cut.x1 - cut.x0) < 1e-9;
-    const ends = along ? [cut.x0, cut.x1] : [cut.y0, cut.y1];
-    let centres = load.smooth || !(along || across) ? [] : (along ? load.x : load.y);
+  // Where along a cut {x0, y0, x1, y1}, mm, the fields of a grid are read, and what they say there.
+  function along(grid, cut) {
+    const fields = fieldsOf(grid), nx = grid.x.length, length = Math.hypot(cut.x1 - cut.x0, cut.y1 - cut.y0);
+    const level = Math.abs(cut.y1 - cut.y0) < 1e-9, upright = Math.abs(cut.x1 - cut.x0) < 1e-9;
+    const ends = level ? [cut.x0, cut.x1] : [cut.y0, cut.y1];
+    let centres = grid.smooth || !(level || upright) ? [] : (level ? grid.x : grid.y);
     centres = centres.filter((one) => one >= Math.min(...ends) && one <= Math.max(...ends));
-    if (centres.length < 2) centres = null; else count = centres.length;
-    const at = [], rows = fields.map(() => []);
+    const own = centres.length > 1;
+    const count = own ? centres.length : Math.max(2, Math.min(1200, Math.ceil(length / grid.step - 1e-9) + 1));
+    const at = [], rows = fields.map(() => new Array(count));
     for (let k = 0; k < count; k++) {
-      const s = centres ? (centres[k] - ends[0]) / (ends[1] - ends[0]) : k / (count - 1);
+      const s = own ? (centres[k] - ends[0]) / (ends[1] - ends[0]) : k / (count - 1);
       const x = cut.x0 + s * (cut.x1 - cut.x0), y = cut.y0 + s * (cut.y1 - cut.y0);
-      at.push(along ? x : across ? y : s * length);
-      fields.forEach((field, n) => rows[n].push(sample(field, x, y)));
+      at.push(level ? x : upright ? y : s * length);
+      const i = between(x, grid.x), j = between(y, grid.y);
+      const a = i && j && (grid.smooth ? j[0] * nx : (j[2] < 0.5 ? j[0] : j[1]) * nx + (i[2] < 0.5 ? i[0] : i[1]));
+      fields.forEach((field, n) => {
+        if (!i || !j) rows[n][k] = null;
+        else if (!grid.smooth) rows[n][k] = field[a];
+        else {
+          const row = (b) => field[b + i[0]] * (1 - i[2]) + field[b + i[1]] * i[2];
+          rows[n][k] = row(a) * (1 - j[2]) + row(j[1] * nx) * j[2];
+        }
+      });
     }
-    const mm = (v) => v.toFixed(0).replace("-", "\u2212");
-    const said = along ? `x, direction of travel (mm), at y = ${mm(cut.y0)} mm`
-      : across ? `y, right of travel (mm), at x = ${mm(cut.x0)} mm`
-      : `from (${mm(cut.x0)}, ${mm(cut.y0)}) to (${mm(cut.x1)}, ${mm(cut.y1)}) mm, distance (mm)`;
-    Plotly.update(below, { x: rows.map(() => at), y: rows },
-      { "xaxis.title.text": said, "xaxis.range": [at[0], at[count - 1]] }, rows.map((_, n) => n));
+    return { at, rows };
   }
-  let busy = false;
-  maps.on("plotly_relayout", (change) => {
-    const key = Object.keys(change).find((one) => one.startsWith("shapes["));
-    if (busy || !key) return;
-    const from = parseInt(key.slice(7), 10), shapes = maps.layout.shapes, cut = shapes[from], moved = {};
-    shapes.forEach((shape, n) => {
-      if (n !== from && shape.name === "cut") for (const key of ["x0", "y0", "x1", "y1"]) moved[`shapes[${n}].${key}`] = cut[key];
-    });
-    busy = true;
-    Plotly.relayout(maps, moved).finally(() => { busy = false; });
-    draw(cut);
-  });
-};
+  const said = (cut) => {
+    const mm = (v, digits) => (v.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1")).replace("-", "\u2212");
+    if (Math.abs(cut.y1 - cut.y0) < 1e-9) return `x, direction of travel (mm), at y = ${mm(cut.y0, 1)} mm`;
+    if (Math.abs(cut.x1 - cut.x0) < 1e-9) return `y, right of travel (mm), at x = ${mm(cut.x0, 1)} mm`;
+    return `from (${mm(cut.x0, 0)}, ${mm(cut.y0, 0)}) to (${mm(cut.x1, 0)}, ${mm(cut.y1, 0)}) mm, distance (mm)`;
+  };
+  const axis = (cut, at) => ({ "xaxis.title.text": said(cut), "xaxis.range": [at[0], at[at.length - 1]] });
+
+  window.treadloadProfile = (place, grids, cut) => {
+    if (!(Math.hypot(cut.x1 - cut.x0, cut.y1 - cut.y0) > 0)) return null;
+    const parts = grids.map((grid) => along(grid, cut));
+    const x = parts.flatMap(({ at, rows }) => rows.map(() => at)), y = parts.flatMap(({ rows }) => rows);
+    return Plotly.update(place, { x, y }, axis(cut, parts[0].at), y.map((_, n) => n));
+  };
+  window.treadloadSection = (place, grids, cut) => {
+    if (!(Math.hypot(cut.x1 - cut.x0, cut.y1 - cut.y0) > 0)) return null;
+    const { at, rows } = along(grids[0], cut), last = at.length - 1;
+    const sides = at.map((one, n) => (n ? (at[n - 1] + one) / 2 : one - (at[1] - one) / 2));
+    sides.push(at[last] + (at[last] - at[last - 1]) / 2);
+    return Plotly.update(place, { x: [sides], z: [rows] }, axis(cut, at), [0]);
+  };
+})();

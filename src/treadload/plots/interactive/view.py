@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import functools
 import html
 import json
@@ -13,12 +12,9 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.files import check_suffix, replacing
-from treadload.kernels.arrays import Array
 from treadload.plots.interactive.cut import Cut, profiles
 from treadload.plots.interactive.drawing import figure
 from treadload.plots.interactive.field import (
@@ -31,11 +27,12 @@ from treadload.plots.interactive.field import (
     shear_field,
     with_outline,
 )
+from treadload.plots.interactive.held import profile_held
 from treadload.plots.interactive.maps import WIDTH, laid_out, linked_maps
 from treadload.plots.interactive.places import places_of
 from treadload.plots.interactive.solid import tread
 from treadload.plots.interactive.theme import FONT, Theme, theme_of
-from treadload.plots.kit.plan import KPA, MICRO, MM, Plan, fields_of, plane
+from treadload.plots.kit.plan import MM, fields_of
 from treadload.plots.response import VARIABLE
 
 PAGE = {".html": "a page", ".htm": "a page"}
@@ -73,7 +70,7 @@ class LinkedView:
         )
         said = "".join(f'<p class="warning">Warning: {html.escape(text)}</p>' for text in self.warnings)
         below = 'document.getElementById("tl-profile")' if "profile" in self.figures else "null"
-        load = json.dumps({"ink": look.ink, "fields": [], **self.load}).replace("<", "\\u003c")
+        load = json.dumps({"ink": look.ink, "grids": [], **self.load}).replace("<", "\\u003c")
         return (
             f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(self.title)}</title>'
             f"<style>body{{margin:0;padding:8px 12px;background:{look.paper};color:{look.ink};font:14px {FONT}}}"
@@ -142,13 +139,7 @@ def contact_view(
     }
     if "initial_gap" in data:
         figures["tread"] = tread(data, theme=look)
-    plan = Plan.of(data)
-    curves = _contact_curves(data)
-    if measured is not None:
-        over_data = fields_of(measured, "pressure")
-        if over_data["x"].equals(data["x"]) and over_data["y"].equals(data["y"]):
-            curves.append(np.nan_to_num(plane(over_data, "pressure")) * KPA)
-    load = _load(plan, curves, smooth=False, step=plan.cell / 4)
+    load = {"grids": profile_held(data, over)}
     return LinkedView("Contact", figures, look, load, tuple(getattr(contact, "warnings", ())))
 
 
@@ -171,9 +162,7 @@ def response_view(
         "maps": _through(by_depth, [f"{MM * depth:g} mm" for depth in depths], line, look),
         "profile": profiles(data, line, theme=look),
     }
-    plan = Plan.of(data)
-    curves = [plane(data.isel(depth=row), name) * MICRO for name in VARIABLE.values() for row in range(len(depths))]
-    load = _load(plan, curves, smooth=True, step=plan.cell / 2)
+    load = {"grids": profile_held(data)}
     return LinkedView("Response of the road", figures, look, load, tuple(getattr(response, "warnings", ())))
 
 
@@ -217,27 +206,3 @@ def _through(stages: Sequence[Sequence[Field]], words: Sequence[str], cut: Cut, 
         layout["sliders"] = [{"steps": steps, "active": 0, "currentvalue": {"prefix": "depth "}, "pad": {"t": 38},
                               "len": 0.5, "font": {"size": 11}}]  # fmt: skip
     return figure(traces, layout, look)
-
-
-def _contact_curves(data: Any) -> list[Array]:
-    """What `profiles` draws of a contact, as fields, kPa."""
-    pressure = np.nan_to_num(plane(data, "pressure")) * KPA
-    curves = [pressure]
-    if "friction_coefficient" in data or "friction" in data:
-        mu = plane(data, "friction_coefficient") if "friction_coefficient" in data else float(data["friction"])
-        curves.append(np.nan_to_num(mu) * pressure)
-    if "traction_x" in data and "traction_y" in data:
-        shear = np.hypot(*(np.nan_to_num(plane(data, name)) for name in ("traction_x", "traction_y"))) * KPA
-        curves.append(shear)
-        if "state" in data:
-            curves.append(np.where(plane(data, "state") == 2, shear, np.nan))
-    return curves
-
-
-def _load(plan: Plan, curves: Sequence[Array], *, smooth: bool, step: float) -> dict[str, Any]:
-    """What the page samples along a line that is dragged."""
-    return {
-        "x": [round(float(one), 4) for one in plan.x], "y": [round(float(one), 4) for one in plan.y],
-        "smooth": smooth, "step": step,
-        "fields": [base64.b64encode(one.astype("<f4").tobytes()).decode() for one in curves],
-    }  # fmt: skip
