@@ -13,11 +13,13 @@ from treadload.plots.kit.style import headline, measure, named_map, sequential, 
 # Share of the pixels whose heights and deviations the colours cover; the rest stands at walls.
 _MOST = (0.002, 0.998)
 _PANEL = 3.7
+# What was given up: a grey that no palette has, since their low ends are white.
+_GIVEN_UP = "#c9cfd6"
 
 
 @styled
 def fringe_scan(pixels: Source) -> Figure:
-    """Modulation, phase, height and its deviation in the picture of the camera; what was given up is left white.
+    """Modulation, phase, height and its deviation in the picture of the camera; what was given up is grey.
 
     pixels: `FringeScan.pixels`, with fringe_modulation, fringe_phase, fringe_height and fringe_deviation over (row,
     column). Returns the figure.
@@ -38,12 +40,13 @@ def fringe_scan(pixels: Source) -> Figure:
     middle = f"median {np.median(noise) * 1e6:.3g} µm" if noise.size else "noise unknown"
     dim = np.where(modulation >= least, modulation, np.nan)
     panels = (
-        (dim, sequential("pressure"), top, "grey levels", "Modulation", f"white: below {measure(least)}, shadow"),
+        (dim, sequential("pressure"), top, "grey levels", "Modulation", f"grey: below {measure(least)}, shadow"),
         (turns, named_map("viridis"), _limits(turns), "fringes", "Phase, unwrapped", count),
         (height * MM, sequential("height"), _limits(height * MM), "mm", "Height", f"{kept:.1%} of the pixels kept"),
         (deviation * 1e6, sequential("strain"), _limits(deviation * 1e6, 0.0), "µm", "Deviation by noise", middle),
     )
     for ax, (values, colours, scale, unit, title, details) in zip(axes, panels, strict=True):
+        ax.set_facecolor(_GIVEN_UP)
         image = ax.imshow(values, cmap=colours, vmin=scale.low, vmax=scale.high, interpolation="nearest")
         colour_bar(image, ax, unit, scale)
         headline(ax, title, details, 34)

@@ -52,8 +52,8 @@ def _unrolled(ax: Axes, data: xr.Dataset) -> None:
     else:
         scale = limits(field)
         mesh = ax.pcolormesh(turn, across, field, cmap=sequential("height"), vmin=0, vmax=scale.high, rasterized=True)
-    figure_of(ax).colorbar(mesh, ax=ax, label="worn off, mm" if worn else "depth below the crown, mm")
-    ax.set(xlabel="angle from the road, degrees", ylabel="y, mm", xlim=_seen(data))
+    figure_of(ax).colorbar(mesh, ax=ax, label="worn off (mm)" if worn else "depth below the crown (mm)")
+    ax.set(xlabel="angle from the road (degrees)", ylabel="y (mm)", xlim=_seen(data))
     # As on the plans of contacts: the right of travel is below.
     ax.invert_yaxis()
     headline(
@@ -74,7 +74,7 @@ def _across(ax: Axes, data: xr.Dataset) -> None:
         ax.annotate(text, (centre * MM, -depth * MM - 3.0), ha="center", va="top", rotation=90, fontsize=8)
     top = -float(np.nanmin(data.earlier)) * MM if "earlier" in data else 0.0
     low = -float(np.nanmax(np.where(data.meridian < 0.03, data.meridian, np.nan))) * MM
-    ax.set(xlabel="y, mm", ylabel="height over the crown, mm", ylim=(low - 14, top + 2))
+    ax.set(xlabel="y (mm)", ylabel="height over the crown (mm)", ylim=(low - 14, top + 2))
     ax.legend(loc="lower center", frameon=False, ncols=3)
     open_axes(ax)
     headline(ax, "Across", "grooves: width × depth, mm")
@@ -83,7 +83,7 @@ def _across(ax: Axes, data: xr.Dataset) -> None:
 def _round(ax: Axes, data: xr.Dataset) -> None:
     turn = np.degrees(data.turn.to_numpy())
     ax.plot(turn, data.tops.to_numpy() * -1e3, ".", ms=2, color=STICK)
-    ax.set(xlabel="angle from the road, degrees", ylabel="tops over the crown, mm", xlim=_seen(data))
+    ax.set(xlabel="angle from the road (degrees)", ylabel="tops over the crown (mm)", xlim=_seen(data))
     low, high = ax.get_ylim()
     ax.set_ylim(min(low, -0.5), max(high, 0.5))
     open_axes(ax)
@@ -98,9 +98,9 @@ def _gap(ax: Axes, data: xr.Dataset) -> None:
     share = float(data.filled.mean())
     if 0 < share < 1:
         ax.contour(x, y, data.filled.to_numpy().astype(float), levels=[0.5], colors=[SLIP], linewidths=0.7)
-    figure_of(ax).colorbar(mesh, ax=ax, label="gap to the road, mm")
+    figure_of(ax).colorbar(mesh, ax=ax, label="gap to the road (mm)")
     ax.set_aspect("equal")
-    ax.set(xlabel="x, mm", ylabel="y, mm")
+    ax.set(xlabel="x (mm)", ylabel="y (mm)")
     ax.invert_yaxis()
     told = f"outlined: {signed(100 * share)} % filled from the rest of the turn".replace("+", "")
     headline(ax, "Over the road", told if share else "nothing was filled")

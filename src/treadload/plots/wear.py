@@ -39,7 +39,7 @@ def tread_wear(wear: Source) -> Figure:
     beside.plot(across, median, color=STICK, lw=1.4)
     # The wear keeps to the lower third, below the treads.
     beside.set_ylim(low, low + 3 * (high - low))
-    beside.set_ylabel("worn off, mm", color=STICK, loc="bottom")
+    beside.set_ylabel("worn off (mm)", color=STICK, loc="bottom")
     beside.tick_params(axis="y", colors=STICK)
     beside.set_yticks(np.linspace(low, high, 3).round(2))
     beside.spines[["top", "left"]].set_visible(False)
@@ -51,8 +51,8 @@ def _unrolled(ax: Axes, turn: Array, across: Array, worn: Array) -> None:
     low, high = wear_range(worn)
     seen = turn[np.isfinite(worn).any(axis=0)]
     mesh = ax.pcolormesh(turn, across, worn, cmap=sequential("height"), vmin=low, vmax=high, rasterized=True)
-    figure_of(ax).colorbar(mesh, ax=ax, label="worn off, mm")
-    ax.set(xlabel="angle from the road, degrees", ylabel="y, mm", xlim=(seen.min() - 2, seen.max() + 2))
+    figure_of(ax).colorbar(mesh, ax=ax, label="worn off (mm)")
+    ax.set(xlabel="angle from the road (degrees)", ylabel="y (mm)", xlim=(seen.min() - 2, seen.max() + 2))
     # As on the plans of contacts: the right of travel is below.
     ax.invert_yaxis()
     headline(ax, "Worn off since the earlier scan", "shaded: grooves, or nothing scanned")
@@ -64,8 +64,8 @@ def _across(ax: Axes, across: Array, now: Array, then: Array) -> None:
     tread = np.isfinite(then) & (then > -30)
     low, high = float(np.nanmin(now[tread])), float(np.nanmax(then[tread]))
     ax.set(
-        xlabel="y, mm",
-        ylabel="height over the crown, mm",
+        xlabel="y (mm)",
+        ylabel="height over the crown (mm)",
         ylim=(low - 0.75 * (high - low), high + 0.2 * (high - low)),
     )
     ax.legend(loc="upper center", frameon=False, ncols=2)
