@@ -5,19 +5,24 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+# By so much lower a wall is told besides the depth, m.
+_LOWER = 0.3e-3
+
 
 @dataclass(frozen=True)
 class GrooveMeasure:
     """One circumferential groove of a scan.
 
     centre: distance to the right of the middle of the tread, m. width: at half its depth, m.
-    depth: floor below the ribs beside it, m. floor: floor below the crown, m.
+    depth: floor below the mean of the ribs beside it, as a gauge that bridges the groove measures it, m. floor: floor
+    below the crown, m. lower_wall: height of the lower of its two walls, m; NaN in files of earlier versions.
     """
 
     centre: float
     width: float
     depth: float
     floor: float
+    lower_wall: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -91,6 +96,7 @@ class ScanQuality:
         ]
         lines += [
             f"groove at y = {g.centre * 1e3:+.1f} mm: {g.width * 1e3:.1f} mm wide, {g.depth * 1e3:.1f} mm deep"
+            + (f", {g.lower_wall * 1e3:.1f} mm at its lower wall" if g.depth - g.lower_wall > _LOWER else "")
             for g in self.grooves
         ]
         lines += [f"warning: {text}" for text in self.warnings]

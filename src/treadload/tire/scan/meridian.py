@@ -171,12 +171,13 @@ def find_grooves(y: Array, meridian: Array, crown_radius: float) -> tuple[Groove
         floor = float(np.median(meridian[where][depth[where] > 0.8 * deepest]))
         if right - left > NARROWEST:
             # The ribs beside a groove may differ in height: the depth counts from their mean.
-            ribs = 0.5 * (
-                np.nanmax(meridian[max(0, first - beside) : first]) + np.nanmax(meridian[last + 1 :][:beside])
-            )
-            grooves.append(
-                GrooveMeasure(0.5 * (left + right), right - left, float(ribs) - floor, crown_radius - floor)
-            )
+            sides = meridian[max(0, first - beside) : first], meridian[last + 1 :][:beside]
+            left_rib, right_rib = (float(np.nanmax(side)) for side in sides)
+            deep = meridian[where][depth[where] > 0.8 * deepest]
+            # A cell of the wall itself may be among those beside it: the floor is the lowest of them.
+            walls = left_rib - float(deep[:beside].min()), right_rib - float(deep[-beside:].min())
+            depths = 0.5 * (left_rib + right_rib) - floor, crown_radius - floor, min(walls)
+            grooves.append(GrooveMeasure(0.5 * (left + right), right - left, *depths))
     return tuple(grooves)
 
 
