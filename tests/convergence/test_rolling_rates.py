@@ -65,7 +65,7 @@ def test_shift_of_a_disc():
 
 
 @pytest.mark.parametrize(
-    ("cells", "most"), [(100, 36), (200, 42), pytest.param(400, 54, marks=pytest.mark.slow)], ids=str
+    ("cells", "most"), [(100, 36), (200, 34), pytest.param(400, 39, marks=pytest.mark.slow)], ids=str
 )
 @pytest.mark.parametrize("by_force", [False, True], ids=["creepage", "force"])
 def test_products_of_a_disc(cells, most, by_force):

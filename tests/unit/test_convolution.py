@@ -84,6 +84,15 @@ def test_the_spectrum_of_an_even_kernel_is_that_of_all_its_quadrants():
     np.testing.assert_allclose(padding.even_spectrum(quadrant), whole, atol=1e-13)
 
 
+@pytest.mark.parametrize("shape", [(7, 9), (1, 4), (3, 1), (20, 12)])
+def test_the_spectrum_of_an_odd_kernel_is_that_of_all_its_quadrants(shape):
+    padding = Padding.of(shape)
+    quadrant = np.random.default_rng(0).normal(size=padding.quadrant)
+    quadrant[0], quadrant[:, 0] = 0.0, 0.0
+    whole = padding.spectrum(padding.wrap(quadrant, -1, -1))
+    np.testing.assert_allclose(padding.odd_spectrum(quadrant), whole, atol=1e-13)
+
+
 def test_single_precision_stays_single():
     padding = Padding.of((30, 40))
     quadrant = 1 / (1 + np.hypot(*np.indices(padding.quadrant)))

@@ -177,3 +177,10 @@ def test_single_rows_and_columns_of_cells():
         assert (np.hypot(*found.shear) <= bound * (1 + 1e-9)).all()
         assert found.shear[0].sum() > 0
         assert abs(found.shear[1].sum()) < 1e-3 * bound.sum()
+
+
+@pytest.mark.parametrize("cells", [1, 2, 7, 12, 192])
+def test_sums_to_the_leading_edge_are_running_sums(cells):
+    shear = np.random.default_rng(1).normal(size=(2, 5, cells))
+    expected = np.cumsum(shear[..., ::-1], axis=-1)[..., ::-1]
+    np.testing.assert_allclose(tangential._summed_ahead(shear), expected, rtol=0, atol=1e-12)

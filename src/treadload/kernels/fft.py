@@ -21,7 +21,7 @@ from scipy.fft import fftfreq, next_fast_len, rfftfreq
 
 __all__ = [
     "cosine2", "cosines", "device", "fft", "fftfreq", "ifft", "irfft", "irfft2", "mirrored_waves", "namespace",
-    "next_fast_len", "on", "portions", "rfft", "rfft2", "rfftfreq", "sines", "to_device", "to_host",
+    "next_fast_len", "on", "portions", "rfft", "rfft2", "rfftfreq", "sine2", "sines", "to_device", "to_host",
 ]  # fmt: skip
 
 # Numbers that are transformed at once: what a processor's cache holds, what a GPU keeps busy with.
@@ -128,6 +128,14 @@ def irfft2(x: Any, s: tuple[int, int]) -> Any:
 def cosine2(quadrant: Any) -> Any:
     """The transform (ny, nx) of what is even both ways about both ends of a quadrant (ny, nx), of which it is one."""
     return _scipy.dctn(quadrant, type=1)
+
+
+def sine2(quadrant: Any) -> Any:
+    """The transform (ny, nx) of what is odd both ways about both ends of a quadrant (ny, nx), of which it is one."""
+    result = np.zeros_like(quadrant)
+    if min(quadrant.shape) > 2:
+        result[1:-1, 1:-1] = -_scipy.dstn(quadrant[1:-1, 1:-1], type=1)
+    return result
 
 
 def mirrored_waves(field: Any, *, back: bool = False) -> Any:

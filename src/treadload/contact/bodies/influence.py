@@ -221,13 +221,15 @@ class Influence:
                 [one.real if x == y else 1j * one.imag for one, (x, y) in zip(whole, parities, strict=True)]
             )
         quadrants = kernels(Offsets(*padding.quadrant, self.dx, self.dy))
-        spectra = [
-            padding.spectrum(padding.wrap(quadrant, *parity))
-            for quadrant, parity in zip(quadrants, parities, strict=True)
-        ]
-        # Even in both directions, or odd in both.
-        real = all(along_x == along_y for along_x, along_y in parities)
-        return np.array([spectrum.real for spectrum in spectra] if real else spectra)
+        if all(along_x == along_y for along_x, along_y in parities):
+            # Even in both directions, or odd in both: real. Columns lie side by side.
+            spectra = [
+                (padding.even_spectrum if along > 0 else padding.odd_spectrum)(quadrant).T
+                for quadrant, (along, _) in zip(quadrants, parities, strict=True)
+            ]
+            return np.array(spectra).transpose(0, 2, 1)
+        wrapped = zip(quadrants, parities, strict=True)
+        return np.array([padding.spectrum(padding.wrap(quadrant, *parity)) for quadrant, parity in wrapped])
 
     def _spectra_of(
         self, padding: Padding, kernels: Callable[[Offsets], Array], parities: tuple[int, ...], distance: float = 0.0

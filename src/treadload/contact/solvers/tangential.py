@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from treadload.errors import ConvergenceError
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.complementarity import coulomb_newton, coulomb_splitting
-from treadload.kernels.complementarity.coulomb import CoulombProblem
+from treadload.kernels.complementarity.coulomb import CoulombProblem, paired
 from treadload.kernels.complementarity.coulomb_newton import CoulombSolution
 
 # Below this many cells a side a solve costs nothing and needs no start from a coarser one.
@@ -153,19 +154,39 @@ class _Preconditioner:
         ny, nx = influence.shape
         self.shape = int(fft.next_fast_len(ny)), int(fft.next_fast_len(nx, real=True))
         symbols = replace(influence, shape=self.shape).tangential_stiffness / _stretches(axes)
-        self.symbols = symbols.astype(np.complex64 if np.iscomplexobj(symbols) else np.float32)
+        turned = np.iscomplexobj(symbols)
+        self.symbols = symbols.astype(np.complex64) if turned else paired(symbols.astype(np.float32))
         self.rolls = rolls
 
     def __call__(self, slip: Array, mask: BoolArray) -> Array:
-        xx, yy, xy = self.symbols
         ny, nx = mask.shape
-        x, y = fft.rfft2(slip[0], s=self.shape), fft.rfft2(slip[1], s=self.shape)
-        shear = np.empty_like(slip)
-        np.multiply(fft.irfft2(xx * x + xy * y, s=self.shape)[:ny, :nx], mask, out=shear[0])
-        np.multiply(fft.irfft2(xy * x + yy * y, s=self.shape)[:ny, :nx], mask, out=shear[1])
-        if self.rolls:
-            shear = np.cumsum(shear[:, :, ::-1], axis=2)[:, :, ::-1] * mask
-        return shear
+        waves = fft.rfft2(slip.astype(np.float32, copy=False), s=self.shape)
+        (xx, yy, xy), (x, y) = self.symbols, waves.view(self.symbols.dtype)
+        mixed = xy * y
+        y *= yy
+        y += xy * x
+        x *= xx
+        x += mixed
+        shear: Array = fft.irfft2(waves, s=self.shape)[:, :ny]
+        if not self.rolls:
+            return shear[..., :nx] * mask
+        shear[..., :nx] *= mask
+        shear[..., nx:] = 0
+        return _summed_ahead(shear)[..., :nx] * mask
+
+
+def _summed_ahead(shear: Array) -> Array:
+    """Sums (…, n) of shear (…, n) from each cell to the leading edge, blocks of cells at a time.
+
+    A running sum waits for every addition; a block is a product with a triangle of ones.
+    """
+    cells = shear.shape[-1]
+    side = next(one for one in range(math.isqrt(cells), 0, -1) if cells % one == 0)
+    inside: Array = shear.reshape(-1, side) @ np.tri(side, dtype=shear.dtype)
+    inside = inside.reshape(*shear.shape[:-1], cells // side, side)
+    ahead = np.cumsum(inside[..., ::-1, 0], axis=-1)[..., ::-1]
+    inside[..., :-1, :] += ahead[..., 1:, None]
+    return inside.reshape(shear.shape)
 
 
 def _start(

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -54,16 +55,16 @@ class CoulombProblem:
 
     def apply(self, q: Array) -> Array:
         """S q (2, ny, nx), in the precision of q and the compliance."""
-        xx, yy, xy, yx = four(self.compliance.transpose(0, 2, 1))
+        xx, yy, xy, yx = four(self._symbols)
 
         def mix(waves: list[ComplexArray], some: slice) -> list[ComplexArray]:
-            x, y = waves
+            x, y = (one.view(xx.dtype) for one in waves)
             u_x = xx[some] * x
             u_x += xy[some] * y
             x *= yx[some]
             y *= yy[some]
             y += x
-            return [u_x, y]
+            return [u_x.view(waves[0].dtype), y.view(waves[0].dtype)]
 
         u_x, u_y = self.padding.through([q[0], q[1]], mix)
         s = np.empty_like(q)
@@ -74,9 +75,20 @@ class CoulombProblem:
         np.subtract(u_y[:, :-1], u_y[:, 1:], out=s[1])
         return s
 
+    @cached_property
+    def _symbols(self) -> Array | ComplexArray:
+        """The compliance turned round as waves are; each real number twice, for both parts of a wave."""
+        turned = self.compliance.transpose(0, 2, 1)
+        return turned if np.iscomplexobj(turned) else paired(turned.real)
+
     def slip(self, q: Array, xi: Array) -> Array:
         """S q + w + e ξ (2, ny, nx), with ξ (2,) the rigid slips so far."""
         return self.apply(q) + self.rigid + self.travel * xi[:, None, None]
+
+
+def paired(symbols: Array) -> Array:
+    """Real symbols (…, n), each twice (…, 2 n): what multiplies the parts of waves in memory, four times as fast."""
+    return np.repeat(symbols, 2, axis=-1)
 
 
 def four(symbols: Any) -> tuple[Any, Any, Any, Any]:

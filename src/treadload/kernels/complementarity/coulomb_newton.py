@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
@@ -27,6 +28,8 @@ _RESERVE = 0.2
 # A step may be followed in single precision where ten times what that loses of the residual is below the tolerance.
 _SINGLE = 1e-6
 _FAR, _POOR_STEP = 1e-4, 0.05
+# What rigid slips do through the preconditioner serves until this share of the cells sticks or slips otherwise.
+_OTHER_CELLS = 0.1
 # A stick cell below this share of its bound can take up what clipping took from the forces.
 _ROOM = 0.999
 # Forces are held this much tighter than the cells' conditions.
@@ -138,6 +141,8 @@ class _Newton:
     splitting: int = 0
     products: int = 0
     last_residual: float = float("inf")
+    # What a unit of every unknown rigid slip does to the shear, through the preconditioner; and which cells stuck.
+    columns: tuple[Array | None, Any] = (None, None)
     single: CoulombProblem = field(init=False)
     contact: BoolArray = field(init=False)
     n_cells: int = field(init=False)
@@ -160,7 +165,7 @@ class _Newton:
         problem = self.problem
         tiny = np.finfo(float).tiny
         reach = q - slip / problem.self_influence
-        size = np.hypot(reach[0], reach[1])
+        size = np.sqrt(_dot(reach, reach))
         factor = shrink(size, problem.bound)
         error = q - reach * factor
         totals = problem.totals
@@ -257,11 +262,14 @@ class _Rows:
         # Across the shear, a slip cell is a mixture of 1 - m of its own row and m of a stick cell's.
         self.weight = np.where(state.stick, 1, self.m * newton.contact).astype(np.float32)
         self.r = np.float32(1 / newton.problem.self_influence)
-        # What a unit of every unknown rigid slip does to the shear, through the preconditioner.
-        units = np.eye(len(self.forced), dtype=np.float32)
-        nothing = np.zeros_like(self.normal)
-        self.columns = np.array([self._inverse(self._rows(nothing, self._uniform(unit))) for unit in units])
-        self.schur = np.array([self._mean(column) for column in self.columns]).T
+        known, last = newton.columns
+        if known is None or (last != self.stick).sum() > _OTHER_CELLS * newton.n_cells:
+            units, nothing = np.eye(len(self.forced), dtype=np.float32), np.zeros_like(self.normal)
+            known = np.array([self._inverse(self._rows(nothing, self._uniform(unit))) for unit in units])
+            newton.columns = known, self.stick
+        self.columns = known
+        schur = np.array([self._mean(column) for column in self.columns]).T
+        self.unmixed = np.linalg.pinv(schur, rcond=1e-12) if self.forced else schur
 
     def matvec(self, v: Array) -> Array:
         """Left side of the rows for unknowns v (2 ny nx + forces,)."""
@@ -274,7 +282,7 @@ class _Rows:
         dq = self._inverse(rows)
         if not self.forced:
             return dq.ravel()
-        xi = np.linalg.lstsq(self.schur, self._mean(dq) - force, rcond=1e-12)[0].astype(np.float32)
+        xi = (self.unmixed @ (self._mean(dq) - force)).astype(np.float32)
         for unknown, column in zip(xi, self.columns, strict=True):
             dq -= unknown * column
         return self._pack(dq, xi)
@@ -307,8 +315,7 @@ class _Rows:
 
     def _mean(self, fields: Array) -> Array:
         """Means over the contact of the components whose force is prescribed."""
-        means: Array = fields[self.forced].sum((1, 2), dtype=float) / self.newton.n_cells
-        return means
+        return np.array([fields[c].sum() for c in self.forced], float) / self.newton.n_cells
 
     def _uniform(self, xi: Array) -> Array:
         slip = np.zeros((2, 1, 1), np.float32)

@@ -72,6 +72,11 @@ class Padding:
         # Columns lie side by side, as `Convolution` walks through them.
         return np.concatenate([half, half[:, -2:0:-1]], axis=1).T
 
+    def odd_spectrum(self, quadrant: Array) -> Array:
+        """`even_spectrum` of a kernel odd both ways; at offsets of none and of half way round it is taken as zero."""
+        half = fft.sine2(np.ascontiguousarray(quadrant.T))
+        return np.concatenate([half, -half[:, -2:0:-1]], axis=1).T
+
     def forward(self, load: Array) -> ComplexArray:
         """Spectrum (my, mx // 2 + 1) of a load (ny, nx) padded with zeros."""
         rows = fft.rfft(load, n=self.shape[1], axis=-1)
