@@ -24,7 +24,7 @@ from treadload.plots import interactive
 from treadload.plots.kit.shown import shown
 from treadload.results import save_results
 from treadload.study import sweep
-from treadload.study.run import judge, load_case
+from treadload.study.loaded import judge, load_case
 from treadload.study.run_life import run_life
 
 pytestmark = pytest.mark.browser
@@ -144,7 +144,7 @@ def python(**changes):
     """What Python says of the case of the page with keys changed."""
     case = changed_case(**changes)
     load = load_case(case, lambda text: None)
-    return load.contact, judge(case.damage, load.solve(case.response.depths))
+    return load.contact, judge(load, load.solve(case.response.depths))
 
 
 def test_the_first_sight(visit):

@@ -21,9 +21,10 @@ from treadload.response.doubts import overlapping
 from treadload.study.altered import most
 from treadload.study.climate import curves, nodes, over_the_climate, warmth_of
 from treadload.study.groups import _harm, _one_axle, in_words
+from treadload.study.loaded import map_grid
 from treadload.study.passage import _along, _rows, _stride
 from treadload.study.peaks import onto_lines, over_strips, peaks_and_valleys
-from treadload.study.run import map_grid, slice_depths
+from treadload.study.run import slice_depths
 from treadload.study.sensitivity import _growth, _without_solves
 from treadload.study.wheels import across, wheels_of
 

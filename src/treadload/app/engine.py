@@ -34,7 +34,8 @@ from treadload.damage.miner import Life
 from treadload.errors import InputError, TreadloadError
 from treadload.files import parse_toml
 from treadload.results import open_results, save_results, to_tree
-from treadload.study.run import Loaded, contact_of, judge, load_case, read_loaded
+from treadload.study.loaded import Loaded, contact_of, judge, load_case
+from treadload.study.run import read_loaded
 from treadload.study.run_life import run_life
 from treadload.study.sweeps import Sweep
 from treadload.tire import Tire
@@ -173,7 +174,7 @@ class Engine:
         shown("response")
         if case.damage is not None:
             tell("verdict")
-            held.parts["damage"] = judge(case.damage, response)
+            held.parts["damage"] = judge(held.load, response)
             shown("verdict")
         say(ready=True, seconds=time.monotonic() - began, process=time.process_time() - used)
         # The page is at work again; what follows makes slices along any line quick, and the run outlast this process.

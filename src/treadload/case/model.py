@@ -38,6 +38,8 @@ class DamagePart(Table):
     fatigue: the line, with epsilon_6 and slope. strain: "in-plane", of the horizontal plane, or "principal", in
     space. mean_over: side of the cube of road whose mean strain is read; 10 mm if left out. depth: one of the
     response's depths, whose points are read instead; left out, the means of all that lie in the top layer.
+    lattices: 2 reads the mean of two contacts whose cells lie half a cell apart, so that the reading does not depend
+    on where cells lie, 1 that of one; left out, 2 where the tire is known between its cells and no depth is given.
     error_estimate: also solve the case on cells twice as large, and report how much the reading changes. See
     `treadload.assess`.
     """
@@ -46,6 +48,7 @@ class DamagePart(Table):
     strain: Literal["principal", "in-plane"] = "in-plane"
     mean_over: Length = MATERIAL_LENGTH
     depth: Length | None = None
+    lattices: Literal[1, 2] | None = None
     error_estimate: bool = False
 
     @model_validator(mode="after")
@@ -53,6 +56,8 @@ class DamagePart(Table):
         check_length(self.mean_over)
         if self.depth is not None and "mean_over" in self.model_fields_set:
             raise ValueError("depth reads points and mean_over a mean: give one of them")
+        if self.depth is not None and self.lattices == 2:
+            raise ValueError("depth reads the points of one lattice of cells: leave lattices out")
         return self
 
 

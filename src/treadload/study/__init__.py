@@ -8,10 +8,11 @@ from treadload.study.designing import ThicknessDesign, design_thickness
 from treadload.study.equivalents import Equivalents, life_equivalents
 from treadload.study.growth import grow_cracks
 from treadload.study.life import solve_life
+from treadload.study.loaded import map_grid
 from treadload.study.passages import Passages, solve_passages
 from treadload.study.plan import plan_case, plan_life
 from treadload.study.reliability import Reliability, life_reliability
-from treadload.study.run import Result, map_grid, run_case
+from treadload.study.run import Result, run_case
 from treadload.study.run_calibration import CalibrationResult, plan_calibration, run_calibration
 from treadload.study.run_life import LifeResult, design_case, run_life
 from treadload.study.screening import Morris, Sobol, Tornado, morris, sobol, tornado

@@ -21,8 +21,9 @@ from treadload.response.doubts import question_doubts, road_doubts
 from treadload.results import road_in_rows
 from treadload.study.dents import plan_dents
 from treadload.study.doubts import traffic_doubts
+from treadload.study.loaded import map_grid
 from treadload.study.reliability import roads_asked
-from treadload.study.run import map_grid, slice_depths
+from treadload.study.run import slice_depths
 from treadload.study.seasons import warmed
 from treadload.study.wheels import state
 

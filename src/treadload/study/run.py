@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,7 +10,6 @@ import numpy as np
 import xarray as xr
 
 from treadload.case import Case
-from treadload.case.model import DamagePart
 from treadload.composing import BaseResult
 from treadload.contact import (
     Contact,
@@ -19,15 +17,12 @@ from treadload.contact import (
     Enveloped,
     TextureContact,
     cross_obstacle,
-    envelop,
-    solve_contact,
     solve_texture,
 )
-from treadload.damage import Verdict, assess
+from treadload.damage import Verdict
 from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.footprint import Footprint
-from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import (
@@ -37,19 +32,12 @@ from treadload.response import (
     Response,
     compute_heterogeneous,
     roll_passes,
-    solve_response,
 )
-from treadload.response.superposition import common_grid
 from treadload.results import Study, road_in_rows, to_tree
-from treadload.study.two_grids import COARSER, check_two_grids, with_error
-from treadload.tire import Tire
-
-Progress = Callable[[str], None]
+from treadload.study.loaded import Loaded, Progress, judge, load_case, on_two_grids
 
 # Depths of a slice; under a moving load each costs several times as much.
 _SLICE_DEPTHS, _MOVING_DEPTHS = 31, 16
-# What a map of layers shows beside the wheels, m: stiff layers spread the load.
-_MARGIN = 0.1
 # As a depth just below an interface, m.
 _BELOW = 1e-6
 # The deflection bowl, m: behind the wheel, before it, between its points.
@@ -124,9 +112,9 @@ def read_loaded(load: Loaded) -> Result:
     verdict = None
     if case.damage is not None:
         tell("verdict")
-        verdict = judge(case.damage, response)
+        verdict = judge(load, response)
         if case.damage.error_estimate:
-            verdict = on_two_grids(case, load, verdict, tell)
+            verdict = on_two_grids(load, verdict)
     tell("vertical slices")
     road, grid = load.road, load.grid
     worst_x, worst_y = _worst_point(response, verdict)
@@ -199,128 +187,6 @@ def stones_of(case: Case, load: Loaded) -> Heterogeneous:
         at=(window.x, window.y), spacing=asked.spacing, bond_strength=asked.bond_strength, borders=asked.borders,
         progress=load.tell,
     )  # fmt: skip
-
-
-@dataclass(frozen=True, eq=False)
-class Loaded:
-    """A road under the wheels of a case, ready to be read anywhere.
-
-    contact: None if a footprint was recorded. wheel: the load of one wheel; wheels: all of them in their places.
-    enveloped: what the layers feel of the contact, where the case spreads the pressure on peaks.
-    """
-
-    case: Case
-    road: Pavement
-    contact: Contact | None
-    footprint: Footprint | None
-    wheel: GridLoad
-    wheels: list[GridLoad]
-    tell: Progress
-    enveloped: Enveloped | None = None
-
-    @property
-    def grid(self) -> Grid:
-        """The points of the maps."""
-        return map_grid(self.wheels, self.road)
-
-    def solve(self, depths: Sequence[float] | Array, *, mean_over: float | None = None, **points: Any) -> Response:
-        """The response at depths, m, at x and y or `points`; on the grid of the maps where none of them is given.
-
-        mean_over: length whose means are read near the surface, m, see `solve_response`.
-        """
-        if not points:
-            count = f" under {len(self.wheels)} wheels" if len(self.wheels) > 1 else ""
-            self.tell(f"stress and strain in the road{count}")
-            points = {"x": self.grid.x, "y": self.grid.y}
-        # The response of an elastic road does not depend on speed.
-        speed = self.case.speed if self.road.is_viscoelastic else None
-        return solve_response(
-            self.wheels, self.road, depths=depths, side=self.case.response.side, speed=speed, progress=self.tell,
-            mean_over=mean_over, **points,
-        )  # fmt: skip
-
-
-def load_case(case: Case, tell: Progress, *, start: Contact | None = None, contact: Contact | None = None) -> Loaded:
-    """The road of a case and what loads it.
-
-    start: a contact near that of the case, see `solve_contact`. contact: that of the case, where it is known already.
-    """
-    if case.dents:
-        raise InputError(
-            "this case dents its road, and has no wheel whose response could be read; solve it by "
-            "treadload.study.run_dents(case), or by `treadload run`"
-        )
-    road, footprint, enveloped = case.pavement.build(), None, None
-    if case.footprint is None:
-        contact = contact_of(case, road, tell, start=start) if contact is None else contact
-        if case.texture is not None and case.texture.enveloping is not None:
-            enveloped = envelop(contact, case.texture.enveloping)
-        wheel = GridLoad.from_dataset(contact if enveloped is None else enveloped)
-    else:
-        tell("reading the footprint")
-        footprint = case.footprint.read(case.folder)
-        wheel = footprint.load
-    return Loaded(case, road, contact, footprint, wheel, case.response.place(wheel), tell, enveloped)
-
-
-def judge(damage: DamagePart, response: Response) -> Verdict:
-    """The verdict that a case asks for."""
-    return assess(
-        response, damage.fatigue.build(), depth=damage.depth, strain=damage.strain, mean_over=damage.mean_over
-    )
-
-
-def on_two_grids(case: Case, load: Loaded, verdict: Verdict, tell: Progress) -> Verdict:
-    """The verdict with what it is on cells twice as large."""
-    assert case.damage is not None
-    check_two_grids(None if case.tire is None else case.build_tire())
-    tell("error estimate")
-    cell = load.wheel.grid.dx
-    coarse = load_case(case, tell, contact=contact_of(case, load.road, tell, spacing=COARSER * cell))
-    return with_error(verdict, judge(case.damage, coarse.solve(case.response.depths)), cell)
-
-
-def contact_of(
-    case: Case,
-    road: Pavement,
-    tell: Progress,
-    *,
-    spacing: float | None = None,
-    start: Contact | None = None,
-    tire: Tire | None = None,
-) -> Contact:
-    """The contact of a case, on cells of its spacing or another.
-
-    start: a contact near it, see `solve_contact`. tire: that of the case, where it is read already.
-    """
-    tell("reading the tire")
-    return solve_contact(
-        case.build_tire() if tire is None else tire,
-        road,
-        case.build_rolling(),
-        spacing=case.spacing if spacing is None else spacing,
-        tolerance=case.tolerance,
-        road_compliance=case.road_compliance,
-        relief=case.build_relief(),
-        start=start,
-        progress=tell,
-    )
-
-
-def map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:
-    """The cells of all wheels, on layers with a margin around them."""
-    grid = common_grid(loads)
-    if road.is_homogeneous:
-        return grid
-    more_x, more_y = math.ceil(_MARGIN / grid.dx), math.ceil(_MARGIN / grid.dy)
-    return Grid(
-        grid.nx + 2 * more_x,
-        grid.ny + 2 * more_y,
-        grid.dx,
-        grid.dy,
-        grid.x0 - more_x * grid.dx,
-        grid.y0 - more_y * grid.dy,
-    )
 
 
 def _worst_point(response: Response, verdict: Verdict | None) -> tuple[float, float]:

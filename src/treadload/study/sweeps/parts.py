@@ -15,7 +15,8 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact, Crossing
 from treadload.damage import Verdict
 from treadload.response import MATERIAL_LENGTH, Response
-from treadload.study.run import Loaded, crossing_of, judge, load_case, on_two_grids, read_loaded
+from treadload.study.loaded import Loaded, judge, load_case, on_two_grids
+from treadload.study.run import crossing_of, read_loaded
 from treadload.study.run_life import run_life
 from treadload.study.sweeps.record import Values
 from treadload.study.uniform import READINGS
@@ -85,7 +86,7 @@ class CaseParts(Parts):
         """The response as surface criteria read it: means over a length of road near the surface."""
         case, load = self.case, self.load
         own = None if case.damage is None or case.damage.depth is not None else case.damage.mean_over
-        return load.solve(case.response.depths, mean_over=own or MATERIAL_LENGTH)
+        return load.solve(case.response.depths, mean_over=own or MATERIAL_LENGTH, loads=load.read_wheels)
 
     @cached_property
     def points(self) -> Response:
@@ -101,9 +102,9 @@ class CaseParts(Parts):
         if damage is None:
             return None
         # A verdict at a depth reads points; one of a mean reads it as it is.
-        verdict = judge(damage, self.points if damage.depth is not None else self.mean)
+        verdict = judge(self.load, self.points if damage.depth is not None else self.mean)
         if damage.error_estimate:
-            verdict = on_two_grids(self.case, self.load, verdict, quiet)
+            verdict = on_two_grids(self.load, verdict)
         self._solved["damage"] = verdict
         return verdict
 

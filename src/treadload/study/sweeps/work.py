@@ -15,7 +15,7 @@ from treadload.case import Case, LifeCase
 from treadload.case.keys import with_values
 from treadload.contact import Contact
 from treadload.errors import TreadloadError, one_line
-from treadload.study.run import contact_of
+from treadload.study.loaded import contact_of
 from treadload.study.sweeps.asked import Asked, read
 from treadload.study.sweeps.parts import CaseParts, LifeParts, Parts, quiet
 from treadload.study.sweeps.record import Record

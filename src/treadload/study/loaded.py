@@ -1,0 +1,203 @@
+"""The road of a case under its wheels, ready to be read anywhere, and what its damage reads there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from treadload.case import Case
+from treadload.contact import Contact, Enveloped, envelop, solve_contact
+from treadload.contact.solve import NO_OFFSET
+from treadload.damage import Verdict, assess
+from treadload.errors import InputError
+from treadload.footprint import Footprint
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.response import GridLoad, Response, solve_response
+from treadload.response.superposition import common_grid
+from treadload.study.two_grids import COARSER, check_two_grids, with_error
+from treadload.study.two_lattices import SHIFTED, check_two_lattices, mean_loads
+from treadload.tire import Tire
+
+Progress = Callable[[str], None]
+
+# What a map of layers shows beside the wheels, m: stiff layers spread the load.
+_MARGIN = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """A road under the wheels of a case, ready to be read anywhere.
+
+    contact: None if a footprint was recorded. wheel: the load of one wheel; wheels: all of them in their places.
+    enveloped: what the layers feel of the contact, where the case spreads the pressure on peaks.
+    """
+
+    case: Case
+    road: Pavement
+    contact: Contact | None
+    footprint: Footprint | None
+    wheel: GridLoad
+    wheels: list[GridLoad]
+    tell: Progress
+    enveloped: Enveloped | None = None
+
+    @property
+    def grid(self) -> Grid:
+        """The points of the maps."""
+        return map_grid(self.wheels, self.road)
+
+    @cached_property
+    def two_lattices(self) -> bool:
+        """True if a verdict reads the mean of two contacts whose cells lie half a cell apart."""
+        asked = self.case.damage
+        if asked is None or asked.lattices == 1 or asked.depth is not None:
+            return False
+        tire = None if self.contact is None else self.contact.tire
+        if asked.lattices == 2:
+            check_two_lattices(tire)
+        return tire is not None and tire.fixed_grid is None
+
+    @cached_property
+    def read_wheels(self) -> list[GridLoad]:
+        """The loads that surface criteria read: of all wheels, the mean of both lattices where there are two."""
+        if not self.two_lattices:
+            return self.wheels
+        assert self.contact is not None
+        self.tell("the same contact on cells half a cell beside")
+        shifted = contact_of(
+            self.case, self.road, self.tell, tire=self.contact.tire, offset=SHIFTED,
+            spacing=float(self.contact.dataset.attrs["dx"]),
+        )  # fmt: skip
+        pair = [one if self.enveloped is None else _enveloped(self.case, one) for one in (self.contact, shifted)]
+        return mean_loads(pair, self.case.response.place)
+
+    def solve(
+        self,
+        depths: Sequence[float] | Array,
+        *,
+        mean_over: float | None = None,
+        loads: Sequence[GridLoad] | None = None,
+        **points: Any,
+    ) -> Response:
+        """The response at depths, m, at x and y or `points`; on the grid of the maps where none of them is given.
+
+        mean_over: length whose means are read near the surface, m, see `solve_response`. loads: in place of the
+        wheels.
+        """
+        if not points:
+            count = f" under {len(self.wheels)} wheels" if len(self.wheels) > 1 else ""
+            self.tell(f"stress and strain in the road{count}")
+            points = {"x": self.grid.x, "y": self.grid.y}
+        # The response of an elastic road does not depend on speed.
+        speed = self.case.speed if self.road.is_viscoelastic else None
+        return solve_response(
+            self.wheels if loads is None else loads, self.road, depths=depths, side=self.case.response.side,
+            speed=speed, progress=self.tell, mean_over=mean_over, **points,
+        )  # fmt: skip
+
+
+def load_case(case: Case, tell: Progress, *, start: Contact | None = None, contact: Contact | None = None) -> Loaded:
+    """The road of a case and what loads it.
+
+    start: a contact near that of the case, see `solve_contact`. contact: that of the case, where it is known already.
+    """
+    if case.dents:
+        raise InputError(
+            "this case dents its road, and has no wheel whose response could be read; solve it by "
+            "treadload.study.run_dents(case), or by `treadload run`"
+        )
+    road, footprint, enveloped = case.pavement.build(), None, None
+    if case.footprint is None:
+        contact = contact_of(case, road, tell, start=start) if contact is None else contact
+        if case.texture is not None and case.texture.enveloping is not None:
+            enveloped = _enveloped(case, contact)
+        wheel = GridLoad.from_dataset(contact if enveloped is None else enveloped)
+    else:
+        tell("reading the footprint")
+        footprint = case.footprint.read(case.folder)
+        wheel = footprint.load
+    return Loaded(case, road, contact, footprint, wheel, case.response.place(wheel), tell, enveloped)
+
+
+def judge(load: Loaded, response: Response) -> Verdict:
+    """The verdict that the case of a loaded road asks for.
+
+    response: at its depths; of means only if those are under `load.read_wheels`.
+    """
+    damage = load.case.damage
+    assert damage is not None
+    read = replace(response, loads=tuple(load.read_wheels)) if load.two_lattices else response
+    verdict = assess(
+        read, damage.fatigue.build(), depth=damage.depth, strain=damage.strain, mean_over=damage.mean_over
+    )
+    about = {"lattices": 2} if load.two_lattices else {}
+    return replace(verdict, dataset=verdict.dataset.assign_attrs(about))
+
+
+def on_two_grids(load: Loaded, verdict: Verdict) -> Verdict:
+    """The verdict with what it is on cells twice as large."""
+    case, tell = load.case, load.tell
+    check_two_grids(None if load.contact is None else load.contact.tire)
+    tell("error estimate")
+    cell = load.wheel.grid.dx
+    coarse = load_case(case, tell, contact=contact_of(case, load.road, tell, spacing=COARSER * cell))
+    return with_error(verdict, judge(coarse, coarse.solve(case.response.depths)), cell)
+
+
+def _enveloped(case: Case, contact: Contact) -> Enveloped:
+    """What the layers feel of a contact, where the case spreads the pressure on peaks."""
+    assert case.texture is not None
+    assert case.texture.enveloping is not None
+    return envelop(contact, case.texture.enveloping)
+
+
+def contact_of(
+    case: Case,
+    road: Pavement,
+    tell: Progress,
+    *,
+    spacing: float | None = None,
+    start: Contact | None = None,
+    tire: Tire | None = None,
+    offset: tuple[float, float] = NO_OFFSET,
+) -> Contact:
+    """The contact of a case, on cells of its spacing or another.
+
+    start, offset: see `solve_contact`. tire: that of the case, where it is read already.
+    """
+    if tire is None:
+        tell("reading the tire")
+        tire = case.build_tire()
+    return solve_contact(
+        tire,
+        road,
+        case.build_rolling(),
+        spacing=case.spacing if spacing is None else spacing,
+        tolerance=case.tolerance,
+        road_compliance=case.road_compliance,
+        relief=case.build_relief(),
+        start=start,
+        offset=offset,
+        progress=tell,
+    )
+
+
+def map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:
+    """The cells of all wheels, on layers with a margin around them."""
+    grid = common_grid(loads)
+    if road.is_homogeneous:
+        return grid
+    more_x, more_y = math.ceil(_MARGIN / grid.dx), math.ceil(_MARGIN / grid.dy)
+    return Grid(
+        grid.nx + 2 * more_x,
+        grid.ny + 2 * more_y,
+        grid.dx,
+        grid.dy,
+        grid.x0 - more_x * grid.dx,
+        grid.y0 - more_y * grid.dy,
+    )

@@ -1,0 +1,72 @@
+"""Verdicts of cases under the mean of two lattices of cells."""
+
+import numpy as np
+import pytest
+
+import treadload as tl
+from cases import COARSE_CASE
+from treadload.errors import InputError
+
+FATIGUE = "slope = -0.2 }"
+
+
+def asked(what):
+    assert FATIGUE in COARSE_CASE
+    return COARSE_CASE.replace(FATIGUE, f"{FATIGUE}\n{what}")
+
+
+def test_a_case_reads_two_lattices_unless_told_otherwise():
+    """Its digits are those of the verbs and of a sweep, and not those of one lattice."""
+    case = tl.Case.from_text(COARSE_CASE)
+    result = tl.run_case(case)
+    both = float(result.verdict.dataset["worst_passes"])
+    assert result.verdict.dataset.attrs["lattices"] == 2
+    assert "read under the mean of two contacts whose cells lie half a cell apart" in result.summary()
+    one = tl.run_case(tl.Case.from_text(asked("lattices = 1"))).verdict
+    assert float(one.dataset["worst_passes"]) != pytest.approx(both, rel=1e-3)
+    assert "half a cell" not in one.summary()
+
+    line = case.damage.fatigue.build()
+    assert float(one.dataset["worst_passes"]) == pytest.approx(
+        float(tl.assess(result.response, line).dataset["worst_passes"]), rel=1e-12
+    )
+    shifted = tl.solve_contact(
+        case.build_tire(), case.build_road(), case.build_rolling(), spacing=case.spacing, tolerance=case.tolerance,
+        offset=(0.5, 0.5),
+    )  # fmt: skip
+    verdict = tl.study.assess_on_two_lattices(result.response, result.contact, shifted, line)
+    assert float(verdict.dataset["worst_passes"]) == pytest.approx(both, rel=1e-12)
+    with pytest.raises(InputError, match="points at a depth belong to the cells of one lattice"):
+        tl.study.assess_on_two_lattices(result.response, result.contact, shifted, line, depth=0.0)
+
+    swept = tl.sweep(case, {"rolling.normal_load": [case.rolling.normal_load]}).dataset
+    # Both are searched from means over the same points, solved together there and one by one here.
+    assert float(swept["worst_passes"].squeeze()) == pytest.approx(both, rel=1e-4)
+
+
+def test_one_contact_twice_is_that_contact():
+    case = tl.Case.from_text(COARSE_CASE)
+    contact = tl.solve_contact(case.build_tire(), case.build_road(), case.build_rolling(), spacing=case.spacing)
+    response = tl.solve_response(contact, case.build_road(), depths=[0.0])
+    line = case.damage.fatigue.build()
+    twice, once = tl.study.assess_on_two_lattices(response, contact, contact, line), tl.assess(response, line)
+    assert float(twice.dataset["worst_strain"]) == pytest.approx(float(once.dataset["worst_strain"]), rel=1e-9)
+
+
+def test_what_has_one_lattice_is_read_on_it(tmp_path):
+    """A height map is not known between its cells: no second lattice by default, and none can be asked for."""
+    rise = 1e3 * np.add.outer(np.linspace(-0.1, 0.1, 41) ** 2, np.linspace(-0.1, 0.1, 41) ** 2)
+    np.savetxt(tmp_path / "map.csv", rise, delimiter=",")
+    case = {
+        "tire": {"height_map": "map.csv", "cell": 5e-3, "units": "mm", "inflation_pressure": 8e5},
+        "pavement": {"layers": [{"material": {"modulus": 5e9, "poisson": 0.35}}]},
+        "rolling": {"normal_load": 5e3, "friction": 0.5},
+        "damage": {"fatigue": {"epsilon_6": 120e-6, "slope": -0.2}},
+    }
+    verdict = tl.run_case(tl.Case.from_dict(case, folder=tmp_path)).verdict
+    assert "lattices" not in verdict.dataset.attrs
+    case["damage"]["lattices"] = 2
+    with pytest.raises(InputError, match="a height map has one lattice of cells"):
+        tl.run_case(tl.Case.from_dict(case, folder=tmp_path))
+    with pytest.raises(InputError, match="depth reads the points of one lattice of cells"):
+        tl.Case.from_text(asked('lattices = 2\ndepth = "0 mm"'))
