@@ -41,6 +41,10 @@ def test_a_wheel_comes_back_from_lines_with_jitter_dropouts_and_tilt(tmp_path, d
     assert [g.depth for g in quality.grooves] == pytest.approx([12e-3] * 3, abs=0.2e-3)
     assert [g.centre for g in quality.grooves] == pytest.approx([g.centre for g in TREAD.grooves], abs=0.2e-3)
     assert quality.coverage > 0.995
+    # Three grooves, 12 mm wide at the top and 3 mm down 2 x 3 mm tan 8° narrower, in a tread of 200 mm. The shoulders
+    # that the laser saw beside it, 15 mm each, rise above the drop of 30 mm for all of them.
+    grooved = 3 * (12 - 2 * 3 * math.tan(math.radians(8)))
+    assert quality.land_ratio == pytest.approx(1 - grooved / 230, abs=0.02)
     # The noise of the laser, as cells of 3 mm hold some ten points and take one ray each; 0.075 mm was measured.
     assert rms(tire) < 0.1e-3
 

@@ -144,3 +144,13 @@ def test_coarse_lugs_get_advice_that_helps(tmp_path):
     assert told
     assert "use a finer mesh" in told[0]
     assert "revolve=True" not in told[0]
+
+
+def test_the_land_ratio_of_lugs_is_the_share_of_the_turn_that_they_cover(tmp_path):
+    vertices, faces, radius = lugged_mesh(share=0.35)
+    quality = Tire.from_scan(write(tmp_path / "lugs.ply", vertices, faces), units="m").quality
+    # 3 mm below the tops, of a crown that falls by half a square of the place across.
+    half = 0.12
+    y = np.linspace(-half, half, radius.shape[0])
+    exact = float((radius > (0.35 - y**2 / 2)[:, None] - 3e-3).mean())
+    assert quality.land_ratio == pytest.approx(exact, abs=0.04)

@@ -59,7 +59,8 @@ class ScanQuality:
     revolved: True when the meridian was revolved in place of the facets. grooves: from left to right.
     warnings: one sentence each. noise: standard deviation of the error of single points along the radius, m, as
     scanned; NaN when there are too few points. smoothing: standard deviation of the window that removed it, m, or 0.
-    outliers: places that stuck out of the tread, the highest first.
+    outliers: places that stuck out of the tread, the highest first. land_ratio: share of the tread that ribs, blocks
+    and lugs make up, grooves less than 3 mm deep among them; NaN where it is not known.
     """
 
     n_points: int
@@ -81,6 +82,7 @@ class ScanQuality:
     noise: float = math.nan
     smoothing: float = 0.0
     outliers: tuple[Outlier, ...] = ()
+    land_ratio: float = math.nan
 
     def __str__(self) -> str:
         lines = [
@@ -92,6 +94,7 @@ class ScanQuality:
             + (f", smoothed over {self.smoothing * 1e3:.1f} mm" if self.smoothing else "")
             + f", points that stick out {sum(one.points for one in self.outliers)}",
             f"coverage {self.coverage:.1%}, holes {self.holes}"
+            + ("" if math.isnan(self.land_ratio) else f", land ratio {self.land_ratio:.0%}")
             + (", revolved from its meridian" if self.revolved else ""),
         ]
         lines += [

@@ -181,6 +181,23 @@ def find_grooves(y: Array, meridian: Array, crown_radius: float) -> tuple[Groove
     return tuple(grooves)
 
 
+def land_ratio(y: Array, unrolled: Array, top: Array, rows: BoolArray) -> float:
+    """Share of an unrolled tread (ny, nt) that ribs, blocks and lugs make up; NaN where nothing is known.
+
+    y: (ny,) even steps, m. top: (ny,) envelope of their tops, m. rows: (ny,) True on the tread. Land lies less than
+    3 mm below the tops carried on over grooves. What was not scanned at an angle with tread is as elsewhere.
+    """
+    bridged = top + groove_depth(y, top)
+    usual = median_meridian(unrolled)
+    turn = unrolled[rows]
+    turn = turn[:, np.isfinite(turn).mean(axis=0) > 0.5]
+    turn = np.where(np.isfinite(turn), turn, usual[rows][:, None])
+    known = np.isfinite(turn) & np.isfinite(bridged[rows])[:, None]
+    with np.errstate(invalid="ignore"):
+        land = turn > bridged[rows][:, None] - TOP_BAND
+    return float(land[known].mean()) if known.any() else math.nan
+
+
 def _crossing(y: Array, depth: Array, index: int, level: float) -> float:
     """Where the depth passes the level between one sample and the next, m."""
     a, b = float(depth[index]), float(depth[index + 1])

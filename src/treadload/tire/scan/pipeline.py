@@ -154,6 +154,7 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     warnings += why
     # Noise raises what is high on most of the turn; where nothing changes round it the middle will do.
     part = 0.5 if steady and noise > LARGEST_NOISE else DEEP_GROOVE
+    land = unrolling.land_ratio(y, seen.turn, seen.top, rows)
     grooves = unrolling.find_grooves(y, unrolling.high_meridian(seen.turn, part), crown)
     if turning:
         meridian = envelope = meridian + 0.75 * seen.sag
@@ -186,6 +187,7 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
         noise=noise,
         smoothing=length,
         outliers=tuple(outliers),
+        land_ratio=land,
     )
     if mesh.dropped:
         warnings.append(f"{mesh.dropped} triangles without area were left out")
