@@ -107,7 +107,7 @@ def depths(results: dict[tuple[str, str], tl.LifeResult]) -> Figure:
         axis.set_xlabel("years from the opening")
     axes[0].invert_yaxis()
     axes[0].set_ylabel("depth of the crack (mm)")
-    axes[-1].legend(loc="lower left", frameon=False)
+    axes[0].legend(loc="center", frameon=False)
     told = "half of the roads, shaded 5 to 95 %, dotted the design life"
     figure.suptitle(f"How deep a crack from the surface is: {told}", x=0.01, ha="left", fontweight="bold")
     return figure
