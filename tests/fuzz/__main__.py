@@ -21,6 +21,7 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | clouds | 1 | 0 to 400, stopped | a LAZ file whose table of chunks lies, which ended the process |
 | clouds | 3 | 0 to 14 000 | 0 |
 | fits | 1 | 0 to 1 180 | 11: points at six places, cells of a ring without width that filled the memory |
+| fits | 2 | 0 to 1 000 | 0 |
 | laser | 3 | 0 to 20 000 | 0 |
 | fringes | 3 | 0 to 3 000 | 1: a distance of the rig whose inverse is beyond all numbers |
 | results | 7 | 0 to 4 700, of an older form of the attack | 18, of which seven causes in the package |

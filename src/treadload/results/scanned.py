@@ -32,7 +32,7 @@ def scan_map(tire: Tire, earlier: Tire | None = None, *, spacing: float = 3e-3) 
     data = height_map(tire, spacing).assign_attrs(scan=str(_surface(tire).report))
     if earlier is None:
         return data
-    tree = to_tree(scan_wear(tire, earlier), title=f"Wear of {tire.name or 'a tread'}")
+    tree = to_tree(scan_wear(tire, earlier), title=f"{tire.name or 'tire'}: tread wear")
     tree.dataset = data.assign_attrs(tree.attrs | data.attrs | {"earlier": str(earlier)})
     return tree
 
