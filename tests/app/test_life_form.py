@@ -2,7 +2,9 @@
 
 import pytest
 
+import treadload as tl
 from treadload.app import life_form as own
+from treadload.app import maneuvers
 from treadload.app.form import Form
 from treadload.app.life_form import LifeForm
 from treadload.case import LifeCase
@@ -14,6 +16,10 @@ def fields_of(form):
     yield from own.PASSES
     for number, row in enumerate(form.rows("traffic.classes")):
         yield from own.class_fields(number, row)
+        before, held = f"traffic.classes.{number}", maneuvers.several(row)
+        yield from maneuvers.maneuver_fields(f"{before}.maneuver", row.get("maneuver"))
+        for which, told in enumerate(held):
+            yield from maneuvers.maneuver_fields(f"{before}.maneuvers.{which}", told)
     yield from own.climate_fields(form.climate, len(form.rows("climate.seasons")))
     for number, row in enumerate(form.rows("criteria")):
         yield from own.criterion_fields(number, row, ["EB-BBSG3", "EB-GB3", "PF3"])
@@ -63,6 +69,42 @@ def test_rows_come_and_go(tmp_path):
     # A road of one's own takes the temperatures of the climate.
     for road in ("layers", "structure"):
         assert "temperature" not in form.with_road(road).table["pavement"]
+
+
+@pytest.mark.parametrize("kind", maneuvers.KINDS)
+def test_a_class_does_what_is_chosen(kind, tmp_path):
+    """One maneuver, several, one again: each as `Maneuver` has it, and each field reads back."""
+    made = {
+        "straight": tl.Maneuver(), "braking": tl.Maneuver.braking(2.5), "locked": tl.Maneuver.braking(),
+        "uphill": tl.Maneuver.uphill(0.05, 0.25), "turning": tl.Maneuver.turning(25, 25 / 3.6),
+    }[kind]  # fmt: skip
+    form = maneuvers.with_kind(LifeForm.first(), 0, kind)
+    (only,) = moves_of(form, tmp_path, 0)
+    assert (only.tractive, only.lateral, only.spin, only.locked) == pytest.approx(
+        (made.tractive, made.lateral, made.spin, made.locked)
+    )
+    for field in fields_of(form):
+        if ".maneuver." in field.path and form.value(field.path) is not None:
+            assert form.with_text(field, field.shown(form.value(field.path))).check(tmp_path).case is not None
+    two = maneuvers.with_another(form, 0)
+    assert [one.tractive for one in moves_of(two, tmp_path, 0)] == pytest.approx(
+        [made.tractive, tl.Maneuver.braking(2.5).tractive]
+    )
+    three = maneuvers.with_another(two, 0)
+    assert len(moves_of(three, tmp_path, 0)) == 3
+    assert two.value("traffic.classes.0.maneuvers.0.share") == 0.9
+    climbs = maneuvers.with_kind(two, 0, "uphill", 1)
+    assert moves_of(climbs, tmp_path, 0)[1].tractive == pytest.approx(0.2)
+    assert climbs.value("traffic.classes.0.maneuvers.1.share") == 0.1
+    assert moves_of(maneuvers.without_one(two, 0, 1), tmp_path, 0) == [only]
+
+
+def moves_of(form, folder, number):
+    """Maneuvers of a class as the reader of the case makes them."""
+    case = form.check(folder).case
+    assert case is not None, form.check(folder).wrong
+    name = form.value(f"traffic.classes.{number}.name")
+    return [one.maneuver for one in case.build_traffic().classes if one.name.split(",")[0] == name]
 
 
 def test_a_wrong_number_is_said_at_its_field(tmp_path):

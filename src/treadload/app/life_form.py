@@ -17,7 +17,7 @@ from treadload.case.first import first_case
 from treadload.case.traffic import GEARS, AxlePart, TrafficPart
 from treadload.files import parse_toml
 from treadload.read.signature import descriptions
-from treadload.registry import CRITERIA, MANEUVERS
+from treadload.registry import CRITERIA
 
 CLIMATES = {
     "months": "twelve months", "temperature": "one temperature", "air": "the air's months", "file": "a weather file",
@@ -105,11 +105,6 @@ def class_fields(number: int, row: Any) -> Iterator[Field]:
         yield Field(
             f"{before}.gear", "Gear", kind="choice", words=_AXLE["gear"], choices={name: name for name in GEARS}
         )
-    if not (isinstance(row, dict) and "maneuvers" in row):
-        told = row.get("maneuver") if isinstance(row, dict) else None
-        if told is None or isinstance(told, str):
-            names = {name: name for name in MANEUVERS.names() if name in ("straight", "locked")}
-            yield Field(f"{before}.maneuver", "Rolls", kind="choice", words=_AXLE["maneuver"], choices=names)
     yield Field(f"{before}.speed", "Speed", "km/h", "m/s", words=_AXLE["speed"], otherwise="none")
 
 

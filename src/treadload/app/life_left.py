@@ -9,6 +9,7 @@ from nicegui import ui
 
 from treadload.app import fields as keys
 from treadload.app import life_form as own
+from treadload.app import maneuvers
 from treadload.app.fielding import choosing, plain
 from treadload.app.fields import Field
 from treadload.app.form import Form
@@ -52,7 +53,7 @@ class LifeLeft(CaseFields):
             for field in own.PASSES:
                 self.field(field)
         for number, row in enumerate(self.life.rows("traffic.classes")):
-            self._row("traffic.classes", number, row, own.class_fields(number, row))
+            self._row("traffic.classes", number, row, own.class_fields(number, row), moves=True)
         plain("add axles", lambda: self.again(self.life.with_more("traffic.classes")), label="add a class of axles")
 
     def _climate(self) -> None:
@@ -95,20 +96,40 @@ class LifeLeft(CaseFields):
                 for field in own.RELIABILITY:
                     self.field(field)
 
-    def _row(self, path: str, number: int, row: Any, fields: Iterable[Field]) -> None:
+    def _row(self, path: str, number: int, row: Any, fields: Iterable[Field], *, moves: bool = False) -> None:
         with ui.element("div").classes("layer"):
             name = str(row.get("name", "")) if isinstance(row, dict) else ""
             with ui.element("div").classes("head"):
                 ui.label(name)
                 if len(self.life.rows(path)) > 1:
                     plain("remove", lambda: self.again(self.life.without(path, number)), label=f"remove {name}")
-            several = row.get("maneuvers") if isinstance(row, dict) else None
             with ui.element("div").classes("fields"):
                 for field in fields:
                     self.field(field, wide=field.path.endswith((".name", ".law")))
-            if isinstance(several, list):
-                told = ", ".join(f"{one.get('name', one.get('kind'))} {one.get('share')}" for one in several)
-                ui.label(f"maneuvers with their shares: {told}").classes("note")
+            if moves:
+                self._moves(number, row, name)
+
+    def _moves(self, number: int, row: Any, name: str) -> None:
+        """What the wheels of a class do."""
+        path = f"traffic.classes.{number}"
+        held = maneuvers.several(row)
+        for which, told in enumerate(held or [self.form.value(f"{path}.maneuver")]):
+            one, here = (which, f"{path}.maneuvers.{which}") if held else (None, f"{path}.maneuver")
+            with ui.element("div").classes("fields"):
+                choosing(maneuvers.choices_of(told), maneuvers.kind_of(told), "Rolls", self._chosen(number, one)
+                         ).props(f'data-move="{number}.{which}"').classes(remove="wide")  # fmt: skip
+                for field in maneuvers.maneuver_fields(here, told):
+                    self.field(field)
+            if held:
+                with ui.element("div").classes("line after"):
+                    plain("remove", lambda which=which: self.again(maneuvers.without_one(self.life, number, which)),
+                          label=f"remove maneuver {which + 1} of {name}")  # fmt: skip
+        with ui.element("div").classes("line after"):
+            plain("does something else, too", lambda: self.again(maneuvers.with_another(self.life, number)),
+                  label=f"another maneuver of {name}")  # fmt: skip
+
+    def _chosen(self, number: int, which: int | None) -> Callable[[str], Any]:
+        return lambda kind: self.again(maneuvers.with_kind(self.life, number, kind, which))
 
     def _grid(self) -> None:
         ui.element("h2").props('innerHTML="Grid"')

@@ -156,7 +156,11 @@ class Tab:
             self._cancel.props("disabled")
 
     def _hear(self, run: Run, answer: dict[str, Any]) -> None:
-        """Show what the process says of a run."""
+        """Show what the process says of a run. A tab that is closed has no place for it; the run is kept."""
+        if self.client.is_deleted:
+            run.ready = run.ready or "ready" in answer
+            run.rows, run.warnings = answer.get("rows", run.rows), answer.get("warnings", run.warnings)
+            return
         if "stage" in answer:
             self.stage.text = f"{answer['seconds']:.1f} s  {answer['stage']}"
         if "part" in answer:

@@ -8,6 +8,7 @@ from typing import Any
 from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Verdict
+from treadload.damage.quantity import READINGS
 from treadload.plots.interactive import places_of
 
 Row = dict[str, Any]
@@ -73,13 +74,16 @@ def verdict_rows(verdict: Verdict) -> list[Row]:
     data = verdict.dataset
     strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
     sentence = verdict.summary().splitlines()[-1].removeprefix("Verdict: ")
+    read = row("reading", "Read as", f"{READINGS[verdict.strain]}, {data.attrs['reading']}", group="road",
+               note="the maps show points, whose readings beside edges of the contact are far higher")  # fmt: skip
     if not strain > 0:
-        return [row("verdict", "Life", "this law sees no crack", group="road", note=sentence)]
+        return [row("verdict", "Life", "this law sees no crack", group="road", note=sentence), read]
     x, y, depth = (float(data[f"worst_{name}"]) for name in ("x", "y", "depth"))
     at = {"x": x, "y": y, "depth": depth}
     where = f"x {x * 1e3:.1f}, y {y * 1e3:.1f}, {depth * 1e3:g} mm deep"
     return [
         row("extension", "Largest extension", f"{strain * 1e6:.1f} microstrain", group="road", **at),
+        read,
         row("place", "Where", where, group="road", **at),
         row("crack", "Crack", verdict.orientation, group="road", note=verdict.summary().splitlines()[4], **at),
         row("passes", "Passes", f"{passes:.3g}", group="road", note=f"{verdict.line}. {sentence}", **at),

@@ -177,7 +177,7 @@ def depth_slice(
     layout = {
         "height": height, "margin": {"l": 62, "r": 20, "t": 40, "b": 50}, "shapes": shapes,
         "title": {"text": f"<b>{words[:1].upper()}{words[1:]}</b>", "x": 0.01, "font": {"size": 13}},
-        "xaxis": {"title": {"text": label}, "range": [float(at[0]), float(at[-1])]},
+        "xaxis": {"title": {"text": label}, "range": [float(at[0]), float(at[-1])], "constrain": "domain"},
         "yaxis": {"title": {"text": DEPTH_LABEL}, "autorange": "reversed", "scaleanchor": "x", "scaleratio": 1,
                   "constrain": "domain"},
         "uirevision": "section",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -65,7 +66,11 @@ def overlays(field: Field, axes: tuple[str, str], theme: Theme) -> list[Trace]:
             made.append(_lines(lines, axes, theme.ink, 1.3, name))
     if field.peak is not None:
         x, y, text = field.peak
-        made.append(marks([(x, y, text)], axes, theme, "peak"))
+        peak = marks([(x, y, text)], axes, theme, "peak")
+        # Towards the middle of the map, or a long text would leave it, and beside the line of a cut through the peak.
+        sides = ((one[0] + one[-1]) / 2 for one in (field.plan.x_edges, field.plan.y_edges))
+        right, down = (at > middle for at, middle in zip((x, y), sides, strict=True))
+        made.append(peak | {"textposition": f"{'top' if down else 'bottom'} {'left' if right else 'right'}"})
     return made
 
 
@@ -85,7 +90,7 @@ def marks(places: Sequence[tuple[float, float, str]], axes: tuple[str, str], the
         # The ring twice: paper around it, so that it shows on dark and bright cells.
         places = [one for one in places for _ in range(2)]
         look = {
-            "mode": "markers+text", "textposition": "middle right", "cliponaxis": False,
+            "mode": "markers+text", "cliponaxis": False,
             "textfont": {"color": theme.ink, "size": 11, "weight": "bold", "shadow": _shadow(theme)},
             "marker": {"symbol": "circle-open", "size": 12, "color": [theme.halo, theme.ink] * (len(places) // 2),
                        "line": {"width": [5, 2] * (len(places) // 2)}},
@@ -121,13 +126,13 @@ def plan_axes(number: int, plan: Plan, domain: tuple[float, float, float, float]
 def heading(
     text: str, domain: tuple[float, float, float, float], theme: Theme, lift: float, room: float
 ) -> dict[str, Any]:
-    """A title flush left above a part of the page, cut to the room; pixels, as lift is."""
-    most = int(room / _LETTER)
-    short = text if len(text) <= most else f"{text[: most - 1].rstrip(' ,')}…"
+    """A title flush left above a part of the page, in two lines at most within the room; pixels, as lift is."""
+    lines = wrap(text, max(1, int(room / _LETTER)), max_lines=2, placeholder=" …")
+    short = "<br>".join(lines)
     return {
-        "text": f"<b>{short}</b>", "hovertext": text if short != text else "",
+        "text": f"<b>{short}</b>", "hovertext": text if short.endswith("…") else "",
         "x": domain[0], "y": domain[3], "xref": "paper", "yref": "paper", "showarrow": False,
-        "xanchor": "left", "yanchor": "bottom", "yshift": lift, "font": {"size": 13, "color": theme.ink},
+        "xanchor": "left", "yanchor": "bottom", "align": "left", "yshift": lift, "font": {"size": 13, "color": theme.ink},
     }  # fmt: skip
 
 

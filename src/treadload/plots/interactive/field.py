@@ -147,7 +147,7 @@ def extension_field(
         Field(
             VARIABLE[strain], f"largest extension, {NAMES[strain]}", "microstrain", plan, values, "strain", scale,
             f"Largest extension {place_in_words(depth)}, {NAMES[strain]}", _outline(contact or response),
-            strokes=drawn, peak=_peak(plan, values, "microstrain"),
+            strokes=drawn, peak=_peak(plan, values, "microstrain at a point"),
         )
     )  # fmt: skip
 

@@ -40,7 +40,9 @@ def places_of(source: Source) -> list[Place]:
         strain = float(held["worst_strain"]) * MICRO
         passes = float(held["worst_passes"])
         x, y, depth = (float(held[f"worst_{name}"]) for name in ("x", "y", "depth"))
-        return [Place(x, y, f"worst point: {measure(strain)} microstrain, {passes:.2g} passes", depth)]
+        how = ", ".join(str(data.attrs[key]) for key in ("strain", "reading") if key in data.attrs)
+        told = f"verdict: {measure(strain)} microstrain{f' ({how})' if how else ''}, {passes:.2g} passes"
+        return [Place(x, y, told, depth)]
     if "worst_y" in held and "criterion" in held:
         years = data["life_years"].to_numpy() if "life_years" in held else np.full(data.sizes["criterion"], np.nan)
         return [Place(None, float(y), f"{name}: {measure(float(one))} years")
