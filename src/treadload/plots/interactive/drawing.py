@@ -132,7 +132,8 @@ def heading(
     return {
         "text": f"<b>{short}</b>", "hovertext": text if short.endswith("…") else "",
         "x": domain[0], "y": domain[3], "xref": "paper", "yref": "paper", "showarrow": False,
-        "xanchor": "left", "yanchor": "bottom", "align": "left", "yshift": lift, "font": {"size": 13, "color": theme.ink},
+        "xanchor": "left", "yanchor": "bottom", "align": "left", "yshift": lift,
+        "font": {"size": 13, "color": theme.ink},
     }  # fmt: skip
 
 
