@@ -322,7 +322,7 @@ def test_the_command_writes_a_height_map_that_a_tire_is_made_of(folder, seen):
     assert np.array_equal(tire.surface.gap, scan.tire().surface.gap, equal_nan=True)
     refused = CliRunner().invoke(app, [*args, "--spacing", "2 mm"])
     assert refused.exit_code == 2
-    assert "--spacing belongs to a mesh" in " ".join(refused.output.split())
+    assert "--spacing belongs to a scan of a tire" in " ".join(refused.output.split())
 
 
 @pytest.mark.slow
