@@ -3,9 +3,12 @@
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.study.contacts import Contacts
+from treadload.study.life import solve_life
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "design_life"
 
@@ -27,6 +30,21 @@ def test_design_life(tmp_path, capsys):
     page = (tmp_path / "life.html").read_text()
     assert "What the life depends on" in page
     assert tl.open_results(tmp_path / "life.nc").life.governing == "base, bottom-up"
+
+
+@pytest.mark.slow
+def test_lives_of_the_design_are_those_of_all_seasons_solved():
+    """On the cells of the case: few seasons stand for all, within 1e-3 of the years of every criterion."""
+    case = tl.LifeCase.from_toml(EXAMPLE / "design.toml")
+    tire, road = case.build_tire(), case.build_road()
+    contacts = Contacts(tire, case.spacing)
+    given = case.build_traffic(), case.build_climate(), case.build_criteria()
+    few, all_of_them = (
+        solve_life(tire, road, *given, spacing=case.spacing, tolerance=one, contacts=contacts)
+        for one in (case.tolerance, 0.0)
+    )
+    assert few.stats["responses"] < all_of_them.stats["responses"]
+    np.testing.assert_allclose(few.dataset["life_years"], all_of_them.dataset["life_years"], rtol=1e-3)
 
 
 def test_the_design_is_a_valid_case():

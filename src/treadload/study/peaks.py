@@ -6,6 +6,7 @@ there. What it would be beyond, and the tension itself, vary steadily, so that b
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import numpy as np
@@ -18,6 +19,8 @@ _RIVAL = 0.8
 # Lines in a strip of a passage, and the part of the largest reading below which they are not worth while: less than
 # a hundredth of its damage.
 _LINES, _FAINT = 8, 0.3
+# Points that are looked at together.
+_BLOCK = 100_000
 # Steps that differ by less than this part are even.
 _EVEN = 1e-6
 
@@ -65,10 +68,14 @@ def over_strips(
     if not largest > 0:
         return result
     within = (y[1] - y[0]) * ((np.arange(_LINES) + 0.5) / _LINES - 0.5)
-    onto = onto_lines(rows, np.clip(y[asked, None] + within, rows[0], rows[-1]).ravel())
-    fields = (None if one is None else _across(onto, one) for one in (uncut, margin))
-    lines = (peaks(*fields) / largest).reshape(len(own), len(asked), _LINES)
-    result[:, asked] = largest * (lines**power).mean(axis=2) ** (1 / power)
+    # So many at a time that what is made of them stays in the cache.
+    step = max(1, _BLOCK // (_LINES * uncut.shape[-1]))
+    for start in range(0, len(asked), step):
+        some = asked[start : start + step]
+        onto = onto_lines(rows, np.clip(y[some, None] + within, rows[0], rows[-1]).ravel())
+        fields = (None if one is None else _across(onto, one) for one in (uncut, margin))
+        lines = (peaks(*fields) / largest).reshape(len(own), len(some), _LINES)
+        result[:, some] = largest * (lines**power).mean(axis=2) ** (1 / power)
     return result
 
 
@@ -97,25 +104,30 @@ def peaks_and_valleys(
     shape = (-1, *uncut.shape[-2:])
     uncut, margin = uncut.reshape(shape), None if margin is None else margin.reshape(shape)
     read = cut(uncut, margin).max(axis=0)
-    tops = _between_points(uncut, margin) if smooth else None
     result = np.zeros((turns, len(read)))
     ends = np.concatenate([[-np.inf], 0.5 * (centres[1:] + centres[:-1]), [np.inf]])
-    for axle in range(len(centres)):
-        inside = np.flatnonzero((x >= ends[axle]) & (x <= ends[axle + 1]))
+    axles = [np.flatnonzero((x >= low) & (x <= high)) for low, high in itertools.pairwise(ends)]
+    known = np.full(read.shape, np.inf)
+    for axle, inside in enumerate(axles):
         result[2 * axle] = read[:, inside].max(axis=1)
-        if tops is not None and len(inside) > 1:
-            result[2 * axle] = np.maximum(result[2 * axle], tops[:, inside[:-1]].max(axis=1))
+        known[:, inside] = np.minimum(known[:, inside], result[2 * axle][:, None])
+    if smooth:
+        tops = _between_points(uncut, margin, known)
+        for axle, inside in enumerate(axles):
+            if len(inside) > 1:
+                result[2 * axle] = np.maximum(result[2 * axle], tops[:, inside[:-1]].max(axis=1))
     for axle in range(len(centres) - 1):
         between = (x >= centres[axle]) & (x <= centres[axle + 1])
         result[2 * axle + 1] = read[:, between].min(axis=1)
     return np.maximum(result, 0.0)
 
 
-def _between_points(uncut: Array, margin: Array | None) -> Array:
+def _between_points(uncut: Array, margin: Array | None, known: Array) -> Array:
     """Largest reading of all depths (ny, nx - 1) between each of even points (nz, ny, nx) along x and the next one.
 
     Values follow the parabola through both with the mean curvature of either; tension, straight, ends between a point
-    that has it and one that has none. Nothing where neither comes near the largest of its line.
+    that has it and one that has none. Nothing where neither comes near the largest of its line, and where a parabola
+    stays below what is known already, (ny, nx).
     """
     tops = np.zeros((uncut.shape[1], uncut.shape[2] - 1))
     if uncut.shape[2] < 3:
@@ -124,10 +136,22 @@ def _between_points(uncut: Array, margin: Array | None) -> Array:
     near = uncut >= _RIVAL * np.where(tensile, uncut, -np.inf).max(axis=(0, 2))[:, None]
     left, right = slice(None, -1), slice(1, None)
     asked = (near[..., left] | near[..., right]) & (tensile[..., left] | tensile[..., right])
-    z, j, i = np.nonzero(asked)
-    first, last = uncut[z, j, i], uncut[z, j, i + 1]
-    inner = np.clip(np.stack([i, i + 1]), 1, uncut.shape[2] - 2)
-    bend = 0.25 * (uncut[z, j, inner - 1] - 2 * uncut[z, j, inner] + uncut[z, j, inner + 1]).sum(axis=0)
+    columns = np.flatnonzero(asked.any(axis=(0, 1)))
+    if not len(columns):
+        return tops
+    # Of the stretch that holds all of them, with the points beside it.
+    start, stop = max(int(columns[0]) - 1, 0), min(int(columns[-1]) + 3, uncut.shape[2])
+    along = slice(start, stop)
+    whole, uncut, asked, known = tops, uncut[..., along], asked[..., start : stop - 1], known[..., along]
+    tops, margin = tops[:, start : stop - 1], None if margin is None else margin[..., along]
+    bends = uncut[..., :-2] - 2 * uncut[..., 1:-1] + uncut[..., 2:]
+    bends = 0.25 * np.concatenate(
+        [2 * bends[..., :1], bends[..., 1:] + bends[..., :-1], 2 * bends[..., -1:]], axis=-1
+    )
+    # A parabola rises by a quarter of its bend above the straight line at most.
+    most = np.maximum(uncut[..., left], uncut[..., right]) - 0.25 * np.minimum(bends, 0.0)
+    z, j, i = np.nonzero(asked & (most > known[:, left]))
+    first, last, bend = uncut[z, j, i], uncut[z, j, i + 1], bends[z, j, i]
     # Where tension begins and ends, in parts of the way between the two points.
     low, high = np.zeros(len(i)), np.ones(len(i))
     if margin is not None:
@@ -138,4 +162,4 @@ def _between_points(uncut: Array, margin: Array | None) -> Array:
     summit = np.divide(-0.5 * slope, bend, out=low.copy(), where=bend < 0)
     places = np.stack([low, high, np.clip(summit, low, high)])
     np.maximum.at(tops, (j, i), (first + places * (slope + places * bend)).max(axis=0))
-    return tops
+    return whole
