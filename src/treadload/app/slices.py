@@ -14,9 +14,10 @@ from treadload.app.figures import Place
 # Of a line as plotly holds it.
 _ENDS = ("x0", "y0", "x1", "y1")
 _SECTIONS = {
-    "principal_strain_1": "largest extension, three-dimensional", "in_plane_strain_1": "largest extension, horizontal",
-    "strain_zz": "vertical strain", "von_mises_stress": "von Mises stress", "mean_stress": "mean stress",
-    "stress_zz": "vertical stress",
+    "principal_strain_1": "largest extension, three-dimensional",
+    "in_plane_strain_1": "largest extension, horizontal", "strain_zz": "vertical strain",
+    "von_mises_stress": "von Mises stress",
+    "mean_stress": "mean stress", "stress_zz": "vertical stress",
 }  # fmt: skip
 
 
