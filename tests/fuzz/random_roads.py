@@ -3,6 +3,9 @@
 `python -m fuzz.random_roads --seed 0 --count 10000`, in the folder tests. Each road has 1 to 8 layers of 1 mm to
 20 m and 1 MPa to 200 GPa, Poisson's ratio 0 to 0.5 with both ends, interfaces bonded, half-bonded, sprung and
 frictionless, on a rigid base or a half-space. A road is its seed and its number; `--only` repeats one.
+
+Seed 0 was run from 0 to 10 000, 82 595 checks, in 988 s: two failed, 4396 and 6828, whose layer of ν = 0.5 is pressed
+from all sides and strains by round-off alone; that is measured by stress over modulus since.
 """
 
 from __future__ import annotations
@@ -70,7 +73,9 @@ class Case:
             "y": self.places[1],
             "side": self.side,
         } | change
-        return tl.solve_response(asked.pop("loads"), asked.pop("road"), **asked).dataset
+        loads, road = asked.pop("loads"), asked.pop("road")
+        softest = min(one.modulus for one in _materials(road))
+        return tl.solve_response(loads, road, **asked).dataset.assign_attrs(softest=softest)
 
 
 @dataclass
@@ -360,15 +365,21 @@ def under_a_disc(case: Case) -> Found:
 
 def _same(name: str, found: xr.Dataset, wanted: xr.Dataset, bound: float) -> Found:
     """Differences by the largest value of each kind at each depth; a value that is NaN in one only is infinite."""
+    pressed = 0.0
     for kind, names in KINDS.items():
         a, b = (np.stack([data[one].to_numpy() for one in names]) for data in (found, wanted))
         if (np.isnan(a) != np.isnan(b)).any() or np.isinf(a).any() or np.isinf(b).any():
             yield f"{name}: {kind}", math.inf, bound
             continue
         size = np.nanmax(np.abs(np.concatenate([a, b])), axis=(0, 2, 3), initial=0.0)
-        # A rigid base does not move, and a layer of ν = 0.5 that is pressed from all sides does not strain.
-        still = {"displacement": 1e-9, "strain": 1e-8, "stress": 0.0}[kind]
-        size = np.maximum(size, still * size.max())
+        # A rigid base does not move.
+        size = np.maximum(size, {"displacement": 1e-9, "strain": 1e-8, "stress": 0.0}[kind] * size.max())
+        if kind == "strain":
+            # A layer of ν = 0.5 that is pressed from all sides does not strain: what is left of it is the round-off
+            # of stress over modulus, 2e-16 of that, and less than 1e-8 of this.
+            size = np.maximum(size, 1e-7 * pressed / wanted.attrs["softest"])
+        elif kind == "stress":
+            pressed = size
         error = np.nanmax(np.abs(a - b), axis=(0, 2, 3), initial=0.0) / np.maximum(size, 1e-250)
         yield f"{name}: {kind}", float(error.max()), bound
 

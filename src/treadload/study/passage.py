@@ -6,12 +6,11 @@ import math
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, make_interp_spline
 
 from treadload.damage.criterion import Criterion, Side
 from treadload.kernels.arrays import Array
@@ -165,16 +164,16 @@ def _read(result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, 
     by_depth = cut(uncut, margin).reshape(-1, *uncut.shape[-2:])
     deepest, read = by_depth.argmax(axis=0), by_depth.max(axis=0)
     centres = task.wheels.x.mean(axis=1)
-    averaged = plane.mean_over is not None
-    peaks = partial(peaks_and_valleys, data["x"].to_numpy(), centres=centres, turns=turns, smooth=smooth or averaged)
-    if smooth:
-        result[:turns] = np.maximum(CubicSpline(y[rows], peaks(uncut, margin), axis=1)(y), 0.0)
-    elif plane.mean_over is not None and task.wheels.cell <= plane.mean_over:
+    x, averaged = data["x"].to_numpy(), plane.mean_over is not None
+    at = {"centres": centres, "turns": turns}
+    if plane.mean_over is not None and task.wheels.cell <= plane.mean_over and not smooth:
         power = 1 / abs(getattr(criterion.law_at(_ANY_TEMPERATURE), "exponent", _USUAL))
-        result[:turns] = over_strips(y[rows], y, uncut, margin, peaks, power)
+        result[:turns] = over_strips(y[rows], y, x, uncut, margin, power=power, **at)
     else:
-        # Cells do not tell what is between them.
-        result[:turns] = [np.interp(y, y[rows], one) for one in peaks(uncut, margin)]
+        peaks = peaks_and_valleys(x, uncut, margin, smooth=smooth or averaged, **at)
+        # Near the surface cells do not tell what is between them.
+        between = CubicSpline(y[rows], peaks, axis=1) if smooth else make_interp_spline(y[rows], peaks, k=1, axis=1)
+        result[:turns] = np.maximum(between(y), 0.0)
     instant = read.argmax(axis=1)
     deep = np.take_along_axis(deepest, instant[:, None], axis=1)[:, 0]
     worst = _at_worst(data, deep, instant)

@@ -7,7 +7,7 @@ there. What it would be beyond, and the tension itself, vary steadily, so that b
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -18,7 +18,9 @@ from treadload.kernels.arrays import Array
 _RIVAL = 0.8
 # Lines in a strip of a passage, and the part of the largest reading below which they are not worth while: less than
 # a hundredth of its damage.
-_LINES, _FAINT = 8, 0.3
+_LINES, _FAINT = 4, 0.3
+# Columns whose reading is at least this part of a row's largest, and so many beside them, are looked at between rows.
+_HEARD, _BESIDE = 0.6, 4
 # Points that are looked at together.
 _BLOCK = 100_000
 # Steps that differ by less than this part are even.
@@ -51,31 +53,56 @@ def onto_lines(rows: Array, y: Array) -> sparse.csr_array:
 
 
 def over_strips(
-    rows: Array, y: Array, uncut: Array, margin: Array | None, peaks: Callable[..., Array], power: float
+    rows: Array,
+    y: Array,
+    x: Array,
+    uncut: Array,
+    margin: Array | None,
+    *,
+    centres: Array,
+    turns: int,
+    power: float,
 ) -> Array:
-    """Peaks and valleys (turns, ny) of fields (..., rows, nx): of strips around each y, by their mean damage.
+    """Peaks and valleys (turns, ny) of fields (..., rows, nx): peaks are those of strips, by mean damage.
 
     Readings end abruptly across travel too, so that those of single lines would depend on where the lines lie. Strips
-    are as wide as y are apart; where readings are faint, straight lines between the rows will do.
-    rows, y: m. peaks: turns of fields. power: of the law, by which damage grows with the reading.
+    are as wide as y are apart; where readings are faint, straight lines between the rows will do, and for valleys.
+    rows, y: m. power: of the law, by which damage grows with the reading. The others as of `peaks_and_valleys`.
     """
-    own = peaks(uncut, margin)
+    own = peaks_and_valleys(x, uncut, margin, centres=centres, turns=turns, smooth=True)
     result = np.stack([np.interp(y, rows, one) for one in own])
     largest = own.max()
-    loud = np.convolve(own[::2].max(axis=0) >= _FAINT * largest, np.ones(3), "same") > 0
-    at = np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
-    asked = np.flatnonzero(loud[at] | loud[at + 1])
     if not largest > 0:
         return result
+    at = np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
     within = (y[1] - y[0]) * ((np.arange(_LINES) + 0.5) / _LINES - 0.5)
-    # So many at a time that what is made of them stays in the cache.
-    step = max(1, _BLOCK // (_LINES * uncut.shape[-1]))
-    for start in range(0, len(asked), step):
-        some = asked[start : start + step]
-        onto = onto_lines(rows, np.clip(y[some, None] + within, rows[0], rows[-1]).ravel())
-        fields = (None if one is None else _across(onto, one) for one in (uncut, margin))
-        lines = (peaks(*fields) / largest).reshape(len(own), len(some), _LINES)
-        result[:, some] = largest * (lines**power).mean(axis=2) ** (1 / power)
+    read = cut(uncut, margin).reshape(-1, *uncut.shape[-2:]).max(axis=0)
+    for axle, inside in enumerate(_axles(x, centres)):
+        peaks = own[2 * axle]
+        loud = np.convolve(peaks >= _FAINT * largest, np.ones(3), "same") > 0
+        asked = np.flatnonzero(loud[at] | loud[at + 1])
+        if not len(asked):
+            continue
+        # Columns near the largest readings of these rows: fields vary little from one row to the next.
+        heard = np.flatnonzero((read[:, inside] >= _HEARD * np.maximum(peaks, _FAINT * largest)[:, None]).any(axis=0))
+        part = inside[max(int(heard[0]) - _BESIDE, 0) : int(heard[-1]) + _BESIDE + 1]
+        few = slice(int(part[0]), int(part[-1]) + 1)
+        # So many at a time that what is made of them stays in the cache.
+        step = max(1, _BLOCK // (_LINES * len(part)))
+        for start in range(0, len(asked), step):
+            some = asked[start : start + step]
+            onto = onto_lines(rows, np.clip(y[some, None] + within, rows[0], rows[-1]).ravel())
+            tension = None if margin is None else _across(onto, margin[..., few])
+            found = peaks_and_valleys(
+                x[few],
+                _across(onto, uncut[..., few]),
+                tension,
+                centres=centres[axle : axle + 1],
+                turns=1,
+                smooth=True,
+            )
+            lines = (found[0] / largest).reshape(len(some), _LINES)
+            result[2 * axle, some] = largest * (lines**power).mean(axis=1) ** (1 / power)
     return result
 
 
@@ -105,8 +132,7 @@ def peaks_and_valleys(
     uncut, margin = uncut.reshape(shape), None if margin is None else margin.reshape(shape)
     read = cut(uncut, margin).max(axis=0)
     result = np.zeros((turns, len(read)))
-    ends = np.concatenate([[-np.inf], 0.5 * (centres[1:] + centres[:-1]), [np.inf]])
-    axles = [np.flatnonzero((x >= low) & (x <= high)) for low, high in itertools.pairwise(ends)]
+    axles = _axles(x, centres)
     known = np.full(read.shape, np.inf)
     for axle, inside in enumerate(axles):
         result[2 * axle] = read[:, inside].max(axis=1)
@@ -120,6 +146,12 @@ def peaks_and_valleys(
         between = (x >= centres[axle]) & (x <= centres[axle + 1])
         result[2 * axle + 1] = read[:, between].min(axis=1)
     return np.maximum(result, 0.0)
+
+
+def _axles(x: Array, centres: Array) -> list[Any]:
+    """Numbers of the points nearest to each axle."""
+    ends = np.concatenate([[-np.inf], 0.5 * (centres[1:] + centres[:-1]), [np.inf]])
+    return [np.flatnonzero((x >= low) & (x <= high)) for low, high in itertools.pairwise(ends)]
 
 
 def _between_points(uncut: Array, margin: Array | None, known: Array) -> Array:
