@@ -13,7 +13,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
-from scipy import signal
 from scipy.special import erf
 
 from treadload.composing import BaseResult, Holds
@@ -119,9 +118,12 @@ def _margins(count: int, block: int) -> tuple[int, int]:
 
 def _spread(values: Array, kernels: list[Array], blocks: list[int]) -> Array:
     """Values filtered on a grid that holds all of them, as means of blocks."""
+    # scipy.signal brings scipy.stats along, which takes as long to import as all of this package.
+    from scipy.signal import fftconvolve
+
     for axis, (kernel, block) in enumerate(zip(kernels, blocks, strict=True)):
         values = np.moveaxis(values, axis, 0)
-        values = signal.fftconvolve(values, kernel[:, None], mode="full", axes=0)
+        values = fftconvolve(values, kernel[:, None], mode="full", axes=0)
         values = np.pad(values, [_margins(values.shape[0], block), (0, 0)])
         values = values.reshape(values.shape[0] // block, block, values.shape[1]).mean(axis=1)
         values = np.moveaxis(values, 0, axis)

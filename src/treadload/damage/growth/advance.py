@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.special import ndtri
-from scipy.stats import qmc
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -48,6 +47,9 @@ def _passes(start: float, end: float, rate: Array, power: Array) -> Array:
 
 def draws() -> tuple[Array, Array]:
     """Standard normal deviates (m,) of initiation and of growth, independent, from Sobol's sequence."""
+    # scipy.stats takes as long to import as all of this package.
+    from scipy.stats import qmc
+
     uniform = qmc.Sobol(2, scramble=True, seed=1).random_base2(_DRAWS)
     normal = ndtri(np.clip(uniform, 1e-12, 1 - 1e-12))
     return normal[:, 0], normal[:, 1]

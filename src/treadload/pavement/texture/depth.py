@@ -7,10 +7,8 @@ Sources: ISO 13473-1:2019 for the mean profile depth, its steps as a public impl
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
-from scipy import signal
 
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array, BoolArray
@@ -84,7 +82,7 @@ def _line(heights: Array, step: float, sample: float, slope: float) -> Array:
     if not steep.all():
         sampled = np.interp(ends, ends[~steep], sampled[~steep])
     if sampled.size > 12:
-        sampled = signal.sosfiltfilt(_low_pass(sample), sampled)
+        sampled = _smoothed(sample, sampled)
     bins = np.maximum(np.ceil(ends / SEGMENT - 1e-9).astype(int) - 1, 0)
     raw = np.maximum(np.ceil(place / SEGMENT - 1e-9).astype(int) - 1, 0)
     depths = []
@@ -104,9 +102,12 @@ def _segment(place: Array, height: Array, steep: BoolArray, missing: BoolArray) 
     return float(0.5 * (level[half].max() + level[~half].max()) - level.mean())
 
 
-@lru_cache
-def _low_pass(sample: float) -> Array:
-    return np.asarray(signal.butter(2, 2 * sample / LOW_PASS, output="sos"))
+def _smoothed(sample: float, heights: Array, axis: int = -1) -> Array:
+    """Heights that stand a sample apart along an axis, m, without what is shorter than the method's limit."""
+    # scipy.signal brings scipy.stats along, which takes as long to import as all of this package.
+    from scipy.signal import butter, sosfiltfilt
+
+    return np.asarray(sosfiltfilt(butter(2, 2 * sample / LOW_PASS, output="sos"), heights, axis=axis))
 
 
 def mean_texture_depth(texture: Texture, *, patch: float = 0.1) -> float:
@@ -137,7 +138,7 @@ def map_profile_depth(texture: Texture, *, patch: float = SEGMENT) -> float:
     heights = texture.whole("the depth of squares").copy()
     for axis, step in ((1, texture.dx), (0, texture.dy)):
         if step < 0.5 * LOW_PASS and heights.shape[axis] > 12:
-            heights = signal.sosfiltfilt(_low_pass(step), heights, axis=axis)
+            heights = _smoothed(step, heights, axis)
     squares = [
         _levelled(heights[row, column])
         for row in _pieces(heights.shape[0], texture.dy, patch)
