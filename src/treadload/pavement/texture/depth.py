@@ -76,7 +76,7 @@ def _line(heights: Array, step: float, sample: float, slope: float) -> Array:
     # Points belong to the sample that ends at or after them, the first point to the first.
     into = np.maximum(np.ceil(place / sample - 1e-9).astype(int), 1) - 1
     counts = np.bincount(into)
-    sampled = np.bincount(into, filled) / counts
+    sampled: Array = np.bincount(into, filled) / counts
     ends = sample * (1 + np.arange(sampled.size))
     steep = spikes(sampled, slope * sample * (1 - 1e-12))
     if not steep.all():
