@@ -161,7 +161,7 @@ def main(repeats=5):
         changes = [changed(page, serving, 33 + number) for number in range(repeats)]
         page.wait_for_timeout(1000)
         page.locator("#along").click()
-        page.locator('#place [tabindex="0"]').focus()
+        page.locator("#place").focus()
         moves = [slid(page) for _ in range(repeats)]
         figures = page.evaluate("window.treadloadTimes")
         browser.close()

@@ -24,6 +24,7 @@ from treadload.plots import interactive
 from treadload.plots.kit.shown import shown
 from treadload.results import save_results
 from treadload.study import sweep
+from treadload.study.allowed import passes_allowed
 from treadload.study.loaded import judge, load_case
 from treadload.study.run_life import run_life
 
@@ -196,6 +197,22 @@ def test_a_changed_load_gives_what_python_gives(visit):
     visit.done()
 
 
+def test_passes_by_criterion_are_what_python_gives(visit):
+    """Rows, digits and places of the table below the verdict; and what it says of layers that have none."""
+    visit.done()
+    load = load_case(changed_case(rolling__normal_load="36 kN"), lambda text: None)
+    allowed = passes_allowed(load, judge(load, load.solve(load.case.response.depths)))
+    told = visit.verdict()
+    page = visit.page
+    assert [one.name for one in allowed.rows] == ["fatigue line", "french-subgrade"]
+    soil = allowed.rows[1]
+    assert told["allowed:1"] == f"{soil.passes:.3g}"
+    detail = page.locator('[data-detail="allowed:1"]').inner_text()
+    assert detail.startswith(f"soil, top, 260 mm deep: {soil.reading * 1e6:.0f} microstrain")
+    assert page.locator("#allowed .note").first.inner_text() == allowed.without[0]
+    assert page.locator("#allowed a").get_attribute("href") == "/life"
+
+
 def test_a_wrong_value_is_told_at_its_field(visit):
     before = visit.solves()
     visit.set("rolling.normal_load", "3 mm")
@@ -212,6 +229,21 @@ def test_a_wrong_value_is_told_at_its_field(visit):
 
 def title_of(visit, figure):
     return visit.page.evaluate(f"document.querySelector('.{figure}')?.layout?.xaxis?.title?.text ?? ''")
+
+
+def shape(page):
+    return page.evaluate(
+        "(({x0, y0, x1, y1}) => ({x0, y0, x1, y1}))(document.querySelector('.maps').layout.shapes[0])"
+    )
+
+
+def line_in_words(page):
+    """What the page should say of a line along travel."""
+    line = shape(page)
+    assert line["y0"] == line["y1"]
+    # Halves are rounded up in the browser.
+    number = np.floor(10 * line["y0"] + 0.5) / 10
+    return f"y {number:g} mm".replace("-", "−")
 
 
 def drag(page, by):
@@ -235,16 +267,19 @@ def test_the_slice_is_dragged(visit):
     visit.done()
     page.wait_for_function("document.querySelector('.section.js-plotly-plot')?.layout?.xaxis?.title?.text")
     before = title_of(visit, "section")
+    assert page.locator("#placed").inner_text() == line_in_words(page)
     drag(page, 60)
     changed = "(was) => document.querySelector('.section').layout.xaxis.title.text !== was"
     page.wait_for_function(changed, arg=before)
     dragged = title_of(visit, "section")
+    assert page.locator("#placed").inner_text() == line_in_words(page)
+    assert float(page.locator("#place").input_value()) == pytest.approx(shape(page)["y0"], abs=0.51)
     assert title_of(visit, "profile").split(" (mm)")[0] == dragged.split(" (mm)")[0]
     # The slider goes along, from the keyboard.
     page.locator("#along").click()
     page.wait_for_function(changed, arg=dragged)
     was = title_of(visit, "section")
-    page.locator('#place [tabindex="0"]').focus()
+    page.locator("#place").focus()
     page.evaluate(
         "window.__drawn = []; ((draw) => { treadloadDraw = (...told) => { __drawn.push(told[0]); draw(...told) } })"
         "(treadloadDraw)"
@@ -253,7 +288,7 @@ def test_the_slice_is_dragged(visit):
     page.keyboard.press("ArrowRight")
     page.wait_for_function(changed, arg=was)
     within(time.monotonic() - start, 0.2, "a move of the slider on a solved case")
-    assert page.locator("#placed").inner_text() == "1 mm"
+    assert page.locator("#placed").inner_text() == "y 1 mm"
     # The line lies there on both maps, where plotly itself would draw it.
     lines = "[...document.querySelectorAll('.maps .shapelayer path')].map((one) => one.getAttribute('d'))"
     moved = page.evaluate(lines)
@@ -263,7 +298,7 @@ def test_the_slice_is_dragged(visit):
     np.testing.assert_allclose(*numbers, atol=0.02)
     # And there the mouse finds it.
     was = title_of(visit, "section")
-    page.locator("#place [tabindex='0']").press("ArrowRight")
+    page.locator("#place").press("ArrowRight")
     page.wait_for_function(changed, arg=was)
     was = title_of(visit, "section")
     drag(page, -40)

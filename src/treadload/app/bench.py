@@ -49,7 +49,8 @@ class Bench(Tab):
             self._maps_of = {
                 side: ui.select({self._view[side]: "…"}, value=self._view[side], label=f"{side} map",
                                 on_change=lambda event, side=side: self._look(**{side: event.value}))
-                .props(f'dense outlined options-dense data-map="{side}"') for side in ("left", "right")
+                .props(f'dense outlined options-dense data-map="{side}"').classes("long")
+                for side in ("left", "right")
             }  # fmt: skip
             self._depth = ui.select({0: "surface"}, value=0, label="depth of maps",
                                     on_change=lambda event: self._look(depth=event.value))  # fmt: skip
@@ -97,7 +98,7 @@ class Bench(Tab):
         if "choices" in answer:
             self._offer(answer["choices"], answer["depths"])
         if "rows" in answer:
-            self.right.show(run.rows, run.warnings, run.name, done=run.ready)
+            self.right.show(run.rows, run.warnings, run.name, done=run.ready, allowed=run.allowed)
 
     def finished(self, run: Run) -> None:
         """A card for it, with a thumbnail once the maps are drawn."""

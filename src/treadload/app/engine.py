@@ -23,17 +23,19 @@ from typing import Any
 from treadload.app import drawing
 from treadload.app.life_telling import life_rows, pictures_of, shares_of
 from treadload.app.studies import about_study, point_of, point_rows
-from treadload.app.telling import rows_of
+from treadload.app.telling import allowed_told, rows_of
 from treadload.case import Case, LifeCase
 from treadload.case.file import FilePart
 from treadload.case.first import first_case
 from treadload.case.loading import FootprintPart
 from treadload.composing import BaseResult
 from treadload.contact import Contact
+from treadload.damage import Verdict
 from treadload.damage.miner import Life
 from treadload.errors import InputError, TreadloadError
 from treadload.files import parse_toml
 from treadload.results import open_results, save_results, to_tree
+from treadload.study.allowed import passes_allowed
 from treadload.study.loaded import Loaded, contact_of, judge, load_case
 from treadload.study.run import read_loaded
 from treadload.study.run_life import run_life
@@ -182,7 +184,10 @@ class Engine:
         tell("slices through the road")
         bottom = case.response.slices_to(held.load.road.interfaces.tolist(), rigid_base=held.load.road.rigid_base)
         held.block = held.load.solve(drawing.block_depths(bottom, held.load.road.interfaces.tolist(), _BLOCK_DEPTHS))
-        say(done=True, seconds=time.monotonic() - began)
+        tell("passes by criterion")
+        verdict = held.parts.get("damage")
+        allowed = passes_allowed(held.load, verdict if isinstance(verdict, Verdict) else None)
+        say(done=True, seconds=time.monotonic() - began, allowed=allowed_told(allowed))
 
     def _life(self, say: Say, run: str, table: dict[str, Any], theme: str) -> None:
         began, used, told = time.monotonic(), time.process_time(), 0.0

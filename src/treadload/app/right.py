@@ -32,8 +32,16 @@ class Right:
         self._all = ui.element("div").props('id="verdict"')
         self._program = ui.dialog()
 
-    def show(self, rows: list[dict[str, Any]], warnings: list[str], run: str, *, done: bool) -> None:
-        """Show the verdict of a run. done: False while the rest is being solved."""
+    def show(
+        self,
+        rows: list[dict[str, Any]],
+        warnings: list[str],
+        run: str,
+        *,
+        done: bool,
+        allowed: dict[str, Any] | None = None,
+    ) -> None:
+        """Show the verdict of a run. done: False while the rest is being solved. allowed: see `show_allowed`."""
         self._all.clear()
         with self._all:
             for group, title in _GROUPS.items():
@@ -41,6 +49,9 @@ class Right:
                 if own:
                     ui.element("h2").props(f'innerHTML="{title}"')
                     self._table(own)
+                if group == "road":
+                    self._allowed = ui.element("div").props('id="allowed"')
+                    self.show_allowed(allowed or {})
             for text in warnings:
                 ui.label(text).classes("warning")
             if not done:
@@ -76,6 +87,34 @@ class Right:
         for row in rows:
             if row["key"] in ("verdict", "probability"):
                 ui.label(row["note"]).classes("note")
+
+    def show_allowed(self, told: dict[str, Any]) -> None:
+        """Show passes by criterion below the verdict; they are known last. told: of `allowed_told`."""
+        self._allowed.clear()
+        if not told:
+            return
+        with self._allowed:
+            ui.element("h2").props('innerHTML="Passes by criterion"')
+            with ui.element("table").classes("rows allowed"):
+                for row in told["rows"]:
+                    with ui.element("tr"):
+                        with ui.element("td"):
+                            ui.label(row["label"])
+                        with ui.element("td").props(f'data-row="{row["key"]}"') as cell:
+                            if row.get("x") is None:
+                                ui.label(row["value"])
+                            else:
+                                with ui.element("button").classes("go").props('type="button"') as go:
+                                    ui.label(row["value"]).style("display:inline")
+                                go.on("click", lambda row=row: self._go(row))
+                        cell.tooltip(row["note"])
+                    with ui.element("tr"), ui.element("td").props('colspan="2"'):
+                        ui.label(f"{row['place']}: {row['reading']}").props(f'data-detail="{row["key"]}"')
+            for text in told["said"]:
+                ui.label(text).classes("note")
+            with ui.element("p").classes("note"):
+                ui.html("Passes of this one load at this one temperature, not a life: that is on the "
+                        '<a href="/life">life page</a>.', sanitize=False)  # fmt: skip
 
     def program(self, text: str) -> None:
         """Show a program that was copied."""

@@ -30,7 +30,9 @@ _STORES = (".zarr", ".zip")
 
 @dataclass
 class Run:
-    """A solved case. room: of the page that asked for it. rows: of the verdict. thumb: a picture, as data URL."""
+    """A solved case. room: of the page that asked for it. rows: of the verdict. allowed: passes by
+    criterion. thumb: a picture, as data URL.
+    """
 
     name: str
     title: str
@@ -38,6 +40,7 @@ class Run:
     room: str = "bench"
     rows: list[dict[str, Any]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+    allowed: dict[str, Any] = field(default_factory=dict)
     ready: bool = False
     thumb: str = ""
 

@@ -37,15 +37,17 @@ class Slice:
         """Put the tools, the profile and the section on the page."""
         with ui.element("div").classes("tools").props('role="group" aria-label="slice"'):
             ui.label("Slice: drag the line on the left map, or put it")
-            plain("along travel", lambda: self._js("treadloadPut({ along: 'x' })")).props('id="along"')
-            plain("across", lambda: self._js("treadloadPut({ along: 'y' })")).props('id="across"')
-            at = ui.slider(min=-150, max=150, value=0, step=1)
-            at.on("update:model-value", js_handler="(at) => treadloadPut({ at })")
-            at.props('label aria-label="place of the slice, mm" id="place"').style("width:170px;flex:none")
-            ui.element("span").classes("place").props('id="placed" innerHTML="0 mm"')
+            plain("along travel", lambda: self._js("treadloadPut({ along: 'x', at: 0 })")).props('id="along"')
+            plain("across", lambda: self._js("treadloadPut({ along: 'y', at: 0 })")).props('id="across"')
+            with ui.element("span").classes("at"):
+                # The browser alone moves it: a value from here would put it back.
+                at = ui.element("input").props('type="range" min="-150" max="150" step="1" id="place"')
+                at.props('aria-label="place of the slice, mm"')
+                at.on("input", js_handler="(told) => treadloadPut({ at: +told.target.value })")
+                ui.element("span").classes("place").props('id="placed"')
             section = ui.select(_SECTIONS, value=self.section_of, label="below the line",
                                 on_change=lambda event: self._below(event.value))  # fmt: skip
-            section.props("dense outlined options-dense")
+            section.props("dense outlined options-dense").classes("long")
         self._profile = Place("profile", "profiles along the slice")
         self._section = Place("section", "section of the road below the slice")
         ui.on("line", lambda event: self._dragged(event.args))

@@ -160,6 +160,7 @@ class Tab:
         if self.client.is_deleted:
             run.ready = run.ready or "ready" in answer
             run.rows, run.warnings = answer.get("rows", run.rows), answer.get("warnings", run.warnings)
+            run.allowed = answer.get("allowed", run.allowed)
             return
         if "stage" in answer:
             self.stage.text = f"{answer['seconds']:.1f} s  {answer['stage']}"
@@ -177,6 +178,9 @@ class Tab:
             self.stage.text = f"solved in {answer['seconds']:.1f} s"
             self.finished(run)
         if "done" in answer:
+            run.allowed = answer.get("allowed", {})
+            if self.now is run:
+                self.right.show_allowed(run.allowed)
             self.state("done")
             self.settled()
         if "error" in answer:

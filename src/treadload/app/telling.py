@@ -10,6 +10,10 @@ from treadload.contact import Contact
 from treadload.damage import Verdict
 from treadload.damage.quantity import READINGS
 from treadload.plots.interactive import places_of
+from treadload.study.allowed import Allowed, PassesAllowed
+
+# More passes than any road bears.
+_COUNTLESS = 1e10
 
 Row = dict[str, Any]
 """label, value with its unit, group; x, y, m, where it happens; note, a sentence for those who ask."""
@@ -88,6 +92,26 @@ def verdict_rows(verdict: Verdict) -> list[Row]:
         row("crack", "Crack", verdict.orientation, group="road", note=verdict.summary().splitlines()[4], **at),
         row("passes", "Passes", f"{passes:.3g}", group="road", note=f"{verdict.line}. {sentence}", **at),
     ]
+
+
+def allowed_told(allowed: PassesAllowed) -> dict[str, Any]:
+    """Passes by criterion: rows, with "place" and "reading" besides, and sentences on layers without one."""
+    return {"rows": [_allowed_row(number, one) for number, one in enumerate(allowed.rows)],
+            "said": list(allowed.without)}  # fmt: skip
+
+
+def _allowed_row(number: int, one: Allowed) -> Row:
+    """Of one criterion; readings for which no tests or roads stand are said to be extrapolated."""
+    deep = "surface" if one.depth == 0 else f"{one.depth * 1e3:g} mm deep"
+    place = ", ".join(part for part in (one.layer, one.place, deep) if part)
+    note = ". ".join((str(one.law), *one.warnings))
+    if not one.reading > 0:
+        return row(f"allowed:{number}", one.name, "no end", group="allowed", place=place, note=note,
+                   reading="nothing there does harm")  # fmt: skip
+    beyond = ", extrapolated" if one.extrapolated else ""
+    value = f"{one.passes:.3g}" if one.passes < _COUNTLESS else "over 10¹⁰"
+    return row(f"allowed:{number}", one.name, value, group="allowed", place=place, note=note,
+               reading=f"{one.reads.in_words(one.reading)}{beyond}", x=one.x, y=one.y)  # fmt: skip
 
 
 def solver_rows(contact: Any) -> list[Row]:

@@ -36,6 +36,7 @@ async function drawAll(name) {
     else await Plotly.react(place, figure.data, figure.layout, { ...config, responsive: false });
     if (fresh) begun(name, place);
     if (mark) document.body.setAttribute(`data-${name}`, mark);
+    if (name === "maps" && place.layout.shapes?.[0]) lies(place.layout.shapes[0]);
     if (name === "profile" || name === "section") hold(name, figure.held);
     took(add ? `${name} marks` : name, start, text.length);
   }
@@ -76,13 +77,24 @@ function slice(line) {
   return true;
 }
 function moved(line) {
+  lies(line);
   emitEvent("line", { ...line, drawn: slice(line) });
+}
+// The slider and the number beside it follow the line, whoever has put it.
+function lies({ x0, y0, x1, y1 }) {
+  const slider = document.getElementById("place"), flat = Math.abs(y1 - y0) < 1e-6, upright = Math.abs(x1 - x0) < 1e-6;
+  if (!slider) return;
+  if (flat || upright) {
+    [along, at] = flat ? ["x", y0] : ["y", x0];
+    slider.value = at;
+  }
+  const told = `${flat ? "y" : "x"} ${String(Math.round(10 * at) / 10).replace("-", "−")} mm`;
+  document.getElementById("placed").textContent = flat || upright ? told : "aslant";
 }
 // The line put along travel or across it, at a place, mm.
 window.treadloadPut = (change) => {
   ({ along, at } = { along, at, ...change });
   const half = 160, ends = along === "x" ? { x0: -half, y0: at, x1: half, y1: at } : { x0: at, y0: -half, x1: at, y1: half };
-  document.getElementById("placed").textContent = `${at} mm`;
   if (maps()) window.treadloadLine(maps(), ends);
   moved(ends);
 };
