@@ -72,11 +72,11 @@ def test_points_have_no_such_limit():
     assert passes(tire, DRIVING, 1.5e-3) > 0.4 * passes(tire, DRIVING, 6e-3)
 
 
-# A strain within 1 % is a life within 5 %; measured: scan 2.0, ribs 1.8, turning 1.0, lugs 1.6 % of the life.
+# A strain within 0.6 % is a life within 3 %; measured: scan 2.0, ribs 1.8, turning 1.0, lugs 1.6 % of the life.
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("tire", "wheel", "bound"),
-    [(scan, DRIVING, 0.05), (ribs, DRIVING, 0.03), (ribs, TURNING, 0.03), (lugs, DRIVING, 0.05)],
+    [(scan, DRIVING, 0.03), (ribs, DRIVING, 0.03), (ribs, TURNING, 0.03), (lugs, DRIVING, 0.03)],
 )
 def test_the_verdict_of_a_case_does_not_move_with_the_cells(tire, wheel, bound):
     """As `run` reads it: the mean of two lattices."""
@@ -87,7 +87,7 @@ def test_the_verdict_of_a_case_does_not_move_with_the_cells(tire, wheel, bound):
             for offset in ((0.0, 0.0), (0.5, 0.5))
         )
         response = tl.solve_response(contact, HALF, depths=[0.0, 0.02])
-        verdict = tl.study.assess_on_two_lattices(response, contact, shifted, LINE)
+        verdict = tl.assess(response, LINE, shifted=shifted)
         return float(verdict.dataset["worst_passes"])
 
     assert judged(3e-3) == pytest.approx(judged(1.5e-3), rel=bound)

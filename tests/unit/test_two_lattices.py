@@ -34,10 +34,18 @@ def test_a_case_reads_two_lattices_unless_told_otherwise():
         case.build_tire(), case.build_road(), case.build_rolling(), spacing=case.spacing, tolerance=case.tolerance,
         offset=(0.5, 0.5),
     )  # fmt: skip
-    verdict = tl.study.assess_on_two_lattices(result.response, result.contact, shifted, line)
+    verdict = tl.assess(result.response, line, shifted=shifted)
     assert float(verdict.dataset["worst_passes"]) == pytest.approx(both, rel=1e-12)
-    with pytest.raises(InputError, match="points at a depth belong to the cells of one lattice"):
-        tl.study.assess_on_two_lattices(result.response, result.contact, shifted, line, depth=0.0)
+    for wrong, words in (
+        ({"shifted": shifted, "depth": 0.0}, "points at a depth belong to the cells of one contact"),
+        ({"shifted": [shifted, shifted]}, r"the response has 1 load\(s\), but 2 shifted"),
+        ({"shifted": tl.UniformRectangle(0.2, 0.2, 8e5)}, "a disc or a rectangle has no cells"),
+    ):
+        with pytest.raises(InputError, match=words):
+            tl.assess(result.response, line, **wrong)
+    mean = tl.solve_response(result.contact, case.build_road(), depths=[0.0], mean_over=0.01)
+    with pytest.raises(InputError, match="with a response of solve_response at points"):
+        tl.assess(mean, line, shifted=shifted)
 
     swept = tl.sweep(case, {"rolling.normal_load": [case.rolling.normal_load]}).dataset
     # Both are searched from means over the same points, solved together there and one by one here.
@@ -49,7 +57,7 @@ def test_one_contact_twice_is_that_contact():
     contact = tl.solve_contact(case.build_tire(), case.build_road(), case.build_rolling(), spacing=case.spacing)
     response = tl.solve_response(contact, case.build_road(), depths=[0.0])
     line = case.damage.fatigue.build()
-    twice, once = tl.study.assess_on_two_lattices(response, contact, contact, line), tl.assess(response, line)
+    twice, once = tl.assess(response, line, shifted=contact), tl.assess(response, line)
     assert float(twice.dataset["worst_strain"]) == pytest.approx(float(once.dataset["worst_strain"]), rel=1e-9)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -19,6 +20,8 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import on_interface, same_depth
 from treadload.response import Response, solve_response
+from treadload.response.loads import PlacedLoad
+from treadload.response.superposition import mean_loads
 
 # Points around the worst of a map, in a material length; and again around the worst of those.
 _STEPS = 20
@@ -113,6 +116,19 @@ def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Data
     depths, said = _asked(data, line)
     at = {"x": data["x"].to_numpy(), "y": data["y"].to_numpy()}
     return _solved(response, depths, length, **at), said
+
+
+def under_both(response: Source, shifted: Sequence[PlacedLoad], depth: float | None) -> Response:
+    """A response whose question is put under the mean of its own loads and of shifted ones, see `assess`."""
+    if depth is not None:
+        raise InputError("points at a depth belong to the cells of one contact; leave depth or shifted out")
+    if not isinstance(response, Response) or "mean_over" in response.dataset.attrs:
+        raise InputError("a shifted contact is read with a response of solve_response at points, whose road it loads")
+    if len(shifted) != len(response.loads):
+        raise InputError(
+            f"the response has {len(response.loads)} load(s), but {len(shifted)} shifted one(s); give one for each"
+        )
+    return replace(response, loads=tuple(mean_loads([response.loads, shifted])))
 
 
 def closer(response: Source, field: Field) -> Field | None:

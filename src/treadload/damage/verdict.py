@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -23,9 +24,10 @@ from treadload.damage.cracks import (
 )
 from treadload.damage.laws.fatigue import PowerLaw, warnings_of
 from treadload.damage.quantity import READINGS, Reading, check_reading
-from treadload.damage.reading import Field, check_law, closer, local_field, mean_field
+from treadload.damage.reading import Field, check_law, closer, local_field, mean_field, under_both
 from treadload.describing import first_line
 from treadload.response import MATERIAL_LENGTH
+from treadload.response.loads import Load, gather
 
 # A local reading less deep than this, m, feels the cells of the contact.
 _FELT = 2 * MATERIAL_LENGTH
@@ -49,8 +51,8 @@ class Verdict(BaseResult, group="damage"):
         numbers="largest_principal_strain largest_in_plane_strain largest_unread",
         texts="reading",
         lists="warnings",
-        maybe_numbers="coarse_strain coarse_spacing spacing lattice_strain shifted_strain",
-        together=("coarse_strain coarse_spacing spacing", "lattice_strain shifted_strain"),
+        maybe_numbers="coarse_strain coarse_spacing spacing lattices",
+        together=("coarse_strain coarse_spacing spacing",),
     )  # fmt: skip
 
     dataset: xr.Dataset
@@ -115,11 +117,11 @@ class Verdict(BaseResult, group="damage"):
         return [
             f"error estimate: {coarse * 1e6:.1f} microstrain on cells of {wide:g} mm, {read * 1e6:.1f} on cells of "
             f"{cells:g} mm: they differ by {100 * error / read:.2g} %, {fewest:.2g} to {most:.2g} passes",
-            "    (no bound: where cells lie at the edges of ribs may do more, see `study.assess_on_two_lattices`)",
+            "    (no bound: where cells lie at the edges of ribs may do more, see `shifted` of `assess`)",
         ]
 
     def _lattices(self) -> list[str]:
-        """On how many lattices of cells it reads, where it is known, see `treadload.study.assess_on_two_lattices`."""
+        """On how many lattices of cells it reads, where it is known, see `shifted` of `assess`."""
         if self.dataset.attrs.get("lattices") != 2:
             return []
         return ["read under the mean of two contacts whose cells lie half a cell apart"]
@@ -131,6 +133,7 @@ def assess(
     response: Source,
     line: PowerLaw,
     *,
+    shifted: Load | Sequence[Load] | None = None,
     depth: float | None = None,
     strain: Reading | None = None,
     mean_over: float = MATERIAL_LENGTH,
@@ -148,6 +151,10 @@ def assess(
     is a mean is read as it is.
     line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
     bottom needs `depth`.
+    shifted: the same contact on cells half a cell beside, solved with `offset=(0.5, 0.5)`; of several wheels all. A
+    cell is in contact as a whole or not at all, so that the edge of a rib stands up to half a cell from its place:
+    outwards on one of two such lattices, inwards on the other. The mean of both loads is read then, which hardly
+    depends on where the cells lie.
     depth: one of the response's depths, m, whose points are read as they are; a response from elsewhere, with
     principal_strain_1, principal_direction_1, in_plane_strain_1 and in_plane_angle_1 over (depth, y, x), needs it.
     Such a local reading has no limit under finer cells near the surface: at the edges of ribs and at the rear of the
@@ -158,12 +165,14 @@ def assess(
     oblique_tolerance: rad, in (0, π/4]. A trace within it of the direction of travel is longitudinal, within
     it of across transverse, else oblique; a plane nearer to the horizontal than 45° is horizontal.
     Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance, for a law that reads something
-    else, and for a response without its road.
+    else, for a response without its road, and for a shifted contact of a response that is local or a mean already.
     """
     if strain is not None:
         check_reading(strain)
     check_tolerance(oblique_tolerance)
     check_law(line)
+    if shifted is not None:
+        response = under_both(response, gather(shifted), depth)
     if depth is None:
         data, said = mean_field(response, line, mean_over)
         reading = f"mean over {float(data.attrs['mean_over']) * 1e3:g} mm"
@@ -223,6 +232,7 @@ def assess(
         epsilon_6=line.at_a_million,
         slope=line.exponent,
         oblique_tolerance=oblique_tolerance,
+        **({} if shifted is None else {"lattices": 2}),
         largest_principal_strain=largest["principal_strain_1"],
         largest_in_plane_strain=largest["in_plane_strain_1"],
         largest_unread=unread,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -43,6 +44,15 @@ def merged(loads: Sequence[SurfaceLoad]) -> list[SurfaceLoad]:
         before = len(sums)
         sums = _joined(sums)
     return [*rest, *sums]
+
+
+def mean_loads(several: Sequence[Sequence[PlacedLoad]]) -> list[GridLoad]:
+    """Loads that add up to the mean of several sets of gridded ones. Raises InputError for a disc or a rectangle."""
+    loads = [load for one in several for load in one if isinstance(load, GridLoad)]
+    if len(loads) < sum(map(len, several)):
+        raise InputError("a disc or a rectangle has no cells, so that there is nothing to shift; leave shifted out")
+    parts = [(load, load.array / len(several)) for load in loads]
+    return [replace(load, pressure=part[0], traction_x=part[1], traction_y=part[2]) for load, part in parts]
 
 
 def _joined(loads: Sequence[GridLoad]) -> list[GridLoad]:

@@ -21,7 +21,6 @@ from treadload.study.shakedown import shakedown_map
 from treadload.study.sweeps import Sweep, open_sweep, sampled, sweep
 from treadload.study.tire_card import TireCard, tire_card
 from treadload.study.two_grids import assess_on_two_grids
-from treadload.study.two_lattices import assess_on_two_lattices
 from treadload.study.uniform import UniformComparison, compare_uniform
 
 __all__ = [
@@ -43,7 +42,6 @@ __all__ = [
     "Tornado",
     "UniformComparison",
     "assess_on_two_grids",
-    "assess_on_two_lattices",
     "calibrate",
     "case_as_python",
     "compare_bonds",

@@ -115,20 +115,15 @@ def _verbs(case: Case) -> list[str]:
         how: dict[str, Any] = {"strain": damage.strain, "depth": damage.depth}
         if damage.depth is None and damage.mean_over != MATERIAL_LENGTH:
             how["mean_over"] = damage.mean_over
+        besides = []
         if damage.depth is None and damage.lattices != 1 and part.height_map is None:
+            again = ["tire", "road", "wheel", *_keywords(asked), "offset=(0.5, 0.5)"]
             lines += [
                 "# Another on cells half a cell beside: the verdict must not depend on where cells lie.",
-                _call(
-                    "shifted = tl.solve_contact",
-                    ["tire", "road", "wheel", *_keywords(asked), "offset=(0.5, 0.5)"],
-                ),
-                _call(
-                    "verdict = tl.study.assess_on_two_lattices",
-                    ["response", "contact", "shifted", line, *_keywords(how)],
-                ),
+                _call("shifted = tl.solve_contact", again),
             ]
-        else:
-            lines += [_call("verdict = tl.assess", ["response", line, *_keywords(how)])]
+            besides = ["shifted=shifted"]
+        lines += [_call("verdict = tl.assess", ["response", line, *besides, *_keywords(how)])]
         said.append("verdict")
     lines += ["", *(f"print({name}.summary())" for name in said)]
     return lines

@@ -18,9 +18,8 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, Response, solve_response
-from treadload.response.superposition import common_grid
+from treadload.response.superposition import common_grid, mean_loads
 from treadload.study.two_grids import COARSER, check_two_grids, with_error
-from treadload.study.two_lattices import SHIFTED, check_two_lattices, mean_loads
 from treadload.tire import Tire
 
 Progress = Callable[[str], None]
@@ -52,29 +51,29 @@ class Loaded:
         return map_grid(self.wheels, self.road)
 
     @cached_property
-    def two_lattices(self) -> bool:
-        """True if a verdict reads the mean of two contacts whose cells lie half a cell apart."""
-        asked = self.case.damage
+    def shifted_wheels(self) -> list[GridLoad] | None:
+        """All wheels on cells half a cell beside, where a verdict reads the mean of both lattices."""
+        asked, contact = self.case.damage, self.contact
         if asked is None or asked.lattices == 1 or asked.depth is not None:
-            return False
-        tire = None if self.contact is None else self.contact.tire
-        if asked.lattices == 2:
-            check_two_lattices(tire)
-        return tire is not None and tire.fixed_grid is None
-
-    @cached_property
-    def read_wheels(self) -> list[GridLoad]:
-        """The loads that surface criteria read: of all wheels, the mean of both lattices where there are two."""
-        if not self.two_lattices:
-            return self.wheels
-        assert self.contact is not None
+            return None
+        if contact is None or contact.tire.fixed_grid is not None:
+            if asked.lattices == 2:
+                what = "a recorded footprint" if contact is None else "a height map"
+                raise InputError(f"{what} has one lattice of cells and is not known between them; give lattices = 1")
+            return None
         self.tell("the same contact on cells half a cell beside")
         shifted = contact_of(
-            self.case, self.road, self.tell, tire=self.contact.tire, offset=SHIFTED,
-            spacing=float(self.contact.dataset.attrs["dx"]),
+            self.case, self.road, self.tell, tire=contact.tire, offset=(0.5, 0.5),
+            spacing=float(contact.dataset.attrs["dx"]),
         )  # fmt: skip
-        pair = [one if self.enveloped is None else _enveloped(self.case, one) for one in (self.contact, shifted)]
-        return mean_loads(pair, self.case.response.place)
+        return self.case.response.place(
+            GridLoad.from_dataset(shifted if self.enveloped is None else _enveloped(self.case, shifted))
+        )
+
+    @property
+    def read_wheels(self) -> list[GridLoad]:
+        """The loads that surface criteria read: of all wheels, the mean of both lattices where there are two."""
+        return self.wheels if self.shifted_wheels is None else mean_loads([self.wheels, self.shifted_wheels])
 
     def solve(
         self,
@@ -127,16 +126,17 @@ def load_case(case: Case, tell: Progress, *, start: Contact | None = None, conta
 def judge(load: Loaded, response: Response) -> Verdict:
     """The verdict that the case of a loaded road asks for.
 
-    response: at its depths; of means only if those are under `load.read_wheels`.
+    response: at its depths; or of means, under `load.read_wheels`.
     """
     damage = load.case.damage
     assert damage is not None
-    read = replace(response, loads=tuple(load.read_wheels)) if load.two_lattices else response
+    known = "mean_over" in response.dataset.attrs
     verdict = assess(
-        read, damage.fatigue.build(), depth=damage.depth, strain=damage.strain, mean_over=damage.mean_over
-    )
-    about = {"lattices": 2} if load.two_lattices else {}
-    return replace(verdict, dataset=verdict.dataset.assign_attrs(about))
+        response, damage.fatigue.build(), shifted=None if known else load.shifted_wheels, depth=damage.depth,
+        strain=damage.strain, mean_over=damage.mean_over,
+    )  # fmt: skip
+    lattices = {"lattices": 2} if known and load.shifted_wheels is not None else {}
+    return replace(verdict, dataset=verdict.dataset.assign_attrs(lattices))
 
 
 def on_two_grids(load: Loaded, verdict: Verdict) -> Verdict:

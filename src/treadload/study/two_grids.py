@@ -34,7 +34,7 @@ def assess_on_two_grids(
     Contact, response and verdict are solved on cells of `spacing`, m, and on cells twice as large. The difference of
     the two readings is the error of the finer one where that is of first order, three times as much where it is of
     second. The part that depends on where the cells lie at the edges of ribs need not fall: see
-    `assess_on_two_lattices`.
+    `shifted` of `assess`.
     depths, speed: of `solve_response`. reading: keywords of `assess`.
     Returns the verdict on the finer cells, with the estimate in its summary and the coarser reading in its
     attributes.
