@@ -134,9 +134,9 @@ def criterion_fields(number: int, row: Any, layers: Sequence[str]) -> Iterator[F
     yield Field(f"{before}.law", "Law", kind="choice", words="whose numbers follow from its layer",
                 choices={name: name for name in CRITERIA.names()})  # fmt: skip
     yield Field(f"{before}.layer", "Layer", kind="choice", words=_JUDGES.get("layer", ""),
-                choices={"": "that of the law", **{name: name for name in layers}})  # fmt: skip
+                choices={"": "by the law", **{name: name for name in layers}})  # fmt: skip
     yield Field(f"{before}.place", "Place", kind="choice", words="of the layer",
-                choices={"": "that of the law", "top": "top", "bottom": "bottom"})  # fmt: skip
+                choices={"": "by the law", "top": "top", "bottom": "bottom"})  # fmt: skip
     law = row.get("law") if isinstance(row, dict) else ""
     if str(law).startswith("french"):
         yield Field(f"{before}.risk", "Risk", words="of failing within the design life", otherwise="of its class")

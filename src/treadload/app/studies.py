@@ -50,6 +50,10 @@ def point_of(study: Sweep, at: dict[str, int], reading: str, along: str, field: 
     made = {"curve": study_curve(study, reading, along, at, theme=theme)}
     if field:
         made["field"] = study_map(study, field, at, theme=theme, width=width)
+        view = View.of(study)
+        if int(view.data["status"].isel(placed(view, at))) == FAILED:
+            said = "this case failed; why stands at the right"
+            made["field"].add_annotation(text=said, showarrow=False, x=0.5, y=0.9, xref="x domain", yref="y domain")
     return made
 
 
