@@ -29,8 +29,8 @@ _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
 _DIMS = ("depth", "y", "x")
 # Of a law that tells none, and any temperature: exponents hardly depend on it.
 _USUAL, _ANY_TEMPERATURE = -0.2, 15.0
-# Points of all fields that are solved together: some 200 MB with what is made of them.
-_TOGETHER = 900_000
+# Points of all fields that are solved together: some 330 MB with what is made of them.
+_TOGETHER = 1_500_000
 
 
 @dataclass(frozen=True, eq=False)

@@ -69,7 +69,7 @@ def over_strips(
     are as wide as y are apart; where readings are faint, straight lines between the rows will do, and for valleys.
     rows, y: m. power: of the law, by which damage grows with the reading. The others as of `peaks_and_valleys`.
     """
-    own = peaks_and_valleys(x, uncut, margin, centres=centres, turns=turns, smooth=True)
+    own = peaks_and_valleys(x, uncut, margin, centres=centres, turns=turns, smooth=False)
     result = np.stack([np.interp(y, rows, one) for one in own])
     largest = own.max()
     if not largest > 0:
