@@ -131,8 +131,8 @@ def years(tire, maneuver, spacing):
 
 # Where tension ends, and the reading with it, a parabola through the last point and the nothing beside it stood up to
 # an eighth above the last reading, a life too short by up to 45 %; and lines a cell apart met such ends by chance.
-# Both depended on the cells: up to 58 % of a life. Measured now, braked and turned: scan 3.0 and 3.5, ribs 1.3 and
-# 8.2, lugs 8.1 and 6.6 %. In a turn strips a few millimetres wide do the damage; slanted lugs are stairs of cells.
+# Both depended on the cells: up to 58 % of a life. Measured now, braked and turned: scan 3.0 and 4.1, ribs 1.3 and
+# 2.6, lugs 8.1 and 6.5 %. In a turn strips a few millimetres wide do the damage; slanted lugs are stairs of cells.
 BRAKED, TURNED = tl.Maneuver.braking(5.0), tl.Maneuver.turning(12.0, 20 / 3.6)
 
 
