@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -127,44 +128,52 @@ def _turned(file: Path) -> bool | None:
 
 def _piece(file: Path, output: Path | None, figure: Path | None, *, quiet: bool) -> None:
     """Level the piece of tread under a laser whose lines a file names."""
-    from treadload.files import check_writable
-    from treadload.results.exports import write
     from treadload.tire.scan.laser import piece_of_lines
 
-    if figure is not None:
-        check_writable(figure)
-    with stages(shell.err, quiet=quiet) as tell:
-        tell(f"reading the lines of {file}")
-        found = piece_of_lines(file)
-        files = list(write(found.dataset, output)) if output is not None else []
-        if figure is not None:
-            from treadload.plots import save
-            from treadload.plots.contact import height_map
+    def drawn(found: Any) -> Any:
+        from treadload.plots.contact import height_map
 
-            tell("drawing")
-            files.append(save(height_map(found.dataset), figure))
-    shell.out.print(found.summary(), markup=False)
-    if files:
-        shell.written(files)
+        return height_map(found.dataset)
+
+    _measured(f"reading the lines of {file}", lambda: piece_of_lines(file), drawn, output, figure, quiet=quiet)
 
 
 def _fringes(file: Path, output: Path | None, figure: Path | None, *, quiet: bool) -> None:
     """Evaluate the pictures that a file names."""
+    from treadload.tire.fringes import read_fringes
+
+    def drawn(found: Any) -> Any:
+        from treadload.plots import fringe_scan
+
+        return fringe_scan(found.pixels)
+
+    _measured(f"evaluating the pictures of {file}", lambda: read_fringes(file), drawn, output, figure, quiet=quiet)
+
+
+def _measured(
+    stage: str,
+    measure: Callable[[], Any],
+    drawn: Callable[[Any], Any],
+    output: Path | None,
+    figure: Path | None,
+    *,
+    quiet: bool,
+) -> None:
+    """A measurement, written and drawn where that is asked for, and told. drawn: its figure."""
     from treadload.files import check_writable
     from treadload.results.exports import write
-    from treadload.tire.fringes import read_fringes
 
     if figure is not None:
         check_writable(figure)
     with stages(shell.err, quiet=quiet) as tell:
-        tell(f"evaluating the pictures of {file}")
-        found = read_fringes(file)
+        tell(stage)
+        found = measure()
         files = list(write(found.dataset, output)) if output is not None else []
         if figure is not None:
-            from treadload.plots import fringe_scan, save
+            from treadload.plots import save
 
             tell("drawing")
-            files.append(save(fringe_scan(found.pixels), figure))
+            files.append(save(drawn(found), figure))
     shell.out.print(found.summary(), markup=False)
     if files:
         shell.written(files)

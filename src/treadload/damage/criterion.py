@@ -19,6 +19,7 @@ from treadload.damage.quantity import (
     Quantity,
     Reading,
     check_reading,
+    cut,
     in_tension,
     ordered,
     tension,
@@ -232,7 +233,7 @@ class Criterion:
     def read(self, data: xr.Dataset) -> Array:
         """What the law reads (y, x) of a response at one depth, or (depth, y, x), positive where it does harm."""
         values, margin = self._uncut(data)
-        return values if margin is None else np.where(margin > 0, values, np.minimum(values, 0.0))
+        return values if margin is None else cut(values, margin > 0)
 
     def read_uncut(self, data: xr.Dataset) -> tuple[Array, Array | None]:
         """What the law would read were there tension everywhere, and the tension, Pa, without which it reads nothing.

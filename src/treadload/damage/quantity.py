@@ -259,6 +259,12 @@ def in_tension(data: xr.Dataset, *, upright: bool = False) -> BoolArray:
     return tensile
 
 
+def cut(values: Array, opens: BoolArray) -> Array:
+    """Readings, nothing where no crack can open."""
+    kept: Array = np.where(opens, values, np.minimum(values, 0.0))
+    return kept
+
+
 def tension(data: xr.Dataset, *, upright: bool = False) -> Array:
     """The largest principal stress of a response's dataset, Pa, above what round-off leaves: (depth, y, x), or fewer.
 

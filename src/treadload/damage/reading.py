@@ -15,7 +15,7 @@ from treadload.composing import Source
 from treadload.damage.cracks import crack_plane, gridded
 from treadload.damage.history import with_horizontal_stress
 from treadload.damage.laws.fatigue import PowerLaw
-from treadload.damage.quantity import Quantity
+from treadload.damage.quantity import Quantity, cut
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import on_interface, same_depth
@@ -55,8 +55,7 @@ class Field:
     @cached_property
     def value(self) -> Array:
         """What is read: the extension, and nothing where no crack can open."""
-        value: Array = np.where(self.quantity.opens(self.data), self.extension, np.minimum(self.extension, 0.0))
-        return value
+        return cut(self.extension, self.quantity.opens(self.data))
 
     @cached_property
     def crack(self) -> tuple[Array, Array]:

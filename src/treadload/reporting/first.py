@@ -14,7 +14,7 @@ import xarray as xr
 
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, crack_plane, in_a_cell, opens_down, orientation
 from treadload.damage.fields import known_quantities
-from treadload.damage.quantity import Quantity, in_tension
+from treadload.damage.quantity import Quantity, cut, in_tension
 from treadload.plots.first import crack_or_not, failing_order, first_places
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.reporting.pictures import Picture, picture
@@ -147,8 +147,7 @@ def which_way(row: xr.Dataset, harm: str) -> str:
 
 def _response_row(quantity: Quantity, data: xr.Dataset) -> tuple[tuple[str, ...], bool]:
     """Cells of the table, and whether a crack runs down there."""
-    values = quantity.values(data)
-    values = np.where(quantity.opens(data), values, np.minimum(values, 0.0))
+    values = cut(quantity.values(data), quantity.opens(data))
     at = np.unravel_index(int(np.nanargmax(values)), values.shape)
     largest = float(values[at])
     depth, y, x = (float(data[name][k]) for name, k in zip(("depth", "y", "x"), at, strict=True))

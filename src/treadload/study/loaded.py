@@ -19,7 +19,7 @@ from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad, Response, solve_response
 from treadload.response.superposition import common_grid, mean_loads
-from treadload.study.two_grids import COARSER, check_two_grids, with_error
+from treadload.study.two_grids import COARSER, check_two_grids, known_on_its_cells, with_error
 from treadload.tire import Tire
 
 Progress = Callable[[str], None]
@@ -56,9 +56,9 @@ class Loaded:
         asked, contact = self.case.damage, self.contact
         if asked is None or asked.lattices == 1 or asked.depth is not None:
             return None
-        if contact is None or contact.tire.fixed_grid is not None:
+        what = known_on_its_cells(None if contact is None else contact.tire)
+        if contact is None or what:
             if asked.lattices == 2:
-                what = "a recorded footprint" if contact is None else "a height map"
                 raise InputError(f"{what} has one lattice of cells and is not known between them; give lattices = 1")
             return None
         self.tell("the same contact on cells half a cell beside")

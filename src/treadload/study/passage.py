@@ -17,7 +17,7 @@ from treadload.kernels.arrays import Array
 from treadload.response import solve_response
 from treadload.response.several import Question, tensors_of_many
 from treadload.study.contacts import Counter
-from treadload.study.peaks import cut, over_strips, peaks_and_valleys
+from treadload.study.peaks import over_strips, peaks_and_valleys, readings
 from treadload.study.seasons import Warm
 from treadload.study.wheels import MARGIN, Wheels
 
@@ -161,7 +161,7 @@ def _read(result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, 
     smooth = plane.stride > 0
     every = data if data.sizes["depth"] > 1 else data.isel(depth=0)
     uncut, margin = criterion.read_uncut(every)
-    by_depth = cut(uncut, margin).reshape(-1, *uncut.shape[-2:])
+    by_depth = readings(uncut, margin)
     deepest, read = by_depth.argmax(axis=0), by_depth.max(axis=0)
     centres = task.wheels.x.mean(axis=1)
     x, averaged = data["x"].to_numpy(), plane.mean_over is not None

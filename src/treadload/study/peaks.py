@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from treadload.damage.quantity import cut
 from treadload.kernels.arrays import Array
 
 # Beside points of this part of the largest reading of a line a larger one may lie.
@@ -76,7 +77,7 @@ def over_strips(
         return result
     at = np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
     within = (y[1] - y[0]) * ((np.arange(_LINES) + 0.5) / _LINES - 0.5)
-    read = cut(uncut, margin).reshape(-1, *uncut.shape[-2:]).max(axis=0)
+    read = readings(uncut, margin).max(axis=0)
     for axle, inside in enumerate(_axles(x, centres)):
         peaks = own[2 * axle]
         loud = np.convolve(peaks >= _FAINT * largest, np.ones(3), "same") > 0
@@ -113,9 +114,9 @@ def _across(onto: sparse.csr_array, field: Array) -> Array:
     return result.reshape(*field.shape[:-2], *result.shape[-2:])
 
 
-def cut(uncut: Array, margin: Array | None) -> Array:
-    """Readings, nothing where there is no tension."""
-    return uncut if margin is None else np.where(margin > 0, uncut, np.minimum(uncut, 0.0))
+def readings(uncut: Array, margin: Array | None) -> Array:
+    """What is read at every depth, (nz, ny, nx), see `peaks_and_valleys`."""
+    return (uncut if margin is None else cut(uncut, margin > 0)).reshape(-1, *uncut.shape[-2:])
 
 
 def peaks_and_valleys(
@@ -130,7 +131,7 @@ def peaks_and_valleys(
     """
     shape = (-1, *uncut.shape[-2:])
     uncut, margin = uncut.reshape(shape), None if margin is None else margin.reshape(shape)
-    read = cut(uncut, margin).max(axis=0)
+    read = readings(uncut, margin).max(axis=0)
     result = np.zeros((turns, len(read)))
     axles = _axles(x, centres)
     known = np.full(read.shape, np.inf)

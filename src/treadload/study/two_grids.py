@@ -51,9 +51,15 @@ def assess_on_two_grids(
 
 def check_two_grids(tire: Tire | None) -> None:
     """Raise InputError for what can be solved on its own cells only; None stands for a recorded footprint."""
-    if tire is None or tire.fixed_grid is not None:
-        what = "a recorded footprint" if tire is None else "a height map"
+    if what := known_on_its_cells(tire):
         raise InputError(f"an error estimate solves the contact on two grids, and {what} has one; leave it out")
+
+
+def known_on_its_cells(tire: Tire | None) -> str:
+    """What is known on its own cells only, in words; empty for what others know too. None: a recorded footprint."""
+    if tire is None:
+        return "a recorded footprint"
+    return "" if tire.fixed_grid is None else "a height map"
 
 
 def with_error(verdict: Verdict, coarse: Verdict, spacing: float) -> Verdict:
