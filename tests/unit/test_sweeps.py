@@ -111,6 +111,12 @@ def test_cases_that_differ_behind_the_contact_share_it(tire_case, monkeypatch):
     monkeypatch.setattr(work, "contact_of", lambda *args, **more: solved.append(1) or original(*args, **more))
     tl.sweep(tire_case, {"response.wheels": [[{"y": 0.0}], [{"y": 0.16}], [{"y": 0.32}]]})
     assert len(solved) == 1
+    # A crossing comes beside the plain wheel, and solves its own contacts.
+    case = tire_case.from_dict({**tire_case.given(), "crossing": {"step": {"rise": 2e-3}}})
+    worker = Worker(Question("Case", case.given(), case.folder))
+    low, high = (worker._parts({"crossing.step.rise": rise}) for rise in (2e-3, 3e-3))
+    assert low.load.contact is high.load.contact
+    assert len(solved) == 2
 
 
 def test_a_tire_is_read_once_whatever_inflates_it(tire_case, monkeypatch):

@@ -5,7 +5,9 @@ import pytest
 
 import treadload as tl
 from cases import COARSE_CASE
+from sweeps import same
 from treadload.errors import InputError
+from treadload.study import loaded
 
 FATIGUE = "slope = -0.2 }"
 
@@ -50,6 +52,30 @@ def test_a_case_reads_two_lattices_unless_told_otherwise():
     swept = tl.sweep(case, {"rolling.normal_load": [case.rolling.normal_load]}).dataset
     # Both are searched from means over the same points, solved together there and one by one here.
     assert float(swept["worst_passes"].squeeze()) == pytest.approx(both, rel=1e-4)
+
+
+@pytest.mark.parametrize(("more", "solves"), [({}, 2), ({"error_estimate": True}, 4)])
+def test_a_study_of_the_verdict_alone_solves_each_contact_once(more, solves, monkeypatch):
+    """Both lattices, and both of the coarser cells: the numbers of every case are those of a study of it alone."""
+    table = tl.Case.from_text(COARSE_CASE.replace('["0 mm", "20 mm"]', '["0 mm"]')).given()
+    case = tl.Case.from_dict({**table, "damage": {**table["damage"], **more}})
+    solved = []
+    original = loaded.solve_contact
+    monkeypatch.setattr(loaded, "solve_contact", lambda *args, **how: solved.append(how) or original(*args, **how))
+    key, slopes = "damage.fatigue.slope", [-0.2, -0.25]
+    study = tl.sweep(case, {key: slopes}).dataset
+    assert len(solved) == solves
+    assert sum(how["offset"] != (0.0, 0.0) for how in solved) == solves // 2
+    for slope in slopes:
+        alone = tl.sweep(case, {key: [slope]}).dataset
+        assert same(alone.isel({key: 0}, drop=True), study.sel({key: slope}, drop=True))
+    assert len(solved) == 3 * solves
+    strain = study["worst_strain"].to_numpy()
+    assert strain[0] == strain[1] > 0
+    # The law of the case: (strain / epsilon_6)^(1 / slope) million passes.
+    assert study["worst_passes"].to_numpy() == pytest.approx(
+        1e6 * (strain / 120e-6) ** (1 / np.array(slopes)), rel=1e-9
+    )
 
 
 def test_one_contact_twice_is_that_contact():

@@ -23,9 +23,42 @@ from treadload.study.two_grids import COARSER, check_two_grids, known_on_its_cel
 from treadload.tire import Tire
 
 Progress = Callable[[str], None]
+Touch = Callable[..., Contact]
+"""Solves a contact of a case on cells of its spacing or another, see `contact_of`."""
 
 # What a map of layers shows beside the wheels, m: stiff layers spread the load.
 _MARGIN = 0.1
+
+
+def contact_of(
+    case: Case,
+    road: Pavement,
+    tell: Progress,
+    *,
+    spacing: float | None = None,
+    start: Contact | None = None,
+    tire: Tire | None = None,
+    offset: tuple[float, float] = NO_OFFSET,
+) -> Contact:
+    """The contact of a case, on cells of its spacing or another.
+
+    start, offset: see `solve_contact`. tire: that of the case, where it is read already.
+    """
+    if tire is None:
+        tell("reading the tire")
+        tire = case.build_tire()
+    return solve_contact(
+        tire,
+        road,
+        case.build_rolling(),
+        spacing=case.spacing if spacing is None else spacing,
+        tolerance=case.tolerance,
+        road_compliance=case.road_compliance,
+        relief=case.build_relief(),
+        start=start,
+        offset=offset,
+        progress=tell,
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +66,8 @@ class Loaded:
     """A road under the wheels of a case, ready to be read anywhere.
 
     contact: None if a footprint was recorded. wheel: the load of one wheel; wheels: all of them in their places.
-    enveloped: what the layers feel of the contact, where the case spreads the pressure on peaks.
+    enveloped: what the layers feel of the contact, where the case spreads the pressure on peaks. touch: solves
+    further contacts of the case, as `contact_of` does.
     """
 
     case: Case
@@ -44,6 +78,7 @@ class Loaded:
     wheels: list[GridLoad]
     tell: Progress
     enveloped: Enveloped | None = None
+    touch: Touch = contact_of
 
     @property
     def grid(self) -> Grid:
@@ -62,7 +97,7 @@ class Loaded:
                 raise InputError(f"{what} has one lattice of cells and is not known between them; give lattices = 1")
             return None
         self.tell("the same contact on cells half a cell beside")
-        shifted = contact_of(
+        shifted = self.touch(
             self.case, self.road, self.tell, tire=contact.tire, offset=(0.5, 0.5),
             spacing=float(contact.dataset.attrs["dx"]),
         )  # fmt: skip
@@ -100,10 +135,10 @@ class Loaded:
         )  # fmt: skip
 
 
-def load_case(case: Case, tell: Progress, *, start: Contact | None = None, contact: Contact | None = None) -> Loaded:
+def load_case(case: Case, tell: Progress, *, contact: Contact | None = None, touch: Touch = contact_of) -> Loaded:
     """The road of a case and what loads it.
 
-    start: a contact near that of the case, see `solve_contact`. contact: that of the case, where it is known already.
+    contact: that of the case, where it is known already. touch: solves the contacts of the case that are not.
     """
     if case.dents:
         raise InputError(
@@ -112,7 +147,7 @@ def load_case(case: Case, tell: Progress, *, start: Contact | None = None, conta
         )
     road, footprint, enveloped = case.pavement.build(), None, None
     if case.footprint is None:
-        contact = contact_of(case, road, tell, start=start) if contact is None else contact
+        contact = touch(case, road, tell) if contact is None else contact
         if case.texture is not None and case.texture.enveloping is not None:
             enveloped = _enveloped(case, contact)
         wheel = GridLoad.from_dataset(contact if enveloped is None else enveloped)
@@ -120,7 +155,7 @@ def load_case(case: Case, tell: Progress, *, start: Contact | None = None, conta
         tell("reading the footprint")
         footprint = case.footprint.read(case.folder)
         wheel = footprint.load
-    return Loaded(case, road, contact, footprint, wheel, case.response.place(wheel), tell, enveloped)
+    return Loaded(case, road, contact, footprint, wheel, case.response.place(wheel), tell, enveloped, touch)
 
 
 def judge(load: Loaded, response: Response) -> Verdict:
@@ -145,7 +180,8 @@ def on_two_grids(load: Loaded, verdict: Verdict) -> Verdict:
     check_two_grids(None if load.contact is None else load.contact.tire)
     tell("error estimate")
     cell = load.wheel.grid.dx
-    coarse = load_case(case, tell, contact=contact_of(case, load.road, tell, spacing=COARSER * cell))
+    contact = load.touch(case, load.road, tell, spacing=COARSER * cell)
+    coarse = load_case(case, tell, contact=contact, touch=load.touch)
     return with_error(verdict, judge(coarse, coarse.solve(case.response.depths)), cell)
 
 
@@ -154,37 +190,6 @@ def _enveloped(case: Case, contact: Contact) -> Enveloped:
     assert case.texture is not None
     assert case.texture.enveloping is not None
     return envelop(contact, case.texture.enveloping)
-
-
-def contact_of(
-    case: Case,
-    road: Pavement,
-    tell: Progress,
-    *,
-    spacing: float | None = None,
-    start: Contact | None = None,
-    tire: Tire | None = None,
-    offset: tuple[float, float] = NO_OFFSET,
-) -> Contact:
-    """The contact of a case, on cells of its spacing or another.
-
-    start, offset: see `solve_contact`. tire: that of the case, where it is read already.
-    """
-    if tire is None:
-        tell("reading the tire")
-        tire = case.build_tire()
-    return solve_contact(
-        tire,
-        road,
-        case.build_rolling(),
-        spacing=case.spacing if spacing is None else spacing,
-        tolerance=case.tolerance,
-        road_compliance=case.road_compliance,
-        relief=case.build_relief(),
-        start=start,
-        offset=offset,
-        progress=tell,
-    )
 
 
 def map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:

@@ -15,7 +15,7 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact, Crossing
 from treadload.damage import Verdict
 from treadload.response import MATERIAL_LENGTH, Response
-from treadload.study.loaded import Loaded, judge, load_case, on_two_grids
+from treadload.study.loaded import Loaded, Touch, contact_of, judge, load_case, on_two_grids
 from treadload.study.run import crossing_of, read_loaded
 from treadload.study.run_life import run_life
 from treadload.study.sweeps.record import Values
@@ -67,19 +67,19 @@ def _of_dataset(data: xr.Dataset, also: tuple[str, ...] = ()) -> dict[str, Value
 
 
 class CaseParts(Parts):
-    """Parts of a case of a wheel. contact: of it, where it is known already; start: one near it."""
+    """Parts of a case of a wheel. contact: of it, where it is known already. touch: solves what else it asks for."""
 
     searched = _SEARCHED
 
-    def __init__(self, case: Case, *, contact: Contact | None = None, start: Contact | None = None) -> None:
+    def __init__(self, case: Case, *, contact: Contact | None = None, touch: Touch = contact_of) -> None:
         self.case = case
-        self._known, self._start = contact, start
+        self._known, self._touch = contact, touch
         self._solved: dict[str, BaseResult] = {}
 
     @cached_property
     def load(self) -> Loaded:
         """The road and its wheels."""
-        return load_case(self.case, quiet, contact=self._known, start=self._start)
+        return load_case(self.case, quiet, contact=self._known, touch=self._touch)
 
     @cached_property
     def mean(self) -> Response:

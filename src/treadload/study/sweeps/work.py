@@ -15,7 +15,8 @@ from treadload.case import Case, LifeCase
 from treadload.case.keys import with_values
 from treadload.contact import Contact
 from treadload.errors import TreadloadError, one_line
-from treadload.study.loaded import contact_of
+from treadload.pavement import Pavement
+from treadload.study.loaded import Progress, contact_of
 from treadload.study.sweeps.asked import Asked, read
 from treadload.study.sweeps.parts import CaseParts, LifeParts, Parts, quiet
 from treadload.study.sweeps.record import Record
@@ -24,8 +25,10 @@ from treadload.tire import Tire
 # Contacts and tires that a worker keeps for cases that share them.
 _KEPT = 4
 # Keys of a case that its contact does not depend on, and those of rolling that leave where it is pressed on.
-_BEHIND = ("title", "response", "damage")
+_BEHIND = ("title", "response", "damage", "passes", "aggregates", "crossing")
 TANGENTIAL = ("friction", "tractive_force", "creepage_x", "lateral_force", "creepage_y", "spin")
+# Spacing and offset of a contact's cells, None where they are the case's own.
+Cells = tuple[float | None, tuple[float, float] | None]
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,8 @@ class Worker:
 
     def __init__(self, question: Question) -> None:
         self.question = question
-        self._contacts: OrderedDict[str, Contact | TreadloadError] = OrderedDict()
+        # By what the cases share, on which cells.
+        self._contacts: OrderedDict[str, dict[Cells, Contact | TreadloadError]] = OrderedDict()
         self._tires: OrderedDict[str, Tire] = OrderedDict()
 
     def solve(self, number: int, values: Mapping[str, Any]) -> Record:
@@ -77,7 +81,7 @@ class Worker:
         case = Case.from_dict(table, folder=asked.folder)
         if case.footprint is not None:
             return CaseParts(case)
-        return CaseParts(case, contact=self._contact(case))
+        return CaseParts(case, contact=self._contact(case), touch=self._touch)
 
     def _contact(self, case: Case) -> Contact:
         """The contact of a case, which cases that only read it elsewhere share."""
@@ -85,21 +89,26 @@ class Worker:
         if self.question.anchor:
             try:
                 near = Case.from_dict(with_values(case.given(), self.question.anchor), folder=case.folder)
-                start = self._once(near, None)
+                start = self._touch(near, near.pavement.build(), quiet)
             except TreadloadError:
                 # A start is a help; a case is solved without it where there is none.
                 start = None
-        return self._once(case, start)
+        return self._touch(case, case.pavement.build(), quiet, start=start)
 
-    def _once(self, case: Case, start: Contact | None) -> Contact:
+    def _touch(
+        self, case: Case, road: Pavement, tell: Progress, *, start: Contact | None = None, **cells: Any
+    ) -> Contact:
+        """What `contact_of` gives on `cells`, solved once for all cases that differ behind it."""
         key = json.dumps({name: part for name, part in case.given().items() if name not in _BEHIND}, sort_keys=True)
-        found = self._contacts.get(key)
-        if found is None:
+        solved = self._contacts.get(key, {})
+        _remember(self._contacts, key, solved)
+        on = (cells.get("spacing"), cells.get("offset"))
+        if on not in solved:
             try:
-                found = contact_of(case, case.pavement.build(), quiet, start=start, tire=self._tire(case))
+                solved[on] = contact_of(case, road, tell, start=start, **{"tire": self._tire(case), **cells})
             except TreadloadError as error:
-                found = error
-        _remember(self._contacts, key, found)
+                solved[on] = error
+        found = solved[on]
         if isinstance(found, TreadloadError):
             raise found
         return found
