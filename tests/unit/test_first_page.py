@@ -166,6 +166,9 @@ def test_a_response_names_the_largest_of_every_quantity_and_denies_cracks_where_
     page = first_of_response(pressed)
     assert page.heading == "What is largest where, by whom"
     rows = {row[0]: row for row in page.rows}
+    # No two of them are called the same.
+    assert len(rows) == len(page.rows)
+    assert {"extension strain, three-dimensional", "extension strain, in the horizontal plane"} <= set(rows)
     assert rows["octahedral shear stress"][1] == "Lytton, with the mean stress"
     # A table for people has no names of code in it.
     assert not any("_" in cell for row in page.rows for cell in row)

@@ -14,6 +14,8 @@ from treadload.case import Case
 from treadload.errors import InputError
 from treadload.plots.kit.style import power_of_ten
 from treadload.reporting import report, write_report
+from treadload.reporting.reading import ReportCase
+from treadload.reporting.tables import result_table
 from treadload.study import Result, run_case
 
 CASE = """
@@ -106,13 +108,27 @@ def test_report_holds_the_numbers_of_every_case(page, results):
             f"{float(result.response.dataset.principal_strain_1.isel(depth=0).max()) * 1e6:.1f}",
             f"{float(result.response.dataset.in_plane_strain_1.isel(depth=0).max()) * 1e6:.1f}",
             f"{float(verdict.worst_strain) * 1e6:.1f} microstrain",
-            f"read in the horizontal plane, mean over 10 mm, at depth {float(verdict.worst_depth) * 1e3:g} mm",
+            f"read in the horizontal plane, mean over 10 mm, at depth {float(verdict.worst_depth) * 1e3:g} mm, "
+            "under the mean of two contacts whose cells lie half a cell apart",
             power_of_ten(float(verdict.worst_passes)),
             result.verdict.orientation,
         ):
             assert wanted in page.words
     for unit in ("kN", "kPa", "mm²", "microstrain", "MPa"):
         assert unit in page.words
+
+
+def test_passes_say_under_how_many_contacts_they_are_read(page, results):
+    """Both cases read two; one of the same numbers under one contact says so in the row that they share."""
+    pair = "the mean of two contacts whose cells lie half a cell apart"
+    assert page.words.count(f"in the horizontal plane, under {pair}. The darkest places") == 2
+    assert page.words.count(f"read under {pair} {pair}") == 1
+    damage = results["free"].verdict.dataset
+    one = damage.copy()
+    del one.attrs["lattices"]
+    cases = [ReportCase("two", {"damage": damage}, {}), ReportCase("one", {"damage": one}, {})]
+    (row,) = [row for section in result_table(cases) for row in section.rows if row.name == "read under"]
+    assert row.values == (pair, "one contact")
 
 
 def test_report_shows_inputs_statistics_citations_and_provenance(page, results):

@@ -9,6 +9,7 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Verdict
 from treadload.damage.quantity import READINGS
+from treadload.damage.verdict import under
 from treadload.plots.interactive import places_of
 from treadload.study.allowed import Allowed, PassesAllowed
 
@@ -79,7 +80,8 @@ def verdict_rows(verdict: Verdict) -> list[Row]:
     strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
     sentence = verdict.summary().splitlines()[-1].removeprefix("Verdict: ")
     read = row("reading", "Read as", f"{READINGS[verdict.strain]}, {data.attrs['reading']}", group="road",
-               note="the maps show points, whose readings beside edges of the contact are far higher")  # fmt: skip
+               note=f"under {under(data)}; the maps show points, whose readings beside edges of the contact are far "
+                    "higher")  # fmt: skip
     if not strain > 0:
         return [row("verdict", "Life", "this law sees no crack", group="road", note=sentence), read]
     x, y, depth = (float(data[f"worst_{name}"]) for name in ("x", "y", "depth"))

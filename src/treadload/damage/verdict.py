@@ -121,10 +121,8 @@ class Verdict(BaseResult, group="damage"):
         ]
 
     def _lattices(self) -> list[str]:
-        """On how many lattices of cells it reads, where it is known, see `shifted` of `assess`."""
-        if self.dataset.attrs.get("lattices") != 2:
-            return []
-        return ["read under the mean of two contacts whose cells lie half a cell apart"]
+        """That it reads two lattices of cells, where it does."""
+        return [f"read under {under(self.dataset)}"] if self.dataset.attrs.get("lattices") == 2 else []
 
     __repr__ = first_line
 
@@ -239,6 +237,13 @@ def assess(
         warnings=json.dumps([*said, *warnings_of(line, near.value[at])], ensure_ascii=False),
     )
     return Verdict(dataset, line, quantity.strain)
+
+
+def under(data: xr.Dataset) -> str:
+    """The contacts that a verdict reads, in words, see `shifted` of `assess`. data: of a `Verdict`."""
+    if data.attrs.get("lattices") == 2:
+        return "the mean of two contacts whose cells lie half a cell apart"
+    return "one contact"
 
 
 def _plane_in_words(name: str, angle: float, dip: float) -> str:

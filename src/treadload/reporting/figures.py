@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from treadload.damage.verdict import under
 from treadload.plots import (
     ContactPlots,
     ResponsePlots,
@@ -206,8 +207,8 @@ def _verdict(case: ReportCase, alone: bool) -> Iterator[Picture]:
         )
     yield from picture(
         "Allowable passes",
-        f"From {_DRAWN[kind]}. The darkest places bear the fewest passes; white ones a million times "
-        "more, or have no extension.",
+        f"From {_DRAWN[kind]}, under {under(data)}. The darkest places bear the fewest passes; white ones a million "
+        "times more, or have no extension.",
         plots.passes,
     )
     yield from picture(

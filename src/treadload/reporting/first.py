@@ -17,6 +17,7 @@ from treadload.damage.fields import known_quantities
 from treadload.damage.quantity import Quantity, cut, in_tension
 from treadload.plots.first import crack_or_not, failing_order, first_places
 from treadload.plots.kit.style import measure, power_of_ten, signed
+from treadload.plots.response import NAMES
 from treadload.reporting.pictures import Picture, picture
 
 _LIFE = (
@@ -161,9 +162,12 @@ def _response_row(quantity: Quantity, data: xr.Dataset) -> tuple[tuple[str, ...]
             way, opens = in_a_cell(word), opens_down(word)
         elif normal is not None:
             way = "none: nothing is tensile"
-    where = f"{_deep(depth)}, x = {signed(1e3 * x, 0)} mm, y = {signed(1e3 * y, 0)} mm" if largest > 0 else "–"
+    # Numbers stay on the line of what they belong to.
+    places = (f"{name}\u00a0=\u00a0{signed(1e3 * at, 0)}\u00a0mm" for name, at in (("x", x), ("y", y)))
+    where = ", ".join((_deep(depth), *places)) if largest > 0 else "–"
     read = reading_in_words(quantity, largest) if largest > 0 else "none"
-    row = (str(quantity.words), short_source(quantity.source), read, where, way, quantity.calibrated)
+    name = f"{quantity.words}, {NAMES[quantity.strain]}" if quantity.extends else quantity.words
+    row = (name, short_source(quantity.source), read, where, way, quantity.calibrated)
     return row, opens
 
 

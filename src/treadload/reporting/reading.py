@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.cracks import ORIENTATIONS, first_to_expect, in_a_cell, nothing_opens
+from treadload.damage.verdict import under
 from treadload.errors import InputError
 from treadload.plots.kit.plan import MICRO, MM, Plan, peak_of, plane
 from treadload.plots.kit.style import power_of_ten, signed
@@ -240,6 +241,12 @@ class ReportCase:
             return ""
         plane = "in the horizontal plane" if data.attrs.get("strain") == "in-plane" else "three-dimensional"
         return f"{plane}, {data.attrs.get('reading', 'local')}"
+
+    @property
+    def read_under(self) -> str:
+        """The contacts whose road the verdict reads; empty without one."""
+        data = self.group("damage")
+        return "" if data is None else under(data)
 
     @property
     def worst_read(self) -> str:

@@ -71,6 +71,7 @@ def result_table(cases: list[ReportCase]) -> list[Section]:
                 ),
                 damage("slope of the fatigue line", "–", lambda d: signed(float(d.attrs["slope"]), 2)),
                 Row("strain that the line reads", "", tuple(case.reads or MISSING for case in cases)),
+                Row("read under", "", tuple(case.read_under or MISSING for case in cases)),
                 damage("worst strain read", "microstrain", lambda d: f"{float(d['worst_strain']) * MICRO:.1f}"),
                 damage("its place", "mm", _worst_place),
                 damage(
