@@ -227,6 +227,22 @@ def test_a_wrong_value_is_told_at_its_field(visit):
     visit.done()
 
 
+def test_maps_are_laid_out_for_the_window_again(visit):
+    """In a window that became wider they are as high as a page of that width draws them, in true scale and larger."""
+    page, width = visit.page, visit.page.viewport_size["width"]
+    layout = "document.querySelector('.maps')._fullLayout"
+    high, unit = (
+        f"{layout}.height",
+        f"(({{_length, range}}) => _length / Math.abs(range[1] - range[0]))({layout}.yaxis)",
+    )
+    before, small = page.evaluate(high), page.evaluate(unit)
+    page.set_viewport_size({"width": 1900, "height": 860})
+    page.wait_for_function(f"(was) => {high} > 1.2 * was", arg=before)
+    assert page.evaluate(unit) > 1.2 * small
+    page.set_viewport_size({"width": width, "height": 860})
+    page.wait_for_function(f"(was) => Math.abs({high} - was) < 3", arg=before)
+
+
 def title_of(visit, figure):
     return visit.page.evaluate(f"document.querySelector('.{figure}')?.layout?.xaxis?.title?.text ?? ''")
 

@@ -139,9 +139,10 @@ class Fields(Uploads, ABC):
         self._checked = self.form.check(self.session.folder)
         for path, (field, element) in self._shown.items():
             wrong = self._checked.at(path, set(self._shown))
-            yours = self.form.is_yours(path)
             otherwise = default_of(field, self._checked.case)
             given = self.form.value(path) is not None
+            # What a road of yours leaves out is no value of yours.
+            yours = given and self.form.is_yours(path)
             hint = "yours" if yours else "default" if given or not otherwise else f"default: {otherwise}"
             element.props(f'hint="{hint}"').props(remove="error error-message")
             element.classes(add="is-yours" if yours else "", remove="" if yours else "is-yours")

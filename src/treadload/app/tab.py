@@ -18,6 +18,8 @@ from treadload.study.as_python import case_as_python
 
 PAGES = {"/": "the bench", "/life": "life", "/study": "study"}
 """Addresses of the pages and what they are called."""
+# Narrower than this the maps do not become; they are drawn anew for a window that changes by more than that, pixels.
+_NARROWEST, _CHANGED = 560.0, 20.0
 # What a browser is like, as it says.
 _ABOUT = (
     "({width: document.querySelector('.centre').clientWidth - 26, "
@@ -60,6 +62,7 @@ class Tab:
         self._root = ui.element("div").classes("bench").props('id="bench" data-state="starting" data-ready="0"')
         with self._root:
             self.inside()
+        ui.on("width", lambda event: self._resized(float(event.args["width"])))
 
     # What kinds of pages do.
 
@@ -101,7 +104,7 @@ class Tab:
             with contextlib.suppress(TimeoutError):
                 about = await ui.run_javascript(_ABOUT, timeout=10)
             if about:
-                self.width = max(560.0, float(about["width"]))
+                self.width = max(_NARROWEST, float(about["width"]))
                 self.theme = "dark" if about["dark"] else "light"
                 self._dark.value = bool(about["dark"])
             await self.started()
@@ -110,6 +113,13 @@ class Tab:
         self.theme = "light" if self.theme == "dark" else "dark"
         self._dark.value = self.theme == "dark"
         self.redraw()
+
+    def _resized(self, width: float) -> None:
+        """Draw for another width of the window, once that has come to rest."""
+        width = max(_NARROWEST, width)
+        if abs(width - self.width) > _CHANGED:
+            self.width = width
+            self.redraw()
 
     def js(self, code: str) -> None:
         """Run a script of ours in the browser."""

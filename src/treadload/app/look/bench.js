@@ -53,6 +53,13 @@ function begun(name, place) {
   });
 }
 
+// Maps are laid out for a width: the page is told once the window has come to rest at another.
+let resting = null;
+window.addEventListener("resize", () => {
+  clearTimeout(resting);
+  resting = setTimeout(() => emitEvent("width", { width: document.querySelector(".centre").clientWidth - 26 }), 400);
+});
+
 // The line of the slice. What lies along it is drawn here where the page holds the fields, else it is asked for.
 const held = {};
 let waiting = null, along = "x", at = 0;
