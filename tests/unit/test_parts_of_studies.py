@@ -22,7 +22,7 @@ from treadload.study.climate import curves, nodes, over_the_climate, warmth_of
 from treadload.study.groups import _harm, _one_axle, in_words
 from treadload.study.loaded import map_grid
 from treadload.study.passage import _along, _rows, _stride
-from treadload.study.peaks import onto_lines, over_strips, peaks_and_valleys
+from treadload.study.peaks import Strips, onto_lines, over_strips, peaks_and_valleys
 from treadload.study.run import slice_depths
 from treadload.study.sensitivity import _growth, _without_solves
 from treadload.study.wheels import across, wheels_of
@@ -138,7 +138,9 @@ def test_rows_are_every_cell_beside_wheels_and_few_elsewhere(wheels, y):
 def test_fields_between_rows_are_cubic_where_rows_are_even_and_straight_elsewhere():
     rows = np.array([0.0, 1, 2, 3, 4, 9, 14, 19, 24])
     y = np.linspace(0, 24, 97)
-    onto = onto_lines(rows, y)
+    columns, weights = onto_lines(rows, y)
+    onto = np.zeros((len(y), 9))
+    np.add.at(onto, (np.arange(len(y))[:, None], columns), weights)
     # What goes through the rows, and gives one of ones.
     np.testing.assert_allclose((onto @ np.eye(9))[np.searchsorted(y, rows)], np.eye(9), atol=1e-14)
     cubic, found = y**3 - 7 * y**2, onto @ (rows**3 - 7 * rows**2)[:, None]
@@ -155,7 +157,7 @@ def test_a_strip_does_the_mean_damage_of_its_lines():
     y = 1.5e-3 * np.arange(79)
     for edge in np.linspace(0.05, 0.053, 7):
         uncut, margin = np.full((40, 1), 2e-4), (edge - rows)[:, None]
-        strips = over_strips(rows, y, x, uncut, margin, centres=np.zeros(1), turns=1, power=5.0)[0]
+        strips = over_strips(Strips.of(rows, y), x, uncut, margin, centres=np.zeros(1), turns=1, power=5.0)[0]
         # As wide as the tensile part, to a line in four.
         width = 1.5e-3 * ((strips / 2e-4) ** 5).sum() - 0.75e-3
         assert width == pytest.approx(edge, abs=1.5e-3 / 4)

@@ -57,3 +57,30 @@ def test_of_several_depths_the_largest_counts():
     assert peaks_and_valleys(x, uncut, margin, centres=np.zeros(1), turns=1, smooth=True)[0, 0] == pytest.approx(
         0.5, rel=1e-4
     )
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(3, 30), st.integers(1, 3))
+def test_peaks_are_those_of_every_pair_of_points(seed, points, depths):
+    """Pair by pair: the parabola with the mean curvature of both, up to where straight tension ends."""
+    draw = np.random.default_rng(seed)
+    x = np.arange(points) * STEP
+    uncut, margin = (draw.normal(size=(depths, 1, points)).cumsum(axis=-1) for _ in range(2))
+    found = peaks_and_valleys(x, uncut, margin, centres=x.mean(keepdims=True), turns=1, smooth=True)[0, 0]
+    tensile = margin > 0
+    largest = np.where(tensile, uncut, 0.0).max()
+    if not largest > 0:
+        return
+    expected = largest
+    for value, tension in zip(uncut[:, 0], margin[:, 0], strict=True):
+        bends = np.diff(value, 2)
+        bends = np.concatenate([bends[:1], 0.5 * (bends[1:] + bends[:-1]), bends[-1:]]) / 2
+        for k in range(points - 1):
+            if max(value[k : k + 2]) < 0.8 * largest or max(tension[k : k + 2]) <= 0:
+                continue
+            t = np.linspace(0, 1, 2001)
+            parabola = value[k] + t * (value[k + 1] - value[k] - bends[k]) + bends[k] * t * t
+            open_ = tension[k] + t * (tension[k + 1] - tension[k]) > 0
+            expected = max(expected, parabola[open_].max())
+    # Of 2000 places between two points, by the slope there; four depths of random walks bend by 10 at most.
+    assert found == pytest.approx(expected, abs=2e-2)
+    assert found >= expected - 1e-12

@@ -41,6 +41,7 @@ def test_principal_values_in_closed_form_are_those_of_the_solver(field, factor, 
     # Round-off of the largest component, a hundred times it where φ has lost as much before LAPACK takes over.
     np.testing.assert_allclose(found, exact, rtol=0, atol=5e-14 * np.abs(field).max())
     assert (np.diff(found, axis=0) <= 1e-13 * np.abs(field).max()).all()
+    np.testing.assert_allclose(tensors.largest_principal(field), exact[0], rtol=0, atol=5e-14 * np.abs(field).max())
 
 
 @settings(max_examples=100, deadline=None)
@@ -52,6 +53,7 @@ def test_principal_values_near_each_other(apart, seed):
         full = turn @ np.diag(values) @ turn.T
         tensor = full[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
         np.testing.assert_allclose(tensors.principal_values(tensor[:, None])[:, 0], values, rtol=0, atol=1e-13)
+        np.testing.assert_allclose(tensors.largest_principal(tensor[:, None])[0], values[0], rtol=0, atol=1e-13)
 
 
 @settings(max_examples=100, deadline=None)

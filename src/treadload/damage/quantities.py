@@ -81,7 +81,7 @@ class Extension(Quantity):
     def of(self, stress: Array, strain: Array) -> Array:
         """Largest principal strain, in space or in the plane."""
         if self.strain == "principal":
-            return np.asarray(tensors.principal_values(strain)[0])
+            return tensors.largest_principal(strain)
         return tensors.in_plane_principal(strain)[0]
 
     def normal(self, stress: Array, strain: Array) -> Array:
@@ -204,7 +204,7 @@ class PrincipalTension(Quantity):
 
     def of(self, stress: Array, strain: Array) -> Array:
         """σ₁."""
-        return np.asarray(tensors.principal_values(stress)[0])
+        return tensors.largest_principal(stress)
 
     def normal(self, stress: Array, strain: Array) -> Array:
         """Its direction."""

@@ -275,7 +275,7 @@ def tension(data: xr.Dataset, *, upright: bool = False) -> Array:
     if upright:
         x, y, xy = stress
         return np.asarray(0.5 * (x + y) + np.hypot(0.5 * (x - y), xy) - limit)
-    return np.asarray(tensors.principal_values(stress)[0] - limit)
+    return np.asarray(tensors.largest_principal(stress) - limit)
 
 
 def check_reading(strain: str) -> None:

@@ -62,19 +62,8 @@ def principal_values(tensor: Array) -> Array:
     left: those points go to LAPACK's symmetric solver. Errors are round-off of the largest value either way.
     Source: Smith (1961), Commun. ACM 4, 168.
     """
-    largest = float(np.abs(tensor).max(initial=0.0))
-    # Squares neither overflow nor vanish; by a power of two no digit changes.
-    unit = math.ldexp(0.5, math.frexp(largest)[1]) if 0 < largest < math.inf else 1.0
-    # Single numbers would leave the root of their round-off where two values are near each other.
-    tensor = np.divide(tensor, unit, dtype=float)
-    middle = mean(tensor)
-    xx, yy, zz = tensor[:3] - middle
-    xy, xz, yz = tensor[3:]
-    size = np.sqrt((xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)) / 6)
-    scale = np.where(size > _LEAST, size, 1.0)
-    xx, yy, zz, xy, xz, yz = (part / scale for part in (xx, yy, zz, xy, xz, yz))
-    half = 0.5 * (xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz))
-    angle = np.arccos(np.clip(half, -1.0, 1.0)) / 3
+    tensor, unit = _in_its_own_unit(tensor)
+    middle, size, half, angle = _cubic(tensor)
     first, last = 2 * size * np.cos(angle), 2 * size * np.cos(angle + 2 * np.pi / 3)
     values = np.stack([middle + first, middle - first - last, middle + last])
     # Also what is no number, which compares as false.
@@ -82,6 +71,43 @@ def principal_values(tensor: Array) -> Array:
     if close.any():
         values[:, close] = np.linalg.eigvalsh(matrices(tensor[:, close])).T[::-1]
     return values * unit
+
+
+def largest_principal(tensor: Array) -> Array:
+    """The largest principal value (...) of a tensor field (6, ...), in its unit; as `principal_values`.
+
+    It keeps its digits where the other two come near each other.
+    """
+    tensor, unit = _in_its_own_unit(tensor)
+    middle, size, half, angle = _cubic(tensor)
+    values = middle + 2 * size * np.cos(angle)
+    close = ~(half > -_APART)
+    if close.any():
+        values[close] = np.linalg.eigvalsh(matrices(tensor[:, close]))[..., -1]
+    return np.asarray(values * unit)
+
+
+def _in_its_own_unit(tensor: Array) -> tuple[Array, float]:
+    """Components in double precision whose squares neither overflow nor vanish, and the unit that they are in.
+
+    A power of two, so that no digit changes. Single numbers would leave the root of their round-off where two values
+    are near each other.
+    """
+    largest = float(np.abs(tensor).max(initial=0.0))
+    unit = math.ldexp(0.5, math.frexp(largest)[1]) if 0 < largest < math.inf else 1.0
+    return np.divide(tensor, unit, dtype=float), unit
+
+
+def _cubic(tensor: Array) -> tuple[Array, Array, Array, Array]:
+    """m, p, cos 3φ and φ of `principal_values`, (...) each."""
+    middle = mean(tensor)
+    xx, yy, zz = tensor[:3] - middle
+    xy, xz, yz = tensor[3:]
+    size = np.sqrt((xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)) / 6)
+    scale = np.where(size > _LEAST, size, 1.0)
+    xx, yy, zz, xy, xz, yz = (part / scale for part in (xx, yy, zz, xy, xz, yz))
+    half = 0.5 * (xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz))
+    return middle, size, half, np.arccos(np.clip(half, -1.0, 1.0)) / 3
 
 
 def principal(tensor: Array) -> tuple[Array, Array]:

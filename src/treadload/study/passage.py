@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
@@ -17,7 +17,7 @@ from treadload.kernels.arrays import Array
 from treadload.response import solve_response
 from treadload.response.several import Question, tensors_of_many
 from treadload.study.contacts import Counter
-from treadload.study.peaks import over_strips, peaks_and_valleys, readings
+from treadload.study.peaks import Strips, over_strips, peaks_and_valleys, readings
 from treadload.study.seasons import Warm
 from treadload.study.wheels import MARGIN, Wheels
 
@@ -27,6 +27,9 @@ _BESIDE = 0.06
 # at 60 mm.
 _DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
 _DIMS = ("depth", "y", "x")
+# Names of variables, their dimensions and their values; a criterion, its fields and the result of its cracks.
+Fields = Mapping[str, tuple[tuple[str, ...], Array]]
+Worst = tuple[Criterion, Fields, Array]
 # Of a law that tells none, and any temperature: exponents hardly depend on it.
 _USUAL, _ANY_TEMPERATURE = -0.2, 15.0
 # Points of all fields that are solved together: some 330 MB with what is made of them.
@@ -112,12 +115,16 @@ def passages(tasks: Sequence[Passing]) -> list[Array]:
     for plane, members in planes.items():
         x, rows = _along(wheels, plane.stride), _rows(wheels, y, plane.stride)
         solved = _solved([(tasks[number], own) for number, own in members.items()], plane, x, y[rows])
+        lines = _Lines.of(plane, wheels, rows, y)
+        worst = []
         for (number, own), data in zip(members.items(), solved, strict=True):
             known = list(data["depth"].to_numpy())
             for k in own:
                 own_rows = [known.index(depth) for depth in tasks[number].depths(k)]
                 at = data if own_rows == list(range(len(known))) else data.isel(depth=own_rows)
-                _read(results[number][k], tasks[number].criterion(k), at, tasks[number], plane, rows)
+                criterion, result = tasks[number].criterion(k), results[number][k]
+                worst.append((criterion, _read(result, criterion, at, tasks[number], plane, lines), result))
+        _add_cracks(worst, lines.nearest, tasks[0].turns)
     return results
 
 
@@ -155,42 +162,87 @@ def _solved(asked: Sequence[tuple[Passing, list[int]]], plane: _Plane, x: Array,
     return [solve_response(wheels.loads, road, depths=own, x=x, y=y, **at).dataset for wheels, road, own in places]
 
 
-def _read(result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, plane: _Plane, rows: Any) -> None:
-    """Into (turns + 3, y) what a criterion reads of a plane (depth, y[rows], x)."""
-    y, turns = task.y, task.turns
+@dataclass(frozen=True, eq=False)
+class _Lines:
+    """Across travel: rows that are solved, of y, m; those nearest to each y; and strips, where readings take them."""
+
+    rows: Any
+    y: Array
+    nearest: Any
+    strips: Strips | None
+
+    @classmethod
+    def of(cls, plane: _Plane, wheels: Wheels, rows: Any, y: Array) -> _Lines:
+        """With strips where means near the surface are read."""
+        fine = plane.mean_over is not None and wheels.cell <= plane.mean_over and not plane.stride
+        nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
+        return cls(rows, y, nearest, Strips.of(y[rows], y) if fine else None)
+
+
+def _read(
+    result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, plane: _Plane, lines: _Lines
+) -> Fields:
+    """Into (turns + 3, y) what a criterion reads of a plane (depth, rows, x); the fields where it reads most."""
+    turns = task.turns
     smooth = plane.stride > 0
-    every = data if data.sizes["depth"] > 1 else data.isel(depth=0)
-    uncut, margin = criterion.read_uncut(every)
+    uncut, margin = criterion.read_uncut(data)
     by_depth = readings(uncut, margin)
     deepest, read = by_depth.argmax(axis=0), by_depth.max(axis=0)
-    centres = task.wheels.x.mean(axis=1)
-    x, averaged = data["x"].to_numpy(), plane.mean_over is not None
-    at = {"centres": centres, "turns": turns}
-    if plane.mean_over is not None and task.wheels.cell <= plane.mean_over and not smooth:
+    x, at = data["x"].to_numpy(), {"centres": task.wheels.x.mean(axis=1), "turns": turns}
+    if lines.strips is not None:
         power = 1 / abs(getattr(criterion.law_at(_ANY_TEMPERATURE), "exponent", _USUAL))
-        result[:turns] = over_strips(y[rows], y, x, uncut, margin, power=power, **at)
+        result[:turns] = over_strips(lines.strips, x, uncut, margin, power=power, **at)
     else:
-        peaks = peaks_and_valleys(x, uncut, margin, smooth=smooth or averaged, **at)
+        peaks = peaks_and_valleys(x, uncut, margin, smooth=smooth or plane.mean_over is not None, **at)
         # Near the surface cells do not tell what is between them.
-        between = CubicSpline(y[rows], peaks, axis=1) if smooth else make_interp_spline(y[rows], peaks, k=1, axis=1)
-        result[:turns] = np.maximum(between(y), 0.0)
+        rows = lines.y[lines.rows]
+        between = CubicSpline(rows, peaks, axis=1) if smooth else make_interp_spline(rows, peaks, k=1, axis=1)
+        result[:turns] = np.maximum(between(lines.y), 0.0)
     instant = read.argmax(axis=1)
     deep = np.take_along_axis(deepest, instant[:, None], axis=1)[:, 0]
-    worst = _at_worst(data, deep, instant)
-    nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
-    for part, field in enumerate((*criterion.crack(worst), data["depth"].to_numpy()[deep])):
-        result[turns + part] = field[nearest]
+    result[turns + 2] = data["depth"].to_numpy()[deep][lines.nearest]
+    return _at(data, deep, instant)
 
 
-def _at_worst(data: xr.Dataset, deep: Any, instant: Any) -> xr.Dataset:
-    """A dataset at one depth and one x for each y, by their numbers."""
-    if any(field.dims != _DIMS for field in data.data_vars.values()):
-        return data.isel(x=xr.DataArray(instant, dims="y"), depth=xr.DataArray(deep, dims="y"))
+def _at(data: xr.Dataset, deep: Any, instant: Any) -> Fields:
+    """What a dataset has over all of depth, y and x, at one depth and one x for each y, by their numbers."""
     # xarray's own way costs more than what is read.
-    lines = np.arange(len(instant))
-    return xr.Dataset(
-        {str(name): ("y", data.variables[name].to_numpy()[deep, lines, instant]) for name in data.data_vars}
-    )
+    own = np.arange(len(instant))
+    return {
+        str(name): (("y", *map(str, field.dims[3:])), field.to_numpy()[deep, own, instant])
+        for name, field in data.variables.items()
+        if field.dims[:3] == _DIMS
+    }
+
+
+def _add_cracks(worst: Sequence[Worst], nearest: Any, turns: int) -> None:
+    """Into results (turns + 3, y) angle and dip of the cracks that criteria see where they read most.
+
+    Criteria that read one quantity see their cracks at once: there are few places of each.
+    """
+    alike: list[list[Worst]] = []
+    for one in worst:
+        own = next((some for some in alike if _sees_alike(some[0][0], one[0])), None)
+        if own is None:
+            alike.append([one])
+        else:
+            own.append(one)
+    for several in alike:
+        criterion, first, _ = several[0]
+        places = xr.Dataset(
+            {
+                name: (dims, np.concatenate([fields[name][1] for _, fields, _ in several]))
+                for name, (dims, _) in first.items()
+            }
+        )
+        for part, found in enumerate(criterion.crack(places)):
+            for (*_, result), own in zip(several, np.split(found, len(several)), strict=True):
+                result[turns + part] = own[nearest]
+
+
+def _sees_alike(one: Criterion, other: Criterion) -> bool:
+    """Whether two criteria see the same cracks in the same fields."""
+    return (type(one), one.place, one.quantity) == (type(other), other.place, other.quantity)
 
 
 def _stride(depth: float, cell: float) -> int:

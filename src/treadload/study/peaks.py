@@ -7,6 +7,7 @@ there. What it would be beyond, and the tension itself, vary steadily, so that b
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -28,12 +29,50 @@ _BLOCK = 100_000
 _EVEN = 1e-6
 
 
-def onto_lines(rows: Array, y: Array) -> sparse.csr_array:
-    """What makes values at y of those at rows: cubics through four even rows, straight lines where these are uneven.
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Strips across travel, each of several lines, and what makes values on a line of those on rows.
 
-    rows, y: m, rising; y within the rows.
+    rows: (ny,), y: (strips,), m, rising; y evenly spaced, in the middle of their strips, which are as wide as they
+    are apart. at: the row before each y. columns, weights: (strips, lines, 4), see `onto_lines`.
     """
-    at = np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
+
+    rows: Array
+    y: Array
+    at: Any
+    columns: Any
+    weights: Array
+
+    @classmethod
+    def of(cls, rows: Array, y: Array) -> Strips:
+        """Of rows and y, m; those at the borders end there."""
+        within = (y[1] - y[0]) * ((np.arange(_LINES) + 0.5) / _LINES - 0.5)
+        lines = np.clip(y[:, None] + within, rows[0], rows[-1])
+        columns, weights = onto_lines(rows, lines.ravel())
+        shape = (*lines.shape, 4)
+        return cls(rows, y, _before(rows, y), columns.reshape(shape), weights.reshape(shape))
+
+    def onto(self, some: Any) -> sparse.csr_array:
+        """What makes values on the lines of some strips, one after the other, of those on the rows; in single
+        precision, which readings do not need more than.
+        """
+        columns, weights = self.columns[some].ravel(), self.weights[some].ravel().astype(np.float32)
+        return sparse.csr_array(
+            (weights, columns, np.arange(0, columns.size + 1, 4)), shape=(columns.size // 4, len(self.rows))
+        )
+
+
+def _before(rows: Array, y: Array) -> Any:
+    """The last row before each y, of those with one behind it."""
+    return np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
+
+
+def onto_lines(rows: Array, y: Array) -> tuple[Any, Array]:
+    """Four rows (ny, 4), by number, and their weights in the value at y.
+
+    Cubics through four even rows, straight lines where these are uneven.
+    """
+    at = _before(rows, y)
     apart = np.diff(rows)
     t = (y - rows[at]) / apart[at]
     step = np.pad(apart, 1, constant_values=np.inf)
@@ -47,15 +86,12 @@ def onto_lines(rows: Array, y: Array) -> sparse.csr_array:
         ]
     )
     straight = np.array([np.zeros(len(t)), 1 - t, t, np.zeros(len(t))])
-    weights = np.where(even, cubic, straight)
     columns = np.clip(at + np.arange(-1, 3)[:, None], 0, len(rows) - 1)
-    lines = np.broadcast_to(np.arange(len(y)), columns.shape)
-    return sparse.coo_array((weights.ravel(), (lines.ravel(), columns.ravel())), (len(y), len(rows))).tocsr()
+    return columns.T, np.where(even, cubic, straight).T
 
 
 def over_strips(
-    rows: Array,
-    y: Array,
+    strips: Strips,
     x: Array,
     uncut: Array,
     margin: Array | None,
@@ -66,17 +102,16 @@ def over_strips(
 ) -> Array:
     """Peaks and valleys (turns, ny) of fields (..., rows, nx): peaks are those of strips, by mean damage.
 
-    Readings end abruptly across travel too, so that those of single lines would depend on where the lines lie. Strips
-    are as wide as y are apart; where readings are faint, straight lines between the rows will do, and for valleys.
-    rows, y: m. power: of the law, by which damage grows with the reading. The others as of `peaks_and_valleys`.
+    Readings end abruptly across travel too, so that those of single lines would depend on where the lines lie. Where
+    readings are faint, straight lines between the rows will do, and for valleys. power: of the law, by which damage
+    grows with the reading. The others as of `peaks_and_valleys`.
     """
+    rows, y, at = strips.rows, strips.y, strips.at
     own = peaks_and_valleys(x, uncut, margin, centres=centres, turns=turns, smooth=False)
     result = np.stack([np.interp(y, rows, one) for one in own])
     largest = own.max()
     if not largest > 0:
         return result
-    at = np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
-    within = (y[1] - y[0]) * ((np.arange(_LINES) + 0.5) / _LINES - 0.5)
     read = readings(uncut, margin).max(axis=0)
     for axle, inside in enumerate(_axles(x, centres)):
         peaks = own[2 * axle]
@@ -86,18 +121,21 @@ def over_strips(
             continue
         # Columns near the largest readings of these rows: fields vary little from one row to the next.
         heard = np.flatnonzero((read[:, inside] >= _HEARD * np.maximum(peaks, _FAINT * largest)[:, None]).any(axis=0))
-        part = inside[max(int(heard[0]) - _BESIDE, 0) : int(heard[-1]) + _BESIDE + 1]
-        few = slice(int(part[0]), int(part[-1]) + 1)
+        low, high = inside.start + int(heard[0]) - _BESIDE, inside.start + int(heard[-1]) + _BESIDE + 1
+        few = slice(max(low, inside.start), min(high, inside.stop))
+        inner, tense = (
+            uncut[..., few].astype(np.float32),
+            None if margin is None else margin[..., few].astype(np.float32),
+        )
         # So many at a time that what is made of them stays in the cache.
-        step = max(1, _BLOCK // (_LINES * len(part)))
+        step = max(1, _BLOCK // (_LINES * (few.stop - few.start)))
         for start in range(0, len(asked), step):
             some = asked[start : start + step]
-            onto = onto_lines(rows, np.clip(y[some, None] + within, rows[0], rows[-1]).ravel())
-            tension = None if margin is None else _across(onto, margin[..., few])
+            onto = strips.onto(some)
             found = peaks_and_valleys(
                 x[few],
-                _across(onto, uncut[..., few]),
-                tension,
+                _across(onto, inner),
+                None if tense is None else _across(onto, tense),
                 centres=centres[axle : axle + 1],
                 turns=1,
                 smooth=True,
@@ -133,66 +171,70 @@ def peaks_and_valleys(
     uncut, margin = uncut.reshape(shape), None if margin is None else margin.reshape(shape)
     read = readings(uncut, margin).max(axis=0)
     result = np.zeros((turns, len(read)))
-    axles = _axles(x, centres)
-    known = np.full(read.shape, np.inf)
-    for axle, inside in enumerate(axles):
+    for axle, inside in enumerate(_axles(x, centres)):
         result[2 * axle] = read[:, inside].max(axis=1)
-        known[:, inside] = np.minimum(known[:, inside], result[2 * axle][:, None])
-    if smooth:
-        tops = _between_points(uncut, margin, known)
-        for axle, inside in enumerate(axles):
-            if len(inside) > 1:
-                result[2 * axle] = np.maximum(result[2 * axle], tops[:, inside[:-1]].max(axis=1))
+        if smooth and inside.stop - inside.start > 1:
+            within = uncut[..., inside], None if margin is None else margin[..., inside]
+            result[2 * axle] = _between_points(*within, result[2 * axle])
     for axle in range(len(centres) - 1):
         between = (x >= centres[axle]) & (x <= centres[axle + 1])
         result[2 * axle + 1] = read[:, between].min(axis=1)
     return np.maximum(result, 0.0)
 
 
-def _axles(x: Array, centres: Array) -> list[Any]:
-    """Numbers of the points nearest to each axle."""
+def _axles(x: Array, centres: Array) -> list[slice]:
+    """The points nearest to each axle."""
     ends = np.concatenate([[-np.inf], 0.5 * (centres[1:] + centres[:-1]), [np.inf]])
-    return [np.flatnonzero((x >= low) & (x <= high)) for low, high in itertools.pairwise(ends)]
+    return [
+        slice(int(np.searchsorted(x, low)), int(np.searchsorted(x, high, side="right")))
+        for low, high in itertools.pairwise(ends)
+    ]
 
 
-def _between_points(uncut: Array, margin: Array | None, known: Array) -> Array:
-    """Largest reading of all depths (ny, nx - 1) between each of even points (nz, ny, nx) along x and the next one.
+def _between_points(uncut: Array, margin: Array | None, largest: Array) -> Array:
+    """Largest reading (ny,) of fields (nz, ny, nx) on even points along x and between them.
 
-    Values follow the parabola through both with the mean curvature of either; tension, straight, ends between a point
-    that has it and one that has none. Nothing where neither comes near the largest of its line, and where a parabola
-    stays below what is known already, (ny, nx).
+    Values follow the parabola through two points with the mean curvature of either; tension, straight, ends between a
+    point that has it and one that has none. Only beside points near the largest of their line, (ny,).
     """
-    tops = np.zeros((uncut.shape[1], uncut.shape[2] - 1))
-    if uncut.shape[2] < 3:
-        return tops
-    tensile = np.ones(uncut.shape, dtype=bool) if margin is None else margin > 0
-    near = uncut >= _RIVAL * np.where(tensile, uncut, -np.inf).max(axis=(0, 2))[:, None]
-    left, right = slice(None, -1), slice(1, None)
-    asked = (near[..., left] | near[..., right]) & (tensile[..., left] | tensile[..., right])
+    left, right, known = slice(None, -1), slice(1, None), largest[:, None].astype(uncut.dtype)
+    # What is tensile and shortens may extend up to where tension ends.
+    near = uncut >= _RIVAL * (known if margin is None else np.where(known > 0, known, -np.inf))
+    asked = near[..., left] | near[..., right]
+    if margin is not None:
+        tensile = margin > 0
+        asked &= tensile[..., left] | tensile[..., right]
     columns = np.flatnonzero(asked.any(axis=(0, 1)))
-    if not len(columns):
-        return tops
+    if uncut.shape[2] < 3 or not len(columns):
+        return largest
     # Of the stretch that holds all of them, with the points beside it.
     start, stop = max(int(columns[0]) - 1, 0), min(int(columns[-1]) + 3, uncut.shape[2])
-    along = slice(start, stop)
-    whole, uncut, asked, known = tops, uncut[..., along], asked[..., start : stop - 1], known[..., along]
-    tops, margin = tops[:, start : stop - 1], None if margin is None else margin[..., along]
-    bends = uncut[..., :-2] - 2 * uncut[..., 1:-1] + uncut[..., 2:]
-    bends = 0.25 * np.concatenate(
-        [2 * bends[..., :1], bends[..., 1:] + bends[..., :-1], 2 * bends[..., -1:]], axis=-1
-    )
-    # A parabola rises by a quarter of its bend above the straight line at most.
-    most = np.maximum(uncut[..., left], uncut[..., right]) - 0.25 * np.minimum(bends, 0.0)
-    z, j, i = np.nonzero(asked & (most > known[:, left]))
-    first, last, bend = uncut[z, j, i], uncut[z, j, i + 1], bends[z, j, i]
+    uncut, asked = uncut[..., start:stop], asked[..., start : stop - 1]
+    bends = uncut[..., 2:] + uncut[..., :-2]
+    bends -= 2 * uncut[..., 1:-1]
+    # A parabola rises by a quarter of its bend above the larger of its ends at most, and bends as half of the points.
+    near = uncut > known + 0.125 * np.minimum(bends.min(axis=-1, keepdims=True), 0.0)
+    asked &= near[..., left] | near[..., right]
+    j, z, i = np.nonzero(asked.swapaxes(0, 1))
+    bend = 0.25 * (bends[z, j, np.maximum(i - 1, 0)] + bends[z, j, np.minimum(i, bends.shape[-1] - 1)])
+    first, last = uncut[z, j, i], uncut[z, j, i + 1]
+    higher = np.flatnonzero(np.maximum(first, last) - 0.25 * np.minimum(bend, 0.0) > largest[j])
+    if not len(higher):
+        return largest
+    j, z, i = j[higher], z[higher], i[higher]
+    bend, first, last = bend[higher], first[higher], last[higher]
     # Where tension begins and ends, in parts of the way between the two points.
-    low, high = np.zeros(len(i)), np.ones(len(i))
+    low, high = np.zeros_like(first), np.ones_like(first)
     if margin is not None:
-        before, after = margin[z, j, i], margin[z, j, i + 1]
-        ends = np.divide(before, before - after, out=np.zeros(len(i)), where=before != after)
+        before, after = margin[z, j, start + i], margin[z, j, start + i + 1]
+        ends = np.divide(before, before - after, out=np.zeros_like(first), where=before != after)
         low, high = np.where(before > 0, low, ends), np.where(after > 0, high, ends)
     slope = last - first - bend
-    summit = np.divide(-0.5 * slope, bend, out=low.copy(), where=bend < 0)
-    places = np.stack([low, high, np.clip(summit, low, high)])
-    np.maximum.at(tops, (j, i), (first + places * (slope + places * bend)).max(axis=0))
-    return whole
+    summit = np.clip(np.divide(-0.5 * slope, bend, out=low.copy(), where=bend < 0), low, high)
+    places = np.stack([low, high, summit])
+    found = (first + places * (slope + places * bend)).max(axis=0)
+    # Lines come one after the other.
+    starts = np.flatnonzero(np.diff(j, prepend=-1))
+    result, lines = largest.copy(), j[starts]
+    result[lines] = np.maximum(result[lines], np.maximum.reduceat(found, starts))
+    return result

@@ -10,7 +10,7 @@ import xarray as xr
 from treadload import variables
 from treadload.kernels.arrays import Array
 from treadload.kernels.eigenstrain.operator import Grid
-from treadload.kernels.tensors import principal_values
+from treadload.kernels.tensors import largest_principal
 from treadload.response.fields import tensor_fields
 from treadload.response.heterogeneous.bonds import Faces, share_below
 
@@ -45,8 +45,8 @@ def readings(
     inner = _inner(x, y, z, grid, radius)
     mortar, stone = inner & (numbers == 0), inner & (numbers > 0)
     volume = np.broadcast_to(grid.thickness[:, None, None], numbers.shape)
-    tension, extension = principal_values(stress)[0], principal_values(strain)[0]
-    tension_alone, extension_alone = principal_values(stress_alone)[0], principal_values(strain_alone)[0]
+    tension, extension = largest_principal(stress), largest_principal(strain)
+    tension_alone, extension_alone = largest_principal(stress_alone), largest_principal(strain_alone)
 
     def percentiles(values: Array, where: Any) -> list[float]:
         return [share_below(values[where], volume[where], share / 100) for share in PERCENTILES]
