@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 
 import treadload as tl
 from cases import COARSE_CASE
+from treadload.case.first import first_case
 from treadload.cli import app
 
 
@@ -50,7 +51,11 @@ def test_what_cannot_be_exported_is_told_in_a_sentence(result, tmp_path):
 def test_cite_names_the_methods_of_a_result_a_case_or_the_program(result, tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(COARSE_CASE, encoding="utf-8")
-    wanted = {(): {"treadload", "materials2021"}, (result,): {"kalker1990", "love1929"}, (case,): {"kalker1990"}}
+    # A road of mixes, which has no temperature before its seasons.
+    design = tmp_path / "design.toml"
+    design.write_text(first_case("life"), encoding="utf-8")
+    wanted = {(): {"treadload", "materials2021"}, (result,): {"kalker1990", "love1929"}, (case,): {"kalker1990"},
+              (design,): {"kalker1990", "miner1945"}}  # fmt: skip
     for source, keys in wanted.items():
         done = call("cite", *source)
         assert done.exit_code == 0, done.output

@@ -15,9 +15,12 @@ import pytest
 import xarray as xr
 
 import treadload as tl
+from cases import ONE_AXLE
 from sweeps import same, small_case
 from treadload.errors import InputError
+from treadload.results import to_tree
 from treadload.study import open_sweep
+from treadload.study.run_life import run_life
 from treadload.study.sweeps import places
 from treadload.study.sweeps import store as stores
 
@@ -49,6 +52,38 @@ def test_a_store_holds_what_memory_does_and_opens_with_xarray(tmp_path):
     }
     assert not (path / ".fields").exists()
     assert open_sweep(path).case.to_toml() == case.to_toml()
+
+
+def test_a_study_of_lives_is_kept_with_its_texts(tmp_path):
+    """What fails first is a text of every case, in a store as in memory; a run of a case alone says the same."""
+    both = (
+        ONE_AXLE
+        + """
+[[criteria]]
+name = "base"
+law = "french-bituminous"
+layer = "EB-GB3"
+risk = 0.05
+[[criteria]]
+name = "soil"
+law = "french-subgrade"
+"""
+    )
+    case, path = tl.LifeCase.from_text(both), tmp_path / "lives.zarr"
+    vary = {"axle_load": ["60 kN", "130 kN"], "traffic.classes.0.inflation_pressure": ["7 bar", "9 bar"]}
+    kept = tl.sweep(case, vary, store=path).dataset
+    memory = tl.sweep(case, vary).dataset
+    assert same(kept, memory)
+    assert set(kept["governing"].to_numpy().ravel().tolist()) <= {"base", "soil"}
+    alone = run_life(tl.LifeCase.from_text(both.replace("100 kN", "60 kN").replace("8 bar", "9 bar"))).life
+    here = xr.open_zarr(path, chunks=None).isel({"axle_load": 0, "traffic.classes.0.inflation_pressure": 1})
+    assert str(here["governing"].to_numpy()) == alone.governing
+    assert float(here["governing_years"]) == pytest.approx(alone.years(alone.governing), rel=1e-9)
+    with pytest.raises(InputError, match="is the store of a study: `treadload study report"):
+        tl.open_results(path)
+    # Its mixes have no temperature of their own; the methods are told all the same.
+    tree = to_tree(open_sweep(path))
+    assert any("Miner" in one for one in json.loads(tree.attrs["citations"]))
 
 
 def test_an_interrupted_study_goes_on_and_recomputes_nothing(tmp_path):

@@ -156,6 +156,7 @@ def texture_citations() -> list[str]:
     return [CITATIONS[key] for key in ("endless", "normal", "persson")]
 
 
+_ANY_TEMPERATURE = 15.0
 # Of every case that is solved whole.
 _WHOLE = ("chain", "influence", "convolution", "normal", "preconditioner", "rolling", "newton", "stress")
 
@@ -168,4 +169,7 @@ def life_citations(road: Pavement | None) -> list[str]:
 def case_citations(case: FilePart) -> list[str]:
     """References of the methods that a study of a case uses, before any of it is solved."""
     miner = ["miner"] if isinstance(case, LifeCase) else []
-    return [CITATIONS[key] for key in [*_WHOLE, *_of_the_road(case.build_road()), *miner]]
+    road = case.build_road()
+    # A road of mixes waits for the temperatures of its seasons; the methods are the same at all of them.
+    road = None if road is None else road.at_temperature(_ANY_TEMPERATURE, extrapolate=True)
+    return [CITATIONS[key] for key in [*_WHOLE, *_of_the_road(road), *miner]]

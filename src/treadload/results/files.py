@@ -39,6 +39,11 @@ def open_results(path: str | os.PathLike[str]) -> Results:
     Raises InputError if the file is not a result of treadload, is broken, or written by a later treadload.
     """
     path = Path(path)
+    if path.suffix == ".zarr" and path.is_dir():
+        raise InputError(
+            f"{path} is the store of a study: `treadload study report {path}` reports it, "
+            f'tl.study.open_sweep("{path}") opens it'
+        )
     if not os.path.isfile(path):
         raise InputError(f"there is no result file {path}; `treadload run case.toml -o {path}` makes one")
     loaded = read_tree(path, "a result in NetCDF-4")

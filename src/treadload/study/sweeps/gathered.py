@@ -118,7 +118,8 @@ def place(target: np.ndarray, values: Values, coordinates: Mapping[str, np.ndarr
     """Put the values of a case into its row (1, ...) of an array over common axes."""
     dims, array = values
     if not dims:
-        target[0] = array
+        # An array of objects would keep a text as an array without dimensions, which no store takes.
+        target[0] = np.asarray(array)[()]
         return
     at: list[np.ndarray] = []
     for k, dim in enumerate(dims):
