@@ -130,7 +130,8 @@ def test_no_rigid_slip_no_shear():
 
 def test_a_small_creepage_sticks_everywhere_and_solves_the_linear_problem():
     given = problem(rigid=(1e-3, 0.0), bound=np.where(dome() > 0, 10.0, 0.0))
-    found = coulomb_newton.solve(given, tolerance=1e-10)
+    # What is left of the slip may be the tolerance times the bound, which is large here.
+    found = coulomb_newton.solve(given, tolerance=1e-12)
     inside = given.bound > 0
     assert found.stick[inside].all()
     # S q + w = 0 on the contact.

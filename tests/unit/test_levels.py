@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from treadload.contact.solvers.levels import double, halve, interpolate, refine
+from treadload.contact.solvers.levels import halve, interpolate, refine
 
 SHAPES = [(6, 8), (7, 8), (6, 9), (5, 3), (1, 4)]
 
@@ -11,8 +11,7 @@ SHAPES = [(6, 8), (7, 8), (6, 9), (5, 3), (1, 4)]
 @pytest.mark.parametrize("shape", SHAPES)
 def test_halving_what_was_doubled_gives_it_back(shape):
     coarse = np.random.default_rng(1).normal(size=(-(-shape[0] // 2), -(-shape[1] // 2)))
-    fine = double(coarse, shape)
-    assert fine.shape == shape
+    fine = coarse.repeat(2, axis=0).repeat(2, axis=1)[: shape[0], : shape[1]]
     np.testing.assert_allclose(halve(fine), coarse, rtol=1e-15)
 
 
@@ -23,6 +22,7 @@ def test_a_mean_of_four_cells():
     # Each component on its own.
     both = np.stack([field, -2 * field])
     np.testing.assert_array_equal(halve(both), np.stack([halve(field), -2 * halve(field)]))
+    np.testing.assert_allclose(refine(both, (8, 12)), np.stack([refine(one, (8, 12)) for one in both]), rtol=1e-15)
 
 
 def test_cells_without_material_do_not_count_in_a_mean():

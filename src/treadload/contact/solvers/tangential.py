@@ -81,22 +81,22 @@ def solve_tangential(
         q, xi = _start(small, g, w, forces, rolls, axes)
     else:
         # Without shear the cells stick, and the first step is that of full adhesion; a force that is known takes an
-        # equal share of friction everywhere, so that the first steps need not look for it.
+        # equal share of friction everywhere, so that the first steps need not look for it, nor for its rigid slip.
         total = float(g.sum()) * small.dx * small.dy
         used = np.array([0.0 if force is None else force / total for force in forces])
-        q, xi = used[:, None, None] * g, np.zeros(2)
+        q, xi = used[:, None, None] * g, None
     # Stretched by the axes, the ellipse is a disc: q = D q', and S, w and Q become D S D, D w and D⁻¹ Q.
     stretch = np.array(axes)[:, None, None]
     problem = _problem(small, g, stretch * w, forces, rolls, axes)
-    solution = _solve(problem, (q / stretch, xi * axes), tolerance)
+    solution = _solve(problem, q / stretch, None if xi is None else xi * axes, tolerance)
     solution = replace(
         solution, shear=stretch * solution.shear, slip=solution.slip / stretch, xi=solution.xi / np.array(axes)
     )
     return _uncrop(solution, bound, box)
 
 
-def _solve(problem: CoulombProblem, first: tuple[Array, Array], tolerance: float) -> CoulombSolution:
-    solution = coulomb_newton.solve(problem, *first, tolerance=tolerance)
+def _solve(problem: CoulombProblem, q: Array, xi: Array | None, tolerance: float) -> CoulombSolution:
+    solution = coulomb_newton.solve(problem, q, xi, tolerance=tolerance)
     if not solution.converged:
         # The fast path stalled: the slow one always moves on, and the fast one polishes what it finds.
         q, xi, steps = coulomb_splitting.split(problem, solution.shear, solution.xi, tolerance=0.1 * tolerance)

@@ -13,18 +13,20 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, gmres
 
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.complementarity import conjugate_residuals
 from treadload.kernels.complementarity.coulomb import CoulombProblem, project_disc, shrink
 from treadload.kernels.complementarity.coulomb_splitting import split
 
 _LINE_SEARCH = (1.0, 0.5, 0.25, 0.1, 0.02)
 _SPLITTING_BURST = 40
 _KRYLOV_MEMORY = 60
-# Two digits a step near the solution, where Newton's method converges; one while cells still change sides.
-_KRYLOV_TOLERANCES = (1e-2, 1e-1)
-_RESERVE = 0.2
+# Two digits a step near the solution, where Newton's method converges; less than one while cells still change sides.
+_KRYLOV_TOLERANCES = (1e-2, 0.4)
+_RESERVE = 0.8
+# What holding friction's bound changes may leave too much: then the steps before it aim this much lower.
+_TIGHTER = 0.3
 # A step may be followed in single precision where ten times what that loses of the residual is below the tolerance.
 _SINGLE = 1e-6
 _FAR, _POOR_STEP = 1e-4, 0.05
@@ -34,6 +36,8 @@ _OTHER_CELLS = 0.1
 _ROOM = 0.999
 # Forces are held this much tighter than the cells' conditions.
 _FORCE_WEIGHT = 100.0
+# In the linear systems this much tighter: enough that the last step seldom leaves a force to mend.
+_FORCE_ROW = 10.0
 
 
 @dataclass(frozen=True)
@@ -68,22 +72,25 @@ def solve(
 ) -> CoulombSolution:
     """Shear, slip and unknown rigid slips of a tangential contact problem.
 
-    start: q (2, ny, nx) and xi: ξ (2,) to begin with. tolerance: of the residual.
+    start: q (2, ny, nx) and xi: ξ (2,) to begin with; left out, the ξ by which the start slips least in the mean.
+    tolerance: of the residual.
     Returns the solution, converged or not.
     """
     newton = _Newton(problem, tolerance)
     q = np.zeros_like(problem.rigid) if start is None else project_disc(start, problem.bound)
-    xi = np.zeros(2) if xi is None else np.asarray(xi, float).copy()
-    state = newton.state_of(q, xi)
+    state = newton.state_of(q, np.zeros(2) if xi is None else np.asarray(xi, float))
+    if xi is None:
+        state = newton.at_rest(state)
     while True:
-        while state.residual > tolerance and newton.count < max_iterations:
+        while state.residual > newton.tolerance and newton.count < max_iterations:
             state = newton.advance(state)
         # Friction's bound holds to the last digit: what that changes is seen in the residual.
         stick = state.stick
-        q = np.where(stick, project_disc(state.q, problem.bound), state.reach * state.shrink)
+        q = np.where(stick, project_disc(state.q, problem.bound), state.reach * state.shrink) * newton.contact
         state = newton.state_of(_balance(problem, q, stick), state.xi)
         if state.residual <= tolerance or newton.count >= max_iterations:
             break
+        newton.tolerance *= _TIGHTER
     return CoulombSolution(
         state.q,
         state.slip,
@@ -186,16 +193,18 @@ class _Newton:
             math.hypot(apart, short),
         )
 
+    def at_rest(self, state: _State) -> _State:
+        """The state with unknown rigid slips that make up for what the shear of the contact slips by in the mean."""
+        xi = np.zeros(2)
+        for c in self.problem.forced:
+            xi[c] = -state.slip[c][self.contact].mean() / self.problem.travel
+        return self.state(state.q, xi, state.slip + self.problem.travel * xi[:, None, None])
+
     def advance(self, state: _State) -> _State:
         """One Newton step with line search; where that stalls, a burst of splitting."""
-        step_q, step_xi = self._step(state)
-        self.count += 1
-        self.products += 1
         # Slip is affine in shear: one product serves every step length.
-        if _SINGLE * state.residual <= self.tolerance:
-            along = self.single.apply(step_q.astype(np.float32)) + self.problem.travel * step_xi[:, None, None]
-        else:
-            along = self.problem.apply(step_q) + self.problem.travel * step_xi[:, None, None]
+        step_q, step_xi, along = self._step(state)
+        self.count += 1
         best = state
         for length in _LINE_SEARCH:
             trial = self.state(state.q + length * step_q, state.xi + length * step_xi, state.slip + length * along)
@@ -209,8 +218,8 @@ class _Newton:
             best = self.state_of(q, xi)
         return best
 
-    def _step(self, state: _State) -> tuple[Array, Array]:
-        """Newton step dq (2, ny, nx) and dξ (2,).
+    def _step(self, state: _State) -> tuple[Array, Array, Array]:
+        """Newton step dq (2, ny, nx) and dξ (2,), and the slip (2, ny, nx) that it makes.
 
         Stick cells: r(S dq + e dξ) = -r s. Slip cells, n along the trial shear and t across, m = g/|z|:
         n·dq = -n·F and (1 - m) t·dq + m r t·(S dq + e dξ) = -t·F. Force rows: Σ dq_c = Q_c - Σ q_c.
@@ -218,31 +227,32 @@ class _Newton:
         """
         poor = state.merit > _FAR and (self.count == 0 or state.residual > _POOR_STEP * self.last_residual)
         self.last_residual = state.residual
-        # No further than what is asked, with a reserve for what the step cannot see.
+        # No further than what is asked, with a reserve for what the linear system cannot see.
         rtol = max(
             _KRYLOV_TOLERANCES[poor], min(_RESERVE * self.tolerance / state.residual, _KRYLOV_TOLERANCES[True])
         )
         rows = _Rows(self, state)
-        rhs = rows.right_hand_side(state)
-        shape = (rhs.size, rhs.size)
         before = self.products
-        with np.errstate(divide="ignore", invalid="ignore"):
-            solution, _ = gmres(
-                LinearOperator(shape, matvec=rows.matvec, dtype=np.float32),
-                rhs,
-                M=LinearOperator(shape, matvec=rows.precondition, dtype=np.float32),
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            solution, along = conjugate_residuals.solve(
+                rows.right_hand_side(state),
+                rows.product,
+                rows.precondition,
+                others=state.q.size,
                 rtol=rtol,
-                restart=_KRYLOV_MEMORY,
-                maxiter=1,
+                most=_KRYLOV_MEMORY,
             )
-        if not np.isfinite(solution).all():
-            # Where every cell slides along the force, no creepage changes it and gmres divides by zero.
-            solution = np.zeros_like(rhs)
         self.krylov += self.products - before
         forced = self.problem.forced
         xi = np.zeros(2)
         xi[forced] = solution[state.q.size :] * self.problem.self_influence / self.problem.travel
-        return solution[: state.q.size].reshape(state.q.shape).astype(float), xi
+        step = solution[: state.q.size].reshape(state.q.shape).astype(float)
+        if _SINGLE * state.residual <= self.tolerance:
+            slip = along.reshape(state.q.shape) / rows.r
+        else:
+            self.products += 1
+            slip = self.problem.apply(step)
+        return step, xi, slip + self.problem.travel * xi[:, None, None]
 
 
 class _Rows:
@@ -262,6 +272,9 @@ class _Rows:
         # Across the shear, a slip cell is a mixture of 1 - m of its own row and m of a stick cell's.
         self.weight = np.where(state.stick, 1, self.m * newton.contact).astype(np.float32)
         self.r = np.float32(1 / newton.problem.self_influence)
+        # What a mean over the contact counts beside the cells, if it counts as much as in the merit, and a bit more.
+        g = newton.problem.bound
+        self.force_row = _FORCE_ROW * float(np.linalg.norm(g) / g.sum()) * newton.n_cells
         known, last = newton.columns
         if known is None or (last != self.stick).sum() > _OTHER_CELLS * newton.n_cells:
             units, nothing = np.eye(len(self.forced), dtype=np.float32), np.zeros_like(self.normal)
@@ -271,10 +284,12 @@ class _Rows:
         schur = np.array([self._mean(column) for column in self.columns]).T
         self.unmixed = np.linalg.pinv(schur, rcond=1e-12) if self.forced else schur
 
-    def matvec(self, v: Array) -> Array:
-        """Left side of the rows for unknowns v (2 ny nx + forces,)."""
+    def product(self, v: Array) -> tuple[Array, Array]:
+        """Left side of the rows for unknowns v (2 ny nx + forces,), and r S dq (2 ny nx,)."""
+        self.newton.products += 1
         dq, xi = self._unpack(v)
-        return self._pack(self._rows(dq, self._product(dq) + self._uniform(xi)), self._mean(dq))
+        slip = self.r * self.newton.single.apply(dq)
+        return self._pack(self._rows(dq, slip + self._uniform(xi)), self.force_row * self._mean(dq)), slip.ravel()
 
     def precondition(self, v: Array) -> Array:
         """Approximate solution of the rows: stick cells by the approximate inverse, then the forces."""
@@ -282,7 +297,7 @@ class _Rows:
         dq = self._inverse(rows)
         if not self.forced:
             return dq.ravel()
-        xi = (self.unmixed @ (self._mean(dq) - force)).astype(np.float32)
+        xi = (self.unmixed @ (self._mean(dq) - force / self.force_row)).astype(np.float32)
         for unknown, column in zip(xi, self.columns, strict=True):
             dq -= unknown * column
         return self._pack(dq, xi)
@@ -290,7 +305,7 @@ class _Rows:
     def right_hand_side(self, state: _State) -> Array:
         """Right side (2 ny nx + forces,)."""
         fields = np.where(self.stick, -self.r * state.slip, -state.error)
-        return self._pack(fields, state.imbalance[self.forced] / self.newton.n_cells)
+        return self._pack(fields, self.force_row * state.imbalance[self.forced] / self.newton.n_cells)
 
     def _rows(self, dq: Array, slip: Array) -> Array:
         tangent = _dot(self.across, dq)
@@ -299,10 +314,6 @@ class _Rows:
         rows += self.normal * _dot(self.normal, dq)
         np.copyto(rows, slip, where=self.stick)
         return rows
-
-    def _product(self, dq: Array) -> Array:
-        self.newton.products += 1
-        return self.r * self.newton.single.apply(dq)
 
     def _inverse(self, rows: Array) -> Array:
         """Approximate solution of the rows of the cells: the preconditioner where they stick, or nearly do."""
