@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_rgb
 
 import treadload as tl
 from studies import CASE, product_study, study_of, wheel
@@ -108,6 +109,31 @@ def test_a_map_over_load_and_friction(study):
     # The other way round it is the same, turned.
     turned = study.plot.map("worst_strain", "friction", "normal_load").axes[0].collections[0].get_array()
     np.testing.assert_allclose(turned.reshape(3, 4).filled(0), values.filled(0).T)
+
+
+def light(colour):
+    """Relative luminance of WCAG 2."""
+    parts = np.array(to_rgb(colour))
+    return np.where(parts <= 0.03928, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4) @ (0.2126, 0.7152, 0.0722)
+
+
+def test_numbers_in_cells_can_be_read(study):
+    """Of dark letters and white ones those that are clearer: a contrast of 4 at least, the root of that of both."""
+    ax = study.plot.map("worst_strain", "normal_load", "friction").axes[0]
+    (mesh,) = ax.collections[:1]
+    values, colours = mesh.get_array().ravel(), set()
+    texts = [one for one in ax.texts if one.get_va() == "center"]
+    assert len(texts) == values.count() == 9
+    for text, value in zip(texts, values.compressed(), strict=True):
+        both = sorted((light(text.get_color()), light(mesh.cmap(mesh.norm(value)))))
+        assert (both[1] + 0.05) / (both[0] + 0.05) > 4
+        colours.add(text.get_color())
+    assert len(colours) == 2
+
+
+def test_years_of_a_study_say_what_they_are_until():
+    study = study_of(product(CASE, {"friction": [0.3, 0.5]}), lambda friction: {"governing_years": 30 * friction})
+    assert study.plot.curve("governing_years").axes[0].get_ylabel() == "years to the first failure"
 
 
 def test_sampled_cases_are_dots(spread):

@@ -21,6 +21,7 @@ from treadload.plots.kit.style import (
     PAPER,
     RULE,
     headline,
+    ink_on,
     legend_below,
     measure,
     plain,
@@ -161,9 +162,8 @@ def life_shares(life: Source, criterion: str | None = None) -> Figure:
         for row, column in np.ndindex(rows, columns):
             value = share[row, column]
             if value >= 0.5:
-                dark = value > 0.4 * share.max()
                 ax.text(column + 0.5, row + 0.5, f"{value:.0f}", ha="center", va="center", fontsize=7.5,
-                        color=PAPER if dark else INK)  # fmt: skip
+                        color=ink_on(mesh.cmap(mesh.norm(value))))  # fmt: skip
     ax.set_yticks(np.arange(rows) + 0.5, classes)
     short = [name[:3] if len(seasons) == 12 else textwrap.fill(plain(name), 10) for name in seasons]
     ax.set_xticks(np.arange(columns) + 0.5, short)

@@ -24,6 +24,8 @@ _UNITS: dict[str, tuple[tuple[float, float, str], ...]] = {
 }
 _STRAINS = ("strain", "extension", "compression", "epsilon")
 _SHARES = ("fraction", "share", "coverage")
+# Names that do not say what they are.
+_CALLED = {"life_years": "years to failure", "governing_years": "years to the first failure"}
 # Quantities of which a tenth and ten times are alike far from the middle.
 _LOGARITHMIC = ("passes", "years")
 
@@ -87,7 +89,7 @@ def _words(name: str) -> str:
     if len(parts) > 3 and parts[-3].isdigit():
         of = parts[-4].rstrip("s").replace("classe", "class")
         return f"{parts[-1].replace('_', ' ')} of {of} {int(parts[-3]) + 1}"
-    words = parts[-1].replace("_", " ").replace("in plane", "in-plane")
+    words = _CALLED.get(parts[-1]) or parts[-1].replace("_", " ").replace("in plane", "in-plane")
     # The first of the principal ones is the largest.
     words = words.removesuffix(" 1") if words.startswith("max ") else words
     for short, whole in (("max ", "largest "), ("min ", "smallest ")):

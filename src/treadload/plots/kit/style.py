@@ -11,9 +11,10 @@ from contextlib import contextmanager
 from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.colors import Colormap, LinearSegmentedColormap
+from matplotlib.colors import Colormap, LinearSegmentedColormap, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import offset_copy
@@ -159,6 +160,18 @@ def plain(text: str) -> str:
 def halo(width: float = 2.5) -> list[withStroke]:
     """Paper around letters and lines that lie on a coloured field."""
     return [withStroke(linewidth=width, foreground=PAPER)]
+
+
+def ink_on(colour: Any) -> str:
+    """Of ink and paper, that which stands out more from a colour of matplotlib, by the contrast of WCAG 2."""
+
+    def light(one: Any) -> float:
+        parts = np.array(to_rgb(one))
+        linear = np.where(parts <= 0.03928, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+        return float(linear @ (0.2126, 0.7152, 0.0722))
+
+    ground = light(colour) + 0.05
+    return INK if ground / (light(INK) + 0.05) > (light(PAPER) + 0.05) / ground else PAPER
 
 
 def travel_arrow(ax: Axes) -> None:

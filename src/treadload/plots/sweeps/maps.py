@@ -17,7 +17,7 @@ from treadload.errors import InputError
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import edges, limits
 from treadload.plots.kit.shown import Shown, numbers, shown
-from treadload.plots.kit.style import INK, MUTED, RULE, figure_of, halo, headline, measure, sequential, styled
+from treadload.plots.kit.style import INK, MUTED, RULE, figure_of, halo, headline, ink_on, measure, sequential, styled
 from treadload.plots.sweeps.curves import capital, is_logarithmic, logarithmic_tick, solid, under
 from treadload.plots.sweeps.reading import PLANE, View, said
 
@@ -104,7 +104,7 @@ def _cells(
         for row, column in np.ndindex(*values.shape):
             if np.isfinite(values[row, column]):
                 ax.text(x[column], y[row], _number(values[row, column], what), ha="center", va="center", fontsize=8,
-                        color=INK, path_effects=halo(2))  # fmt: skip
+                        color=ink_on(mesh.cmap(norm(values[row, column]))))  # fmt: skip
     elif np.isfinite(values).all():
         lines = ax.contour(x, y, values, colors=INK, linewidths=0.7, norm=norm, levels=7)
         for text in ax.clabel(lines, fontsize=8, fmt=lambda value: _number(value, what)):
