@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import treadload as tl
 from treadload.app.engine import Engine
@@ -13,6 +14,7 @@ from treadload.app.session import STUDIES, Session
 from treadload.app.studies import about_study, point_of, point_rows
 from treadload.case import Case
 from treadload.errors import InputError
+from treadload.plots.kit.shown import shown
 from treadload.results import save_results
 from treadload.study import sweep
 
@@ -28,6 +30,7 @@ def study():
 def test_dimensions_and_results_are_told_in_words(study):
     about = about_study(study)
     assert [one["name"] for one in about["dims"]] == ["rolling.friction", "rolling.normal_load"]
+    assert [one["words"] for one in about["dims"]] == ["friction", "normal load"]
     assert about["dims"][1]["values"] == ["20 kN", "30 kN"]
     assert "largest_pressure" in about["readings"]
     assert set(about["fields"]) == {"pressure"}
@@ -49,6 +52,12 @@ def test_a_point_shows_what_the_dataset_holds(study):
     told = {row["key"]: row["value"] for row in point_rows(study, at)}
     assert told["at:rolling.normal_load"] == "30 kN"
     assert told["solved:largest_pressure"].startswith(f"{line[1] / 1e3:.4g}"[:4])
+    # What has a value for each depth says which depth it is of; and round-off is nothing.
+    words = {row["key"]: row["label"] for row in point_rows(study, at)}
+    assert words["solved:largest_extension"] == "largest extension, depth 20 mm"
+    titled = point_of(study, at, "largest_extension", "rolling.normal_load", "", "light", 900.0)["curve"]
+    assert titled.layout.title.text == "<b>Largest extension</b>, depth 20 mm"
+    assert shown(xr.DataArray(4e-16, attrs={"units": "m"}), "worst_y").number(4e-16) == "0 mm"
 
 
 def test_a_failed_case_says_why(study):

@@ -61,6 +61,20 @@ def test_the_history_of_a_case_is_that_of_its_objects(ran):
     assert f"{float(data.edge_work) / 1e3:.3g} at an edge, {float(data.plain_work) / 1e3:.3g} on the plane" in printed
 
 
+def test_its_figures_mark_the_obstacle_where_it_is(ran):
+    """The grey is where the road lies lower, and the peak of the curve is the largest work, in kJ/m²."""
+    (way,) = (one for one in tl.open_results(ran[0] / "r.nc").parts.values() if "closing_work" in one.dataset)
+    data, strip = way.dataset, way.plot.contacts()
+    lower = np.unique(np.argwhere(np.abs(data.road_height.transpose("y", "road_x").to_numpy()[0]) > 1e-9))
+    x, half = data.road_x.to_numpy() * 1e3, 500 * float(np.diff(data.road_x).mean())
+    (grey,) = (one.get_bbox() for one in strip.axes[0].patches)
+    assert (grey.x0, grey.x1) == pytest.approx((x[lower[0]] - half, x[lower[-1]] + half))
+    assert strip.axes[0].get_title(loc="left").startswith("\u2212")
+    work = way.plot.history().axes[2]
+    assert work.get_ylabel() == "largest work (kJ/m²)"
+    assert max(work.get_lines()[0].get_ydata()) == pytest.approx(float(data.closing_work.max()) / 1e3)
+
+
 @pytest.mark.slow
 def test_a_report_shows_it(ran):
     folder, _ = ran

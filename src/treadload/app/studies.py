@@ -9,7 +9,7 @@ from treadload.app.telling import Row, row
 from treadload.errors import InputError
 from treadload.plots.interactive.study import placed, study_curve, study_map, study_maps
 from treadload.plots.kit.shown import shown
-from treadload.plots.sweeps.reading import FAILED, View
+from treadload.plots.sweeps.reading import FAILED, View, beside
 from treadload.study.sweeps import Sweep
 
 # Values of a slider, results and characters of a label that a browser is sent.
@@ -24,11 +24,16 @@ def about_study(study: Sweep) -> dict[str, Any]:
         count = view.data["status"].sizes[dim]
         if count > _MOST_VALUES:
             raise InputError(f"{dim} has {count} values, a slider {_MOST_VALUES} at most; cut the study")
-        dims.append({"name": dim, "values": _values(view, dim, count)})
+        dims.append({"name": dim, "words": _called(view, dim), "values": _values(view, dim, count)})
     readings = {name: shown(view.data[name], name).words for name in view.readings()}
     if not readings:
         raise InputError("nothing that this study solved differs from case to case, so there is nothing to look at")
     return {"dims": dims, "readings": readings, "fields": study_maps(study), "summary": study.summary()}
+
+
+def _called(view: View, dim: str) -> str:
+    """A dimension in words, where it is an input."""
+    return shown(view.data[dim], dim).words if dim in view.data.coords else dim
 
 
 def _values(view: View, dim: str, count: int) -> list[str]:
@@ -62,7 +67,7 @@ def point_rows(study: Sweep, at: dict[str, int]) -> list[Row]:
     view = View.of(study)
     index = placed(view, at)
     rows = [
-        row(f"at:{dim}", shown(view.data[dim], dim).words if dim in view.data.coords else dim, text, group="point")
+        row(f"at:{dim}", _called(view, dim), text, group="point")
         for dim in view.dims for text in [_values(view, dim, view.data["status"].sizes[dim])[index[dim]]]
     ]  # fmt: skip
     if int(view.data["status"].isel(index)) == FAILED:
@@ -75,5 +80,6 @@ def point_rows(study: Sweep, at: dict[str, int]) -> list[Row]:
         value = field.isel({dim: index.get(dim, 0) for dim in map(str, field.dims)}).item()
         how = shown(field, name)
         said = how.number(value) if math.isfinite(value) else "none"
-        rows.append(row(f"solved:{name}", how.words, said, group="solved"))
+        words = ", ".join(one for one in (how.words, beside(view, field)) if one)
+        rows.append(row(f"solved:{name}", words, said, group="solved"))
     return rows

@@ -95,10 +95,10 @@ class StudyPage(Tab):
             for one in self._about["dims"]:
                 with ui.element("div").classes("slide"):
                     with ui.element("div").classes("head"):
-                        ui.label(one["name"])
+                        ui.label(one["words"])
                         said = ui.label(one["values"][0]).props(f'data-at="{one["name"]}"')
                     slider = ui.slider(min=0, max=max(1, len(one["values"]) - 1), step=1, value=0)
-                    slider.props(f'aria-label="{one["name"]}" data-dim="{one["name"]}" snap markers')
+                    slider.props(f'aria-label="{one["words"]}" data-dim="{one["name"]}" snap markers')
                     if len(one["values"]) < 2:
                         slider.disable()
                     slider.on_value_change(lambda event, one=one, said=said: self._moved(one, said, int(event.value)))
@@ -113,7 +113,7 @@ class StudyPage(Tab):
         with self._tools:
             for key, words, options in (
                 ("reading", "result", self._about["readings"]),
-                ("along", "along", {one["name"]: one["name"] for one in self._about["dims"]}),
+                ("along", "along", {one["name"]: one["words"] for one in self._about["dims"]}),
                 ("field", "map", self._about["fields"]),
             ):
                 if options:

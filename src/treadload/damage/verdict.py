@@ -84,7 +84,7 @@ class Verdict(BaseResult, group="damage"):
             f"largest extension, horizontal plane:  {data.attrs['largest_in_plane_strain'] * 1e6:.1f} microstrain",
         ]
         if not strain > 0:
-            lines += [f"warning: {text}" for text in self.warnings]
+            lines += [*self._lattices(), *(f"warning: {text}" for text in self.warnings)]
             return "\n".join([*lines, f"Verdict: {nothing_opens(float(data.attrs['largest_unread']))}"])
         angle, dip = float(data["worst_crack_angle"]), float(data["worst_crack_dip"])
         against = f"{strain * 1e6:.1f} microstrain is {strain / self.line.at_a_million:.2f} of {self.line.symbol}"

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
+import xarray as xr
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import KPA, MM, Limits, colour_bar, fields_of, limits
-from treadload.plots.kit.style import CASES, MUTED, headline, measure, open_axes, sequential, styled
+from treadload.plots.kit.style import CASES, MUTED, headline, measure, open_axes, sequential, signed, styled
 
+_KJ = 1e-3
+_GROUND = "#e4e7ec"
 # Contacts that a strip shows.
 _SHOWN = 5
 
@@ -39,24 +43,40 @@ def crossing_history(crossing: Source) -> Figure:
     middle.set_ylabel("share of the load (%)")
     middle.set_xlabel("place of the axle along the road (mm)")
     middle.legend()
-    work = data["closing_work"].transpose("y", "road_x").to_numpy().max(axis=0)
+    work = data["closing_work"].transpose("y", "road_x").to_numpy().max(axis=0) * _KJ
     lower.plot(place, work, color=CASES[0], label="closing")
     if "plain_work" in data:
-        lower.axhline(float(data["plain_work"]), color=MUTED, lw=0.9, ls="--", label="closing, without the obstacle")
+        lower.axhline(
+            float(data["plain_work"]) * _KJ, color=MUTED, lw=0.9, ls="--", label="closing, without the obstacle"
+        )
     if "friction_work_density" in data:
-        rubbed = data["friction_work_density"].transpose("y", "road_x").to_numpy().max(axis=0)
+        rubbed = data["friction_work_density"].transpose("y", "road_x").to_numpy().max(axis=0) * _KJ
         lower.plot(place, rubbed, color=CASES[1], label="sliding")
-    lower.set_ylabel("largest work (J/m²)")
+    lower.set_ylabel("largest work (kJ/m²)")
     lower.set_xlabel("place along the road (mm)")
-    lower.legend(loc="upper left")
-    row = int(np.abs(data["y"].to_numpy()).argmin())
+    # Within, letters would lie on the road.
+    lower.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3)
     road = lower.twinx()
-    road.plot(place, data["road_height"].transpose("y", "road_x").to_numpy()[row] * MM, color=MUTED, lw=0.9)
+    road.plot(place, _middle(data) * MM, color=MUTED, lw=0.9)
     road.set_ylabel("height of the road (mm)")
     open_axes(upper, middle, lower)
     high = float(data["largest_pressure"].max()) * KPA
     headline(upper, "Across the obstacle", f"at most {measure(high)} kPa")
     return figure
+
+
+def _middle(data: xr.Dataset) -> Array:
+    """Height of the road along the middle of the wheel, m."""
+    row = int(np.abs(data["y"].to_numpy()).argmin())
+    return np.asarray(data["road_height"].transpose("y", "road_x").to_numpy()[row], dtype=float)
+
+
+def _off_the_road_before(data: xr.Dataset) -> Array:
+    """From where to where (k, 2) the road does not lie as high as before the obstacle, m; borders of cells."""
+    height, place = _middle(data), data["road_x"].to_numpy()
+    borders = np.append(place, 2 * place[-1] - place[-2]) - 0.5 * np.diff(place).mean()
+    changes = np.flatnonzero(np.diff(np.pad(np.abs(height - height[0]) > 1e-9, 1)))
+    return np.asarray(borders[changes].reshape(-1, 2))
 
 
 @styled
@@ -65,12 +85,13 @@ def crossing_contacts(crossing: Source) -> Figure:
 
     crossing: a Crossing or its dataset. Returns the figure.
     """
-    data = fields_of(crossing, "pressure", "position", "x", "y")
+    data = fields_of(crossing, "pressure", "position", "x", "y", "road_x", "road_height")
     x, y = data["x"].to_numpy() * MM, data["y"].to_numpy() * MM
     at = data["position"].to_numpy() * MM
     shown = sorted({round(one) for one in np.linspace(0, len(at) - 1, min(_SHOWN, len(at)))})
     values = data["pressure"].transpose("position", "y", "x").to_numpy()[shown] * KPA
     scale: Limits = limits(values)
+    obstacle = _off_the_road_before(data) * MM
     figure = new_figure(min(2.1 * len(shown) + 1.2, 12.0), 4.4)
     axes = np.atleast_1d(figure.subplots(1, len(shown), sharey=True))
     for ax, number, here in zip(axes, shown, values, strict=True):
@@ -79,11 +100,13 @@ def crossing_contacts(crossing: Source) -> Figure:
             vmax=scale.high, shading="nearest", rasterized=True,
         )  # fmt: skip
         ax.set_aspect("equal")
-        ax.axvline(0, color=MUTED, lw=0.7)
+        for start, stop in obstacle:
+            ax.axvspan(start, stop, color=_GROUND, lw=0, zorder=-1)
         # As wide as the others, also where the middle of the obstacle lies outside.
         ax.set_xlim(x[0] + at[number], x[-1] + at[number])
-        headline(ax, f"{at[number]:+.0f} mm", f"peak {measure(float(here.max()))} kPa", 24)
+        headline(ax, f"{signed(float(at[number]), 0)} mm", f"peak {measure(float(here.max()))} kPa", 24)
         ax.set_xlabel("road (mm)")
+    axes[len(axes) // 2].set_xlabel("road (mm); grey: the obstacle")
     axes[0].invert_yaxis()
     axes[0].set_ylabel("y, right of travel (mm)")
     colour_bar(mesh, axes[-1], "contact pressure (kPa)", scale)

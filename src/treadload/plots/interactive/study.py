@@ -13,7 +13,7 @@ from treadload.plots.interactive.drawing import figure
 from treadload.plots.interactive.theme import Theme, colour_scale, theme_of
 from treadload.plots.kit.plan import MM, X_LABEL, Y_LABEL
 from treadload.plots.kit.shown import shown
-from treadload.plots.sweeps.reading import PLANE, View
+from treadload.plots.sweeps.reading import PLANE, View, beside
 
 _SCALES = {"pressure": "pressure", "traction_x": "signed", "traction_y": "signed"}
 _TALL, _LEFT, _RIGHT, _ABOVE, _BELOW = 620.0, 62.0, 96.0, 44.0, 50.0
@@ -54,13 +54,14 @@ def study_curve(study: Source, name: str, along: str, at: Mapping[str, int], *, 
         {"type": "scatter", "mode": "markers", "x": x[failed], "y": np.full(int(failed.sum()), foot),
          "name": "failed", "marker": {"size": 9, "symbol": "x", "color": look.muted}},
     ]  # fmt: skip
+    at_what = f", {beside(view, field)}" if beside(view, field) else ""
     across: dict[str, Any] = {"title": {"text": told.label if told is not None else along}}
     if axis is not None and not numeric:
         across |= {"tickvals": list(range(len(x))), "ticktext": [str(one) for one in axis.to_numpy()]}
     layout = {
         "height": 330, "margin": {"l": 74, "r": 20, "t": 40, "b": 52}, "showlegend": False, "xaxis": across,
         "yaxis": {"title": {"text": how.label}},
-        "title": {"text": f"<b>{how.words[:1].upper()}{how.words[1:]}</b>", "x": 0.01, "font": {"size": 13}},
+        "title": {"text": f"<b>{how.words[:1].upper()}{how.words[1:]}</b>{at_what}", "x": 0.01, "font": {"size": 13}},
     }  # fmt: skip
     return figure(traces, layout, look)
 

@@ -24,6 +24,8 @@ _UNITS: dict[str, tuple[tuple[float, float, str], ...]] = {
 }
 _STRAINS = ("strain", "extension", "compression", "epsilon")
 _SHARES = ("fraction", "share", "coverage")
+# What is less than this in the unit of a figure is nothing.
+_NOTHING = 1e-6
 # Names that do not say what they are.
 _CALLED = {"life_years": "years to failure", "governing_years": "years to the first failure"}
 # Quantities of which a tenth and ten times are alike far from the middle.
@@ -49,7 +51,11 @@ class Shown:
         if not isinstance(value, int | float | np.number):
             return str(value)
         unit = "" if self.unit in ("", "–") else self.unit if self.unit == "°" else f" {self.unit}"
-        return f"{self.factor * float(value):.4g}{unit}".replace("-", "\u2212")
+        scaled = self.factor * float(value)
+        if unit and abs(scaled) < _NOTHING:
+            # Round-off of a place on an axis of symmetry, and the like.
+            scaled = 0.0
+        return f"{scaled:.4g}{unit}".replace("-", "\u2212")
 
 
 def shown(field: xr.DataArray, name: str = "") -> Shown:

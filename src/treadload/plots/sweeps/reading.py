@@ -146,6 +146,15 @@ def said(axis: xr.DataArray, number: int, name: str = "") -> str:
     return f"{how.words} {how.number(value.item() if hasattr(value, 'item') else value)}"
 
 
+def beside(view: View, field: xr.DataArray) -> str:
+    """What a result is read at besides a point of the study, in words: "criterion base", "depth 20 mm"; else empty.
+
+    It is the first of what it is over, as in figures that show one line.
+    """
+    own = [str(dim) for dim in field.dims if dim not in view.dims and dim in field.coords]
+    return ", ".join(said(field[dim], 0, dim) for dim in own)
+
+
 def _varies(field: xr.DataArray) -> bool:
     values = np.asarray(field.to_numpy(), dtype=float)
     known = values[np.isfinite(values)]
