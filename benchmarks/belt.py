@@ -51,7 +51,7 @@ def kernels(spacing, shape):
     floor = rolling_product(influence, process_time)
 
     def all_of_them():
-        sheets._coefficients.cache_clear()
+        sheets.coefficients.cache_clear()
         images._coefficients.cache_clear()
         surface = belt_surface(inflated)
         return surface.normal(at), surface.tangential(at), surface.coupling(at)
