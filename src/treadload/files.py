@@ -71,6 +71,18 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
+def text_of(path: str | os.PathLike[str], wanted: str) -> str:
+    """The text of a file in UTF-8. wanted: what to give in place of one that is none. Raises InputError."""
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"cannot read {os.fspath(path)}: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(
+            f"{os.fspath(path)} is not a text file in UTF-8 (byte {error.start}); give {wanted}"
+        ) from error
+
+
 def parse_toml(text: str, name: str) -> dict[str, Any]:
     """The tables of a TOML text. name: of the file, for the error. Raises InputError."""
     try:

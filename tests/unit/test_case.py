@@ -94,7 +94,7 @@ def test_a_case_goes_to_another_process_and_back(tmp_path):
 
 
 def test_missing_and_binary_files_are_refused(tmp_path):
-    with pytest.raises(tl.InputError, match="cannot read the case"):
+    with pytest.raises(tl.InputError, match=r"cannot read .*toml: No such file"):
         Case.from_toml(tmp_path / "none.toml")
     (tmp_path / "b.toml").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(tl.InputError, match="UTF-8"):

@@ -12,19 +12,12 @@ from pydantic import Field, ValidationError
 
 from treadload.case.changes import changed
 from treadload.errors import InputError
-from treadload.files import parse_toml
+from treadload.files import parse_toml, text_of
 from treadload.pavement import Pavement
 from treadload.read import Table, in_words
 
-
-def text_of(path: str | os.PathLike[str]) -> str:
-    """The text of the file of a case. Raises InputError."""
-    try:
-        return Path(path).read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"cannot read the case {path}: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path} is not a text file in UTF-8, so it is not a case; give a TOML file") from error
+A_CASE = "the TOML file of a case"
+"""What a file should be that is read as a case, for the error."""
 
 
 class FilePart(Table):
@@ -63,7 +56,7 @@ class FilePart(Table):
 
         changes: keys to set, "rolling.friction=0.6" or "pavement.layers.0.thickness=8 cm", see `case.changes`.
         """
-        return cls.from_text(text_of(path), folder=Path(path).parent, name=str(path), changes=changes)
+        return cls.from_text(text_of(path, A_CASE), folder=Path(path).parent, name=str(path), changes=changes)
 
     @classmethod
     def from_text(

@@ -10,11 +10,11 @@ from typing import Any
 
 from treadload.case.calibration import CalibrationCase
 from treadload.case.changes import changed
-from treadload.case.file import FilePart, text_of
+from treadload.case.file import A_CASE, FilePart
 from treadload.case.life import LifeCase
 from treadload.case.model import Case
 from treadload.errors import InputError, nearest
-from treadload.files import parse_toml
+from treadload.files import parse_toml, text_of
 from treadload.read import REFERENCE, Choice, choice_named, sentences
 
 KINDS: dict[str, type[FilePart]] = {"run": Case, "life": LifeCase, "calibrate": CalibrationCase}
@@ -37,7 +37,7 @@ def kind_of_table(table: Mapping[str, Any]) -> type[FilePart]:
 
 def read_case(path: str | os.PathLike[str], *, changes: Sequence[str] = ()) -> FilePart:
     """A case of whatever kind from a TOML file. changes: see `FilePart.from_toml`. Raises InputError."""
-    table = changed(parse_toml(text_of(path), str(path)), changes)
+    table = changed(parse_toml(text_of(path, A_CASE), str(path)), changes)
     return kind_of_table(table).from_dict(table, folder=Path(path).parent, name=str(path))
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from treadload.describing import as_call
 from treadload.errors import GeometryError, InputError
-from treadload.files import parse_toml
+from treadload.files import parse_toml, text_of
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.tire.grooves import EDGE, Groove, LateralGrooves, check_finite, rounding_start, trench
@@ -90,13 +90,7 @@ class TreadProfile:
             raise InputError(
                 f"no tread profile file {str(path)!r}; check the path, or give a name of `treadload catalogue tires`"
             )
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"cannot read {path.name!r}: {error.strerror or error}") from error
-        except UnicodeDecodeError as error:
-            raise InputError(f"{path.name!r} is not valid TOML: it is not UTF-8 text (byte {error.start})") from error
-        return cls.from_dict(parse_toml(text, repr(path.name)))
+        return cls.from_dict(parse_toml(text_of(path, "the TOML file of a tread profile"), repr(path.name)))
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> TreadProfile:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from treadload.errors import InputError
-from treadload.files import parse_toml
+from treadload.files import parse_toml, text_of
 from treadload.tire.fringes.asked import SHADOW, STEEPEST, Evaluation, Pattern
 from treadload.tire.fringes.calibration import CameraProjector, ReferencePlane
 from treadload.tire.fringes.measure import FringeScan, measure_fringes
@@ -112,12 +112,7 @@ def read_fringes(path: str | os.PathLike[str]) -> FringeScan:
     from treadload.read import read
 
     file = Path(path)
-    try:
-        text = file.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"cannot read {file}: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{file} is not a text file in UTF-8; give a TOML file that names the pictures") from error
+    text = text_of(file, "a TOML file that names the pictures")
     asked: FringeFile = read(FringeFile, parse_toml(text, str(file)), str(file), folder=file.parent)
     calibration, evaluation = asked.calibration, asked.evaluation()
     return measure_fringes([one.read(file.parent) for one in asked.patterns], calibration, evaluation)

@@ -23,7 +23,7 @@ from typing import Any, Literal
 import numpy as np
 
 from treadload.errors import InputError, said
-from treadload.files import parse_toml
+from treadload.files import parse_toml, text_of
 from treadload.kernels.arrays import Array
 from treadload.labels import factor
 from treadload.units import Angle, Length, Number
@@ -140,8 +140,8 @@ def _unit(name: str, unit: str, si: str) -> float:
 def is_laser(path: Path) -> bool:
     """True for a TOML file with a table [laser]; False for any other, readable or not."""
     try:
-        return "laser" in parse_toml(path.read_text(encoding="utf-8"), path.name)
-    except (OSError, UnicodeDecodeError, InputError):
+        return "laser" in parse_toml(text_of(path, ""), path.name)
+    except InputError:
         return False
 
 
@@ -151,13 +151,7 @@ def asked_of(path: str | os.PathLike[str]) -> LaserFile:
     from treadload.read import read
 
     file = Path(path)
-    try:
-        text = file.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"cannot read {file}: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{file} is not a text file in UTF-8; give a TOML file with a table [laser]") from error
-    table = parse_toml(text, str(file))
+    table = parse_toml(text_of(file, "a TOML file with a table [laser]"), str(file))
     if not isinstance(table.get("laser"), dict) or set(table) - {"laser", "title"}:
         raise InputError(
             f"{file} must hold the table [laser] and nothing besides but a title; see docs/howto/laser.md"
