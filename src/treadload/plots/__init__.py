@@ -37,17 +37,13 @@ from treadload.plots.others import (
     HeterogeneousPlots,
     IndentationPlots,
     LifePlots,
-    MorrisPlots,
     PassesPlots,
     ReliabilityPlots,
     RollingResistancePlots,
     SensitivityPlots,
-    SobolPlots,
-    SweepPlots,
     TexturePlots,
     ThicknessDesignPlots,
     TireCardPlots,
-    TornadoPlots,
     TransientPlots,
     TurnPlots,
     UniformPlots,
@@ -59,6 +55,7 @@ from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.ruts import life_rut
 from treadload.plots.stones import stones_in_mortar
+from treadload.plots.sweeps.accessors import MorrisPlots, SobolPlots, SweepPlots, TornadoPlots
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from collections.abc import Sequence
+from typing import Literal
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -28,24 +28,14 @@ from treadload.plots.plain import losses, plain_map
 from treadload.plots.reliability import reliability_inputs, reliability_years
 from treadload.plots.ruts import life_rut
 from treadload.plots.stones import stones_in_mortar
-from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
-from treadload.plots.sweeps.maps import study_map, study_multiples
-from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
 from treadload.plots.texture import enveloped_pressure, texture_contact
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 from treadload.plots.works import life_works
 
 
-class _Plots(Figures):
-    """Figures of a result, or of its dataset. Each returns a matplotlib Figure."""
-
-    def __init__(self, result: Source) -> None:
-        self._result = result
-
-
 @offers("plot", "Life")
-class LifePlots(_Plots):
+class LifePlots(Figures):
     """Figures of a life."""
 
     main = "years"
@@ -80,7 +70,7 @@ class LifePlots(_Plots):
 
 
 @offers("plot", "Indentation")
-class IndentationPlots(_Plots):
+class IndentationPlots(Figures):
     """Figures of a body pressed into a road that yields."""
 
     main = "dent"
@@ -91,7 +81,7 @@ class IndentationPlots(_Plots):
 
 
 @offers("plot", "Passes")
-class PassesPlots(_Plots):
+class PassesPlots(Figures):
     """Figures of passes over a road that yields."""
 
     main = "rut"
@@ -116,7 +106,7 @@ class PassesPlots(_Plots):
 
 
 @offers("plot", "Heterogeneous")
-class HeterogeneousPlots(_Plots):
+class HeterogeneousPlots(Figures):
     """Figures of a window of mortar with stones."""
 
     main = "section"
@@ -127,7 +117,7 @@ class HeterogeneousPlots(_Plots):
 
 
 @offers("plot", "TextureContact")
-class TexturePlots(_Plots):
+class TexturePlots(Figures):
     """Figures of rubber on a texture."""
 
     main = "patch"
@@ -138,7 +128,7 @@ class TexturePlots(_Plots):
 
 
 @offers("plot", "Enveloped")
-class EnvelopedPlots(_Plots):
+class EnvelopedPlots(Figures):
     """Figures of an enveloped pressure."""
 
     main = "pressure"
@@ -149,7 +139,7 @@ class EnvelopedPlots(_Plots):
 
 
 @offers("plot", "Sensitivity")
-class SensitivityPlots(_Plots):
+class SensitivityPlots(Figures):
     """Figures of a sensitivity."""
 
     main = "inputs"
@@ -160,7 +150,7 @@ class SensitivityPlots(_Plots):
 
 
 @offers("plot", "ThicknessDesign")
-class ThicknessDesignPlots(_Plots):
+class ThicknessDesignPlots(Figures):
     """Figures of a design."""
 
     main = "lives"
@@ -171,7 +161,7 @@ class ThicknessDesignPlots(_Plots):
 
 
 @offers("plot", "Equivalents")
-class EquivalentsPlots(_Plots):
+class EquivalentsPlots(Figures):
     """Figures of a traffic in standard axles."""
 
     main = "axles"
@@ -182,7 +172,7 @@ class EquivalentsPlots(_Plots):
 
 
 @offers("plot", "Reliability")
-class ReliabilityPlots(_Plots):
+class ReliabilityPlots(Figures):
     """Figures of a reliability."""
 
     main = "years"
@@ -197,7 +187,7 @@ class ReliabilityPlots(_Plots):
 
 
 @offers("plot", "Growth")
-class GrowthPlots(_Plots):
+class GrowthPlots(Figures):
     """Figures of a crack that grows."""
 
     main = "depth"
@@ -212,7 +202,7 @@ class GrowthPlots(_Plots):
 
 
 @offers("plot", "BondVerdict")
-class BondVerdictPlots(_Plots):
+class BondVerdictPlots(Figures):
     """Figures of a verdict on bonds."""
 
     main = "utilisation"
@@ -223,7 +213,7 @@ class BondVerdictPlots(_Plots):
 
 
 @offers("plot", "BondComparison")
-class BondComparisonPlots(_Plots):
+class BondComparisonPlots(Figures):
     """Figures of a road with its bond and without."""
 
     main = "lives"
@@ -234,7 +224,7 @@ class BondComparisonPlots(_Plots):
 
 
 @offers("plot", "FootprintComparison")
-class FootprintComparisonPlots(_Plots):
+class FootprintComparisonPlots(Figures):
     """Figures of a computed contact beside a measured footprint."""
 
     main = "maps"
@@ -253,7 +243,7 @@ class FootprintComparisonPlots(_Plots):
 
 
 @offers("plot", "CreepCurve")
-class CreepCurvePlots(_Plots):
+class CreepCurvePlots(Figures):
     """Figures of a creep curve."""
 
     main = "forces"
@@ -271,7 +261,7 @@ def _direction(data: object) -> str:
 
 
 @offers("plot", "UniformComparison")
-class UniformPlots(_Plots):
+class UniformPlots(Figures):
     """Figures of a contact beside uniform loads."""
 
     main = "strains"
@@ -282,7 +272,7 @@ class UniformPlots(_Plots):
 
 
 @offers("plot", "TireCard")
-class TireCardPlots(_Plots):
+class TireCardPlots(Figures):
     """Figures of a tire card."""
 
     main = "card"
@@ -293,7 +283,7 @@ class TireCardPlots(_Plots):
 
 
 @offers("plot", "TransientResult")
-class TransientPlots(_Plots):
+class TransientPlots(Figures):
     """Figures of rolling from rest."""
 
     main = "history"
@@ -304,7 +294,7 @@ class TransientPlots(_Plots):
 
 
 @offers("plot", "Crossing")
-class CrossingPlots(_Plots):
+class CrossingPlots(Figures):
     """Figures of a wheel over an obstacle."""
 
     main = "history"
@@ -319,7 +309,7 @@ class CrossingPlots(_Plots):
 
 
 @offers("plot", "TurnResult")
-class TurnPlots(_Plots):
+class TurnPlots(Figures):
     """Figures of a turn on the spot."""
 
     main = "history"
@@ -330,7 +320,7 @@ class TurnPlots(_Plots):
 
 
 @offers("plot", "Calibration")
-class CalibrationPlots(_Plots):
+class CalibrationPlots(Figures):
     """Figures of a calibration; those of its footprints are `calibration.comparisons[0].plot`."""
 
     main = "fit"
@@ -344,85 +334,8 @@ class CalibrationPlots(_Plots):
         return calibration_numbers(self._result)
 
 
-@offers("plot", "Sweep")
-class SweepPlots(_Plots):
-    """Figures of a study of many cases. at: name → value of what else is varied, SI; left out, the middle one."""
-
-    def curve(
-        self,
-        of: str,
-        against: str = "",
-        *,
-        by: str | None = None,
-        at: Mapping[str, Any] | None = None,
-        ax: Axes | None = None,
-    ) -> Figure:
-        """A result against an input, a line for each value of another, or of a dimension such as depth."""
-        return study_curve(self._result, of, against, by=by, at=at, ax=ax)
-
-    def curves(
-        self,
-        of: Sequence[str] = (),
-        against: str = "",
-        *,
-        by: str | None = None,
-        at: Mapping[str, Any] | None = None,
-    ) -> Figure:
-        """Panels of curves: several results against one input."""
-        return study_curves(self._result, of, against, by=by, at=at)
-
-    def slip_curve(
-        self, *, by: str | None = None, at: Mapping[str, Any] | None = None, ax: Axes | None = None
-    ) -> Figure:
-        """Shear force over friction times load against creepage, of a study that varies one of them."""
-        return study_slip_curve(self._result, by=by, at=at, ax=ax)
-
-    def map(
-        self, of: str, x: str = "", y: str = "", *, at: Mapping[str, Any] | None = None, ax: Axes | None = None
-    ) -> Figure:
-        """A result over two inputs, in colour."""
-        return study_map(self._result, of, x, y, at=at, ax=ax)
-
-    def multiples(self, of: str, across: str = "", down: str = "", *, at: Mapping[str, Any] | None = None) -> Figure:
-        """A field of every case in plan, small maps on one scale."""
-        return study_multiples(self._result, of, across, down, at=at)
-
-
-@offers("plot", "Tornado")
-class TornadoPlots(_Plots):
-    """Figures of a tornado."""
-
-    main = "tornado"
-
-    def tornado(self, *, ax: Axes | None = None) -> Figure:
-        """Bars from the base case to both ends of every input."""
-        return tornado_bars(self._result, ax=ax)
-
-
-@offers("plot", "Sobol")
-class SobolPlots(_Plots):
-    """Figures of Sobol indices."""
-
-    main = "sobol"
-
-    def sobol(self, *, ax: Axes | None = None) -> Figure:
-        """First-order and total indices with their intervals."""
-        return sobol_bars(self._result, ax=ax)
-
-
-@offers("plot", "Morris")
-class MorrisPlots(_Plots):
-    """Figures of a Morris screening."""
-
-    main = "morris"
-
-    def morris(self, *, ax: Axes | None = None) -> Figure:
-        """Spread of the effects of every input against their mean size."""
-        return morris_effects(self._result, ax=ax)
-
-
 @offers("plot", "RollingResistance")
-class RollingResistancePlots(_Plots):
+class RollingResistancePlots(Figures):
     """Figures of rolling resistance."""
 
     main = "losses"
@@ -433,7 +346,7 @@ class RollingResistancePlots(_Plots):
 
 
 @offers("plot", "Fields")
-class FieldsPlots(_Plots):
+class FieldsPlots(Figures):
     """Figures of fields of any kind."""
 
     def map(self, name: str, *, depth: float | None = None, ax: Axes | None = None) -> Figure:

@@ -87,9 +87,6 @@ class WearPlots(Figures):
 
     main = "wear"
 
-    def __init__(self, result: Source) -> None:
-        self._result = result
-
     def wear(self) -> Figure:
         """Wear unrolled over the turn, and across beside the tread then and now."""
         return tread_wear(self._result)
