@@ -3,13 +3,15 @@
 tamaas solves contact and plasticity in turn (EPIC, accelerated, to 1e-4, DF-SANE inside from 1e-2 to 1e-5) on even
 cells of a periodic volume; ours solves one fixed point, to 1e-4, on a half-space, with graded rows, five for eight of
 theirs. Each step starts from nothing; one thread, process time, operators included. Peak pressures over the yield
-stress stand beside. tamaas is no part of the package: pip install tamaas==2.9.0.
+stress stand beside. tamaas runs in the environment that `peers.py` makes; where that fails, a sentence says why.
 
     python benchmarks/indentation.py            python benchmarks/indentation.py 64 32
 """
 
+import json
 import math
 import os
+import subprocess
 import sys
 
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -18,6 +20,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 import time  # noqa: E402
 
 import numpy as np  # noqa: E402
+from peers import environment  # noqa: E402
 
 import treadload as tl  # noqa: E402
 from treadload.materials import VonMises  # noqa: E402
@@ -49,38 +52,53 @@ def ours(multiple: float, n: int, layers: int) -> tuple[float, float]:
     return min(taken[1:]), float(done.dataset.peak_pressure[0]) / YIELD
 
 
-def theirs(multiple: float, n: int, layers: int) -> tuple[float, float]:
-    """The same of tamaas."""
-    import tamaas as tm
-    from tamaas.nonlinear_solvers import DFSANESolver, ToleranceManager
+# Run by the environment of tamaas: the argument is JSON; prints seconds and the largest pressure.
+TAMAAS = """
+import json, sys, time
+import numpy as np
+import tamaas as tm
+from tamaas.nonlinear_solvers import DFSANESolver, ToleranceManager
+asked = json.loads(sys.argv[1])
+n, side, layers = asked["n"], asked["side"], asked["layers"]
+tm.set_log_level(tm.LogLevel.error)
+across = (np.arange(n) - (n - 1) / 2) * side / n
+surface = -(across[None] ** 2 + across[:, None] ** 2) / (2 * asked["radius"])
+began = time.process_time()
+model = tm.ModelFactory.createModel(tm.model_type.volume_2d, [asked["deep"], side, side], [layers, n, n])
+model.E, model.nu = asked["modulus"], asked["poisson"]
+material = tm.materials.IsotropicHardening(model, sigma_y=asked["yields"], hardening=asked["hardening"])
+residual = tm.Residual(model, material)
+plastic = ToleranceManager(1e-2, 1e-5, 1 / 3)(DFSANESolver)(residual)
+contact = tm.PolonskyKeerRey(model, surface, 1e-8)
+tm.EPICSolver(contact, plastic, 1e-4, relaxation=0.3).acceleratedSolve(asked["load"] / side**2)
+print(time.process_time() - began, float(np.array(model.traction)[..., 2].max()))
+"""
 
-    tm.set_log_level(tm.LogLevel.error)
+
+def theirs(python: str, multiple: float, n: int, layers: int) -> tuple[float, float]:
+    """The same of tamaas, in its environment's Python."""
     radius = math.sqrt(DEPTH * RADIUS) * multiple ** (1 / 3)
-    side = 2 * THEIRS * radius
-    across = (np.arange(n) - (n - 1) / 2) * side / n
-    surface = -(across[None] ** 2 + across[:, None] ** 2) / (2 * RADIUS)
-    began = time.process_time()
-    model = tm.ModelFactory.createModel(tm.model_type.volume_2d, [DEEP * radius, side, side], [layers, n, n])
-    model.E, model.nu = MODULUS, POISSON
-    material = tm.materials.IsotropicHardening(model, sigma_y=YIELD, hardening=HARDENING)
-    residual = tm.Residual(model, material)
-    plastic = ToleranceManager(1e-2, 1e-5, 1 / 3)(DFSANESolver)(residual)
-    contact = tm.PolonskyKeerRey(model, surface, 1e-8)
-    tm.EPICSolver(contact, plastic, 1e-4, relaxation=0.3).acceleratedSolve(multiple * LOAD / side**2)
-    traction = np.array(model.traction)
-    return time.process_time() - began, float(traction[..., 2].max()) / YIELD
+    asked = {
+        "n": n, "layers": layers, "side": 2 * THEIRS * radius, "deep": DEEP * radius, "radius": RADIUS,
+        "modulus": MODULUS, "poisson": POISSON, "yields": YIELD, "hardening": HARDENING, "load": multiple * LOAD,
+    }  # fmt: skip
+    told = subprocess.run([python, "-c", TAMAAS, json.dumps(asked)], capture_output=True, text=True, check=True)
+    seconds, peak = map(float, told.stdout.split()[-2:])
+    return seconds, peak / YIELD
 
 
 def main(n: int = 32, layers: int = 16) -> None:
     print(f"tamaas on {n} x {n} x {layers} cells; ours on cells of that width, {round(5 * layers / 8)} graded rows")
     print(f"{'P/Pc':>5} {'ours s':>8} {'tamaas s':>9} {'ratio':>6} {'peak/Y ours':>12} {'tamaas':>8} {'apart %':>8}")
+    python, why = environment("tamaas")
+    if python is None:
+        print(why)
     for multiple in (1.5, 3.0, 5.0):
         own, peak = ours(multiple, n, round(5 * layers / 8))
-        try:
-            other, value = theirs(multiple, n, layers)
-        except ImportError:
-            print(f"{multiple:5.1f} {own:8.2f}   tamaas is not installed; peak/Y {peak:.4f}")
+        if python is None:
+            print(f"{multiple:5.1f} {own:8.2f}   peak/Y {peak:.4f}")
             continue
+        other, value = theirs(python, multiple, n, layers)
         print(
             f"{multiple:5.1f} {own:8.2f} {other:9.2f} {other / own:6.1f} "
             f"{peak:12.4f} {value:8.4f} {100 * (peak / value - 1):8.2f}",
