@@ -73,7 +73,7 @@ def test_all_criteria_stand_side_by_side_in_the_order_in_which_they_fail():
     assert page.rows[0][0] in page.sentence
     # Who, what, where, which way, by which class in which season, how much of what is allowed, after how long.
     top = by_name["top-down"]
-    assert top[1:4] == ("the paper of this method", "100 microstrain", "surface, y = 0 mm")
+    assert top[1:4] == ("Materials 2021, 14, 2117", "100 microstrain", "surface, y = 0 mm")
     assert top[4].startswith("longitudinal (100 % of the damage)")
     assert top[5] == "heavy, all year"
     allowed = LINE.allowable_strain(1e5 * 20.0)

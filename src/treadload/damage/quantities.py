@@ -56,7 +56,7 @@ class Extension(Quantity):
 
     words = "extension strain"
     shown = "microstrain"
-    source = "the paper of this method"
+    source = "Materials 2021, 14, 2117"
     calibrated = "fatigue lines and their shifts to the road are measured for it; near the surface no law is"
     extends = True
     needs_tension = True

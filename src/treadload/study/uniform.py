@@ -123,7 +123,8 @@ def compare_uniform(
     }
     if mean_over is not None:
         check_length(mean_over)
-    at = _depths(road, load.grid.dx, mean_over) if depths is None else np.unique(np.atleast_1d(np.asarray(depths, dtype=float)))
+    asked = _depths(road, load.grid.dx, mean_over) if depths is None else np.asarray(depths, dtype=float)
+    at = np.unique(np.atleast_1d(asked))
     values = {name: np.empty((len(loads), len(at))) for name in READINGS}
     for number, one in enumerate(loads.values()):
         placed = [place_load(one, x=x, y=y) for x, y in wheels]
@@ -147,7 +148,8 @@ def compare_uniform(
 
 def _depths(road: Pavement, cell: float, mean_over: float | None) -> Array:
     # In the upper half of the uppermost cube the mean is that of the surface.
-    inside = [z for z in (0.005, 0.01, 0.02, 0.04, 0.08, 0.12, 0.16) if z >= 0.5 * cell and z > 0.5 * (mean_over or 0)]
+    above = 0.5 * (mean_over or 0.0)
+    inside = [z for z in (0.005, 0.01, 0.02, 0.04, 0.08, 0.12, 0.16) if z >= 0.5 * cell and z > above]
     ends = road.interfaces
     return np.unique(np.round([0.0, *[z for z in inside if not len(ends) or z < ends[-1]], *ends], 9))
 
