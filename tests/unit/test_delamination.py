@@ -140,7 +140,8 @@ def test_a_strong_bond_never_changes_the_life():
     criteria = (Criterion("base", LINE), strong)
     found = compare_bonds(TIRE, glued, TRAFFIC, CLIMATE, criteria, bond=Bond(1e10), **COARSE)
     lives = found.dataset["life_passes"].sel(criterion="base")
-    assert float(lives.sel(state=PARTING)) == float(lives.sel(state=BEFORE))
+    # The same sum, divided another way: round-off.
+    assert float(lives.sel(state=PARTING)) == pytest.approx(float(lives.sel(state=BEFORE)), rel=1e-13)
     assert float(lives.sel(state=AFTER)) < float(lives.sel(state=BEFORE))
 
 
