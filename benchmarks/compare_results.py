@@ -118,7 +118,7 @@ EXAMPLES: Mapping[str, Callable[[Path, Path, bool], Arrays]] = {
     "demo": run_demo,
     "paper": run_script("paper/reproduce.py", None),
     "design_life": run_script("design_life/run.py", 12e-3),
-    "roundabout": run_script("roundabout/run.py", 6e-3),
+    "roundabout": run_script("roundabout/run.py", 4e-3),
 }
 
 
