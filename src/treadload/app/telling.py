@@ -92,7 +92,7 @@ def verdict_rows(verdict: Verdict) -> list[Row]:
         read,
         row("place", "Where", where, group="road", **at),
         row("crack", "Crack", verdict.orientation, group="road", note=verdict.summary().splitlines()[4], **at),
-        row("passes", "Passes", f"{passes:.3g}", group="road", note=f"{verdict.line}. {sentence}", **at),
+        row("passes", "Passes", _counted(passes), group="road", note=f"{verdict.line}. {sentence}", **at),
     ]
 
 
@@ -111,9 +111,13 @@ def _allowed_row(number: int, one: Allowed) -> Row:
         return row(f"allowed:{number}", one.name, "no end", group="allowed", place=place, note=note,
                    reading="nothing there does harm")  # fmt: skip
     beyond = ", extrapolated" if one.extrapolated else ""
-    value = f"{one.passes:.3g}" if one.passes < _COUNTLESS else "over 10¹⁰"
-    return row(f"allowed:{number}", one.name, value, group="allowed", place=place, note=note,
+    return row(f"allowed:{number}", one.name, _counted(one.passes), group="allowed", place=place, note=note,
                reading=f"{one.reads.in_words(one.reading)}{beyond}", x=one.x, y=one.y)  # fmt: skip
+
+
+def _counted(passes: float) -> str:
+    """Passes that a law allows, by number as far as roads bear them."""
+    return f"{passes:.3g}" if passes < _COUNTLESS else "over 10¹⁰"
 
 
 def solver_rows(contact: Any) -> list[Row]:
