@@ -38,3 +38,15 @@ share = 1
 axle_load = "100 kN"
 inflation_pressure = "8 bar"
 """
+
+# What a life of that structure reads: its base and its soil.
+BASE_AND_SOIL = """
+[[criteria]]
+name = "base"
+law = "french-bituminous"
+layer = "EB-GB3"
+risk = 0.05
+[[criteria]]
+name = "soil"
+law = "french-subgrade"
+"""

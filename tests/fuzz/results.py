@@ -24,6 +24,7 @@ import treadload.reporting.figures
 import treadload.reporting.life
 import treadload.reporting.others
 import treadload.reporting.pictures
+from cases import BASE_AND_SOIL
 from fuzz.corpus import TABLES
 from fuzz.runner import REFUSED, TAKEN, Refusal, WrongAnswer, ask
 from treadload.case import Case, LifeCase
@@ -134,7 +135,8 @@ depths = ["0 mm", "20 mm"]
 [damage]
 fatigue = { epsilon_6 = "120 microstrain", slope = -0.2 }
 """
-_LIFE = """
+_LIFE = (
+    """
 spacing = "24 mm"
 tire = { profile = "315/80R22.5" }
 climate = { temperature = 15 }
@@ -148,15 +150,9 @@ name = "front"
 share = 1
 axle_load = "70 kN"
 inflation_pressure = "8 bar"
-[[criteria]]
-name = "base"
-law = "french-bituminous"
-layer = "EB-GB3"
-risk = 0.05
-[[criteria]]
-name = "soil"
-law = "french-subgrade"
 """
+    + BASE_AND_SOIL
+)
 
 
 @functools.cache

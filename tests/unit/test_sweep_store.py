@@ -15,7 +15,7 @@ import pytest
 import xarray as xr
 
 import treadload as tl
-from cases import ONE_AXLE
+from cases import BASE_AND_SOIL, ONE_AXLE
 from sweeps import same, small_case
 from treadload.errors import InputError
 from treadload.results import to_tree
@@ -56,19 +56,7 @@ def test_a_store_holds_what_memory_does_and_opens_with_xarray(tmp_path):
 
 def test_a_study_of_lives_is_kept_with_its_texts(tmp_path):
     """What fails first is a text of every case, in a store as in memory; a run of a case alone says the same."""
-    both = (
-        ONE_AXLE
-        + """
-[[criteria]]
-name = "base"
-law = "french-bituminous"
-layer = "EB-GB3"
-risk = 0.05
-[[criteria]]
-name = "soil"
-law = "french-subgrade"
-"""
-    )
+    both = ONE_AXLE + BASE_AND_SOIL
     case, path = tl.LifeCase.from_text(both), tmp_path / "lives.zarr"
     vary = {"axle_load": ["60 kN", "130 kN"], "traffic.classes.0.inflation_pressure": ["7 bar", "9 bar"]}
     kept = tl.sweep(case, vary, store=path).dataset

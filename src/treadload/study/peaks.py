@@ -107,12 +107,12 @@ def over_strips(
     grows with the reading. The others as of `peaks_and_valleys`.
     """
     rows, y, at = strips.rows, strips.y, strips.at
-    own = peaks_and_valleys(x, uncut, margin, centres=centres, turns=turns, smooth=False)
+    read = readings(uncut, margin).max(axis=0)
+    own = np.maximum(_on_points(x, read, centres, turns), 0.0)
     result = np.stack([np.interp(y, rows, one) for one in own])
     largest = own.max()
     if not largest > 0:
         return result
-    read = readings(uncut, margin).max(axis=0)
     for axle, inside in enumerate(_axles(x, centres)):
         peaks = own[2 * axle]
         loud = np.convolve(peaks >= _FAINT * largest, np.ones(3), "same") > 0
@@ -169,17 +169,23 @@ def peaks_and_valleys(
     """
     shape = (-1, *uncut.shape[-2:])
     uncut, margin = uncut.reshape(shape), None if margin is None else margin.reshape(shape)
-    read = readings(uncut, margin).max(axis=0)
+    result = _on_points(x, readings(uncut, margin).max(axis=0), centres, turns)
+    for axle, inside in enumerate(_axles(x, centres) if smooth else []):
+        if inside.stop - inside.start > 1:
+            within = uncut[..., inside], None if margin is None else margin[..., inside]
+            result[2 * axle] = _between_points(*within, result[2 * axle])
+    return np.maximum(result, 0.0)
+
+
+def _on_points(x: Array, read: Array, centres: Array, turns: int) -> Array:
+    """Peaks and valleys (turns, ny) of readings (ny, nx) where they stand, see `peaks_and_valleys`."""
     result = np.zeros((turns, len(read)))
     for axle, inside in enumerate(_axles(x, centres)):
         result[2 * axle] = read[:, inside].max(axis=1)
-        if smooth and inside.stop - inside.start > 1:
-            within = uncut[..., inside], None if margin is None else margin[..., inside]
-            result[2 * axle] = _between_points(*within, result[2 * axle])
     for axle in range(len(centres) - 1):
         between = (x >= centres[axle]) & (x <= centres[axle + 1])
         result[2 * axle + 1] = read[:, between].min(axis=1)
-    return np.maximum(result, 0.0)
+    return result
 
 
 def _axles(x: Array, centres: Array) -> list[slice]:

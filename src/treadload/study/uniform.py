@@ -151,7 +151,7 @@ def _depths(road: Pavement, cell: float, mean_over: float | None) -> Array:
     above = 0.5 * (mean_over or 0.0)
     inside = [z for z in (0.005, 0.01, 0.02, 0.04, 0.08, 0.12, 0.16) if z >= 0.5 * cell and z > above]
     ends = road.interfaces
-    return np.unique(np.round([0.0, *[z for z in inside if not len(ends) or z < ends[-1]], *ends], 9))
+    return np.round([0.0, *[z for z in inside if not len(ends) or z < ends[-1]], *ends], 9)
 
 
 def _largest(

@@ -54,14 +54,14 @@ def study_curve(study: Source, name: str, along: str, at: Mapping[str, int], *, 
         {"type": "scatter", "mode": "markers", "x": x[failed], "y": np.full(int(failed.sum()), foot),
          "name": "failed", "marker": {"size": 9, "symbol": "x", "color": look.muted}},
     ]  # fmt: skip
-    at_what = f", {beside(view, field)}" if beside(view, field) else ""
+    what = ", ".join(one for one in (f"<b>{how.words[:1].upper()}{how.words[1:]}</b>", beside(view, field)) if one)
     across: dict[str, Any] = {"title": {"text": told.label if told is not None else along}}
     if axis is not None and not numeric:
         across |= {"tickvals": list(range(len(x))), "ticktext": [str(one) for one in axis.to_numpy()]}
     layout = {
         "height": 330, "margin": {"l": 74, "r": 20, "t": 40, "b": 52}, "showlegend": False, "xaxis": across,
         "yaxis": {"title": {"text": how.label}},
-        "title": {"text": f"<b>{how.words[:1].upper()}{how.words[1:]}</b>{at_what}", "x": 0.01, "font": {"size": 13}},
+        "title": {"text": what, "x": 0.01, "font": {"size": 13}},
     }  # fmt: skip
     return figure(traces, layout, look)
 

@@ -89,22 +89,26 @@ class Worker:
         if self.question.anchor:
             try:
                 near = Case.from_dict(with_values(case.given(), self.question.anchor), folder=case.folder)
-                start = self._touch(near, near.pavement.build(), quiet)
+                start = self._touch(near, None, quiet)
             except TreadloadError:
                 # A start is a help; a case is solved without it where there is none.
                 start = None
-        return self._touch(case, case.pavement.build(), quiet, start=start)
+        return self._touch(case, None, quiet, start=start)
 
     def _touch(
-        self, case: Case, road: Pavement, tell: Progress, *, start: Contact | None = None, **cells: Any
+        self, case: Case, road: Pavement | None, tell: Progress, *, start: Contact | None = None, **cells: Any
     ) -> Contact:
-        """What `contact_of` gives on `cells`, solved once for all cases that differ behind it."""
+        """What `contact_of` gives on `cells`, solved once for all cases that differ behind it.
+
+        road: of the case; None where it is not built yet.
+        """
         key = json.dumps({name: part for name, part in case.given().items() if name not in _BEHIND}, sort_keys=True)
         solved = self._contacts.get(key, {})
         _remember(self._contacts, key, solved)
         on = (cells.get("spacing"), cells.get("offset"))
         if on not in solved:
             try:
+                road = case.pavement.build() if road is None else road
                 solved[on] = contact_of(case, road, tell, start=start, **{"tire": self._tire(case), **cells})
             except TreadloadError as error:
                 solved[on] = error
