@@ -6,7 +6,9 @@ import json
 import math
 import shutil
 import warnings
-from collections.abc import Mapping
+import zipfile
+import zlib
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -62,14 +64,41 @@ def keep_fields(record: Record, folder: Path) -> None:
     values: dict[str, Any] = {f"field {name}": array for name, (_, array) in record.fields.items()}
     axes = {f"axis {dim}": values for dim, values in record.coordinates.items()}
     dims = json.dumps({name: [dims, np.shape(array)] for name, (dims, array) in record.fields.items()})
-    with (folder / f"{record.number}.npz").open("wb") as stream:
+    with _file(folder, record.number).open("wb") as stream:
         np.savez(stream, dims=np.array(dims), **values, **axes)  # type: ignore[arg-type]
 
 
-def write_fields(path: Path, design: Design, files: Mapping[int, Path]) -> None:
-    """Put the fields that files of cases hold into arrays over the places of all. files: by number of the case."""
+def restore_fields(
+    path: Path, design: Design, solved: Sequence[int], numbers: Collection[str], folder: Path
+) -> dict[int, Path]:
+    """Files of cases whose fields are only in the arrays, which are made anew of files. Returns them by number.
+
+    solved: numbers of these cases. numbers: names of arrays that are no fields.
+    """
+    if not solved or not (path / ".zmetadata").exists():
+        return {}
+    group = zarr().open_group(path, mode="r", zarr_format=2)
+    known = {*numbers, "status", "seconds", *(one.name for one in design.inputs)}
+    dims = {name: tuple(array.attrs.get("_ARRAY_DIMENSIONS", ())) for name, array in group.arrays()}
+    own = {name: of[len(design.dims) :] for name, of in dims.items() if of[: len(design.dims)] == design.dims}
+    own = {name: of for name, of in own.items() if of and name not in known}
+    axes = {dim: np.asarray(group[dim]) for of in own.values() for dim in of if dim in dims}
+    for number in solved if own else ():
+        at = tuple(map(int, np.unravel_index(number, design.shape)))
+        fields = {_name_of(name, design): (of, np.asarray(group[name][at])) for name, of in own.items()}
+        keep_fields(Record(number, 0.0, fields=fields, coordinates=axes), folder)
+    return {number: _file(folder, number) for number in solved} if own else {}
+
+
+def write_fields(path: Path, design: Design, files: Mapping[int, Path]) -> list[int]:
+    """Put the fields that files of cases hold into arrays over the places of all. files: by number of the case.
+
+    Returns the numbers of cases whose file is damaged; their rows are NaN.
+    """
     group = zarr().open_group(path, mode="a", zarr_format=2)
-    members = [_fields_of(number, file, shapes_only=True) for number, file in files.items()]
+    found = {number: _fields_of(number, file, shapes_only=True) for number, file in files.items()}
+    members = [one for one in found.values() if one is not None]
+    damaged = {number for number, one in found.items() if one is None}
     axes = common_axes(members, "fields")
     write_arrays(xr.Dataset(coords=coordinates_of(axes)), path)
     for name, dims in {name: dims for one in members for name, (dims, _) in one.fields.items()}.items():
@@ -94,20 +123,37 @@ def write_fields(path: Path, design: Design, files: Mapping[int, Path]) -> None:
             for number in numbers:
                 one = _fields_of(number, files[number])
                 row = number % design.shape[-1] - start
-                if name in one.fields:
+                if one is None:
+                    damaged.add(number)
+                elif name in one.fields:
                     place(rows[row : row + 1], one.fields[name], one.coordinates, axes)
             target[(*outer, slice(start, start + len(rows)))] = rows
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         zarr().consolidate_metadata(path, zarr_format=2)
+    return sorted(damaged)
 
 
-def _fields_of(number: int, file: Path, *, shapes_only: bool = False) -> Record:
-    with np.load(file, allow_pickle=False) as held:
-        dims = json.loads(str(held["dims"]))
-        coordinates = {name[5:]: held[name] for name in held.files if name.startswith("axis ")}
-        fields = {
-            name: (tuple(own), np.broadcast_to(np.nan, shape) if shapes_only else held[f"field {name}"])
-            for name, (own, shape) in dims.items()
-        }
+def _name_of(label: str, design: Design) -> str:
+    """The result that has a label, see `label_of`."""
+    name = label.removeprefix("solved_")
+    return name if label_of(name, design) == label else label
+
+
+def _file(folder: Path, number: int) -> Path:
+    return folder / f"{number}.npz"
+
+
+def _fields_of(number: int, file: Path, *, shapes_only: bool = False) -> Record | None:
+    """What a file of a case holds; None where it is damaged."""
+    try:
+        with np.load(file, allow_pickle=False) as held:
+            dims = json.loads(str(held["dims"]))
+            coordinates = {name[5:]: held[name] for name in held.files if name.startswith("axis ")}
+            fields = {
+                name: (tuple(own), np.broadcast_to(np.nan, shape) if shapes_only else held[f"field {name}"])
+                for name, (own, shape) in dims.items()
+            }
+    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, LookupError, TypeError, NotImplementedError):
+        return None
     return Record(number, 0.0, fields=fields, coordinates=coordinates)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from sys import intern
 from typing import Any
 
 import numpy as np
@@ -37,8 +38,10 @@ class Record:
             "seconds": round(self.seconds, 6),
             **({} if self.failure is None else {"failure": self.failure}),
             **({"warnings": list(self.warnings)} if self.warnings else {}),
+            # A number without dimensions stands alone.
             "numbers": {
-                name: [list(dims), np.asarray(array).tolist()] for name, (dims, array) in self.numbers.items()
+                name: [list(dims), np.asarray(array).tolist()] if dims else np.asarray(array).tolist()
+                for name, (dims, array) in self.numbers.items()
             },
             "coordinates": {dim: self.coordinates[dim].tolist() for dim in sorted(used)},
             "fields": list(self.fields),
@@ -50,8 +53,17 @@ class Record:
         return cls(
             int(told["number"]),
             float(told["seconds"]),
-            {str(name): (tuple(map(str, dims)), np.array(array)) for name, (dims, array) in told["numbers"].items()},
+            {intern(name): _values(value) for name, value in told["numbers"].items()},
             coordinates={str(dim): np.array(values) for dim, values in told["coordinates"].items()},
             warnings=tuple(map(str, told.get("warnings", ()))),
             failure=None if told.get("failure") is None else str(told["failure"]),
         )
+
+
+def _values(value: Any) -> Values:
+    """A number without dimensions, which takes less memory than an array, or dimensions and an array."""
+    if not isinstance(value, list):
+        return (), value
+    dims, array = value
+    # Of journals that give every number its dimensions.
+    return tuple(intern(dim) for dim in dims), np.array(array) if dims else array

@@ -1,8 +1,9 @@
 """The store of a study: a Zarr group that others can open, and a journal that no interruption breaks.
 
-Every record is a line of the journal, `.records.jsonl`, as soon as its case ends; a line that was cut off when the
-power went counts as not written. The arrays of the group are made from the journal, of the numbers again and again,
-of the fields when the study stops: until then each case's fields wait in a file of their own in `.fields`.
+Every record is a line of the journal, `.records.jsonl`, as soon as its case ends. The arrays of the group are made of
+the journal, of the numbers again and again, of the fields when the study stops: until then each case's fields wait in
+a file of their own in `.fields`. `.current` says of which journal the arrays are made; while that is the journal,
+nothing else has to be read.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ import os
 import shutil
 import time
 import warnings
-from collections.abc import Iterator, Mapping
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,41 +27,58 @@ from treadload._version import __version__
 from treadload.case import Case, LifeCase
 from treadload.case.file import FilePart
 from treadload.errors import InputError, one_line
-from treadload.study.sweeps.arrays import keep_fields, write_arrays, write_fields, zarr
+from treadload.study.sweeps.arrays import keep_fields, restore_fields, write_arrays, write_fields, zarr
 from treadload.study.sweeps.design import Design
 from treadload.study.sweeps.gathered import gathered, label_of
+from treadload.study.sweeps.journal import Journal, checksum, line_of, read_journal
 from treadload.study.sweeps.record import Record
 from treadload.study.sweeps.work import Question
 
 SUFFIX = ".zarr"
-_STUDY, _JOURNAL, _FIELDS = "study.json", ".records.jsonl", ".fields"
+_STUDY, _JOURNAL, _FIELDS, _CURRENT = "study.json", ".records.jsonl", ".fields", ".current"
 # The arrays are brought up to date so often, s, and never for more than this share of the time.
 _OFTEN, _SHARE = 5.0, 0.03
+_DAMAGED = "what was kept of its fields is damaged; the same command solves it again, check the disk of the study"
 _KINDS: Mapping[str, type[FilePart]] = {kind.__name__: kind for kind in (Case, LifeCase)}
 
 
 class Store:
-    """The records of a study, on disk as they come. Use `opened` or `begun`."""
+    """The records of a study, on disk as they come. Use `opened` or `begun`.
+
+    finished: True where every case is solved and the arrays hold it: then no record is read. repaired: a sentence on
+    what was damaged and is solved again, "" if nothing was.
+    """
 
     def __init__(self, path: Path, case: FilePart, design: Design, question: Question, name: str) -> None:
         self.path, self.case, self.design, self.question, self.name = path, case, design, question, name
         self.records: dict[int, Record] = {}
+        self.finished, self.repaired = False, ""
         self._journal: Any = None
+        self._kept = Journal(path / _JOURNAL)
         self._written, self._cost, self._dirty = 0.0, 0.0, True
+
+    def read(self, journal: Journal, *, current: bool) -> None:
+        """Go on from a journal. current: True if the arrays are made of it."""
+        self._kept, self._dirty = journal, not current
+        self.repaired = journal.damage(self.design.count - len(journal.records), repaired=True)
+        # Failures are tried again: a machine, a limit or the program may be another today.
+        self.records = {number: one for number, one in journal.records.items() if one.failure is None}
 
     def append(self, record: Record) -> None:
         """Keep a record. Raises InputError where the disk is full."""
+        told = record.to_json()
+        line = line_of(told)
         try:
             if record.fields:
                 keep_fields(record, self.path / _FIELDS)
-            self._journal.write(json.dumps(record.to_json(), ensure_ascii=False) + "\n")
+            self._journal.write(line)
             self._journal.flush()
         except OSError as error:
             raise self._full(error) from error
+        self._kept.end += len(line)
+        self._kept.crc = zlib.crc32(line, self._kept.crc)
         # Fields wait on disk, not in memory.
-        self.records[record.number] = Record(
-            record.number, record.seconds, record.numbers, {}, record.coordinates, record.warnings, record.failure
-        )
+        self.records[record.number] = Record.from_json(told)
         self._dirty = True
         if time.monotonic() - self._written > max(_OFTEN, self._cost / _SHARE):
             self.write_numbers()
@@ -70,8 +89,16 @@ class Store:
             return
         began = time.monotonic()
         data = self.numbers()
+        self._kept.records = self.records
+        current = {
+            "journal": [self._kept.end, self._kept.crc],
+            "solved": sum(one.failure is None for one in self.records.values()),
+            "names": _names(self._kept, self.design),
+        }
         try:
+            _write_json(self.path, _CURRENT, {"journal": None})
             write_arrays(data, self.path)
+            _write_json(self.path, _CURRENT, current)
         except OSError as error:
             raise self._full(error) from error
         self._written = time.monotonic()
@@ -80,18 +107,27 @@ class Store:
     def numbers(self) -> xr.Dataset:
         """The numbers of all records."""
         known = sorted(self.records.values(), key=lambda one: one.number)
-        return gathered(self.design, known).assign_attrs(about(self.case, self.design, self.question))
+        damage = self._kept.damage(self.design.count - len(known))
+        data = gathered(self.design, known).assign_attrs(about(self.case, self.design, self.question))
+        return data.assign_attrs(damage=damage) if damage else data
 
     def write_fields(self) -> None:
-        """Put the fields of all cases into arrays over common places; their files go when every case is solved."""
-        files = {int(file.stem): file for file in (self.path / _FIELDS).glob("*.npz")}
+        """Put the fields of all cases into arrays over common places; their files go when every case was tried."""
+        folder = self.path / _FIELDS
+        files = {int(file.stem): file for file in folder.glob("*.npz")}
         files = {number: file for number, file in sorted(files.items()) if number in self.records}
         if not files:
             return
         try:
-            write_fields(self.path, self.design, files)
-            if len(files) == self.design.count:
-                shutil.rmtree(self.path / _FIELDS)
+            numbers = {label_of(name, self.design) for one in self.records.values() for name in one.numbers}
+            solved = {number for number, one in self.records.items() if one.failure is None}
+            files |= restore_fields(self.path, self.design, sorted(solved - set(files)), numbers, folder)
+            damaged = write_fields(self.path, self.design, dict(sorted(files.items())))
+            for number in damaged:
+                files[number].unlink()
+                self.append(Record(number, 0.0, failure=_DAMAGED))
+            if len(self.records) == self.design.count:
+                shutil.rmtree(folder)
         except OSError as error:
             raise self._full(error) from error
 
@@ -103,7 +139,8 @@ class Store:
 
     def told(self) -> str:
         """How much is kept, for a sentence."""
-        return f"{len(self.records)} of {self.design.count} cases are kept in {self.path}"
+        kept = self.design.count if self.finished else len(self.records)
+        return f"{kept} of {self.design.count} cases are kept in {self.path}"
 
 
 @contextlib.contextmanager
@@ -123,18 +160,25 @@ def begun(path: str | os.PathLike[str], case: FilePart, design: Design, question
             raise InputError(f"{path} exists and is no study; give another name, or remove it")
         else:
             _write_study(path, case, design, question, name)
-        good = _read_journal(path, store.records, design)
-        journal = path / _JOURNAL
-        with journal.open("a", encoding="utf-8") as stream:
-            stream.truncate(good)
+        current = _current(path)
+        # Fields that wait are put together first.
+        whole = current.get("solved") == design.count and not (path / _FIELDS).exists()
+        if whole and current["journal"] == list(checksum(path / _JOURNAL)):
+            store.finished = True
+            yield store
+            return
+        journal = read_journal(path / _JOURNAL, design.count)
+        store.read(journal, current=current.get("journal") == [journal.end, journal.crc])
+        with (path / _JOURNAL).open("ab") as stream:
+            stream.truncate(journal.end)
             store._journal = stream
-            # Failures are tried again: a machine, a limit or the program may be another today.
-            store.records = {number: one for number, one in store.records.items() if one.failure is None}
             try:
                 yield store
             finally:
-                store.write_numbers()
-                store.write_fields()
+                try:
+                    store.write_fields()
+                finally:
+                    store.write_numbers()
 
 
 def opened(path: str | os.PathLike[str]) -> tuple[xr.Dataset, FilePart, str]:
@@ -150,22 +194,41 @@ def opened(path: str | os.PathLike[str]) -> tuple[xr.Dataset, FilePart, str]:
         design = Design.from_json(told["design"], case)
     except (KeyError, TypeError) as error:
         raise InputError(f"{path} cannot be read as a study: {type(error).__name__}: {error}") from error
-    records: dict[int, Record] = {}
-    _read_journal(path, records, design)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            data = xr.open_zarr(path, chunks=None, consolidated=False, decode_times=False)
-            current = int((data["status"] != 0).sum()) == len(records)
-        except Exception:
-            # Killed before the arrays were first made.
-            data, current = xr.Dataset(), False
+    current, journal = _current(path), None
+    arrays = _arrays(path)
     if not current:
-        fresh = gathered(design, sorted(records.values(), key=lambda one: one.number))
-        data = fresh.assign_attrs(about(case, design, None))
-    order = ["status", "seconds", *(label_of(name, design) for one in records.values() for name in one.numbers)]
-    first = [name for name in dict.fromkeys(order) if name in data]
-    return data[[*first, *(name for name in data.data_vars if name not in first)]], case, str(path)
+        # Of a store that was begun without a mark.
+        journal = read_journal(path / _JOURNAL, design.count)
+        if "status" in arrays and int((arrays["status"] != 0).sum()) == len(journal.records):
+            current = {"journal": list(checksum(path / _JOURNAL)), "names": _names(journal, design)}
+    if "status" in arrays and current.get("journal") == list(checksum(path / _JOURNAL)):
+        return _in_order(arrays, current["names"]), case, str(path)
+    # Killed before the arrays were last made, or their journal has become another.
+    journal = journal or read_journal(path / _JOURNAL, design.count)
+    data = gathered(design, sorted(journal.records.values(), key=lambda one: one.number))
+    damage = journal.damage(design.count - len(journal.records))
+    data = data.assign_attrs(about(case, design, None) | ({"damage": damage} if damage else {}))
+    return _in_order(data, _names(journal, design)), case, str(path)
+
+
+def _arrays(path: Path) -> xr.Dataset:
+    """The arrays of a store, read when they are used; none where it was killed before they were first made."""
+    with warnings.catch_warnings(), contextlib.suppress(Exception):
+        warnings.simplefilter("ignore")
+        data: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=False, decode_times=False)
+        return data
+    return xr.Dataset()
+
+
+def _names(journal: Journal, design: Design) -> list[str]:
+    """Numbers of all records, in the order of their first."""
+    return list(dict.fromkeys(label_of(name, design) for one in journal.records.values() for name in one.numbers))
+
+
+def _in_order(data: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
+    """Arrays with the state of every case first, then its numbers, then fields."""
+    first = [name for name in ("status", "seconds", *names) if name in data]
+    return data[[*first, *(name for name in data.data_vars if name not in first)]]
 
 
 def fingerprint(case: FilePart, design: Design, question: Question) -> str:
@@ -248,11 +311,28 @@ def _write_study(path: Path, case: FilePart, design: Design, question: Question,
         "design": design.to_json(),
         "asked": [one.text for one in question.asked],
     }
-    temporary = path / f".{_STUDY}.part"
-    temporary.write_text(json.dumps(told, ensure_ascii=False), encoding="utf-8")
-    temporary.replace(path / _STUDY)
+    _write_json(path, _STUDY, told)
     # So that it opens before the first case has ended.
     write_arrays(gathered(design, ()).assign_attrs(about(case, design, question)), path)
+
+
+def _write_json(path: Path, name: str, told: Mapping[str, Any]) -> None:
+    """Write a file of a store, whole or not at all."""
+    temporary = path / f".{name}.part"
+    temporary.write_text(json.dumps(told), encoding="utf-8")
+    temporary.replace(path / name)
+
+
+def _current(path: Path) -> dict[str, Any]:
+    """Of which journal the arrays are made; empty where nothing says it."""
+    try:
+        told = json.loads((path / _CURRENT).read_text(encoding="utf-8"))
+        return {"journal": list(told["journal"] or ()), "solved": int(told["solved"]), "names": list(told["names"])}
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):
+        # Being made, or damaged: then the journal tells.
+        return {"journal": []}
 
 
 def _study(path: Path) -> dict[str, Any]:
@@ -277,25 +357,3 @@ def _check_same(path: Path, name: str) -> None:
             else "its case, its files, what is varied or what is kept differ"
         )
         raise InputError(f"{path} holds another study: {why}; give another name with -o, or remove the folder")
-
-
-def _read_journal(path: Path, records: dict[int, Record], design: Design) -> int:
-    """Records by number; returns how many bytes of the journal are whole lines."""
-    good = 0
-    try:
-        with (path / _JOURNAL).open("rb") as stream:
-            for line in stream:
-                try:
-                    record = Record.from_json(json.loads(line))
-                    whole = line.endswith(b"\n") and 0 <= record.number < design.count
-                except (ValueError, KeyError, TypeError, RecursionError):
-                    whole = False
-                if not whole:
-                    break
-                records[record.number] = record
-                good += len(line)
-    except FileNotFoundError:
-        pass
-    except OSError as error:
-        raise InputError(f"cannot read the journal of {path}: {error.strerror or error}") from error
-    return good

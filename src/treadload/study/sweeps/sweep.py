@@ -6,8 +6,8 @@ import json
 import os
 import re
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -73,8 +73,8 @@ class Sweep(BaseResult, group="sweep"):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Sentences for the user: those of the cases, each once with how many have it, and what failed."""
-        told = []
+        """Sentences for the user: of a damaged store, of the cases, each once with how many have it, of failures."""
+        told = [str(self.dataset.attrs["damage"])] if self.dataset.attrs.get("damage") else []
         for text, numbers in by_cause(json.loads(self.dataset.attrs["warnings"])).items():
             told.append(text if self.design.count == 1 else f"{_cases(len(numbers))}: {text}")
         return tuple([*told, *self._failed()])
@@ -177,14 +177,16 @@ def sweep(
         data = with_fields(gathered(design, known), design, known)
         return Sweep(data.assign_attrs(about(case, design, question)), case)
     with begun(store, case, design, question) as keeping:
+        done: Collection[int] = range(design.count) if keeping.finished else keeping.records
         try:
-            for record in _solved(question, design, keeping.records, jobs, in_threads, scheduler, tell):
+            for record in _solved(question, design, done, jobs, in_threads, scheduler, tell):
                 keeping.append(record)
         except KeyboardInterrupt:
             raise KeyboardInterrupt(_go_on(keeping)) from None
         except SchedulerLost as error:
             raise SchedulerLost(f"{error}; {_go_on(keeping)}") from error
-    return open_sweep(store)
+    made = open_sweep(store)
+    return replace(made, dataset=made.dataset.assign_attrs(damage=keeping.repaired)) if keeping.repaired else made
 
 
 def open_sweep(path: str | os.PathLike[str]) -> Sweep:
@@ -193,7 +195,7 @@ def open_sweep(path: str | os.PathLike[str]) -> Sweep:
 
 
 def _solved(
-    question: Question, design: Design, known: Mapping[int, Record], jobs: int, in_threads: bool, scheduler: Any,
+    question: Question, design: Design, known: Collection[int], jobs: int, in_threads: bool, scheduler: Any,
     tell: Progress,
 ) -> Iterator[Record]:  # fmt: skip
     """Records of the cases that are not known yet, as they come."""
