@@ -71,7 +71,8 @@ def said(error: BaseException) -> str:
 def reading(file: str, kind: str, remedy: str = "it may be truncated, export or copy it again") -> Iterator[None]:
     """What another library stumbles on in a file becomes an InputError; our own errors pass, and so do interrupts.
 
-    file: as in "scan file 'a.las'". kind: what it was read as. Some libraries panic beside Exception.
+    file: as in "scan file 'a.las'". kind: what it was read as. remedy: where the file may be at fault; a name that a
+    library lacks is never the file's. Some libraries panic beside Exception.
     """
     try:
         yield
@@ -80,6 +81,8 @@ def reading(file: str, kind: str, remedy: str = "it may be truncated, export or 
     except BaseException as error:
         if not isinstance(error, Exception) and "Panic" not in type(error).__name__:
             raise
+        if isinstance(error, AttributeError | ImportError | NameError):
+            remedy = "this points at the library that reads it, not at the file: install another version of it"
         raise InputError(f"{file} could not be read as {kind} ({said(error)}); {remedy}") from error
 
 

@@ -236,7 +236,7 @@ _RELIABILITY = {
 }
 
 _EQUIVALENTS = {
-    "standard_axles": ("1", "passes of an axle of 130 kN that do as much damage as one passage of a class"),
+    "standard_axles": ("1", "passes of the standard axle that do as much damage as one passage of a class"),
     "mean_standard_axles": ("1", "the same in the mean over the traffic"),
     "axle_load": ("N", "load of one axle, both its ends"),
     "french_axles": ("1", "passage in axles of 130 kN by the fifth power of the load and K of its group"),

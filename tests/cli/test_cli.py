@@ -107,7 +107,7 @@ def test_scan_tells_the_quality_and_writes_a_height_map(tmp_path):
 
 
 def test_the_catalogue_tells_names_numbers_and_sources(monkeypatch):
-    monkeypatch.setattr("treadload.cli.shell.out", Console(width=200, highlight=False, soft_wrap=True))
+    monkeypatch.setattr("treadload.cli.shell.out", Console(width=200, highlight=False, soft_wrap=True, markup=False))
     result = call("catalogue")
     assert result.exit_code == 0, result.output
     for road in tl.catalogue.structures.values():
@@ -131,6 +131,12 @@ def test_one_catalogue_and_one_of_its_things(kind):
     assert one.stdout.startswith(f"{name}: ")
     for text in (known[name].source, *known[name].doubts):
         assert text in one.stdout
+
+
+def test_brackets_of_a_text_are_printed():
+    """Rich takes [pavement] and [kN] for marks of style, and leaves them out."""
+    assert "in [pavement] of a case" in call("catalogue", "structures").stdout
+    assert "normal_load [kN]" in " ".join(call("sweep", "--help").stdout.replace("│", " ").split())
 
 
 def test_what_the_catalogue_does_not_have():

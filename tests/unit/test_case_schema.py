@@ -143,6 +143,12 @@ def test_the_first_cases_run(tmp_path):
     assert len(life.life.criteria) == 3
 
 
+@pytest.mark.parametrize("kind", ["run", "life", "calibrate"])
+def test_a_schema_has_every_default_and_warns_of_none(kind, recwarn):
+    json_schema(kind)
+    assert [str(one.message) for one in recwarn] == []
+
+
 def test_an_unknown_kind_is_told():
     with pytest.raises(tl.InputError, match="no kind of case 'live'; did you mean 'life'"):
         json_schema("live")

@@ -140,6 +140,19 @@ def test_what_lasts_already_says_so():
     found = designed(low=0.3)
     assert found.thickness == pytest.approx(0.3)
     assert any("lasts already" in text for text in found.warnings)
+    assert found.is_at_bound
+    first, *_, verdict = (line for line in found.summary().splitlines() if line.startswith(("thick", "Verdict")))
+    assert "at most 300.0 mm" in first
+    assert "may be thinner than 300 mm" in verdict
+    assert "smaller low" in verdict
+
+
+def test_a_bound_that_is_needed_is_the_answer(found):
+    """The lower bound just above the thickness that lasts: a step less does not last, so that it is no guess."""
+    bound = round(float(found.dataset["exact_thickness"]) + 1e-3, 3)
+    near = designed(low=bound, step=0.02)
+    assert not near.is_at_bound
+    assert "may be thinner" not in near.summary()
 
 
 CASE = """

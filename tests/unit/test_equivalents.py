@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchSubgrade, Traffic
+from treadload.damage.laws.equivalence import STANDARD_AXLES, StandardAxle
 from treadload.damage.miner import miner
+from treadload.errors import InputError
 from treadload.pavement import Pavement
 from treadload.plots import standard_axles
 from treadload.reporting import report
@@ -15,7 +17,7 @@ from treadload.response import dual_wheels, solve_response
 from treadload.response.loads import UniformDisc
 from treadload.study import life_equivalents, solve_life
 from treadload.study.contacts import Contacts
-from treadload.study.equivalents import _twin
+from treadload.study.equivalents import _dual
 from treadload.tire import Tire
 
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
@@ -45,7 +47,7 @@ def found(life):
 def test_the_axle_on_cells_reads_as_its_discs():
     """Cells of 6 mm in the place of two discs, at the base."""
     y = np.arange(-300, 301) * 2e-3
-    wheels = _twin(y, None)
+    wheels = _dual(StandardAxle(), y, None)
     assert sum(load.normal_load for load in wheels.loads) == pytest.approx(65e3)
     discs = dual_wheels(UniformDisc(0.125, 65e3 / 2 / (math.pi * 0.125**2)), 0.375)
     at = {"depths": [0.21], "x": [0.0], "y": [-0.1875, 0.0], "side": "above"}
@@ -72,6 +74,43 @@ def test_loads_alone_make_the_axles_of_the_conventions(found):
     np.testing.assert_allclose(data["axle_load"], [130e3, 65e3, 65e3])
     np.testing.assert_allclose(data["french_axles"], [1.0, 0.5**5, 0.5**5])
     np.testing.assert_allclose(data["single_axle_loads"], [(130 / 80) ** 4, (65 / 80) ** 4, (65 / 80) ** 4])
+
+
+def test_the_standard_axle_is_a_choice(life, found):
+    """At the base by the fifth power of the ratio of the strains below the discs of both axles."""
+    light = replace(life, traffic=replace(life.traffic, standard_axle=STANDARD_AXLES["irc37"]))
+    told = life_equivalents(ROAD, light, workers=1)
+    by_light, by_heavy = (one.dataset["standard_axles"].sel(criterion="base") for one in (told, found))
+    hottest = life.dataset["damage_share"].sel(criterion="base").sum("axle_class").argmax("season").item()
+    warm = ROAD.at_temperature(MONTHS[hottest])
+
+    def strain(axle):
+        discs = dual_wheels(UniformDisc(axle.radius, axle.load / 4 / (math.pi * axle.radius**2)), axle.spacing)
+        y = np.linspace(-0.3, 0.3, 121)
+        read = solve_response(discs, warm, depths=[0.21], x=[0.0], y=y, side="above").dataset
+        return float(max(read["strain_xx"].max(), read["strain_yy"].max()))
+
+    expected = (strain(STANDARD_AXLES["french"]) / strain(STANDARD_AXLES["irc37"])) ** 5
+    # Both axles on cells of 6 mm: 2e-3 in strain, five times that here, and the peak is found between cells.
+    np.testing.assert_allclose(by_light / by_heavy, expected, rtol=0.02)
+    assert told.dataset.attrs["standard_axle_load"] == 80e3
+    assert "axles of 80 kN on dual discs of 0.56 MPa, 310 mm" in told.summary()
+    figure = standard_axles(told)
+    assert "80 kN" in figure.axes[0].get_xlabel()
+    assert any("(P / 80 kN)⁴" in text.get_text() for text in figure.axes[0].get_legend().get_texts())
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"load": 0.0}, "load of the standard axle must be a positive"),
+        ({"pressure": -1.0}, "pressure of the standard axle must be a positive"),
+        ({"spacing": 0.1}, r"overlap at a spacing of 100 mm; give a spacing of at least 250 mm"),
+    ],
+)
+def test_a_standard_axle_that_cannot_be_is_refused(asked, message):
+    with pytest.raises(InputError, match=message):
+        StandardAxle(**asked)
 
 
 def test_a_year_of_the_equivalent_temperature_does_the_damage_of_the_climate(life, found):

@@ -18,6 +18,7 @@ from treadload.errors import (
     meant,
     nearest,
     positive,
+    reading,
 )
 
 
@@ -100,3 +101,21 @@ def test_the_nearest_name_is_sought_in_one_place():
     root = Path(treadload.__file__).parent
     seeking = [path.name for path in root.rglob("*.py") if "difflib" in path.read_text(encoding="utf-8")]
     assert seeking == ["errors.py"]
+
+
+def broken_file():
+    with reading("scan file 'a.ply'", "PLY"):
+        raise ValueError("3 bytes are left")
+
+
+def broken_library():
+    with reading("scan file 'a.ply'", "PLY"):
+        None.vertices  # noqa: B018
+
+
+def test_a_name_that_a_library_lacks_is_never_the_fault_of_the_file():
+    with pytest.raises(InputError, match=r"ValueError: 3 bytes are left.*truncated"):
+        broken_file()
+    with pytest.raises(InputError, match=r"AttributeError.*install another version") as caught:
+        broken_library()
+    assert "truncated" not in str(caught.value)

@@ -123,8 +123,15 @@ def test_what_cannot_be_read_is_refused_in_a_sentence(reads, words):
 @pytest.mark.parametrize(
     ("law", "more", "words"),
     [
-        ("fatigue-line", "layer = 3", "'a': epsilon_6 is missing, and the layer does not give it"),
-        ("mepdg-top-down", "", "'a': air_voids is missing, and the layer does not give it"),
+        ("fatigue-line", "layer = 3", "'a': epsilon_6 is missing, and the layer does not provide it"),
+        ("mepdg-top-down", "", "'a': air_voids and binder_volume are missing"),
+        (
+            "french-bituminous",
+            "layer = 3\nthickness = 0.1",
+            "'a': risk, epsilon_6, .* missing.* traffic_class = \"T1\"",
+        ),
+        ("french-bituminous", 'layer = 1\nrisk = 0.1\ntraffic_class = "T3"', "T3 is a risk of 25 % .* remove one"),
+        ("french-bituminous", 'layer = 1\ntraffic_class = "T9"', "traffic_class: .*'T5'"),
         ("french-bituminous", "layer = 3\nrisk = 0.05", "'a'"),
         ("limit", 'layer = 1\nplace = "top"\nreads = "mazars_strain"', "'a': limit is missing"),
         (

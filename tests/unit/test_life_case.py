@@ -193,7 +193,7 @@ material = { modulus = "60 MPa", poisson = 0.35 }
     criteria = '[[criteria]]\nname = "shell"\nlaw = "shell"\nlayer = "Asphalt"\n'
     criterion = LifeCase.from_text(text + criteria).build_criteria()[0]
     assert criterion.law_at(15.0) == tl.damage.ShellFatigue(7e9)
-    with pytest.raises(InputError, match=r"epsilon_6 is missing"):
+    with pytest.raises(InputError, match=r"epsilon_6 and slope are missing"):
         LifeCase.from_text(text + criteria.replace('"shell"\nlayer', '"fatigue-line"\nlayer'))
     with pytest.raises(InputError, match=r"no layer has moduli"):
         LifeCase.from_text((text + criteria).replace("temperature = 15", f"months = {list(range(12))}"))

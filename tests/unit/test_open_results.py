@@ -121,7 +121,7 @@ def thickness_design():
             "trial_years": (("trial", "criterion"), [[19.0, 60.0], [20.0, 65.0], [25.0, math.inf]]),
         },
         {"criterion": ["top", "base"]},
-        {"layer": "asphalt", "step": 0.01, "at_risk": 0.05},
+        {"layer": "asphalt", "step": 0.01, "lower_bound": 0.04, "at_risk": 0.05},
     )  # fmt: skip
     stats = {"lives": 3, "contacts": 1, "responses": 6}
     return tl.study.ThicknessDesign(data, ROAD, life(), "asphalt", 0.01, 0.05, stats, ("base: its law has no risk",))
@@ -167,7 +167,10 @@ def equivalents():
             "axle_load": (each, [7e4, 1.1e5]), "axles": (each, [1, 1]),
         },
         {"criterion": ["top", "base"], "axle_class": ["light", "heavy"]},
-        {"governing": "top", "readings": json.dumps(["100 microstrain", ""])},
+        {
+            "governing": "top", "readings": json.dumps(["100 microstrain", ""]), "standard_axle": "80 kN",
+            "standard_axle_load": 80e3,
+        },
     )  # fmt: skip
     return tl.study.Equivalents(data)
 

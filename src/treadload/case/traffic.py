@@ -12,11 +12,13 @@ from treadload.case.choices import FRICTION_OR_NUMBER, Friction, ManeuverTable, 
 from treadload.case.tire import TirePart
 from treadload.damage import AxleClass, Traffic, Wander
 from treadload.damage.frequency import LoadingFrequency
+from treadload.damage.laws.equivalence import STANDARD_AXLES, StandardAxle
 from treadload.errors import InputError, nearest
 from treadload.read import As, Table
 from treadload.units import Force, Length, PerYear, Pressure, Share, Speed, Years
 
 WANDER = As(Wander)
+STANDARD_AXLE = As(Literal["french", "irc37"] | StandardAxle)
 # Axles of a group, and wheels side by side on one end of an axle.
 GEARS = {
     "single": (1, 1),
@@ -118,7 +120,8 @@ class TrafficPart(Table):
     "arithmetic". years: for which the road is designed. wander: of the wheels across the road; left out, none.
     frequency: the rule by which each class reads moduli at its own speed and depth, "mepdg" or "brown"; left out, the
     one frequency of the road, 10 Hz, for which French laws are made. angular: True for f = 1/(2πt), False for 1/t;
-    left out, as the source of the rule has it.
+    left out, as the source of the rule has it. standard_axle: in whose passes the traffic is stated: "french", 130 kN
+    on dual discs of 0.662 MPa, 375 mm apart, which it is if left out; "irc37", 80 kN, 0.56 MPa, 310 mm; or a table.
     classes: of axles, whose shares sum to 1.
     """
 
@@ -129,6 +132,7 @@ class TrafficPart(Table):
     wander: Annotated[Any, WANDER] = None
     frequency: Literal["mepdg", "brown"] | None = None
     angular: bool | None = None
+    standard_axle: Annotated[Any, STANDARD_AXLE] = "french"
     classes: tuple[AxlePart, ...]
 
     def build(self, folder: Path) -> Traffic:
@@ -140,4 +144,6 @@ class TrafficPart(Table):
         elif self.angular is not None:
             raise InputError('angular belongs to a frequency, "mepdg" or "brown"; give one, or leave it out')
         wander = Wander.none() if self.wander is None else WANDER.build(self.wander)
-        return Traffic(tuple(rows), self.passes_per_year, self.growth, self.kind, wander, self.years)
+        axle = STANDARD_AXLES.get(self.standard_axle) if isinstance(self.standard_axle, str) else None
+        axle = axle or STANDARD_AXLE.build(self.standard_axle)
+        return Traffic(tuple(rows), self.passes_per_year, self.growth, self.kind, wander, self.years, axle)

@@ -17,8 +17,9 @@ from treadload.errors import TreadloadError
 DONE, FAILED, WRONG = 0, 1, 2
 _P = ParamSpec("_P")
 
-out = Console(highlight=False, soft_wrap=True)
-err = Console(stderr=True, highlight=False, soft_wrap=True)
+# Without markup: a bracket in a text, as that of [pavement], is printed, not parsed.
+out = Console(highlight=False, soft_wrap=True, markup=False)
+err = Console(stderr=True, highlight=False, soft_wrap=True, markup=False)
 
 Output = Annotated[
     Path | None,

@@ -24,7 +24,7 @@ Cases = Annotated[
     Path | None,
     typer.Option(
         "--table",
-        help="Cases in a CSV file or an Excel sheet instead: headings are keys, as normal_load [kN].",
+        help="Cases in a CSV file or an Excel sheet instead: headings are keys, as normal_load \\[kN].",
         show_default=False,
     ),
 ]

@@ -13,7 +13,7 @@ from scipy.special import ndtr
 from treadload.contact.friction.laws import FrictionLaw
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.damage.frequency import LoadingFrequency
-from treadload.damage.laws.equivalence import NO_GROWTH, growth_factor
+from treadload.damage.laws.equivalence import NO_GROWTH, STANDARD_AXLES, StandardAxle, growth_factor
 from treadload.damage.shares import check_shares
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
@@ -179,7 +179,7 @@ class Traffic:
 
     classes: rows whose shares sum to 1. passes_per_year: of all classes, in the first year, over the wheel path.
     growth: per year, > -1; kind: "geometric" or "arithmetic". wander: across the road. years: for which the road is
-    designed, > 0, or None. Raises InputError.
+    designed, > 0, or None. standard_axle: in whose passes the traffic is stated. Raises InputError.
     """
 
     classes: tuple[AxleClass, ...]
@@ -188,6 +188,7 @@ class Traffic:
     kind: Literal["geometric", "arithmetic"] = "geometric"
     wander: Wander = Wander()
     years: float | None = None
+    standard_axle: StandardAxle = STANDARD_AXLES["french"]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "classes", tuple(self.classes))

@@ -53,6 +53,9 @@ def design_thicknesses(design: Source, *, ax: Axes | None = None) -> Figure:
     risk = data.attrs.get("at_risk")
     exact = 1e3 * float(data["exact_thickness"])
     at = "" if risk is None else f" at a risk of {measure(100 * float(risk))} %"
-    headline(ax, "How thick it must be", f"{exact:.1f} mm last {asked:g} years{at}; dots: lives that were solved")
+    needs = "" if exact > 1e3 * float(data.attrs["lower_bound"]) * (1 + 1e-9) else "at most "
+    headline(
+        ax, "How thick it must be", f"{asked:g} years{at} need {needs}{exact:.1f} mm; dots: lives that were solved"
+    )
     legend_below(ax, handles, columns=min(3, len(handles)))
     return figure

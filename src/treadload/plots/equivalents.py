@@ -15,15 +15,19 @@ from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, PAPER, headline, legend_below, open_axes, plain, styled
 
 _LETTERS = 26
+# The axle of the French convention by load, N.
+_FRENCH = 130e3
 
 
 @styled
 def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
-    """Dots of what one passage of each class does, in axles of 130 kN, by every criterion; crosses by its load alone.
+    """Dots of what one passage of each class does, in standard axles, by every criterion; crosses by its load alone.
 
+    The crosses are (P / 130 kN)⁵ K where the standard axle has 130 kN, else the fourth power of P over its load.
     equivalents: an Equivalents or its dataset. Returns the figure. Raises InputError if variables are missing.
     """
-    data = fields_of(equivalents, "standard_axles", "french_axles")
+    data = fields_of(equivalents, "standard_axles", "french_axles", "axle_load", "axles")
+    load = float(data.attrs["standard_axle_load"])
     names = [textwrap.fill(plain(str(name)), _LETTERS) for name in data["axle_class"].to_numpy()]
     figure, ax = figure_and_axes(ax, 7.6, 1.9 + 0.34 * len(names))
     rows = np.arange(len(names))[::-1]
@@ -37,9 +41,11 @@ def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
         handles += ax.plot(
             shown, rows, "o", ms=7, mec=PAPER, color=CASES[k % (len(CASES) - 1)], label=plain(str(name))
         )
-    handles += ax.plot(
-        data["french_axles"], rows, "x", ms=6, mew=1.4, color=INK, label="by its load: (P / 130 kN)⁵ K of the group"
-    )
+    by_load, convention = data["french_axles"].to_numpy(), "(P / 130 kN)⁵ K of the group"
+    if load != _FRENCH:
+        by_load = data["axles"].to_numpy() * (data["axle_load"].to_numpy() / load) ** 4
+        convention = f"(P / {load / 1e3:g} kN)⁴ of each axle"
+    handles += ax.plot(by_load, rows, "x", ms=6, mew=1.4, color=INK, label=f"by its load: {convention}")
     ax.axvline(1.0, color=INK, lw=1.0, ls=(0, (4, 2)))
     ax.set_xscale("log")
     low, high = ax.get_xlim()
@@ -51,7 +57,7 @@ def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
     ax.set_ylim(-0.6, len(names) - 0.4)
     open_axes(ax)
     ax.tick_params(axis="y", length=0)
-    ax.set_xlabel("one passage in axles of 130 kN on twin discs, logarithmic")
+    ax.set_xlabel(f"one passage in standard axles of {load / 1e3:g} kN on dual discs, logarithmic")
     headline(
         ax, "What a passage does, in standard axles", "each at its own worst place, in the season that does most"
     )

@@ -24,6 +24,9 @@ def parameters(target: Callable[..., Any], hidden: tuple[Any, ...] = ()) -> dict
         signature = inspect.signature(target)
     except (NameError, TypeError, ValueError) as error:
         raise InputError(f"the annotations of {who} cannot be read: {error}") from error
+    fields = dataclasses.fields(target) if dataclasses.is_dataclass(target) else ()
+    # The signature shows a mark in place of what a factory makes.
+    made = {one.name: one.default_factory for one in fields if one.default_factory is not dataclasses.MISSING}
     taken: dict[str, tuple[Any, Any]] = {}
     for name, one in signature.parameters.items():
         if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD):
@@ -31,7 +34,8 @@ def parameters(target: Callable[..., Any], hidden: tuple[Any, ...] = ()) -> dict
         if name not in hints:
             raise InputError(f"the parameter {name} of {who} has no annotation; give it one, as Length or Number")
         if hints[name] not in hidden:
-            taken[name] = hints[name], ... if one.default is one.empty else one.default
+            default = ... if one.default is one.empty else one.default
+            taken[name] = hints[name], made[name]() if name in made else default
     return taken
 
 

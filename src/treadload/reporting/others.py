@@ -186,8 +186,8 @@ def _pictures(other: Other) -> list[Picture]:
             return picture("What the life depends on", caption, SensitivityPlots(data).inputs)
         case "equivalents":
             caption = (
-                "Passes of the French axle of 130 kN that do as much damage as one passage of a class, by every "
-                "criterion; crosses: by the load alone."
+                f"Passes of the standard axle ({data.attrs['standard_axle']}) that do as much damage as one passage "
+                "of a class, by every criterion; crosses: by the load alone."
             )
             return picture("In standard axles", caption, EquivalentsPlots(data).axles, wide=True)
         case "design":

@@ -48,7 +48,8 @@ _ROUNDS = 3
 class ThicknessDesign(BaseResult, group="design"):
     """The thickness of a layer for which a road lasts, and what was tried on the way.
 
-    dataset: exact_thickness and design_thickness, rounded up to a step, m; asked_years; trial_thickness (trial),
+    dataset: exact_thickness and design_thickness, rounded up to a step, m, and lower_bound of the search as an
+    attribute, m, which is the thickness where it lasts already; asked_years; trial_thickness (trial),
     rising, and trial_years (trial, criterion), at the risk that was asked for. road: with the rounded thickness.
     life: of that road. layer: its name; step: m. risk: that was asked for, None for that of the laws. stats: how much
     was solved. warnings: sentences for the user.
@@ -61,6 +62,7 @@ class ThicknessDesign(BaseResult, group="design"):
             "trial_years": "trial criterion",
         },
         labels={"criterion": "criterion"},
+        numbers="lower_bound",
         positive="exact_thickness design_thickness asked_years trial_thickness",
     )
 
@@ -78,6 +80,15 @@ class ThicknessDesign(BaseResult, group="design"):
         """Of the layer, rounded up, m."""
         return float(self.dataset["design_thickness"])
 
+    @property
+    def is_at_bound(self) -> bool:
+        """True where the lower bound of the search lasts, and a step less does too: a thinner layer may do."""
+        data = self.dataset
+        bound = float(data.attrs["lower_bound"]) * (1 + 1e-9)
+        thinner = data["trial_thickness"].to_numpy() < self.thickness - 1e-9
+        lasts = data["trial_years"].to_numpy()[thinner].min(axis=1) >= float(data["asked_years"])
+        return float(data["exact_thickness"]) <= bound and bool(lasts.all())
+
     def years(self, thickness: float) -> float:
         """Years that the road lasts with a thickness that was tried, m. Raises InputError for another."""
         tried = self.dataset["trial_thickness"].to_numpy()
@@ -91,7 +102,8 @@ class ThicknessDesign(BaseResult, group="design"):
         data = self.dataset
         asked, exact = float(data["asked_years"]), float(data["exact_thickness"])
         risk = "by the laws as they are" if self.risk is None else f"at a risk of {100 * self.risk:g} %"
-        lines = [f"thickness of {self.layer} for {asked:g} years {risk}: {exact * 1e3:.1f} mm"]
+        at_most = "at most " if exact <= float(data.attrs["lower_bound"]) * (1 + 1e-9) else ""
+        lines = [f"thickness of {self.layer} for {asked:g} years {risk}: {at_most}{exact * 1e3:.1f} mm"]
         for thickness in (self.thickness - self.step, self.thickness):
             row = np.flatnonzero(np.abs(data["trial_thickness"].to_numpy() - thickness) < 1e-9)
             if len(row):
@@ -101,7 +113,13 @@ class ThicknessDesign(BaseResult, group="design"):
         lines.append("  at D = 1:")
         lines += [f"    {one.name}: {one.law_at(15.0).end_of_life}" for one in self.life.criteria]
         lasts = _years(self.years(self.thickness))
-        lines.append(f"Verdict: {self.layer} of {self.thickness * 1e3:.0f} mm lasts {lasts} years.")
+        verdict = f"Verdict: {self.layer} of {self.thickness * 1e3:.0f} mm lasts {lasts} years."
+        if self.is_at_bound:
+            verdict = (
+                f"Verdict: {self.layer} may be thinner than {exact * 1e3:g} mm, the lower bound of the search, with "
+                f"which the road lasts {lasts} years; give a smaller low to find the thickness for {asked:g} years."
+            )
+        lines.append(verdict)
         if self.stats:
             lines.append(
                 "solved: {lives} lives with {contacts} contacts and {responses} responses".format(**self.stats)
@@ -180,7 +198,8 @@ def design_thickness(
         )
     if exact == low:
         said += (
-            f"{name}: {low * 1e3:g} mm, the least thickness that was asked for, lasts already; give a smaller low",
+            f"{name}: {low * 1e3:g} mm, the lower bound of the search, lasts already; give a smaller low to find the "
+            "thickness needed",
         )
     life = search.life(rounded)
     tried = sorted(search.known)
@@ -195,6 +214,7 @@ def design_thickness(
         {"criterion": search.names(life)},
         layer=name,
         step=step,
+        lower_bound=low,
         **({} if risk is None else {"at_risk": risk}),
     )
     return ThicknessDesign(

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
-from treadload.damage.laws.equivalence import GROUP_FACTORS
+from treadload.damage.laws.equivalence import GROUP_FACTORS, StandardAxle
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.miner import Life
 from treadload.damage.traffic import AxleClass
@@ -29,8 +29,8 @@ from treadload.study.seasons import warmed
 from treadload.study.threads import pool_of
 from treadload.study.wheels import Wheels
 
-# The French axle: twin discs on each side, N, Pa, m between their middles; the American one, N.
-_REFERENCE, _PRESSURE, _BETWEEN, _AMERICAN = 130e3, 0.662e6, 0.375, 80e3
+# Loads of the axles of both conventions by load alone, N.
+_FRENCH, _AMERICAN = 130e3, 80e3
 # Powers by convention: of French bituminous layers and of the AASHO road test; from memory, not verified in a source.
 _FRENCH_POWER, _FOURTH = 5.0, 4.0
 # Part of a cell that a disc covers is counted on so many points a side; cells, m, that stand for the disc at least.
@@ -45,13 +45,14 @@ _MOST = 1000.0
 class Equivalents(BaseResult, group="equivalents"):
     """A traffic in standard axles, and a climate as one temperature, by every criterion of a life.
 
-    dataset: standard_axles (criterion, axle_class), passes of the French axle of 130 kN on twin discs that do as much
-    as one passage of a class, each at its own worst place, in the season that does most; mean_standard_axles
-    (criterion) over the traffic; french_axles and single_axle_loads (axle_class), the same by conventions that know
-    loads alone; axle_load, axles (axle_class). equivalent_temperature, equivalent_reading (criterion): at which the
-    damage of a year of one temperature is that of the climate, and the reading there; NaN for a climate without
-    several temperatures. years_at_equivalent (criterion): at the equivalent temperature of the governing criterion
-    all year round, beside life_years (criterion), the full sum.
+    dataset: standard_axles (criterion, axle_class), passes of the standard axle of the traffic that do as much as one
+    passage of a class, each at its own worst place, in the season that does most; attributes standard_axle and
+    standard_axle_load, N, describe that axle. mean_standard_axles (criterion) over the traffic; french_axles and
+    single_axle_loads (axle_class), the same by conventions that know loads alone; axle_load, axles (axle_class).
+    equivalent_temperature, equivalent_reading (criterion): at which the damage of a year of one temperature is that
+    of the climate, and the reading there; NaN for a climate without several temperatures. years_at_equivalent
+    (criterion): at the equivalent temperature of the governing criterion all year round, beside life_years
+    (criterion), the full sum.
     """
 
     holds: ClassVar[Holds] = Holds(
@@ -62,7 +63,8 @@ class Equivalents(BaseResult, group="equivalents"):
             "french_axles single_axle_loads axle_load axles": "axle_class",
         },
         labels={"criterion": "criterion", "axle_class": "axle_class"},
-        texts="governing",
+        texts="governing standard_axle",
+        numbers="standard_axle_load",
         lists="readings",
     )
 
@@ -75,7 +77,7 @@ class Equivalents(BaseResult, group="equivalents"):
         wide = max(22, *(len(str(name)) + 2 for name in data["axle_class"].to_numpy()))
         columns = [*(name[:20] for name in names), "(P/130)⁵ K", "(P/80)⁴"]
         lines = [
-            "one passage in axles of 130 kN on twin discs, each at its own worst place;",
+            f"one passage in standard axles of {data.attrs['standard_axle']}, each at its own worst place;",
             "by load alone: French (P/130 kN)⁵ with K of the group, and axles of 80 kN by the fourth power",
             "  " + " " * wide + "".join(f"{one:>22s}" for one in columns),
         ]
@@ -110,9 +112,10 @@ class Equivalents(BaseResult, group="equivalents"):
 def life_equivalents(road: Pavement, life: Life, *, workers: int | None = None) -> Equivalents:
     """Standard axles of the classes of a life, and equivalent temperatures of its climate.
 
-    road: that of the life; materials may depend on temperature. workers: threads; all cores if left out. One response
-    under the standard axle is solved for each season that does most of the damage by a criterion; temperatures need
-    none: the damage of the seasons is interpolated over them.
+    The standard axle is that of the life's traffic, see `StandardAxle`. road: that of the life; materials may depend
+    on temperature. workers: threads; all cores if left out. One response under the standard axle is solved for each
+    season that does most of the damage by a criterion; temperatures need none: the damage of the seasons is
+    interpolated over them.
     """
     readings, shares = life.readings.to_numpy(), life.dataset["damage_share"].to_numpy()
     classes = life.traffic.classes
@@ -138,7 +141,7 @@ def life_equivalents(road: Pavement, life: Life, *, workers: int | None = None) 
         "mean_standard_axles": (("criterion",), standard @ part),
         "axle_load": (("axle_class",), loads),
         "axles": (("axle_class",), axles),
-        "french_axles": (("axle_class",), axles * factors * (np.array(loads) / _REFERENCE) ** _FRENCH_POWER),
+        "french_axles": (("axle_class",), axles * factors * (np.array(loads) / _FRENCH) ** _FRENCH_POWER),
         "single_axle_loads": (("axle_class",), axles * (np.array(loads) / _AMERICAN) ** _FOURTH),
         "equivalent_temperature": (("criterion",), warmth),
         "equivalent_reading": (("criterion",), reading),
@@ -148,7 +151,12 @@ def life_equivalents(road: Pavement, life: Life, *, workers: int | None = None) 
     names = {"criterion": [one.name for one in life.criteria], "axle_class": [row.name for row in classes]}
     return Equivalents(
         variables.dataset(
-            fields, names, governing=life.governing_criterion, readings=json.dumps(words, ensure_ascii=False)
+            fields,
+            names,
+            governing=life.governing_criterion,
+            readings=json.dumps(words, ensure_ascii=False),
+            standard_axle=str(life.traffic.standard_axle),
+            standard_axle_load=life.traffic.standard_axle.load,
         )
     )
 
@@ -156,28 +164,28 @@ def life_equivalents(road: Pavement, life: Life, *, workers: int | None = None) 
 def _of_the_axle(road: Pavement, life: Life, seasons: list[int], workers: int | None) -> dict[int, Array]:
     """What the criteria read (criterion, 3, y) under the standard axle, by season."""
     y = life.readings["y"].to_numpy()
-    wheels = _twin(y, next((row.speed for row in life.traffic.classes if row.speed is not None), None))
+    speed = next((row.speed for row in life.traffic.classes if row.speed is not None), None)
+    wheels = _dual(life.traffic.standard_axle, y, speed)
     tasks = [Passing(wheels, warmed(road, life.criteria, life.climate.seasons[one]), y, 1) for one in seasons]
     with pool_of(workers) as pool:
         return dict(zip(seasons, solve_passings(tasks, pool, Counter(len(tasks), None)), strict=True))
 
 
-def _twin(y: Array, speed: float | None) -> Wheels:
+def _dual(axle: StandardAxle, y: Array, speed: float | None) -> Wheels:
     """One end of the standard axle on the lattice of y, m: two discs whose edges are shared out among the cells."""
     step = float(y[1] - y[0])
     cell = step * max(1, round(_CELL / step))
-    radius = math.sqrt(_REFERENCE / 4 / (math.pi * _PRESSURE))
-    half = math.ceil(radius / cell) + 1
+    half = math.ceil(axle.radius / cell) + 1
     loads = []
-    for middle in (-0.5 * _BETWEEN, 0.5 * _BETWEEN):
+    for middle in (-0.5 * axle.spacing, 0.5 * axle.spacing):
         first = round((middle - half * cell - y[0]) / cell)
         grid = Grid(2 * half + 1, 2 * half + 1, cell, cell, -half * cell, float(y[0]) + first * cell)
         fine = (np.arange(_POINTS) + 0.5) / _POINTS - 0.5
         x = (grid.x[:, None] + cell * fine).ravel()
         across = (grid.y[:, None] + cell * fine).ravel() - middle
-        inside = (across[:, None] ** 2 + x**2 <= radius**2).reshape(grid.ny, _POINTS, grid.nx, _POINTS)
+        inside = (across[:, None] ** 2 + x**2 <= axle.radius**2).reshape(grid.ny, _POINTS, grid.nx, _POINTS)
         part = inside.mean(axis=(1, 3))
-        loads.append(GridLoad(grid, part * _REFERENCE / 4 / (part.sum() * cell**2)))
+        loads.append(GridLoad(grid, part * axle.load / 4 / (part.sum() * cell**2)))
     return Wheels(tuple(loads), loads[0].grid.x[None], speed, "standard axle", 0.0)
 
 

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Literal
 
 from treadload.errors import InputError, positive
+from treadload.units import Force, Length, Pressure
 
 _DAYS = 365
 # Annual growth that changes no sum over years; far below it the quotient loses its digits.
@@ -30,6 +32,48 @@ GROUP_FACTORS: Mapping[str, Mapping[int, float]] = {
     "hydraulic": {1: 1.0, 2: 12.0, 3: 113.0},
 }
 """K of one axle by the number of axles in its group and the kind of layer; from memory, not verified in a source."""
+
+
+@dataclass(frozen=True)
+class StandardAxle:
+    """The axle in whose passes a traffic is stated: dual wheels at each end, each a uniform disc.
+
+    load: of the whole axle, N. pressure: of each of its four discs, Pa. spacing: between the centres of two duals, m.
+
+    The defaults are those of the French method. Raises InputError.
+    """
+
+    load: Force = 130e3
+    pressure: Pressure = 0.662e6
+    spacing: Length = 0.375
+
+    def __post_init__(self) -> None:
+        positive("the load of the standard axle", self.load, "N", "the French one has 130e3, most others 80e3")
+        positive("the pressure of the standard axle", self.pressure, "Pa", "the French one has 0.662e6")
+        positive("the spacing of the standard axle", self.spacing, "m", "0.31 to 0.375 is usual")
+        if self.spacing < 2 * self.radius:
+            raise InputError(
+                f"discs of radius {1e3 * self.radius:.0f} mm overlap at a spacing of {1e3 * self.spacing:.0f} mm; "
+                f"give a spacing of at least {2e3 * self.radius:.0f} mm, or more pressure"
+            )
+
+    @property
+    def radius(self) -> float:
+        """Of each disc, m."""
+        return math.sqrt(self.load / 4 / (math.pi * self.pressure))
+
+    def __str__(self) -> str:
+        return (
+            f"{self.load / 1e3:g} kN on dual discs of {self.pressure / 1e6:g} MPa, {1e3 * self.spacing:g} mm between "
+            "their centres"
+        )
+
+
+STANDARD_AXLES: Mapping[str, StandardAxle] = {
+    "french": StandardAxle(),
+    "irc37": StandardAxle(80e3, 0.56e6, 0.31),
+}
+"""Standard axles by name: of NF P98-086, and of IRC:37-2018 (dual wheels of 20 kN, 0.56 MPa, 310 mm apart)."""
 
 
 def aggressiveness(

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, get_args
 
 from scipy.special import ndtri
 
@@ -29,7 +29,8 @@ _PER_THICKNESS = 2.0
 _TREATED_SCATTER = 0.03
 # Platform modulus, Pa, below which k_s holds.
 _PLATFORM = ((50e6, 1 / 1.2), (80e6, 1 / 1.1), (120e6, 1 / 1.065))
-_CLASSES = ("T5", "T4", "T3", "T2", "T1", "T0", "TS", "TEX")
+TrafficClass = Literal["T5", "T4", "T3", "T2", "T1", "T0", "TS", "TEX"]
+_CLASSES = get_args(TrafficClass)
 RISK: Mapping[str, Mapping[str, float]] = {
     "bituminous": dict(zip(_CLASSES, (0.30, 0.30, 0.25, 0.12, 0.05, 0.02, 0.01, 0.01), strict=True)),
     "hydraulic": dict(zip(_CLASSES, (0.25, 0.25, 0.12, 0.075, 0.05, 0.025, 0.01, 0.01), strict=True)),

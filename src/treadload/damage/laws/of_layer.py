@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic, FrenchSubgrade, TrafficClass
 from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
 from treadload.materials.plastic import elastic_part
@@ -50,10 +50,35 @@ class OnLayer:
             raise InputError(f"{self.name!r}: {error}") from error
 
     def needed(self, given: Mapping[str, Any], *names: str) -> None:
-        """Refuse what neither the caller nor the layer gives. Raises InputError."""
+        """Refuse what neither the caller nor the layer gives, all of it at once. Raises InputError."""
         missing = [name for name in names if given.get(name) is None]
-        if missing:
-            raise InputError(f"{self.name!r}: {missing[0]} is missing, and the layer does not give it")
+        if not missing:
+            return
+        *first, last = missing
+        listed = f"{', '.join(first)} and {last} are" if first else f"{last} is"
+        classes = ", ".join(get_args(TrafficClass))
+        known = f'; risk follows from the class of traffic too: traffic_class = "T1", one of {classes}'
+        raise InputError(
+            f"{self.name!r}: {listed} missing, and the layer does not provide {'them' if first else 'it'}"
+            f"{known if 'risk' in missing else ''}"
+        )
+
+    def risk(
+        self, base: Literal["bituminous", "hydraulic"], risk: float | None, traffic_class: TrafficClass | None
+    ) -> float | None:
+        """The risk, or the one that the French method accepts for a class of traffic, see `RISK`; None for neither.
+
+        Raises InputError for both.
+        """
+        if traffic_class is None:
+            return risk
+        accepted = RISK[base][traffic_class]
+        if risk is not None:
+            raise InputError(
+                f"{self.name!r}: risk and traffic_class exclude each other; {traffic_class} is a risk of "
+                f"{100 * accepted:g} % for a {base} base: remove one of the two keys"
+            )
+        return accepted
 
     def with_own(self, given: Mapping[str, Any], *names: str) -> dict[str, Any]:
         """What is given, and of these names the material's own where nothing is."""
@@ -115,18 +140,21 @@ def _bituminous(
     thickness: Length | None = None,
     thickness_scatter: Length | None = None,
     platform_modulus: Modulus | None = None,
+    traffic_class: TrafficClass | None = None,
 ) -> FrenchBituminous | Callable[[float], FrenchBituminous]:
     """Allowable extension at the bottom of bituminous layers by the French method.
 
-    risk: probability of failure over the design life, in (0, 1). epsilon_6: strain of a million cycles at 10 °C and
-    25 Hz. slope: b, near -0.2. scatter: SN, of the logarithm of the fatigue life. calibration: k_c; left out, these
-    four are those of the layer's mix. thickness: of all asphalt; left out, that of the bituminous layers around this
-    one, added up. thickness_scatter: Sh; left out, by the rule of the method. platform_modulus: of what lies below;
-    left out, that of an unbound layer of the catalogue there.
+    risk: probability of failure over the design life, in (0, 1). traffic_class: in place of a risk, "T5" to "T0",
+    "TS" or "TEX", for which the method accepts 30 % to 1 %. epsilon_6: strain of a million cycles at 10 °C and 25 Hz.
+    slope: b, near -0.2. scatter: SN, of the logarithm of the fatigue life. calibration: k_c; left out, these four are
+    those of the layer's mix. thickness: of all asphalt; left out, that of the bituminous layers around this one,
+    added up. thickness_scatter: Sh; left out, by the rule of the method. platform_modulus: of what lies below; left
+    out, that of an unbound layer of the catalogue there.
     """
     mix = at.material
     told = {
-        "risk": risk, "epsilon_6": epsilon_6, "slope": slope, "scatter": scatter, "calibration": calibration,
+        "risk": at.risk("bituminous", risk, traffic_class), "epsilon_6": epsilon_6, "slope": slope,
+        "scatter": scatter, "calibration": calibration,
         "thickness": thickness, "thickness_scatter": thickness_scatter, "platform_modulus": platform_modulus,
     }  # fmt: skip
     if isinstance(mix, Mix):
@@ -155,15 +183,18 @@ def _hydraulic(
     joints: Number | None = None,
     thickness_scatter: Length | None = None,
     platform_modulus: Modulus | None = None,
+    traffic_class: TrafficClass | None = None,
 ) -> FrenchHydraulic:
     """Allowable tension of layers treated with a hydraulic binder by the French method.
 
-    risk: probability of failure over the design life, in (0, 1). sigma_6: stress of a million cycles. slope: b, near
+    risk: probability of failure over the design life, in (0, 1). traffic_class: in place of a risk, "T5" to "T0",
+    "TS" or "TEX", for which the method accepts 25 % to 1 %. sigma_6: stress of a million cycles. slope: b, near
     -1/15. scatter: SN. calibration: k_c. joints: k_d. thickness_scatter: Sh; left out, these are those of the layer's
     mix. platform_modulus: of what lies below; left out, that of an unbound layer of the catalogue there.
     """
     told = {
-        "risk": risk, "sigma_6": sigma_6, "slope": slope, "scatter": scatter, "calibration": calibration,
+        "risk": at.risk("hydraulic", risk, traffic_class), "sigma_6": sigma_6, "slope": slope, "scatter": scatter,
+        "calibration": calibration,
         "joints": joints, "thickness_scatter": thickness_scatter, "platform_modulus": platform_modulus,
     }  # fmt: skip
     if isinstance(at.material, HydraulicMix):
