@@ -33,6 +33,10 @@ class InputError(TreadloadError, ValueError):
     """A value from the user is outside its bounds, missing, or cannot be read."""
 
 
+class WriteError(InputError):
+    """A file cannot be written, because the disk is full, read-only or gone; nothing that was there is lost."""
+
+
 class GeometryError(TreadloadError, ValueError):
     """A mesh, cloud or height map does not describe a usable tire surface."""
 

@@ -1,22 +1,31 @@
-"""Files appear whole or not at all, and are read whole."""
+"""The one door by which files are written, whole or not at all; and how they are read."""
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
+import secrets
+import shutil
+import stat
 import sys
-import tempfile
 import tomllib
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from treadload.errors import InputError, one_line
+from treadload.errors import InputError, WriteError, one_line
 
 if TYPE_CHECKING:
     import xarray as xr
 
+Content = bytes | str | Iterable[str]
+# No space, no quota, or more than a file may hold.
+_NO_ROOM = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
+# Letters of a name that a temporary file repeats.
+_STEM = 40
 # Tables in tables that a file may hold.
 _DEEPEST = 60
 # What xarray says, and goes on, of a variable that has a dimension twice.
@@ -47,28 +56,42 @@ def check_suffix(path: str | os.PathLike[str], known: Mapping[str, str], what: s
 
 def check_writable(path: str | os.PathLike[str]) -> None:
     """Raise InputError now if a file at `path` could not be written later."""
-    _temporary(Path(path)).unlink()
+    place = _place(Path(path))
+    if place.temporary is not None:
+        try:
+            place.fill(b"", sync=False)
+        finally:
+            place.clear()
 
 
-@contextlib.contextmanager
-def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A temporary path beside `path` that takes its place when the block ends well, and goes otherwise.
+def write_whole(path: str | os.PathLike[str], content: Content, *, sync: bool = True) -> Path:
+    """Write a file whole or not at all: an old one of this name stays as it is until the new one is on the disk.
 
-    Raises InputError if the folder does not exist or cannot be written.
+    content: bytes, text, which is written in UTF-8, or pieces of text, which need not be in memory together. A link
+    is followed; the mode of an old file is kept. sync: False for what can be made again after a power cut, which is
+    ten times as fast. Returns the path. Raises InputError for a path that cannot be a file and WriteError where the
+    disk is full, read-only or gone.
     """
-    path = Path(path)
-    temporary = _temporary(path)
+    return write_all([(path, content)], sync=sync)[0]
+
+
+def write_all(contents: Iterable[tuple[str | os.PathLike[str], Content]], *, sync: bool = True) -> tuple[Path, ...]:
+    """Write several files, none of which takes its place before all are on the disk; see `write_whole`.
+
+    contents: path and content of each. Returns the paths.
+    """
+    files = [(_place(Path(path)), content) for path, content in contents]
     try:
-        yield temporary
-        # mkstemp makes private files; a result is as open as any other file of the user.
-        mask = os.umask(0)
-        os.umask(mask)
-        temporary.chmod(0o666 & ~mask)
-        temporary.replace(path)
-    except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror or error}") from error
+        for place, content in files:
+            place.fill(content, sync=sync)
+        for place, _ in files:
+            place.take()
+        for folder in {place.target.parent for place, _ in files} if sync else ():
+            _sync_folder(folder)
     finally:
-        temporary.unlink(missing_ok=True)
+        for place, _ in files:
+            place.clear()
+    return tuple(place.path for place, _ in files)
 
 
 def text_of(path: str | os.PathLike[str], wanted: str) -> str:
@@ -132,17 +155,98 @@ def read_tree(path: Path, kind: str) -> xr.DataTree:
 
 
 def _check_no_folder(path: Path) -> None:
-    if path.is_dir():
+    if os.path.isdir(path):
         raise InputError(f"cannot write {path}: it is a folder; give a file name")
 
 
-def _temporary(path: Path) -> Path:
+@dataclass(frozen=True)
+class _Place:
+    """Where a file goes.
+
+    path: as the user gave it. target: where its links lead. temporary: beside it, None for what is no file on a disk,
+    as /dev/stdout, and cannot be replaced. mode: of the old file, None where there is none.
+    """
+
+    path: Path
+    target: Path
+    temporary: Path | None
+    mode: int | None
+
+    def fill(self, content: Content, *, sync: bool) -> None:
+        """Write the temporary file. sync: True to wait until it is on the disk."""
+        pieces = (content,) if isinstance(content, bytes | str) else content
+        with self._refusing(content):
+            with (self.temporary or self.target).open("xb" if self.temporary else "wb") as stream:
+                for piece in pieces:
+                    # A file cut within a character is not valid text.
+                    stream.write(piece.encode("utf-8", "replace") if isinstance(piece, str) else piece)
+                if self.temporary is not None and sync:
+                    stream.flush()
+                    os.fsync(stream.fileno())
+            if self.temporary is not None and self.mode is not None:
+                self.temporary.chmod(self.mode)
+
+    def take(self) -> None:
+        """Let the temporary file take the place of the old one, in a single step."""
+        if self.temporary is not None:
+            with self._refusing(()):
+                self.temporary.replace(self.target)
+
+    def clear(self) -> None:
+        """Remove the temporary file, where it has not become the file."""
+        if self.temporary is not None:
+            with contextlib.suppress(OSError):
+                self.temporary.unlink(missing_ok=True)
+
+    @contextlib.contextmanager
+    def _refusing(self, content: Content) -> Iterator[None]:
+        """Say why a file could not be written, what it needs, and that the old one is still there."""
+        try:
+            yield
+        except OSError as error:
+            self.clear()
+            why, remedy = error.strerror or str(error), "choose a folder you may write to"
+            if error.errno in _NO_ROOM:
+                needs = f"{_size(len(content))} needed, " if isinstance(content, bytes | str) else ""
+                with contextlib.suppress(OSError):
+                    why += f" ({needs}{_size(shutil.disk_usage(self.target.parent).free)} free)"
+                remedy = "make room there, or choose another folder"
+            kept = "" if self.mode is None else "; the file that was there is unchanged"
+            raise WriteError(f"cannot write {self.path}: {why}; {remedy}{kept}") from error
+
+
+def _place(path: Path) -> _Place:
+    """Where a file of this path goes. Raises InputError where none can be."""
     _check_no_folder(path)
-    if not path.parent.is_dir():
-        raise InputError(f"cannot write {path}: the folder {path.parent} does not exist; make it first")
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=f".part{path.suffix}", dir=path.parent)
-    except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror}; choose a folder you may write to") from error
-    os.close(handle)
-    return Path(name)
+        old = path.stat()
+    except FileNotFoundError:
+        old = None
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or error
+        raise InputError(f"cannot write {path}: {why}; give another name") from error
+    if old is not None and not stat.S_ISREG(old.st_mode):
+        return _Place(path, path, None, None)
+    target = Path(os.path.realpath(path))
+    if not target.parent.is_dir():
+        raise InputError(f"cannot write {path}: the folder {target.parent} does not exist; make it first")
+    if old is not None and not os.access(target, os.W_OK):
+        raise InputError(f"cannot write {path}: it is read-only; make it writable, or give another name")
+    # In the same folder, where a move is a single step; short, as names are bounded.
+    temporary = target.with_name(f".{target.stem[:_STEM]}-{secrets.token_hex(8)}.part")
+    return _Place(path, target, temporary, None if old is None else stat.S_IMODE(old.st_mode))
+
+
+def _sync_folder(folder: Path) -> None:
+    """Wait until the names in a folder are on the disk, where a system can."""
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+def _size(count: int) -> str:
+    """Bytes for a sentence."""
+    return f"{count / 1e3:.0f} kB" if count < 1e6 else f"{count / 1e6:.0f} MB"

@@ -17,6 +17,7 @@ from treadload.app.engines import Engine, Engines
 from treadload.app.form import Form
 from treadload.app.life_form import LifeForm
 from treadload.errors import InputError
+from treadload.files import write_whole
 
 # Files and runs that one browser keeps; the oldest go.
 _MOST_FILES, _MOST_RUNS = 24, 40
@@ -106,7 +107,7 @@ class Session:
         if len(self.files) >= _MOST_FILES or held + len(content) > _MOST_BYTES:
             raise InputError(f"this page keeps {_MOST_FILES} files and {_MOST_BYTES // 2**20} MB; restart the server")
         kept = f"upload_{secrets.token_hex(8)}{suffix}"
-        (self.folder / kept).write_bytes(content)
+        write_whole(self.folder / kept, content)
         self.files[shown] = kept
         return kept
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -9,9 +10,10 @@ from typing import Any
 
 from treadload.composing import BaseResult
 from treadload.errors import InputError
+from treadload.files import write_whole
 from treadload.reporting import report
 from treadload.results import save_results
-from treadload.results.exports import write_csv
+from treadload.results.exports import csv_files
 
 KINDS = {"nc": "result.nc", "html": "report.html", "csv": "tables.zip"}
 """What the process of a browser writes, and how the file is called at home."""
@@ -34,9 +36,9 @@ def write_export(
     elif kind == "html":
         report(whole(), path)
     else:
-        written = write_csv(dict(parts), folder / f"{run}_tables.csv")
-        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-            for file in written:
-                archive.write(file, file.name.removeprefix(f"{run}_"))
-                file.unlink()
+        content = io.BytesIO()
+        with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+            for file, pieces in csv_files(dict(parts), Path("tables.csv")):
+                archive.writestr(file.name, "".join(pieces))
+        write_whole(path, content.getvalue())
     return path.name

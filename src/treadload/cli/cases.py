@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Protocol
 
 import typer
 
 from treadload.cli import shell
 from treadload.cli.progress import counts, stages
 from treadload.describing import HasSummary
+
+
+class Answer(HasSummary, Protocol):
+    """A result of a case."""
+
+    def to_tree(self) -> Any:
+        """What is written of it."""
 
 
 def run(
@@ -22,14 +29,11 @@ def run(
 ) -> None:
     """Compute a case and write its result."""
     from treadload.case import Case
-    from treadload.results.exports import write
     from treadload.study import plan_case, run_case, run_dents
 
-    def solve(question: Case, path: Path) -> tuple[HasSummary, tuple[Path, ...]]:
+    def solve(question: Case) -> Answer:
         with stages(shell.err, quiet=quiet) as tell:
-            result = run_dents(question, progress=tell) if question.dents else run_case(question, progress=tell)
-            tell(f"writing {path}")
-            return result, write(result.to_tree(), path)
+            return run_dents(question, progress=tell) if question.dents else run_case(question, progress=tell)
 
     _answer(case, Case, plan_case, solve, output, changes, dry_run=dry_run)
 
@@ -45,13 +49,11 @@ def life(
 ) -> None:
     """Compute the life of a road under its traffic and climate, and write it."""
     from treadload.case import LifeCase
-    from treadload.results.exports import write
     from treadload.study import plan_life, run_life
 
-    def solve(question: LifeCase, path: Path) -> tuple[HasSummary, tuple[Path, ...]]:
+    def solve(question: LifeCase) -> Answer:
         with counts(shell.err, quiet=quiet) as tell:
-            result = run_life(question, sensitivity=sensitivity, workers=workers, progress=tell)
-        return result, write(result.to_tree(), path)
+            return run_life(question, sensitivity=sensitivity, workers=workers, progress=tell)
 
     _answer(design, LifeCase, plan_life, solve, output, changes, dry_run=dry_run)
 
@@ -70,13 +72,11 @@ def calibrate(
 ) -> None:
     """Fit numbers of a tire to what was measured of it, with error bars, and write them."""
     from treadload.case import CalibrationCase
-    from treadload.results.exports import write
     from treadload.study import plan_calibration, run_calibration
 
-    def solve(question: CalibrationCase, path: Path) -> tuple[HasSummary, tuple[Path, ...]]:
+    def solve(question: CalibrationCase) -> Answer:
         with counts(shell.err, quiet=quiet) as tell:
-            result = run_calibration(question, jobs=jobs, state=state, progress=tell)
-        return result, write(result.to_tree(), path)
+            return run_calibration(question, jobs=jobs, state=state, progress=tell)
 
     _answer(case, CalibrationCase, plan_calibration, solve, output, changes, dry_run=dry_run)
 
@@ -85,15 +85,15 @@ def _answer(
     file: Path,
     kind: Any,
     plan: Callable[[Any], str],
-    solve: Callable[[Any, Path], tuple[HasSummary, tuple[Path, ...]]],
+    solve: Callable[[Any], Answer],
     output: Path | None,
     changes: list[str] | None,
     *,
     dry_run: bool,
 ) -> None:
-    """Read a case of a kind; print its plan, or solve it, write its result and print its summary."""
+    """Read a case of a kind; print its plan, or solve it, print its summary and write its result."""
     from treadload.files import check_writable
-    from treadload.results.exports import check_output
+    from treadload.results.exports import check_output, write
 
     path = output or file.with_suffix(".nc")
     # A path that cannot be written is refused before the computation, not after it.
@@ -102,9 +102,10 @@ def _answer(
     check_writable(path)
     if dry_run:
         return shell.planned(plan(question), path)
-    result, files = solve(question, path)
+    result = solve(question)
+    # What was computed is told before the disk can refuse it.
     shell.out.print(result.summary(), markup=False)
-    shell.written(files)
+    shell.written(write(result.to_tree(), path))
 
 
 def init(
@@ -115,14 +116,12 @@ def init(
     """Write a case that runs as it is, each key with its unit, its default and its reason."""
     from treadload.case.first import first_case
     from treadload.errors import InputError
-    from treadload.files import replacing
+    from treadload.files import write_whole
 
     text = first_case(kind)
     if output.exists() and not force:
         raise InputError(f"{output} exists already; give another name with -o, or --force to overwrite it")
-    with replacing(output) as path:
-        path.write_text(text, encoding="utf-8")
-    shell.written([output])
+    shell.written([write_whole(output, text)])
     shell.out.print(f"next: treadload {kind} {output} --dry-run", markup=False)
 
 
@@ -137,13 +136,11 @@ def schema(
     import json
 
     from treadload.case.schema import json_schema
-    from treadload.files import replacing
+    from treadload.files import write_whole
 
     text = json.dumps(json_schema(kind), indent=2, ensure_ascii=False)
     if output is None:
         print(text)
         return
-    with replacing(output) as path:
-        path.write_text(f"{text}\n", encoding="utf-8")
-    shell.written([output])
+    shell.written([write_whole(output, f"{text}\n")])
     shell.out.print(f"first line of the case, for editors that know Taplo: #:schema ./{output.name}", markup=False)

@@ -97,7 +97,5 @@ def compare(
             calibration=calibration, load=load, threshold=threshold, saturation=saturation, dead=dead,
             colours=colours, scale=scale, registration=registration, load_tolerance=load_tolerance,
         )  # fmt: skip
-        files = shell.write_files(comparison, output, report, f"{result.name} and {footprint.name}", tell)
     shell.out.print(comparison.summary(), markup=False)
-    if files:
-        shell.written(files)
+    shell.write_files(comparison, output, report, f"{result.name} and {footprint.name}", quiet=quiet)

@@ -73,7 +73,7 @@ def cite(
     ] = None,
 ) -> None:
     """BibTeX of the program and of the methods that a case or a result really uses."""
-    from treadload.files import check_suffix, replacing
+    from treadload.files import check_suffix, write_whole
     from treadload.results.bibtex import bibtex, citations_of
     from treadload.results.cite import CITATIONS
 
@@ -93,9 +93,7 @@ def cite(
     if output is None:
         print(text, end="")
         return
-    with replacing(output) as path:
-        path.write_text(text, encoding="utf-8")
-    shell.written([output])
+    shell.written([write_whole(output, text)])
 
 
 def as_python(
@@ -108,7 +106,7 @@ def as_python(
 ) -> None:
     """A case as the Python that gives the same numbers."""
     from treadload.case.schema import read_case
-    from treadload.files import check_suffix, replacing
+    from treadload.files import check_suffix, write_whole
     from treadload.study import case_as_python
 
     if output is not None:
@@ -117,6 +115,4 @@ def as_python(
     if output is None:
         print(text, end="")
         return
-    with replacing(output) as path:
-        path.write_text(text, encoding="utf-8")
-    shell.written([output])
+    shell.written([write_whole(output, text)])

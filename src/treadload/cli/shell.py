@@ -12,7 +12,8 @@ from rich.console import Console
 from rich.table import Column
 from rich.text import Text
 
-from treadload.errors import TreadloadError
+from treadload.cli.progress import stages
+from treadload.errors import TreadloadError, WriteError
 
 DONE, FAILED, WRONG = 0, 1, 2
 _P = ParamSpec("_P")
@@ -55,7 +56,8 @@ def one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
         try:
             return command(*args, **kwargs)
         except TreadloadError as error:
-            _fail(str(error), WRONG if isinstance(error, ValueError) else FAILED)
+            wrong = isinstance(error, ValueError) and not isinstance(error, WriteError)
+            _fail(str(error), WRONG if wrong else FAILED)
         except KeyboardInterrupt as error:
             _fail(f"interrupted; {error or 'nothing more was written'}", FAILED)
         except MemoryError:
@@ -86,22 +88,20 @@ def check_files(output: Path | None, report: Path | None) -> None:
         check_suffix(report, HTML, "the report")
 
 
-def write_files(
-    result: Any, output: Path | None, report: Path | None, title: str, tell: Callable[[str], None]
-) -> list[Path]:
-    """Write a result to a file and a page, those that are asked for; returns what was written."""
+def write_files(result: Any, output: Path | None, report: Path | None, title: str, *, quiet: bool) -> None:
+    """Write a result to a file and a page, those that are asked for, and print what was written."""
     from treadload.results import to_tree
     from treadload.results.exports import write
 
-    files: list[Path] = []
     if output is not None:
-        files += write(to_tree(result), output)
+        written(write(to_tree(result), output))
     if report is not None:
         from treadload.reporting import report as write_page
 
-        tell("drawing")
-        files.append(write_page(result, report, title=title))
-    return files
+        with stages(err, quiet=quiet) as tell:
+            tell("drawing")
+            page = write_page(result, report, title=title)
+        written([page])
 
 
 def written(files: Iterable[Path]) -> None:

@@ -103,6 +103,10 @@ def scan(
                 smooth=smooth_choice(smooth),
                 scale=None if length is None else scale_choice(length),
             )
+    shell.out.print(str(tire.quality), markup=False)
+    if earlier is not None:
+        shell.out.print(str(scan_wear(tire, earlier)), markup=False)
+    with stages(shell.err, quiet=quiet) as tell:
         if figure is not None:
             from treadload.plots import save
             from treadload.plots.scan import scan as drawn
@@ -112,9 +116,6 @@ def scan(
         if output is not None:
             tell("casting rays")
             files = write(scan_map(tire, earlier, spacing=quantity(spacing, "m")), output)
-    shell.out.print(str(tire.quality), markup=False)
-    if earlier is not None:
-        shell.out.print(str(scan_wear(tire, earlier)), markup=False)
     if output is not None:
         shell.written(files)
 
@@ -168,15 +169,16 @@ def _measured(
     with stages(shell.err, quiet=quiet) as tell:
         tell(stage)
         found = measure()
-        files = list(write(found.dataset, output)) if output is not None else []
-        if figure is not None:
-            from treadload.plots import save
-
-            tell("drawing")
-            files.append(save(drawn(found), figure))
     shell.out.print(found.summary(), markup=False)
-    if files:
-        shell.written(files)
+    if output is not None:
+        shell.written(write(found.dataset, output))
+    if figure is not None:
+        from treadload.plots import save
+
+        with stages(shell.err, quiet=quiet) as tell:
+            tell("drawing")
+            picture = save(drawn(found), figure)
+        shell.written([picture])
 
 
 def card(
@@ -213,7 +215,5 @@ def card(
             spacing=question.spacing,
             progress=tell,
         )
-        files = shell.write_files(made, output, report, f"Tire card: {question.title or case.stem}", tell)
     shell.out.print(made.summary(), markup=False)
-    if files:
-        shell.written(files)
+    shell.write_files(made, output, report, f"Tire card: {question.title or case.stem}", quiet=quiet)

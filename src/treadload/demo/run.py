@@ -11,7 +11,7 @@ from pathlib import Path
 from treadload.case import Case
 from treadload.damage.cracks import in_a_cell
 from treadload.errors import InputError
-from treadload.files import replacing
+from treadload.files import write_whole
 from treadload.plots import compare_pressure, compare_strain, fatigue_line, save
 from treadload.reporting import write_report
 from treadload.results import save_results
@@ -55,8 +55,7 @@ def run_demo(folder: Path, progress: Progress | None = None) -> Demo:
     files: list[Path] = []
     for name in CASES:
         text = resources.files("treadload.demo").joinpath(f"{name}.toml").read_text(encoding="utf-8")
-        with replacing(folder / f"{name}.toml") as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_whole(folder / f"{name}.toml", text)
         case = Case.from_text(text, name=f"{name}.toml")
         result = run_case(case, progress=lambda stage, title=case.title: tell(f"{title}: {stage}"))  # type: ignore[misc]
         results[name] = result

@@ -15,7 +15,7 @@ import xarray as xr
 
 from treadload._version import __version__
 from treadload.errors import InputError
-from treadload.files import HTML, check_suffix, check_writable, replacing
+from treadload.files import HTML, check_suffix, check_writable, write_whole
 from treadload.reporting.figures import case_figures, comparison_figures
 from treadload.reporting.first import first_of_response
 from treadload.reporting.inputs import input_lists, input_table
@@ -61,10 +61,7 @@ def write_report(cases: Mapping[str, Any], path: str | PathLike[str], title: str
     check_writable(path)
     read = [case for label, one in cases.items() for case in ReportCase.all_of(label, as_tree(one))]
     html = _template().render(_content(read, title or _title(read)))
-    with replacing(path) as temporary:
-        # A file cut within a character is not valid text.
-        temporary.write_text(html, encoding="utf-8", errors="replace")
-    return Path(path)
+    return write_whole(path, html)
 
 
 def report(results: Any, path: str | PathLike[str], *, title: str = "") -> Path:

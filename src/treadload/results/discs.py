@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 import os
 from collections.abc import Mapping
@@ -13,7 +14,7 @@ import numpy as np
 
 from treadload.composing import Source, dataset_of
 from treadload.errors import InputError, positive
-from treadload.files import TABLE, check_suffix, replacing
+from treadload.files import TABLE, check_suffix, write_whole
 from treadload.kernels.arrays import Array
 from treadload.response import UniformDisc
 
@@ -67,12 +68,12 @@ class EquivalentDiscs:
     def write_csv(self, path: str | os.PathLike[str]) -> Path:
         """Write the discs as a table, x, y and radius in m, pressure in MPa, load in kN. Returns the path."""
         check_suffix(path, TABLE, "discs")
-        with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.writer(stream)
-            writer.writerow(["x [m]", "y [m]", "radius [m]", "pressure [MPa]", "load [kN]"])
-            for disc in self.discs:
-                writer.writerow([disc.x, disc.y, disc.radius, disc.pressure / 1e6, disc.normal_load / 1e3])
-        return Path(path)
+        stream = io.StringIO()
+        writer = csv.writer(stream)
+        writer.writerow(["x [m]", "y [m]", "radius [m]", "pressure [MPa]", "load [kN]"])
+        for disc in self.discs:
+            writer.writerow([disc.x, disc.y, disc.radius, disc.pressure / 1e6, disc.normal_load / 1e3])
+        return write_whole(path, stream.getvalue())
 
 
 def equivalent_discs(contact: Source, count: int = 1, *, pressure: float | None = None) -> EquivalentDiscs:

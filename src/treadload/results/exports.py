@@ -5,12 +5,13 @@ NetCDF (`results.files`) keeps everything and is read back; tables are for sprea
 
 from __future__ import annotations
 
-import contextlib
 import csv
+import io
+import itertools
 import math
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,8 +20,8 @@ import numpy as np
 import xarray as xr
 
 from treadload.composing import BaseResult
-from treadload.errors import InputError, how_to_install
-from treadload.files import EXCEL, NETCDF, PARQUET, TABLE, check_suffix, replacing
+from treadload.errors import InputError, WriteError, how_to_install
+from treadload.files import EXCEL, NETCDF, PARQUET, TABLE, check_suffix, write_all, write_whole
 from treadload.results.files import save_results
 from treadload.results.tree import ASKED, as_tree
 
@@ -31,6 +32,8 @@ TABLES = TABLE | EXCEL | PARQUET
 
 # Of a sheet of Excel: rows, characters of a cell, characters of a name.
 _MOST_ROWS, _CELL, _NAME = 1_048_576, 32_000, 31
+# Letters of a piece of text.
+_PIECE = 2**20
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 
 
@@ -71,14 +74,12 @@ def write_csv(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...]:
     Returns the files written, the main one first: all of them, or none. Raises InputError.
     """
     check_suffix(path, TABLE, "tables")
+    return write_all(csv_files(results, Path(path)))
 
-    def write(table: Table, file: Path) -> None:
-        with file.open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.writer(stream)
-            writer.writerow(table.columns)
-            writer.writerows(_rows(table))
 
-    return _written(_tables(results), Path(path), write)
+def csv_files(results: Any, path: Path) -> list[tuple[Path, Iterator[str]]]:
+    """Path and text, piece by piece, of each file that `write_csv` writes."""
+    return [(file, _csv(table)) for file, table in _files(_tables(results), path)]
 
 
 def write_parquet(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...]:
@@ -90,21 +91,32 @@ def write_parquet(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...
     check_suffix(path, PARQUET, "tables")
     arrow, parquet = _pyarrow(path)
 
-    def write(table: Table, file: Path) -> None:
+    def made(table: Table) -> bytes:
         plain = {name: _arrow_column(values) for name, values in table.columns.items()}
-        parquet.write_table(arrow.table(plain), file)
+        stream = io.BytesIO()
+        parquet.write_table(arrow.table(plain), stream)
+        return stream.getvalue()
 
-    return _written(_tables(results), Path(path), write)
+    return write_all((file, made(table)) for file, table in _files(_tables(results), Path(path)))
 
 
-def _written(tables: list[Table], path: Path, write: Callable[[Table, Path], None]) -> tuple[Path, ...]:
-    """Write a file for each table: the path itself for the one without a name, others beside it."""
-    files = [path.with_name(f"{path.stem}_{one.name}{path.suffix}") if one.name else path for one in tables]
-    with contextlib.ExitStack() as stack:
-        # Every table is written before the first one takes its place.
-        for table, file in zip(tables, files, strict=True):
-            write(table, stack.enter_context(replacing(file)))
-    return tuple(files)
+def _files(tables: list[Table], path: Path) -> Iterator[tuple[Path, Table]]:
+    """The file of each table: the path itself for the one without a name, others beside it."""
+    for one in tables:
+        yield path.with_name(f"{path.stem}_{one.name}{path.suffix}") if one.name else path, one
+
+
+def _csv(table: Table) -> Iterator[str]:
+    """A table as text, piece by piece: large ones are not in memory at once."""
+    stream = io.StringIO()
+    writer = csv.writer(stream)
+    for row in itertools.chain([tuple(table.columns)], _rows(table)):
+        writer.writerow(row)
+        if stream.tell() > _PIECE:
+            yield stream.getvalue()
+            stream.seek(0)
+            stream.truncate()
+    yield stream.getvalue()
 
 
 def _arrow_column(values: Any) -> Any:
@@ -130,18 +142,30 @@ def write_excel(results: Any, path: str | os.PathLike[str]) -> Path:
                 f"cannot write {path}: the table {table.name or path.stem!r} has {rows} rows and a heading, but a "
                 f"sheet holds {_MOST_ROWS}; write .csv or .nc, or ask for fewer depths"
             )
+    content = io.BytesIO()
+    try:
+        _book(openpyxl, tables, path.stem).save(content)
+    except OSError as error:
+        # Sheets of any length wait in temporary files.
+        raise WriteError(
+            f"cannot write {path}: {error.strerror or error} in the folder of temporary files; make room there, or "
+            "name another by TMPDIR"
+        ) from error
+    return write_whole(path, content.getvalue())
+
+
+def _book(openpyxl: Any, tables: Sequence[Table], stem: str) -> Any:
+    """A workbook with a sheet for each table. stem: name of the one without a name."""
     book = openpyxl.Workbook(write_only=True)
     taken: set[str] = set()
     for table in tables:
-        sheet = book.create_sheet(_sheet_name(table.name or path.stem, taken))
+        sheet = book.create_sheet(_sheet_name(table.name or stem, taken))
         sheet.freeze_panes = "A2"
         text = openpyxl.cell.WriteOnlyCell
         sheet.append([_text(text, sheet, heading) for heading in table.columns])
         for row in _excel_rows(table):
             sheet.append([_text(text, sheet, value) if isinstance(value, str) else value for value in row])
-    with replacing(path) as temporary:
-        book.save(temporary)
-    return path
+    return book
 
 
 def _tables(results: Any) -> list[Table]:

@@ -6,12 +6,15 @@ import os
 from pathlib import Path
 from typing import Any
 
+import h5netcdf
+import h5py
 import numpy as np
 import xarray as xr
+from xarray.backends import H5NetCDFStore
 
 from treadload._version import __version__
 from treadload.errors import InputError
-from treadload.files import NETCDF, check_suffix, read_tree, replacing
+from treadload.files import NETCDF, check_suffix, read_tree, write_whole
 from treadload.results.opened import Results
 from treadload.results.schema import check_tree, short
 from treadload.results.tree import FORMAT, as_tree
@@ -26,9 +29,30 @@ def save_results(results: Any, path: str | os.PathLike[str]) -> Path:
     """
     check_suffix(path, NETCDF, "NetCDF")
     data = results if isinstance(results, xr.Dataset) else as_tree(results)
-    with replacing(path) as temporary:
-        data.to_netcdf(temporary, engine="h5netcdf")
-    return Path(path)
+    return write_whole(path, _image(data))
+
+
+def _image(data: xr.DataTree | xr.Dataset) -> bytes:
+    """The bytes of a NetCDF-4 file, made in memory.
+
+    On a full disk HDF5 ends the process while it closes its file, and so it does in a stream of Python's where memory
+    ends; of its own memory it says in order that there is no more. Raises MemoryError.
+    """
+    tree = data if isinstance(data, xr.DataTree) else xr.DataTree(data)
+    try:
+        with h5py.File("memory", "w", driver="core", backing_store=False, track_order=True) as image:
+            with h5netcdf.File(image, "w") as file:
+                root = H5NetCDFStore(file)
+                for node in tree.subtree:
+                    store = root if node is tree else root.get_child_store(node.path)
+                    node.to_dataset(inherit=node is tree).dump_to_store(store)
+            image.flush()
+            content: bytes = image.id.get_file_image()
+    except (OSError, RuntimeError) as error:
+        if "memory" in str(error):
+            raise MemoryError(str(error)) from error
+        raise
+    return content
 
 
 def open_results(path: str | os.PathLike[str]) -> Results:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
-from treadload.files import check_suffix, replacing
+from treadload.files import check_suffix, write_whole
 from treadload.kernels.arrays import Array
 
 TRACTIONS = {".dat": "contact stresses for finite elements", ".txt": "contact stresses for finite elements"}
@@ -58,10 +59,10 @@ def write_tractions(
         f"cells: {len(rows)}{'' if everywhere else ', those with load'}; rows run along x first.",
         f"sum over the cells, N: p {forces[0]:.9g}, qx {forces[1]:.9g}, qy {forces[2]:.9g}",
     ]
-    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as stream:
-        stream.writelines(f"# {line}\n" for line in head)
-        np.savetxt(stream, rows, fmt="%.9e")
-    return Path(path)
+    stream = io.StringIO()
+    stream.writelines(f"# {line}\n" for line in head)
+    np.savetxt(stream, rows, fmt="%.9e")
+    return write_whole(path, stream.getvalue())
 
 
 def _step(values: Array, name: str) -> float:

@@ -20,7 +20,7 @@ import xarray as xr
 
 from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
-from treadload.files import check_suffix, replacing
+from treadload.files import check_suffix, write_whole
 from treadload.kernels.arrays import Array
 
 VTK = {
@@ -80,9 +80,7 @@ def write_vtk(result: Source, path: str | os.PathLike[str]) -> Path:
     whole = "" if suffix == ".vtu" else f' WholeExtent="{extent}"'
     head = f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64">'
     text = ['<?xml version="1.0"?>', head, f"<{kind}{whole}>", f"<Piece {piece}>", *lines, "</Piece>", f"</{kind}>"]
-    with replacing(path) as temporary:
-        temporary.write_text("\n".join([*text, "</VTKFile>", ""]), encoding="utf-8")
-    return Path(path)
+    return write_whole(path, "\n".join([*text, "</VTKFile>", ""]))
 
 
 def _fields(data: xr.Dataset, volume: bool) -> Iterator[tuple[str, Array]]:

@@ -14,7 +14,7 @@ from typing import Any
 
 from treadload.composing import Source
 from treadload.errors import InputError
-from treadload.files import check_suffix, replacing
+from treadload.files import check_suffix, write_whole
 from treadload.plots.interactive.cut import Cut, profiles
 from treadload.plots.interactive.drawing import figure
 from treadload.plots.interactive.field import (
@@ -86,9 +86,7 @@ class LinkedView:
         Raises InputError for another suffix than .html, and for a path that cannot be written.
         """
         check_suffix(path, PAGE, "a page")
-        with replacing(path) as temporary:
-            temporary.write_text(self.to_html(), encoding="utf-8")
-        return Path(path)
+        return write_whole(path, self.to_html())
 
     def _repr_html_(self) -> str:
         page = html.escape(self.to_html(), quote=True)

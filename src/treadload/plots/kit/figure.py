@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import io
+import os
 import struct
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from treadload.files import write_whole
 from treadload.plots.kit.files import png
 from treadload.plots.kit.style import figure_of
 
@@ -22,6 +25,23 @@ class ShownFigure(Figure):
     notebook has no way of its own to show a Figure; this one brings it. Where `%matplotlib inline` brought another
     before, that one serves, once.
     """
+
+    def savefig(self, fname: Any, *, format: str | None = None, **how: Any) -> None:
+        """Write the figure as matplotlib does, whole or not at all: an old picture stays where this fails.
+
+        fname: path or stream. format: "png", "pdf", ...; the file extension of the path if left out. how: as of
+        `matplotlib.figure.Figure.savefig`. Raises WriteError where the disk is full, read-only or gone.
+        """
+        if not isinstance(fname, str | os.PathLike):
+            return super().savefig(fname, format=format, **how)
+        path = os.fspath(fname)
+        kind = format or os.path.splitext(path)[1][1:]
+        if not kind:
+            kind = self.canvas.get_default_filetype()
+            path = f"{path.rstrip('.')}.{kind}"
+        stream = io.BytesIO()
+        super().savefig(stream, format=kind, **how)
+        write_whole(path, stream.getvalue())
 
     def _repr_png_(self) -> tuple[bytes, dict[str, Any]]:
         image = png(self, dpi=_SHARP)

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from treadload.errors import InputError
-from treadload.files import replacing
+from treadload.files import write_whole
 from treadload.kernels.arrays import BoolArray
 from treadload.plots.kit.style import styled
 
@@ -38,12 +38,11 @@ def save(figure: Figure, path: str | PathLike[str], *, dpi: float | None = None)
             f"use one of {', '.join(_FORMATS)}"
         )
     resolution = 180.0 if dpi is None else dpi
-    with replacing(path) as temporary, temporary.open("wb") as stream:
-        if kind == "png":
-            stream.write(_pixels(figure, resolution))
-        else:
-            _draw(figure, stream, kind, resolution)
-    return Path(path)
+    if kind == "png":
+        return write_whole(path, _pixels(figure, resolution))
+    stream = io.BytesIO()
+    _draw(figure, stream, kind, resolution)
+    return write_whole(path, stream.getvalue())
 
 
 @styled

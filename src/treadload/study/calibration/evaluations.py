@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from treadload.errors import InputError
-from treadload.files import check_writable, replacing
+from treadload.files import check_writable, write_whole
 from treadload.kernels.arrays import Array
 from treadload.study.calibration.problem import Model, Problem
 
@@ -91,8 +91,7 @@ class Evaluations:
             for (point, row), values in self.known.items()
         ]
         told = {"calibration": self.problem.fingerprint, "points": points}
-        with replacing(path) as temporary:
-            temporary.write_text(json.dumps(told), encoding="utf-8")
+        write_whole(path, json.dumps(told))
 
 
 def _begin(problem: Problem) -> None:

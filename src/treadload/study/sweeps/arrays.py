@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import shutil
@@ -16,6 +17,7 @@ import numpy as np
 import xarray as xr
 
 from treadload.errors import InputError, how_to_install
+from treadload.files import write_whole
 from treadload.study.sweeps.asked import attributes
 from treadload.study.sweeps.design import Design
 from treadload.study.sweeps.gathered import common_axes, coordinates_of, label_of, place
@@ -64,8 +66,10 @@ def keep_fields(record: Record, folder: Path) -> None:
     values: dict[str, Any] = {f"field {name}": array for name, (_, array) in record.fields.items()}
     axes = {f"axis {dim}": values for dim, values in record.coordinates.items()}
     dims = json.dumps({name: [dims, np.shape(array)] for name, (dims, array) in record.fields.items()})
-    with _file(folder, record.number).open("wb") as stream:
-        np.savez(stream, dims=np.array(dims), **values, **axes)  # type: ignore[arg-type]
+    # An archive that cannot be closed on a full disk would complain later, from nowhere.
+    content = io.BytesIO()
+    np.savez(content, dims=np.array(dims), **values, **axes)  # type: ignore[arg-type]
+    write_whole(_file(folder, record.number), content.getvalue(), sync=False)
 
 
 def restore_fields(

@@ -9,6 +9,7 @@ nothing else has to be read.
 from __future__ import annotations
 
 import contextlib
+import errno
 import hashlib
 import importlib.util
 import json
@@ -26,7 +27,8 @@ import xarray as xr
 from treadload._version import __version__
 from treadload.case import Case, LifeCase
 from treadload.case.file import FilePart
-from treadload.errors import InputError, one_line
+from treadload.errors import InputError, WriteError, one_line
+from treadload.files import write_whole
 from treadload.study.sweeps.arrays import keep_fields, restore_fields, write_arrays, write_fields, zarr
 from treadload.study.sweeps.design import Design
 from treadload.study.sweeps.gathered import gathered, label_of
@@ -65,16 +67,14 @@ class Store:
         self.records = {number: one for number, one in journal.records.items() if one.failure is None}
 
     def append(self, record: Record) -> None:
-        """Keep a record. Raises InputError where the disk is full."""
+        """Keep a record. Raises WriteError where the disk is full."""
         told = record.to_json()
         line = line_of(told)
-        try:
+        with self.writing():
             if record.fields:
                 keep_fields(record, self.path / _FIELDS)
-            self._journal.write(line)
-            self._journal.flush()
-        except OSError as error:
-            raise self._full(error) from error
+            if self._journal.write(line) < len(line):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         self._kept.end += len(line)
         self._kept.crc = zlib.crc32(line, self._kept.crc)
         # Fields wait on disk, not in memory.
@@ -84,7 +84,7 @@ class Store:
             self.write_numbers()
 
     def write_numbers(self) -> None:
-        """Bring the arrays of the numbers up to date. Raises InputError where the disk is full."""
+        """Bring the arrays of the numbers up to date. Raises WriteError where the disk is full."""
         if not self._dirty:
             return
         began = time.monotonic()
@@ -95,12 +95,11 @@ class Store:
             "solved": sum(one.failure is None for one in self.records.values()),
             "names": _names(self._kept, self.design),
         }
-        try:
-            _write_json(self.path, _CURRENT, {"journal": None})
+        with self.writing():
+            # Whoever finds no mark reads the journal.
+            write_whole(self.path / _CURRENT, '{"journal": null}', sync=False)
             write_arrays(data, self.path)
-            _write_json(self.path, _CURRENT, current)
-        except OSError as error:
-            raise self._full(error) from error
+            write_whole(self.path / _CURRENT, json.dumps(current), sync=False)
         self._written = time.monotonic()
         self._cost, self._dirty = self._written - began, False
 
@@ -118,7 +117,7 @@ class Store:
         files = {number: file for number, file in sorted(files.items()) if number in self.records}
         if not files:
             return
-        try:
+        with self.writing():
             numbers = {label_of(name, self.design) for one in self.records.values() for name in one.numbers}
             solved = {number for number, one in self.records.items() if one.failure is None}
             files |= restore_fields(self.path, self.design, sorted(solved - set(files)), numbers, folder)
@@ -128,14 +127,18 @@ class Store:
                 self.append(Record(number, 0.0, failure=_DAMAGED))
             if len(self.records) == self.design.count:
                 shutil.rmtree(folder)
-        except OSError as error:
-            raise self._full(error) from error
 
-    def _full(self, error: OSError) -> InputError:
-        return InputError(
-            f"cannot write to {self.path}: {error.strerror or error}; {self.told()}, and the same command goes on "
-            "from there"
-        )
+    @contextlib.contextmanager
+    def writing(self) -> Iterator[None]:
+        """Say what is kept where the disk is full. Raises WriteError."""
+        try:
+            yield
+        except (OSError, WriteError) as error:
+            cause = error.__cause__ if isinstance(error, WriteError) else error
+            why = getattr(cause, "strerror", None) or cause or error
+            raise WriteError(
+                f"cannot write to {self.path}: {why}; {self.told()}, and the same command goes on from there"
+            ) from cause
 
     def told(self) -> str:
         """How much is kept, for a sentence."""
@@ -147,7 +150,8 @@ class Store:
 def begun(path: str | os.PathLike[str], case: FilePart, design: Design, question: Question) -> Iterator[Store]:
     """The store of a study, new or begun before; closed in any case, its arrays up to date.
 
-    Raises InputError for a path that cannot be a store, one of another study, and one that is being written.
+    Raises InputError for a path that cannot be a store, one of another study, and one that is being written;
+    WriteError where the disk is full.
     """
     zarr()
     path = _checked(path)
@@ -156,10 +160,11 @@ def begun(path: str | os.PathLike[str], case: FilePart, design: Design, question
     with _own(path):
         if (path / _STUDY).exists():
             _check_same(path, name)
-        elif any(file.name not in (".lock", f".{_STUDY}.part") for file in path.iterdir()):
+        elif any(file.name != ".lock" for file in path.iterdir()):
             raise InputError(f"{path} exists and is no study; give another name, or remove it")
         else:
-            _write_study(path, case, design, question, name)
+            with store.writing():
+                _write_study(path, case, design, question, name)
         current = _current(path)
         # Fields that wait are put together first.
         whole = current.get("solved") == design.count and not (path / _FIELDS).exists()
@@ -169,8 +174,11 @@ def begun(path: str | os.PathLike[str], case: FilePart, design: Design, question
             return
         journal = read_journal(path / _JOURNAL, design.count)
         store.read(journal, current=current.get("journal") == [journal.end, journal.crc])
-        with (path / _JOURNAL).open("ab") as stream:
-            stream.truncate(journal.end)
+        with contextlib.ExitStack() as stack:
+            with store.writing():
+                # A buffer would be written once more when it is closed, on the same full disk.
+                stream = stack.enter_context((path / _JOURNAL).open("ab", buffering=0))
+                stream.truncate(journal.end)
             store._journal = stream
             try:
                 yield store
@@ -297,7 +305,18 @@ def _own(path: Path) -> Iterator[None]:
                 raise InputError(
                     f"{path} is being written by another study; wait for it, or name another store"
                 ) from error
-        yield
+        _clear(path)
+        try:
+            yield
+        finally:
+            _clear(path)
+
+
+def _clear(path: Path) -> None:
+    """Remove what a kill or a full disk has left half written, of ours and of zarr."""
+    for file in [*path.rglob("*.part"), *path.rglob("*.partial")]:
+        with contextlib.suppress(OSError):
+            file.unlink()
 
 
 def _write_study(path: Path, case: FilePart, design: Design, question: Question, name: str) -> None:
@@ -311,16 +330,9 @@ def _write_study(path: Path, case: FilePart, design: Design, question: Question,
         "design": design.to_json(),
         "asked": [one.text for one in question.asked],
     }
-    _write_json(path, _STUDY, told)
+    write_whole(path / _STUDY, json.dumps(told))
     # So that it opens before the first case has ended.
     write_arrays(gathered(design, ()).assign_attrs(about(case, design, question)), path)
-
-
-def _write_json(path: Path, name: str, told: Mapping[str, Any]) -> None:
-    """Write a file of a store, whole or not at all."""
-    temporary = path / f".{name}.part"
-    temporary.write_text(json.dumps(told), encoding="utf-8")
-    temporary.replace(path / name)
 
 
 def _current(path: Path) -> dict[str, Any]:

@@ -1,0 +1,53 @@
+"""A little of each fault; `python -m faults` runs as much as you like."""
+
+import os
+
+import pytest
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="forks and limits as on POSIX")
+
+
+@pytest.fixture(scope="module")
+def writers():
+    from faults.writers import writers
+
+    return writers()
+
+
+QUICK = [
+    "netcdf",
+    "csv",
+    "parquet",
+    "excel",
+    "cells",
+    "tractions",
+    "discs",
+    "png",
+    "savefig",
+    "init",
+    "cite",
+    "state",
+]
+SLOW = [
+    *QUICK, "points", "mesh", "svg", "pdf", "as-python", "store", "report", "linked", "schema", "taken home",
+    "upload",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_a_limit_of_files_is_a_sentence_and_the_old_file_stays(writers, name):
+    from faults.places import by_limit
+
+    assert set(by_limit(writers[name], (0.6,), (True,))) == {"refused"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SLOW)
+def test_full_and_read_only_disks_are_sentences_and_old_files_stay(writers, name):
+    from faults.places import by_limit, by_right, by_size
+
+    writer = writers[name]
+    # A study writes many files, and may fit below a limit that its largest one does not.
+    assert "refused" in by_limit(writer, (0.0, 0.9, 2.0), (False, True))
+    assert {"refused", "not mounted"} & set(by_size(writer, (8, 40)))
+    by_right(writer)
