@@ -155,3 +155,19 @@ def sines(half: Any, n: int, axis: int = -1) -> Any:
     if n > 1 and values.shape[-1] > 1:
         result[..., 1:n] = _scipy.dst(values[..., 1:], type=1, n=n - 1, axis=-1)
     return np.moveaxis(result, -1, axis)
+
+
+def cosines_between(half: Any, n: int, axis: int = -1) -> Any:
+    """The transform (n + 1 numbers) of what is even about 0, known at 1/2, 3/2, ..., zero from n on, period 2 n."""
+    values = np.moveaxis(_scipy.dct(half, type=2, n=n, axis=axis), axis, -1)
+    result = np.zeros((*values.shape[:-1], n + 1), half.dtype)
+    result[..., :n] = values
+    return np.moveaxis(result, -1, axis)
+
+
+def sines_between(half: Any, n: int, axis: int = -1) -> Any:
+    """As `cosines_between`, of what is odd, times i."""
+    values = np.moveaxis(_scipy.dst(half, type=2, n=n, axis=axis), axis, -1)
+    result = np.zeros((*values.shape[:-1], n + 1), half.dtype)
+    result[..., 1:] = values
+    return np.moveaxis(result, -1, axis)

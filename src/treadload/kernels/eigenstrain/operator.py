@@ -5,7 +5,9 @@
 In the plane K is a convolution, done by transforms of twice the size, so that nothing comes round. Between layers and
 components it is a matrix for each wave. Counted with a factor i for xz and yz these matrices are real, as each kernel
 is even or odd in x and in y; those of -ky follow by signs. So a quarter of the plane is stored, in real numbers:
-(ny + 1) (nx + 1) (6 nz)² of them.
+(ny + 1) (nx + 1) (6 nz)² of them. Bars that reach back from the front of a cell are half of a bar without ends, which
+adds a constant, and a rest that is odd where a cell's field is even, about the front, half a cell away from a centre:
+real numbers too, but for a turn by half a cell that all of a wave share.
 
 `cells` has blocks, `track` bars that reach from a cell backwards without end, `endless` bars without ends, whose
 fields no longer depend on x.
@@ -26,7 +28,16 @@ from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.eigenstrain.averages import NEAR, average
 from treadload.kernels.eigenstrain.corners import displacement_kernels, stress_kernels
 from treadload.kernels.eigenstrain.potentials import coefficients
-from treadload.kernels.fft import cosines, irfft2, next_fast_len, rfft, rfft2, sines
+from treadload.kernels.fft import (
+    cosines,
+    cosines_between,
+    irfft2,
+    next_fast_len,
+    rfft,
+    rfft2,
+    sines,
+    sines_between,
+)
 
 # Components that are odd in x, and in y: of a tensor, and of a displacement.
 _ODD_X, _ODD_Y = (np.array([0, 0, 0, 1, 1, 0], bool), np.array([0, 0, 0, 1, 0, 1], bool))
@@ -66,7 +77,7 @@ class Grid:
 
     @property
     def bytes(self) -> int:
-        """Of the operator of these cells in double precision."""
+        """Of the operator of these cells in double precision; half of it in single."""
         return 8 * (6 * (len(self.edges) - 1)) ** 2 * (self.nx + 1) * (self.ny + 1)
 
 
@@ -74,8 +85,9 @@ class Grid:
 class Operator:
     """A linear map of strain (6, nz, ny, nx) to fields (rows, depths, ny, nx), see this module.
 
-    matrices: (waves along y, along x, rows · depths, 6 nz). phase: the factor i of each row and column, or none: the
-    matrices are complex then. signs: of each row and column at -ky. waves: cells of a period along y and x.
+    matrices: (waves along y, along x, rows · depths, 6 nz). phase: the factors of each row and column, which may vary
+    with the wave along x, or none: the matrices are complex then. signs: of each row and column at -ky. waves: cells
+    of a period along y and x.
     """
 
     shape: tuple[int, int, int]
@@ -103,9 +115,9 @@ class Operator:
         if self.phase is None:
             both = self.matrices @ columns
         else:
-            columns *= self.phase[1][:, None]
+            columns *= self.phase[1][..., None]
             real = columns.view(self.matrices.dtype).reshape(*columns.shape[:-1], 4)
-            both = (self.matrices @ real).view(columns.dtype) / self.phase[0][:, None]
+            both = (self.matrices @ real).view(columns.dtype) / self.phase[0][..., None]
         result = np.empty((both.shape[2], self.waves[0], both.shape[1]), both.dtype)
         result[:, backwards] = np.moveaxis(both[..., 1] * self.signs[0], -1, 0)
         result[:, : half + 1] = np.moveaxis(both[..., 0], -1, 0)
@@ -162,17 +174,18 @@ def track(grid: Grid, shear: float, poisson: float, *, averaged: bool = False, s
     averaged: see `cells`.
     """
     of = coefficients(poisson)
-    x, y = _fronts(grid), _edges(grid.ny, grid.dy)[:, None]
+    # Points half a cell behind the front of a bar, half a cell ahead of it, and so on; the other end is far away.
+    x = np.append(grid.dx * (np.arange(grid.nx + 1) - 0.5), _FAR * _size(grid))
+    y = _edges(grid.ny, grid.dy)[:, None]
 
     def rows(depth: int) -> Array:
         kernels = stress_kernels(x, y, grid.depths[depth], grid.edges, of, _behind)
         if averaged:
             average(kernels, depth, x, y, grid.edges, of, _behind, (grid.dx, grid.dy), surface=True)
-        # The points of the cell itself and behind it.
-        kernels[:, :, depth, 0, : grid.nx] -= of.inside[..., None]
+        kernels[:, :, depth, 0, :1] -= of.inside[..., None]
         return shear * kernels
 
-    return _any(rows, grid, len(grid.depths), (_ODD_X, _ODD_Y), single=single)
+    return _bars(rows, grid, single=single)
 
 
 def endless(grid: Grid, shear: float, poisson: float, *, averaged: bool = False, single: bool = False) -> Operator:
@@ -268,6 +281,44 @@ def _even(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray],
     )
     signs = _signs(odd[1], depths, grid, kind)
     return Operator(grid.shape, len(odd[0]), matrices, phase, signs, (2 * ly, 2 * lx))
+
+
+def _bars(rows: Rows, grid: Grid, *, single: bool = False) -> Operator:
+    """Of stress at points half a cell behind the front of a bar, half a cell ahead, and so on: real matrices."""
+    _, ny, nx = grid.shape
+    ly, lx = next_fast_len(ny), next_fast_len(nx)
+    kind = np.float32 if single else np.float64
+    odd_x, odd_y = _ODD_X[:, None] != _ODD_X, _ODD_Y[:, None] != _ODD_Y
+    even = ~odd_x[..., None, None]
+    imaginary = _ODD_X ^ _ODD_Y
+    sign, constant = (
+        np.where(one, -1.0, 1.0)[..., None, None, None]
+        for one in ((odd_x & odd_y) | (imaginary & ~imaginary[:, None]), _ODD_Y & ~_ODD_Y[:, None])
+    )
+
+    def transformed(kernels: Array) -> Array:
+        # What is even adds up to the bar without ends; the rest is odd about the front, and the other way round.
+        half = 0.5 * even * (kernels[..., 1] + kernels[..., 0])
+        result = np.empty((*kernels.shape[:3], ly + 1, lx + 1), kind)
+        rest = (kernels[..., 1:] - half[..., None]).astype(kind)
+        for parity in np.ndindex(2, 2):
+            some = (odd_y == parity[0]) & (odd_x == parity[1])
+            part = -cosines_between(rest[some], lx, axis=3) if parity[1] else sines_between(rest[some], lx, axis=3)
+            # Of the longest wave: what all bars add up to, no turn and no factor.
+            part[..., 0] = -part[..., 0] if parity[1] else 2 * lx * half[some]
+            result[some] = (sines if parity[0] else cosines)(part, ly, axis=2)
+        result[..., 1:] *= sign
+        result[..., :1] *= constant
+        return result
+
+    matrices = _gathered(rows, transformed, grid, len(grid.depths), 6, (ly + 1, lx + 1), np.dtype(kind))
+    turn = -1j * np.exp(-0.5j * np.pi * np.arange(lx + 1) / lx)[:, None]
+    row, column = np.where(imaginary, 1j, 1) / turn, np.where(imaginary, 1j, 1) * np.ones_like(turn)
+    row[0] = column[0] = np.where(_ODD_Y, 1j, 1)
+    factors = np.result_type(kind, np.complex64)
+    phase = tuple(np.repeat(one, len(grid.depths), axis=-1).astype(factors) for one in (row, column))
+    signs = _signs(_ODD_Y, len(grid.depths), grid, kind)
+    return Operator(grid.shape, 6, matrices, (phase[0], phase[1]), signs, (2 * ly, 2 * lx))
 
 
 def _any(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray], *, single: bool = False) -> Operator:

@@ -17,8 +17,9 @@ from treadload.kernels.plasticity.state import State
 from treadload.materials import ElastoPlastic
 from treadload.pavement import Pavement
 
-# Of the operator, bytes; with its transforms a pass stays within twice that.
-_MOST = 1.5e9
+# Of a pass, bytes, and of what it keeps beside the operator, in bytes for each cell and component: rounds of the
+# mixing, with their differences, and transforms.
+_MOST, _ROUNDS = 1.5e9, 900
 
 
 @dataclass(frozen=True)
@@ -100,14 +101,18 @@ class Box:
             x0=self.x0 - back * self.dx, y0=self.y0 - low * self.dy,
         )  # fmt: skip
 
+    @property
+    def bytes(self) -> float:
+        """What a pass over these cells needs at most: its operator in single precision, and its rounds."""
+        return 0.5 * self.cells.bytes + _ROUNDS * 6.0 * len(self.depths) * self.nx * self.ny
+
     def check_size(self) -> None:
-        """Raise InputError where the operator of these cells would not fit into memory."""
-        rows = len(self.depths)
-        size = self.cells.bytes
-        if size > _MOST:
+        """Raise InputError where a pass over these cells would not fit into memory."""
+        if self.bytes > _MOST:
             raise InputError(
-                f"a box of {self.nx} x {self.ny} cells in {rows} rows of depth needs {size / 1e9:.1f} GB, above "
-                f"{_MOST / 1e9:.1f} GB; raise spacing (now {self.dx * 1e3:.3g} mm) or lower layers"
+                f"a box of {self.nx} x {self.ny} cells in {len(self.depths)} rows of depth needs "
+                f"{self.bytes / 1e9:.1f} GB, above {_MOST / 1e9:.1f} GB; raise spacing (now {self.dx * 1e3:.3g} mm) "
+                "or lower layers"
             )
 
 
