@@ -103,6 +103,14 @@ class BaseResult(ABC):
         super().__init_subclass__(**more)
         if group is not None:
             cls.group = group
+            before = _CLASSES.get(cls.__name__)
+            # A notebook cell that is run again defines the same class again.
+            if before is not None and (before.__module__, before.__qualname__) != (cls.__module__, cls.__qualname__):
+                raise InputError(
+                    f"the class of results {cls.__name__!r} is {before.__module__}.{before.__qualname__} already, so "
+                    f"that {cls.__module__}.{cls.__qualname__} cannot be: files name results by their class; give it "
+                    "another name"
+                )
             _CLASSES[cls.__name__] = cls
 
     @property

@@ -112,3 +112,31 @@ def test_nobody_at_an_address(tmp_path, monkeypatch):
     monkeypatch.setattr(cluster, "_REACH", 2)
     with pytest.raises(InputError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
         tl.sweep(small_case(tmp_path), {"poisson": [0.3]}, scheduler="tcp://127.0.0.1:9")
+
+
+@pytest.mark.slow
+def test_an_interruption_while_a_local_cluster_starts_is_one_sentence(tmp_path):
+    """As from a terminal, which interrupts the study and the processes that it starts."""
+    small_case(tmp_path)
+    code = """
+import os, signal, threading
+if __name__ == "__main__":
+    import distributed
+    start = distributed.LocalCluster.__init__
+    def interrupted(self, *args, **more):
+        threading.Timer(0.5, os.killpg, (0, signal.SIGINT)).start()
+        return start(self, *args, **more)
+    distributed.LocalCluster.__init__ = interrupted
+    from treadload.cli import app
+    app(["sweep", "case.toml", "--vary", "poisson=0.2:0.4:5", "--scheduler", "local"])
+"""
+    (tmp_path / "run.py").write_text(code)
+    done = subprocess.run(
+        [sys.executable, "run.py"], cwd=tmp_path, capture_output=True, text=True, check=False, start_new_session=True
+    )
+    assert done.returncode == 1
+    # Where the machine is slow progress is told before it.
+    assert [line for line in done.stderr.splitlines() if " s  " not in line] == [
+        "error: interrupted; 0 of 5 cases are kept in case.zarr; the same command goes on from there"
+    ]
+    assert tl.study.open_sweep(tmp_path / "case.zarr").stats["unsolved"] == 5

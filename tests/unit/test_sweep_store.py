@@ -234,12 +234,72 @@ if __name__ == "__main__":
 
 
 @pytest.mark.slow
-def test_a_script_without_a_guard_is_told_so(tmp_path):
+@pytest.mark.parametrize("more", ["jobs=2, store='study.zarr'", "jobs=2, scheduler='local'"])
+def test_a_script_without_a_guard_is_told_so(tmp_path, more):
     small_case(tmp_path)
-    code = f"import treadload as tl\ntl.sweep(tl.Case.from_toml({str(tmp_path / 'case.toml')!r}), {VARY!r}, jobs=2)\n"
+    code = f"import treadload as tl\ntl.sweep(tl.Case.from_toml('case.toml'), {VARY!r}, {more})\n"
     (tmp_path / "run.py").write_text(code)
-    done = subprocess.run([sys.executable, tmp_path / "run.py"], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "run.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert "needs 'if __name__ ==" in done.stderr.splitlines()[-1]
+    # The processes that import it end without a traceback of their own.
+    assert "bootstrapping" not in done.stderr
+
+
+DYING = """
+import os, pathlib, signal, sys
+import treadload as tl
+from treadload.study.sweeps import places
+
+serve = places._serve
+def dying(pipe, question):
+    if sys.argv[1] == "once":
+        try:
+            pathlib.Path("died").touch(exist_ok=False)
+        except FileExistsError:
+            return serve(pipe, question)
+    os.kill(os.getpid(), signal.SIGKILL)
+places._serve = dying
+
+if __name__ == "__main__":
+    case, vary = tl.Case.from_toml("case.toml"), {"poisson": [0.2, 0.3, 0.4]}
+    print(tl.sweep(case, vary, jobs=2, store="s.zarr").stats["solved"])
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("how", "words"),
+    [
+        ("once", ()),
+        ("always", ("killed by SIGKILL while it started, twice", "fewer processes than 2", "0 of 3 cases are kept")),
+    ],
+)
+def test_a_process_that_dies_while_it_starts_is_started_once_more(tmp_path, how, words):
+    small_case(tmp_path)
+    (tmp_path / "run.py").write_text(DYING)
+    command = [sys.executable, "run.py", how]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.stdout.split() == ([] if words else ["3"])
+    last = done.stderr.splitlines()[-1] if words else ""
+    assert all(word in last for word in words), last
+    assert "__main__" not in last
+
+
+def test_how_a_process_ended_and_what_helps():
+    assert places._end(-signal.SIGKILL) == "was killed by SIGKILL"
+    assert places._end(-200) == "was killed by signal 200"
+    assert places._end(3) == "ended with exit code 3"
+    assert "use fewer processes than 8" in places._remedy(-9, 8)
+    assert "what it printed before" in places._remedy(3, 8)
+
+
+def test_a_system_that_starts_no_more_processes_is_one_sentence(tmp_path, monkeypatch):
+    def refused(*_, **__):
+        raise OSError(errno.EAGAIN, os.strerror(errno.EAGAIN))
+
+    monkeypatch.setattr(places.multiprocessing.get_context("spawn").Process, "start", refused)
+    with pytest.raises(places.WorkersLost, match=r"Resource temporarily unavailable.*use fewer processes"):
+        tl.sweep(small_case(tmp_path), VARY, jobs=2)
 
 
 @pytest.mark.slow

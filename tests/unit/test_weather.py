@@ -79,6 +79,10 @@ def test_an_epw_file_is_read_in_its_places(tmp_path):
     assert (weather.sky == 300).all()
     assert (weather.wind == 3.5).all()
     assert (weather.humidity == 80).all()
+    for huge in ("1e400", "99999999999", "nan"):
+        path.write_text("\n".join([*head, *rows[:5], rows[5].replace(",1,1,", f",{huge},1,", 1), *rows[6:]]))
+        with pytest.raises(InputError, match=r"line 14: not an hour of an EPW file .* month, day and hour"):
+            read_weather(path)
     del rows[30]
     path.write_text("\n".join(head + rows))
     with pytest.raises(InputError, match="hole: 2001-01-02 06:30 is missing"):

@@ -59,7 +59,7 @@ def one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
             wrong = isinstance(error, ValueError) and not isinstance(error, WriteError)
             _fail(str(error), WRONG if wrong else FAILED)
         except KeyboardInterrupt as error:
-            _fail(f"interrupted; {error or 'nothing more was written'}", FAILED)
+            _fail(f"interrupted; {str(error) or 'nothing more was written'}", FAILED)
         except MemoryError:
             _fail("out of memory: the grid is too fine for this machine; use a larger spacing", FAILED)
 

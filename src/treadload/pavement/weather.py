@@ -187,8 +187,11 @@ def _read_epw(path: Path) -> Weather:
             # Months of a typical year come from different years; the hour that ends at 1 is the first.
             times.append(datetime(2000 if leap else 2001, month, day) + timedelta(hours=hour - 0.5))
             found = [float(row[at]) for at, _ in _EPW.values()]
-        except (ValueError, IndexError) as error:
-            raise InputError(f"{path}, line {number}: not an hour of an EPW file ({error})") from error
+        except (ValueError, IndexError, OverflowError) as error:
+            raise InputError(
+                f"{path}, line {number}: not an hour of an EPW file ({error}); its second to fourth number are "
+                "month, day and hour"
+            ) from error
         values.append([np.nan if one >= none else one for one, (_, none) in zip(found, _EPW.values(), strict=True)])
     if len(rows) < 24:
         raise InputError(f"{path}: an EPW file has {_EPW_HEAD} lines and then 8760 hours, got {len(rows)}")

@@ -29,7 +29,14 @@ def made(kind: type[BaseResult], given: Mapping[str, Any], where: str) -> Any:
     """
     hints = _hints(kind)
     for name, value in given.items():
-        if not _fits(value, hints.get(name, Any)):
+        try:
+            fits = _fits(value, hints.get(name, Any))
+        except TypeError as error:  # of a class of another package
+            raise InputError(
+                f"{where}: the field {name} of {kind.__name__} is annotated {hints[name]!r}, which no value can be "
+                "compared with; annotate it with a class, or with Any"
+            ) from error
+        if not fits:
             raise InputError(f"{where}: the {name} of a {kind.__name__} cannot be {short(value)}; compute it anew")
     dataset = given.get("dataset")
     if isinstance(dataset, xr.Dataset):
@@ -194,6 +201,8 @@ def _fits(value: Any, hint: Any) -> bool:
         return isinstance(value, list) and all(_fits(one, inner[0]) for one in value)
     if origin is not None:
         return not isinstance(origin, type) or isinstance(value, origin)
+    if hint is Any:
+        return True
     if hint is None:
         return value is None
     if hint in (int, float):

@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from treadload.errors import InputError
 from treadload.files import check_writable, write_whole
 from treadload.kernels.arrays import Array
 from treadload.study.calibration.problem import Model, Problem
+from treadload.study.sweeps.places import WorkersLost
 
 Progress = Callable[[int, int, str], None]
 """(done, of how many, what) of the solves; how many are needed is a guess until the search ends."""
@@ -76,6 +78,12 @@ class Evaluations:
                 self.known[task] = values
                 self.solved += 1
                 self._tell(self.solved, self.expected, "contact")
+        except BrokenProcessPool as error:
+            kept = "" if self._state is None else f"; {len(self.known)} contacts are kept in {self._state}"
+            raise WorkersLost(
+                "a process of the calibration was killed, perhaps for lack of memory; use a larger spacing or fewer "
+                f"processes than {self.jobs}, jobs=1 needs none{kept}"
+            ) from error
         finally:
             # What was found before an error or an interruption is not lost.
             if new and self._state is not None:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import signal
+import threading
 from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import CancelledError
+from concurrent.futures import CancelledError, Future
+from multiprocessing import resource_tracker
 from typing import Any
 
 from treadload.errors import InputError, TreadloadError, how_to_install, one_line
-from treadload.study.sweeps.places import Task
+from treadload.study.sweeps.places import Task, WorkersLost, try_start
 from treadload.study.sweeps.record import Record
 from treadload.study.sweeps.work import Question, solve_of
 
@@ -75,6 +78,31 @@ def _quietly() -> Iterator[None]:
             one.setLevel(level)
 
 
+@contextlib.contextmanager
+def _interrupted_later() -> Iterator[None]:
+    """Put an interruption off to the end of the block, and keep it from processes that start there.
+
+    A cluster that is interrupted while it starts leaves tracebacks behind and cannot be closed.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: came.append(number))
+    # Threads and processes that start here take over the mask, which the start of this helper process would lift.
+    resource_tracker.ensure_running()
+    mask = getattr(signal, "pthread_sigmask", None)
+    masked = None if mask is None else mask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        if mask is not None:
+            mask(signal.SIG_SETMASK, masked)
+        signal.signal(signal.SIGINT, before)
+        if came:
+            raise KeyboardInterrupt
+
+
 def _done(distributed: Any, futures: list[Any]) -> set[Any]:
     """Futures that are done by now, or within a moment."""
     try:
@@ -106,15 +134,46 @@ def _client(distributed: Any, scheduler: Any, jobs: int, stack: contextlib.ExitS
     if isinstance(scheduler, distributed.Client):
         return scheduler
     if scheduler == LOCAL:
-        local = distributed.LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None)
+        try:
+            with _interrupted_later():
+                local = distributed.LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None)
+        except (RuntimeError, OSError) as error:
+            try_start()
+            raise WorkersLost(
+                f"the Dask cluster on this machine cannot start ({one_line(str(error))}); use fewer workers than "
+                f"{jobs}, or --jobs without --scheduler"
+            ) from error
         scheduler = stack.enter_context(local)
     try:
-        return stack.enter_context(distributed.Client(scheduler, timeout=_REACH, set_as_default=False))
+        return stack.enter_context(_connected(distributed, scheduler))
     except (OSError, TimeoutError, ValueError) as error:
         raise InputError(
             f"no scheduler answers at {scheduler}: {one_line(str(error)) or type(error).__name__}; start one with "
             "`dask scheduler`, or use --scheduler local"
         ) from error
+
+
+def _connected(distributed: Any, scheduler: Any) -> Any:
+    """A client of a scheduler; an interruption leaves it to its thread, for half a client cannot be closed."""
+    future: Future[Any] = Future()
+    left = threading.Event()
+
+    def connect() -> None:
+        try:
+            client = distributed.Client(scheduler, timeout=_REACH, set_as_default=False)
+        except BaseException as error:
+            future.set_exception(error)
+            return
+        future.set_result(client)
+        if left.is_set():
+            client.close()
+
+    threading.Thread(target=connect, daemon=True).start()
+    try:
+        return future.result()
+    except KeyboardInterrupt:
+        left.set()
+        raise
 
 
 def _distributed() -> Any:

@@ -17,24 +17,54 @@ from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for
 from typing import Any
 
-from treadload.errors import InputError
+from treadload.errors import InputError, TreadloadError
 from treadload.study.sweeps.record import Record
 from treadload.study.sweeps.work import Question, Worker, solve_of
 
 Task = tuple[int, Mapping[str, Any]]
 
-# A process that dies takes its case along: once may be an accident, twice is the case.
+# A process that dies takes its case along: once may be an accident, twice is the case. So it is while it starts.
 _DEATHS = 2
+# Exit code of a process that is to import the script that starts it, and would start others.
+_UNGUARDED = 97
 # Neighbours that stay with one worker, which keeps what they share.
 _RUN = 16
 # The first word of a process, which tells one that cannot start from one whose first case kills it.
 _READY = "ready"
 # Each process computes with one thread, or several would fight for the same cores.
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+_GUARD = (
+    "a script that asks for several processes needs 'if __name__ == \"__main__\":' around what it does, since each "
+    "of them imports it; or use jobs=1"
+)
 DIED = (
     "the process that solved it was killed twice, perhaps for lack of memory; use a larger spacing, fewer processes "
     "or a machine with more memory"
 )
+
+
+class WorkersLost(TreadloadError, RuntimeError):
+    """The processes of a study cannot start; what was solved is kept."""
+
+
+def check_guard() -> None:
+    """End this process if it only imports the script of a study that starts it; the study then says so."""
+    # multiprocessing itself asks the same to refuse a start in a process that starts.
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise SystemExit(_UNGUARDED)
+
+
+def try_start() -> None:
+    """Start a process that does nothing. Raises InputError where that imports a script without a guard."""
+    process = multiprocessing.get_context("spawn").Process(target=_nothing, daemon=True)
+    process.start()
+    process.join()
+    if process.exitcode == _UNGUARDED:
+        raise InputError(_GUARD)
+
+
+def _nothing() -> None:
+    """What such a process does."""
 
 
 def here(question: Question, tasks: Sequence[Task]) -> Iterator[Record]:
@@ -64,10 +94,11 @@ def threads(question: Question, tasks: Sequence[Task], jobs: int, name: str) -> 
 def processes(question: Question, tasks: Sequence[Task], jobs: int) -> Iterator[Record]:
     """Several cases at once in processes of their own; one that dies is replaced, and its case tried once more."""
     runs = _runs(tasks, jobs)
-    crew = [_Process(question) for _ in range(min(jobs, len(tasks)))]
+    crew: list[_Process] = []
     deaths: dict[int, int] = {}
     again: deque[Task] = deque()
     try:
+        crew.extend(_Process(question) for _ in range(min(jobs, len(tasks))))
         for one in crew:
             one.give(_next(one, crew, runs, again))
         while any(one.task for one in crew):
@@ -80,10 +111,9 @@ def processes(question: Question, tasks: Sequence[Task], jobs: int) -> Iterator[
                     continue
                 if record is None:
                     if not one.has_begun:
-                        raise InputError(
-                            "the processes of the study cannot start; a script that asks for several needs "
-                            "'if __name__ == \"__main__\":' around what it does"
-                        )
+                        one.start_again(len(crew))
+                        one.give(task)
+                        continue
                     deaths[task[0]] = deaths.get(task[0], 0) + 1
                     one.start()
                     if deaths[task[0]] < _DEATHS:
@@ -124,17 +154,41 @@ class _Process:
         self.task: Task | None = None
         self.run: deque[Task] = deque()
         self.has_begun = False
+        self._failed = 0
         self.start()
 
     def start(self) -> None:
-        """Start it, or another in its place."""
+        """Start it, or another in its place. Raises WorkersLost where the system starts no more."""
+        self.has_begun = False
         # Whatever has threads or open files cannot be forked safely.
         context = multiprocessing.get_context("spawn")
-        self.pipe, theirs = context.Pipe()
-        with _one_thread():
-            self._process = context.Process(target=_serve, args=(theirs, self._question), daemon=True)
-            self._process.start()
-        theirs.close()
+        try:
+            self.pipe, theirs = context.Pipe()
+            with _one_thread():
+                self._process = context.Process(target=_serve, args=(theirs, self._question), daemon=True)
+                self._process.start()
+            theirs.close()
+        except OSError as error:
+            raise WorkersLost(
+                f"a process of the study cannot be started ({error.strerror or error}); use fewer processes, jobs=1 "
+                "needs none"
+            ) from error
+
+    def start_again(self, jobs: int) -> None:
+        """Start another in place of one that died before its first case.
+
+        jobs: processes of the study. Raises WorkersLost for the second in a row, and InputError where the script that
+        asks for processes starts itself again and again.
+        """
+        code = self._process.exitcode
+        if code == _UNGUARDED:
+            raise InputError(_GUARD)
+        self._failed += 1
+        if self._failed >= _DEATHS:
+            raise WorkersLost(
+                f"a process of the study {_end(code)} while it started, twice in a row{_remedy(code, jobs)}"
+            )
+        self.start()
 
     def give(self, task: Task | None) -> None:
         """Give it a case."""
@@ -152,7 +206,7 @@ class _Process:
             self._process.join()
             self.pipe.close()
             return None
-        self.has_begun = True
+        self.has_begun, self._failed = True, 0
         return record
 
     def stop(self) -> None:
@@ -160,6 +214,23 @@ class _Process:
         self.pipe.close()
         self._process.terminate()
         self._process.join()
+
+
+def _end(code: int | None) -> str:
+    """How a process ended, by its exit code."""
+    if code is None or code >= 0:
+        return f"ended with exit code {code}"
+    names = {number.value: number.name for number in signal.Signals}
+    return f"was killed by {names.get(-code, f'signal {-code}')}"
+
+
+def _remedy(code: int | None, jobs: int) -> str:
+    if code is not None and code < 0:
+        return (
+            f", perhaps for lack of memory; use fewer processes than {jobs}, or a machine with more memory; jobs=1 "
+            "needs no other process"
+        )
+    return "; what it printed before says why, and jobs=1 solves the cases without other processes"
 
 
 def _serve(pipe: Connection, question: Question) -> None:

@@ -23,7 +23,7 @@ from treadload.study.sweeps.asked import asked_for, kind_of
 from treadload.study.sweeps.cluster import SchedulerLost, cluster
 from treadload.study.sweeps.design import Design, from_dataset, listed, product
 from treadload.study.sweeps.gathered import FAILED, SOLVED, UNSOLVED, gathered, with_fields
-from treadload.study.sweeps.places import Task, here, processes, threads
+from treadload.study.sweeps.places import Task, WorkersLost, check_guard, here, processes, threads
 from treadload.study.sweeps.record import Record
 from treadload.study.sweeps.store import Store, about, begun, opened
 from treadload.study.sweeps.work import TANGENTIAL, Question
@@ -160,7 +160,8 @@ def sweep(
     "local" for `jobs` workers here, or a `distributed.Client`. The results are the same wherever they are solved.
     progress: called with (done, total, "case") after every case.
     Returns the Sweep. A case that fails is kept with its reason, and the others go on. Raises InputError for wrong
-    keys, values and fields, for a store of another study and a full disk; SchedulerLost.
+    keys, values and fields, for a store of another study and a full disk; SchedulerLost; WorkersLost where processes
+    cannot start.
     """
     kind = kind_of(case)
     design = _design(case, vary)
@@ -168,6 +169,8 @@ def sweep(
         positive("jobs", jobs, "", "1 solves one case after another")
         raise InputError(f"jobs must be a whole number, got {jobs!r}")
     question = Question(kind, case.given(), case.folder.resolve(), asked_for(fields, case), _anchor(case, design))
+    if (jobs > 1 and not in_threads) or scheduler is not None:
+        check_guard()
     tell = progress or (lambda done, total, what: None)
     if store is None:
         records: dict[int, Record] = {}
@@ -183,8 +186,8 @@ def sweep(
                 keeping.append(record)
         except KeyboardInterrupt:
             raise KeyboardInterrupt(_go_on(keeping)) from None
-        except SchedulerLost as error:
-            raise SchedulerLost(f"{error}; {_go_on(keeping)}") from error
+        except (SchedulerLost, WorkersLost) as error:
+            raise type(error)(f"{error}; {_go_on(keeping)}") from error
     made = open_sweep(store)
     return replace(made, dataset=made.dataset.assign_attrs(damage=keeping.repaired)) if keeping.repaired else made
 
