@@ -13,8 +13,8 @@ from treadload.cli.progress import stages
 
 # Options of a scan that a measurement with fringes states in its own file.
 _OF_MESHES = (
-    "units", "nominal_diameter", "rotation", "camber", "revolve", "smooth", "outliers", "roundness", "spacing",
-    "known_length", "reference", "reference_length",
+    "units", "nominal_diameter", "rotation", "camber", "revolve", "fill_holes", "smooth", "outliers", "roundness",
+    "spacing", "known_length", "reference", "reference_length",
 )  # fmt: skip
 
 
@@ -37,6 +37,9 @@ def scan(
     revolve: Annotated[str, typer.Option(help="Revolve the meridian, not the facets: yes, no or auto.")] = "auto",
     smooth: Annotated[str, typer.Option(help='Length to smooth noise over, e.g. "6 mm"; no or auto.')] = "no",
     outliers: Annotated[str, typer.Option(help="Points that stick out: remove, refuse or keep.")] = "remove",
+    fill_holes: Annotated[
+        str, typer.Option(help="Fill holes of the tread from the rest of the turn: yes, no or auto.")
+    ] = "auto",
     roundness: Annotated[float, typer.Option(help="Share of the radius by which it may vary.")] = 0.02,
     spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
     reference: Annotated[
@@ -59,7 +62,7 @@ def scan(
     from treadload.results.exports import check_output, write
     from treadload.results.scanned import scan_fields, scan_map, scan_wear
     from treadload.tire import Tire
-    from treadload.tire.scan.options import revolve_choice, scale_choice, smooth_choice
+    from treadload.tire.scan.options import scale_choice, smooth_choice, yes_no_auto
     from treadload.units import quantity
 
     if output is not None:
@@ -87,7 +90,8 @@ def scan(
             nominal_diameter=None if nominal_diameter is None else quantity(nominal_diameter, "m"),
             rotation=quantity(rotation, "rad"),
             camber=quantity(camber, "rad"),
-            revolve=revolve_choice(revolve),
+            revolve=yes_no_auto("revolve", revolve),
+            fill_holes=yes_no_auto("fill_holes", fill_holes),
             smooth=smooth_choice(smooth),
             outliers=outliers,  # type: ignore[arg-type]  # checked where it is used
             roundness=roundness,

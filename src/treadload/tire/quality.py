@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 # By so much lower a wall is told besides the depth, m.
 _LOWER = 0.3e-3
+# Truck tires have up to six grooves round the tire, bicycle and farm tires no more than twice as many.
+_MOST_LISTED = 12
 
 
 @dataclass(frozen=True)
@@ -97,10 +99,15 @@ class ScanQuality:
             + ("" if math.isnan(self.land_ratio) else f", land ratio {self.land_ratio:.0%}")
             + (", revolved from its meridian" if self.revolved else ""),
         ]
+        depths = [1e3 * groove.depth for groove in self.grooves]
+        if len(depths) > _MOST_LISTED:
+            lines.append(
+                f"{len(depths)} grooves, {min(depths):.1f} to {max(depths):.1f} mm deep: no ribbed tread has so many"
+            )
         lines += [
             f"groove at y = {g.centre * 1e3:+.1f} mm: {g.width * 1e3:.1f} mm wide, {g.depth * 1e3:.1f} mm deep"
             + (f", {g.lower_wall * 1e3:.1f} mm at its lower wall" if g.depth - g.lower_wall > _LOWER else "")
-            for g in self.grooves
+            for g in self.grooves[: _MOST_LISTED if len(depths) <= _MOST_LISTED else 0]
         ]
         lines += [f"warning: {text}" for text in self.warnings]
         return "\n".join(lines)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,12 @@ from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire.quality import GrooveMeasure
 
 TOP_BAND = 0.003  # heights this near to the highest at a place across belong to the blocks, not to the voids, m
+HIGH = 0.98  # of the turn lies lower than the tops of blocks
+MISSED = 0.2  # of the sag is between the highest ray on a facet and its corner
 SHALLOWEST = 0.002
 NARROWEST = 0.002
 WIDEST = 0.045
+HOLLOW = 0.008
 STEADY = 0.3e-3  # what the fit of the axle and a drawn tread may be off, m
 CHANGING = 0.005
 WIDEST_FACET = math.radians(61)  # an edge wider than of a hexagon goes through the tire, to a point that stands wrong
@@ -39,7 +43,7 @@ def beside(vertices: Array, y: Array, meridian: Array) -> Array:
 
 def top_meridian(unrolled: Array) -> Array:
     """(ny,) median over the angle of the tops of the blocks, m: voids do not lower it and noise does not raise it."""
-    high = row_quantile(unrolled, 0.98)[:, None]
+    high = row_quantile(unrolled, HIGH)[:, None]
     with np.errstate(invalid="ignore"):
         return row_quantile(np.where(unrolled > high - TOP_BAND, unrolled, np.nan), 0.5)
 
@@ -55,14 +59,24 @@ def row_quantile(values: Array, part: float) -> Array:
     return np.asarray(np.where(share > 0, a + share * (b - a), a), dtype=np.float64)
 
 
-def crown(top: Array, facet_sag: float) -> float:
-    """Outer radius of the tread, m, from the tops of its blocks.
+def crown(top: Array, facet_sag: float, unrolled: Array, largest: float) -> float:
+    """Outer radius of the tread, m: the least of three estimates, each too large for some meshes.
 
-    Facets are chords of the circle: their median lies 3/4 of the sag inside it.
+    top: (ny,) median of the tops of blocks, m. facet_sag: m. unrolled: (ny, nt) radius of the tread, m. largest:
+    radius of the outermost vertex, m, which no point of a mesh exceeds. A facet is a chord, (1 - t²) of the sag
+    inside the circle at t from its middle to its end, -1 to 1: its median lies 3/4 of the sag inside, its 98 %
+    quantile 4 %, or up to 20 % where rays a degree apart miss its ends. The median does not rise with noise; the
+    quantile holds where few facets are as long as the sag, or blocks cover part of the turn.
     """
-    known = np.isfinite(top)
-    smooth = ndimage.median_filter(np.where(known, top, 0.0), size=5, mode="nearest")
-    return float(smooth.max()) + 0.75 * facet_sag
+    middle = without_spikes(top).max() + 0.75 * facet_sag
+    high = without_spikes(row_quantile(unrolled, HIGH)).max() + MISSED * facet_sag
+    return float(min(middle, high, largest))
+
+
+def without_spikes(meridian: Array) -> Array:
+    """A meridian without the places, one or two cells wide, that stand out; 0 where it is not known."""
+    known = np.where(np.isfinite(meridian), meridian, 0.0)
+    return np.asarray(ndimage.median_filter(known, size=5, mode="nearest"), dtype=np.float64)
 
 
 def facet_sag(vertices: Array, faces: NDArray[np.int64], envelope: Array) -> float:
@@ -149,13 +163,37 @@ def groove_depth(y: Array, meridian: Array) -> Array:
     return np.asarray(ndimage.grey_closing(height, size=cells, mode="constant", cval=low) - height, dtype=np.float64)
 
 
-def find_grooves(y: Array, meridian: Array, crown_radius: float) -> tuple[GrooveMeasure, ...]:
+def shallowest_groove(unrolled: Array, top: Array) -> float:
+    """Depth, m, from which on a dip of the meridian is a groove: a third of the voids of lugs, at least 2 mm.
+
+    unrolled: (ny, nt) radius of the tread, m. top: (ny,) envelope, m. Beside lugs the meridian follows their ends,
+    and its ripple is no groove. Voids are what a tenth of the turn is lower than.
+    """
+    void = top - row_quantile(unrolled, 0.1)
+    known = void[np.isfinite(void)]
+    return max(SHALLOWEST, float(np.median(known)) / 3) if known.size else SHALLOWEST
+
+
+def with_floors(meridian: Array, crown_radius: float, floor: float) -> Array:
+    """A meridian (ny,), m, whose unknown places amid the tread lie at a floor, m, where no groove's floor was met."""
+    known = np.flatnonzero(np.isfinite(meridian))
+    if not len(known) or np.nanmin(meridian) < crown_radius - SHALLOWEST:
+        return meridian
+    amid = np.arange(len(meridian))
+    unmet = ~np.isfinite(meridian) & (amid > known[0]) & (amid < known[-1])
+    return np.asarray(np.where(unmet, floor, meridian), dtype=np.float64)
+
+
+def find_grooves(
+    y: Array, meridian: Array, crown_radius: float, shallowest: float = SHALLOWEST
+) -> tuple[GrooveMeasure, ...]:
     """Circumferential grooves of a meridian, from left to right.
 
-    y: (ny,) even steps, m. meridian: (ny,), m. crown_radius: m. Width is taken at half the depth.
+    y: (ny,) even steps, m. meridian: (ny,), m. crown_radius: m. shallowest: depth from which on a dip counts, m.
+    Width is taken at half the depth.
     """
     depth = groove_depth(y, meridian)
-    runs, count = ndimage.label(depth > SHALLOWEST)
+    runs, count = ndimage.label(depth > shallowest)
     grooves = []
     beside = max(1, round(3e-3 / (y[1] - y[0])))
     for piece in ndimage.find_objects(runs, max_label=count):
@@ -181,21 +219,46 @@ def find_grooves(y: Array, meridian: Array, crown_radius: float) -> tuple[Groove
     return tuple(grooves)
 
 
-def land_ratio(y: Array, unrolled: Array, top: Array, rows: BoolArray) -> float:
+def wide_voids(y: Array, top: Array) -> BoolArray:
+    """(ny,) True in voids round the tire that are too wide for a groove, between ribs 8 mm higher or more.
+
+    y: (ny,) even steps, m. top: (ny,) envelope of the tops, m. A tread is worn hollow by less than its 8 mm.
+    """
+    height = np.where(np.isfinite(top), top, np.nanmin(top) if np.isfinite(top).any() else 0.0)
+    left, right = np.maximum.accumulate(height), np.maximum.accumulate(height[::-1])[::-1]
+    low = np.minimum(left, right) - height
+    runs, count = ndimage.label(low > HOLLOW)
+    wide = [one[0] for one in ndimage.find_objects(runs, max_label=count) if np.ptp(y[one[0]]) > WIDEST]
+    out = np.zeros(len(y), dtype=bool)
+    for one in wide:
+        out[one] = True
+    return out
+
+
+def land_ratio(
+    y: Array, unrolled: Array, top: Array, rows: BoolArray, grooves: Sequence[GrooveMeasure] = ()
+) -> float:
     """Share of an unrolled tread (ny, nt) that ribs, blocks and lugs make up; NaN where nothing is known.
 
-    y: (ny,) even steps, m. top: (ny,) envelope of their tops, m. rows: (ny,) True on the tread. Land lies less than
-    3 mm below the tops carried on over grooves. What was not scanned at an angle with tread is as elsewhere.
+    y: (ny,) even steps, m. top: (ny,) envelope of their tops, m. rows: (ny,) True on the tread; rows amid them that
+    are not are voids. Land lies less than 3 mm, or half the depth of the shallowest of the grooves, below the tops
+    carried on over grooves. What was not scanned at an angle with tread is as elsewhere.
     """
+    band = min([TOP_BAND, *(0.5 * one.depth for one in grooves)])
     bridged = top + groove_depth(y, top)
+    rows = rows & ~wide_voids(y, top)
     usual = median_meridian(unrolled)
     turn = unrolled[rows]
     turn = turn[:, np.isfinite(turn).mean(axis=0) > 0.5]
     turn = np.where(np.isfinite(turn), turn, usual[rows][:, None])
     known = np.isfinite(turn) & np.isfinite(bridged[rows])[:, None]
+    if not known.any():
+        return math.nan
     with np.errstate(invalid="ignore"):
-        land = turn > bridged[rows][:, None] - TOP_BAND
-    return float(land[known].mean()) if known.any() else math.nan
+        land = turn > bridged[rows][:, None] - band
+    place = np.flatnonzero(rows)
+    amid = len(place) / (place[-1] - place[0] + 1)
+    return float(land[known].mean() * amid)
 
 
 def _crossing(y: Array, depth: Array, index: int, level: float) -> float:

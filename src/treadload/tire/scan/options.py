@@ -75,11 +75,11 @@ def _is_between(value: object, low: float, high: float) -> bool:
     return not isinstance(value, bool) and isinstance(value, int | float | np.floating) and bool(low <= value <= high)
 
 
-def revolve_choice(word: str) -> Choice:
-    """What a word says about revolving: yes, no or auto. Raises InputError."""
+def yes_no_auto(option: str, word: str) -> Choice:
+    """What a word says of an option: True, False or "auto". Raises InputError."""
     known: dict[str, Choice] = {"yes": True, "true": True, "no": False, "false": False, "auto": "auto"}
     if word.strip().lower() not in known:
-        raise InputError(f"revolve must be yes, no or auto, got {word!r}")
+        raise InputError(f"{option} must be yes, no or auto, got {word!r}")
     return known[word.strip().lower()]
 
 

@@ -183,11 +183,16 @@ def named(mesh: Mesh, reference: Array, groups: list[Indices], far: Moved, middl
     return sorted(outliers, key=lambda one: -one.height)
 
 
-def in_words(outliers: list[Outlier], kept: bool) -> str:
-    """One sentence on what sticks out and was put back, or left."""
+def in_words(outliers: list[Outlier], kept: bool, are_lugs: bool = False) -> str:
+    """One sentence on what sticks out and was put back, or left. are_lugs: it was taken for the tread's own."""
     points = sum(one.points for one in outliers)
     places = "one place" if len(outliers) == 1 else f"{len(outliers)} places"
     which = f"({outliers[0]})" if len(outliers) == 1 else f"(the highest {outliers[0]})"
+    if are_lugs:
+        return (
+            f"the mesh sticks out of the envelope of its tread in {places} {which}; it has no noise, so that these "
+            'are taken for corners of lugs and kept: outliers="refuse" stops at them, and a finer mesh has fewer'
+        )
     if kept:
         return f"the scan sticks out of the tire in {places} {which}, left in it as asked: its tip will carry load"
     return (

@@ -11,6 +11,7 @@ import numpy as np
 from scipy import ndimage
 
 from treadload.errors import GeometryError, InputError
+from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire.quality import Outlier, ScanQuality
 from treadload.tire.scan import cloud_file, laser  # noqa: F401  # their readers register themselves
@@ -23,7 +24,7 @@ from treadload.tire.scan.mesh_file import Mesh, read_mesh
 from treadload.tire.scan.noise import BAND, apart, radial_noise, smoothed, unrolled
 from treadload.tire.scan.options import ScanOptions
 from treadload.tire.scan.rays import Caster, radial
-from treadload.tire.scan.surface import DEEPEST, EXTENT_DROP, SECTOR, SMALL_HOLES, ScanSurface
+from treadload.tire.scan.surface import DEEPEST, EXTENT_DROP, SECTOR, SMALL_HOLES, STANDARD_SPACING, ScanSurface
 from treadload.tire.scan.units import check_diameter, scale_of
 
 POSSIBLE_PROPORTIONS = (0.1, 0.8)  # width over outer diameter
@@ -98,12 +99,15 @@ class _Unrolled:
         theta = np.arange(0.013, 2 * np.pi, math.radians(1))
         floor = outer - 2 * DEEPEST
         # What lies deeper is no tread, and counts as nothing met.
-        high = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2]) > floor
-        caster = Caster(mesh.vertices, mesh.faces[high[mesh.faces].any(axis=1)])
+        radius = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2])
+        high = radius > floor
+        faces = mesh.faces[high[mesh.faces].any(axis=1)]
+        caster = Caster(mesh.vertices, faces)
         turn = radial(caster, theta, y, 1.5 * outer, floor)
         top = unrolling.top_meridian(turn)
         sag = unrolling.facet_sag(mesh.vertices, mesh.faces, unrolling.beside(mesh.vertices, y, top))
-        return cls(theta, y, turn, top, sag, unrolling.crown(top, sag), caster)
+        largest = float(radius[faces].max()) if len(faces) else math.inf
+        return cls(theta, y, turn, top, sag, unrolling.crown(top, sag, turn, largest), caster)
 
     def scaled(self, factor: float) -> _Unrolled:
         lengths = {name: getattr(self, name) * factor for name in ("y", "turn", "top", "sag", "crown")}
@@ -124,9 +128,11 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     _check_seen(seen, name)
     noise, flat, tread = _noise(mesh, seen)
     mesh, outliers = _without_outliers(mesh, seen, noise, far, options.outliers, name)
+    are_lugs = options.outliers == "remove" and len(outliers) > sticking.MOST
+    kept = options.outliers == "keep" or are_lugs
     if outliers:
-        warnings.append(sticking.in_words(outliers, options.outliers == "keep"))
-    if outliers and options.outliers == "remove":
+        warnings.append(sticking.in_words(outliers, options.outliers == "keep", are_lugs))
+    if outliers and not kept:
         seen = _Unrolled.of(mesh, scale * axis.radius)
         _check_seen(seen, name)
         noise, flat, tread = _noise(mesh, seen)
@@ -154,11 +160,27 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     warnings += why
     # Noise raises what is high on most of the turn; where nothing changes round it the middle will do.
     part = 0.5 if steady and noise > LARGEST_NOISE else DEEP_GROOVE
-    land = unrolling.land_ratio(y, seen.turn, seen.top, rows)
-    grooves = unrolling.find_grooves(y, unrolling.high_meridian(seen.turn, part), crown)
+    floor = scale * axis.radius - 2 * DEEPEST
+    ribbed = unrolling.high_meridian(seen.turn, part)
+    floored = unrolling.with_floors(ribbed, crown, floor)
+    shallowest = unrolling.SHALLOWEST if steady else unrolling.shallowest_groove(seen.turn, seen.top)
+    grooves = unrolling.find_grooves(y, floored, crown, shallowest)
+    if grooves and floored is not ribbed and (floored == floor).any():
+        warnings.append(
+            f"no ray met the floor of a groove within {(crown - floor) * 1e3:.0f} mm below the crown: the grooves "
+            "are deeper than their depths here, or their floors were not scanned"
+        )
+    void = unrolling.wide_voids(y, np.where(rows, seen.top, np.nan)) & rows
+    if void.any():
+        warnings.append(
+            f"{void.sum() * (y[1] - y[0]) * 1e3:.0f} mm of the width lie in voids wider than the "
+            f"{unrolling.WIDEST * 1e3:.0f} mm of a groove: none of them is listed, and all count as void"
+        )
+    land = unrolling.land_ratio(y, seen.turn, seen.top, rows, grooves)
     if turning:
-        meridian = envelope = meridian + 0.75 * seen.sag
-        crown = crown if steady else unrolling.crown(meridian, 0.0)
+        highest = float(unrolling.without_spikes(meridian).max())
+        meridian = envelope = meridian + min(0.75 * seen.sag, crown - highest)
+        crown = min(highest + 0.75 * seen.sag, crown)
     over = unrolling.scatter(seen.turn, meridian)[rows]
     spacing = apart(flat, tread) if options.smooth is not False else math.nan
     length, why = decide_smoothing(options.smooth, turning, steady, noise, spacing)
@@ -194,11 +216,15 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     surface = ScanSurface(
         vertices, mesh.faces, float(options.camber), y, meridian, envelope, quality, options.fill_holes, name
     )
-    if not (turning or length > 0 or rescaled or (outliers and options.outliers == "keep")):
+    if not (turning or length > 0 or rescaled or (outliers and kept)):
         surface.__dict__["_caster"] = seen.caster.moved(np.array([0.0, y[0] - seen.y[0], 0.0]))
     coverage, holes = surface.coverage
     if coverage < 1 - SMALL_HOLES:
         warnings.append(f"{1 - coverage:.1%} of the tread over the road was not scanned ({holes} holes)")
+        try:
+            surface.height_map(Grid.centred(*surface.extent, STANDARD_SPACING))
+        except GeometryError as error:
+            warnings.append(f"a contact with this scan will be rejected: {error}")
     quality = replace(quality, coverage=coverage, holes=holes, hole_fraction=1 - coverage, warnings=tuple(warnings))
     return surface.with_report(quality)
 
@@ -230,7 +256,8 @@ def _without_outliers(
     outliers = sticking.named(mesh, reference, groups, far, middle)
     if not outliers:
         return mesh, []
-    if wanted == "keep":
+    are_lugs = wanted == "remove" and len(outliers) > sticking.MOST and noise < LARGEST_NOISE
+    if wanted == "keep" or are_lugs:
         return replace(mesh, vertices=far.undone(mesh.vertices)), outliers
     if wanted == "refuse" or len(outliers) > sticking.MOST:
         raise GeometryError(
@@ -271,7 +298,7 @@ def _check_seen(seen: _Unrolled, name: str) -> None:
             "between them; check that the file holds one tire and nothing else (no rim, ground or fixture)"
         )
     with np.errstate(invalid="ignore"):
-        if not (seen.top > seen.crown - EXTENT_DROP).any():
+        if seen.sag > EXTENT_DROP or not (seen.top > seen.crown - EXTENT_DROP).any():
             raise GeometryError(
                 f"the facets of {name!r} cut {seen.sag * 1e3:.0f} mm under the circle through their corners and "
                 f"hide its tread of {EXTENT_DROP * 1e3:.0f} mm; export the mesh finer"

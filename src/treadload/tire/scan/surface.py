@@ -242,7 +242,7 @@ class ScanSurface:
                 f"the scan has holes in {share:.1%} of the area where the contact will be ({holes.sum()} of "
                 f"{contact.sum()} cells, x from {x.min() * 1e3:.0f} to {x.max() * 1e3:.0f} mm, y from "
                 f"{y.min() * 1e3:.0f} to {y.max() * 1e3:.0f} mm); turn the wheel with rotation=, or fill them "
-                "from the rest of the turn with fill_holes=True (right for circumferential grooves)"
+                "from the rest of the turn with fill_holes=True (--fill-holes yes; right for circumferential grooves)"
             )
 
 

@@ -84,6 +84,7 @@ def check_diameter(diameter: float, unit: str, name: str) -> None:
     low, high = POSSIBLE_DIAMETERS
     if not low <= diameter <= high:
         raise InputError(
-            f"in {unit} the tire of {name!r} would have an outer diameter of {diameter:.3g} m, outside "
-            f"{low} to {high} m; give other units=, nominal_diameter= or scale="
+            f"in {unit} the tire of {name!r} would have an outer diameter of {diameter:.3g} m, outside {low} to "
+            f"{high} m, for which the bands of a tread (3 mm) are made; give other units=, nominal_diameter= or "
+            f"scale=, and scale a model up where {diameter:.3g} m is right"
         )
