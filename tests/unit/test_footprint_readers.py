@@ -273,6 +273,7 @@ def test_headers_and_data_at_odds_are_refused(tmp_path, text, words):
 
 def test_closed_formats_and_files_that_are_none(tmp_path):
     assert "closed; export it from I-Scan as ASCII" in said(written(tmp_path, "x", "a.fsx"))
+    assert "entry point 'xsn' of treadload.footprints" in said(written(tmp_path, "x", "a.xsn"))
     assert "export a plain matrix" in said(written(tmp_path, "x", "a.xsn"))
     assert "there is no file" in said(tmp_path / "none.csv")
     wide = picture(tmp_path, np.zeros((1, 4_000_001, 3)), "wide.png")
@@ -410,8 +411,11 @@ def test_another_package_reads_another_format(tmp_path, monkeypatch):
         def read(path, *, side=1):
             return Frames(np.full((1, 3, 3), float(side)), 1e-2, 1e-2, (1e5, 1.0), source="lab")
     """
-    build(tmp_path, "lab_mats", "[treadload.footprints]\nlab = lab_mats.mats:read\n", mats=module)
+    points = "[treadload.footprints]\nlab = lab_mats.mats:read\nfsx = lab_mats.mats:read\n"
+    build(tmp_path, "lab_mats", points, mats=module)
     monkeypatch.syspath_prepend(str(tmp_path))
+    # A format that is closed to this package may be open to another.
+    assert read_footprint(written(tmp_path, "x", "one.fsx"), side=2).peak_pressure == 2e5
     path = written(tmp_path, "x", "one.lab")
     assert read_footprint(path, side=4).peak_pressure == 4e5
     assert "knows no option 'sides'; did you mean 'side'" in said(path, sides=4)

@@ -157,10 +157,14 @@ def _format_of(path: Path, asked: str | None) -> str:
     if asked is not None:
         return asked
     suffix = path.suffix.lower()
-    if suffix in _CLOSED:
-        raise InputError(f"{path} is in {_CLOSED[suffix]}")
+    # Another package may read what is closed to this one.
     if suffix[1:] in FOOTPRINTS.names():
         return suffix[1:]
+    if suffix in _CLOSED:
+        raise InputError(
+            f"{path} is in {_CLOSED[suffix]}; or install a package with a reader of {suffix} files (entry point "
+            f"{suffix[1:]!r} of {FOOTPRINTS.group})"
+        )
     if suffix in _PICTURES:
         return "picture"
     if suffix in (".nc", ".nc4", ".h5"):
