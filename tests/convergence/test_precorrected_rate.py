@@ -18,10 +18,10 @@ def test_twelfth_order_in_the_distance_to_the_nearest_cell_interpolated(monkeypa
         return fields_on_grid(load, 1.0, 1.0, np.zeros(1), 1.0, 0.35, x, y, method)[1][0, 2]
 
     exact = [settlement(*at, "direct") for at in places]
-    monkeypatch.setattr(gridded, "_cheapest", lambda *_: (0.0, "precorrected", 1))
+    monkeypatch.setattr(gridded, "_cheapest", lambda *at: [(0.0, "precorrected", 1)] * len(at[3]))
     errors = []
     for reach, at, values in zip(reaches, places, exact, strict=True):
-        monkeypatch.setattr(precorrected, "_REACH", reach)
+        monkeypatch.setattr(precorrected, "FINE", precorrected.Order(12, reach))
         errors.append(np.abs(settlement(*at, "precorrected") - values).max() / values.max())
     rates = -np.diff(np.log(errors)) / np.diff(np.log(reaches))
     # Degree 11 in x and y leaves the twelfth derivative, which falls with the twelfth power beyond the load's own.

@@ -5,7 +5,7 @@ import pytest
 
 from treadload.kernels.gridding import gridded, precorrected
 from treadload.kernels.half_space.bilinear import bilinear_on_grid
-from treadload.kernels.half_space.interior import fields_on_grid
+from treadload.kernels.half_space.interior import fields_on_grid, sums_on_grid
 
 DX = 0.003
 WAYS = {"constant": fields_on_grid, "bilinear": bilinear_on_grid}
@@ -37,7 +37,7 @@ def anywhere(count, cells, size, seed=6):
 @pytest.mark.parametrize("depth", [0.0, 0.2 * DX, 3 * DX, 12 * DX])
 @pytest.mark.parametrize("nodes", [1, 2, 4])
 def test_interpolation_is_the_sum(way, depth, nodes, monkeypatch):
-    monkeypatch.setattr(gridded, "_cheapest", lambda *_: (0.0, "precorrected", nodes))
+    monkeypatch.setattr(gridded, "_cheapest", lambda *at: [(0.0, "precorrected", nodes)] * len(at[3]))
     load, x, y = rough(16, 20), anywhere(13, 20, DX), anywhere(11, 16, DX, 7)
     found, used = both(way, load, DX, DX, depth, x, y, "precorrected")
     assert used == "precorrected"
@@ -79,8 +79,8 @@ def test_points_away_from_the_load():
 def test_stencils_hold_polynomials():
     at = np.random.default_rng(1).uniform(-3, 9, 40)
     for nodes in (1, 2, 3):
-        stencils = precorrected._Stencils.of(at, nodes)
-        for power in range(precorrected.STENCIL):
+        stencils = precorrected._Stencils.of(at, nodes, precorrected.FINE.stencil)
+        for power in range(precorrected.FINE.stencil):
             total = np.zeros(len(at))
             for start, count, back in stencils.lattices():
                 total += back @ ((start + np.arange(count)) / 10) ** power
@@ -93,3 +93,28 @@ def test_the_cheapest_way_is_taken_at_each_depth():
     assert both("constant", load, DX, DX, 0.0, x, y, "auto")[1] == "precorrected"
     assert both("constant", load, DX, DX, 0.0, DX * np.arange(30), DX * np.arange(30.0), "auto")[1] == "fft"
     assert both("constant", load, DX, DX, 0.0, x[:1], y[:2], "auto")[1] == "direct"
+
+
+def test_what_is_kept_serves_further_points():
+    """The same numbers for patches that come one after the other, also for a load on nearly as many cells."""
+    loads, keeper = [rough(16, 20), rough(15, 19)], precorrected.Keeper()
+    depths, mean = np.array([0.7, 2.6]) * DX, np.array([[0.5, 0.5]])
+    for corner in (4.2, 9.6, -3.0):
+        x, y = DX * (corner + np.arange(13) / 6), DX * (corner - 1 + np.arange(13) / 6)
+        for load in loads:
+            found, _ = sums_on_grid(load, DX, DX, depths, mean, 0.35, x, y, moves=False, kept=keeper)
+            alone, used = sums_on_grid(load, DX, DX, depths, mean, 0.35, x, y, "precorrected", moves=False)
+            rougher, _ = sums_on_grid(
+                load, DX, DX, depths, mean, 0.35, x, y, moves=False, kept=keeper.with_order(precorrected.ROUGH)
+            )
+            exact, _ = sums_on_grid(load, DX, DX, depths, mean, 0.35, x, y, "direct", moves=False)
+            assert used == "precorrected"
+            # Interpolation leaves 1e-9, round-off of transforms on other numbers of cells less.
+            assert apart(found[0], exact[0]) < 1e-8
+            assert apart(found[0], alone[0]) < 1e-9
+            # As measured, with a margin: see `ROUGH`.
+            assert apart(rougher[0], exact[0]) < 2e-6
+    # One kernel, whose transforms for nine lattices of nodes serve both loads.
+    (kept,) = keeper.known.values()
+    assert len(kept.nodes) == 18
+    assert len(kept.spectra) == 9

@@ -11,16 +11,19 @@ import numpy as np
 import xarray as xr
 from scipy.ndimage import maximum_filter
 
+from treadload import variables
 from treadload.composing import Source
 from treadload.damage.cracks import crack_plane, gridded
 from treadload.damage.history import with_horizontal_stress
 from treadload.damage.laws.fatigue import PowerLaw
-from treadload.damage.quantity import Quantity, cut
+from treadload.damage.quantity import STRAIN, STRESS, Quantity, cut, part
 from treadload.errors import InputError
+from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import on_interface, same_depth
 from treadload.response import Response, solve_response
 from treadload.response.loads import PlacedLoad
+from treadload.response.means import Means
 from treadload.response.superposition import mean_loads
 
 # Points around the worst of a map, in a material length; and again around the worst of those.
@@ -31,8 +34,13 @@ _RIVAL = 0.94
 _RIVALS = 8
 # Depths between two of the response that are looked at below the worst point.
 _DEPTHS = 4
+# Points each way between which the fields nearest to the worst one are interpolated.
+_CHEBYSHEV = 5
+# A point that was found may differ by this much when it is read in full.
+_ROUGH = 1e-5
 # Readings nearer to each other than this are the same.
 _SAME = 1e-6
+_PRINCIPAL = "principal_strain_1", "in_plane_strain_1"
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,12 +68,25 @@ class Field:
     @cached_property
     def crack(self) -> tuple[Array, Array]:
         """Angle of the trace and dip, rad; NaN where no crack opens."""
-        normal = self.quantity.crack(self.data)
+        return self.crack_at(slice(None))
+
+    def crack_at(self, rows: slice) -> tuple[Array, Array]:
+        """The same at some of the depths."""
+        data = self.data.isel(depth=rows)
+        normal, value = self.quantity.crack(data), self.value[rows]
         if normal is None:
-            normal = np.full((*self.extension.shape, 3), np.nan)
+            normal = np.full((*value.shape, 3), np.nan)
         angle, dip = crack_plane(normal)
-        opens = self.value > 0
-        return np.where(opens, angle, np.nan), np.where(opens, dip, np.nan)
+        return np.where(value > 0, angle, np.nan), np.where(value > 0, dip, np.nan)
+
+    @property
+    def largest(self) -> dict[str, float]:
+        """The largest principal strain in space and in the horizontal plane."""
+        if all(name in self.data for name in _PRINCIPAL):
+            return {name: float(self.data[name].max()) for name in _PRINCIPAL}
+        strain = np.stack([part(self.data, name) for name in STRAIN])
+        values = tensors.largest_principal(strain), tensors.in_plane_principal(strain)[0]
+        return {name: float(value.max()) for name, value in zip(_PRINCIPAL, values, strict=True)}
 
     @cached_property
     def worst(self) -> tuple[int, int, int]:
@@ -94,10 +115,11 @@ def local_field(response: Source, line: PowerLaw, depth: float) -> xr.Dataset:
     return data.isel(depth=[nearest])
 
 
-def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Dataset, list[str]]:
+def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Dataset, list[str], Means | None]:
     """Means over a length, m, at the depths of a response that the law applies to; and what to say of the others.
 
-    A response that is a mean is taken as it is. Raises InputError for one without its road.
+    A response that is a mean is taken as it is. Returns as well the means anywhere else, None where the road cannot
+    be solved again. Raises InputError for a response of points without its road.
     """
     data = gridded(response)
     if line.reads.where.at_bottom:
@@ -106,15 +128,18 @@ def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Data
         )
     if "mean_over" in data.attrs:
         depths, said = _asked(data, line)
-        return data.isel(depth=np.flatnonzero(np.isin(data["depth"], depths)).tolist()), said
+        means = None
+        if isinstance(response, Response) and response.road is not None:
+            means = Means.of(response, float(data.attrs["mean_over"]))
+        return data.isel(depth=np.flatnonzero(np.isin(data["depth"], depths)).tolist()), said, means
     if not isinstance(response, Response) or response.road is None:
         raise InputError(
             "a mean over the road needs a response of solve_response, whose road can be solved again; give depth= "
             "to read the points of this one as they are"
         )
     depths, said = _asked(data, line)
-    at = {"x": data["x"].to_numpy(), "y": data["y"].to_numpy()}
-    return _solved(response, depths, length, **at), said
+    means = Means.of(response, length)
+    return _read(means, line.reads, depths, x=data["x"].to_numpy(), y=data["y"].to_numpy()), said, means
 
 
 def under_both(response: Source, shifted: Sequence[PlacedLoad], depth: float | None) -> Response:
@@ -130,57 +155,94 @@ def under_both(response: Source, shifted: Sequence[PlacedLoad], depth: float | N
     return replace(response, loads=tuple(mean_loads([response.loads, shifted])))
 
 
-def closer(response: Source, field: Field) -> Field | None:
-    """The field on points close to each other around its worst point; None where the road cannot be solved again.
+def closer(means: Means, field: Field) -> tuple[Field, dict[str, float]] | None:
+    """The worst point between those of a field, and the largest strains around it; None where the map is too coarse.
 
     field: means over (depth, y, x). The map's points lie as far apart as its cells, and the largest reading lies
     between them: by round maxima a little higher, by the line where tension ends, which cuts the reading off at once,
     by up to a twentieth. So the neighbourhood is searched twice, and that of every maximum near the largest; then the
-    depths between those of the field, under the worst point, and the neighbourhood there.
+    depths between those of the field, under the worst point, and the neighbourhood there. Fields within 1e-6 are
+    enough to find the point; it is then read in full.
     """
-    if not isinstance(response, Response) or response.road is None:
-        return None
-    fields = [near for at in _rivals(field) if (near := _nearer(response, field, at)) is not None]
+    if not means.road.is_viscoelastic:
+        found = _worst_between(means, field, rough=True)
+        if found is None:
+            return None
+        row, j, i = found.worst
+        depth, y, x = (found.data[name].to_numpy()[k : k + 1] for name, k in (("depth", row), ("y", j), ("x", i)))
+        exact = replace(found, data=_read(means, found.quantity, depth, x=x, y=y))
+        # Beside the line where tension ends either of them may lie beyond it.
+        if abs(_largest(exact) / _largest(found) - 1) < _ROUGH:
+            return exact, found.largest
+    found = _worst_between(means, field, rough=False)
+    return None if found is None else (found, found.largest)
+
+
+def _worst_between(means: Means, field: Field, *, rough: bool) -> Field | None:
+    """The field around the worst point that `closer` looks for; rough: see `Means.at`."""
+    fields = [near for at in _rivals(field) if (near := _nearer(means, field, at, rough=rough)) is not None]
     if not fields:
         return None
     best = max(fields, key=_largest)
     finer = {
         name: _between(best.data[name].to_numpy(), k) for name, k in zip(("y", "x"), best.worst[1:], strict=True)
     }
-    finest = replace(best, data=_solved(response, best.data["depth"].to_numpy(), best.length, **finer))
+    read = _read_between if rough else _read
+    finest = replace(best, data=read(means, best.quantity, best.data["depth"].to_numpy(), rough=rough, **finer))
     best = max(best, finest, key=_largest)
-    return max(best, _deeper(response, field, best), key=_largest)
+    return max(best, _deeper(means, field, best, rough=rough), key=_largest)
 
 
 def _largest(field: Field) -> float:
     return float(field.value[field.worst])
 
 
-def _deeper(response: Response, field: Field, best: Field) -> Field:
+def _deeper(means: Means, field: Field, best: Field, *, rough: bool) -> Field:
     """The neighbourhood of the worst place at the worst depth between those of a field; the best if that is worse."""
     depths = field.data["depth"].to_numpy()
     if len(depths) < 2:
         return best
-    parts = np.arange(1, _DEPTHS + 1) / (_DEPTHS + 1)
-    between = (depths[:-1, None] + np.diff(depths)[:, None] * parts).ravel()
     _, j, i = best.worst
     here = {"y": best.data["y"].to_numpy()[j : j + 1], "x": best.data["x"].to_numpy()[i : i + 1]}
-    column = replace(best, data=_solved(response, between, best.length, **here))
-    # And again between the neighbours of the worst of them.
-    worst = between[column.worst[0]]
-    beside = np.diff(depths)[int(np.searchsorted(depths, worst)) - 1] / (_DEPTHS + 1)
-    closer_by = worst + beside * np.arange(-_DEPTHS, _DEPTHS + 1) / (_DEPTHS + 1)
-    column = replace(best, data=_solved(response, closer_by, best.length, **here))
+    most, own = _worst_below(means, best, depths, here, rough=rough)
     # Cubes less than half a length deep are one and the same.
-    if not _largest(column) > _largest(best) * (1 + _SAME):
+    if not most > _largest(best) * (1 + _SAME):
         return best
-    own = closer_by[column.worst[0] : column.worst[0] + 1]
     apart = {name: np.abs(np.diff(field.data[name].to_numpy()[:2])) for name in here}
     around = {
         name: at + (step / _FINER * np.arange(-_FINER, _FINER + 1) if len(step) else np.zeros(1))
         for (name, at), step in zip(here.items(), apart.values(), strict=True)
     }
-    return max(column, replace(best, data=_solved(response, own, best.length, **around)), key=_largest)
+    return replace(best, data=_read(means, best.quantity, np.array([own]), rough=rough, **around))
+
+
+def _worst_below(
+    means: Means, best: Field, depths: Array, here: dict[str, Array], *, rough: bool
+) -> tuple[float, float]:
+    """The largest reading below the worst place of the best field, at depths between some, m; and its depth.
+
+    here: y and x of the place, (1,) each.
+    """
+    known = {means.reads(float(best.data["depth"][best.worst[0]])): _largest(best)}
+
+    def readings(at: Array) -> Array:
+        """Of cubes around depths; those that reach as far are read once."""
+        reads = [means.reads(float(depth)) for depth in at]
+        new = {read: depth for read, depth in zip(reads, at, strict=True) if read not in known}
+        if new:
+            column = replace(best, data=_read(means, best.quantity, np.array([*new.values()]), rough=rough, **here))
+            known.update(zip(new, column.value[:, 0, 0].tolist(), strict=True))
+        return np.array([known[read] for read in reads])
+
+    parts = np.arange(1, _DEPTHS + 1) / (_DEPTHS + 1)
+    between = (depths[:-1, None] + np.diff(depths)[:, None] * parts).ravel()
+    worst = between[int(np.argmax(readings(between)))]
+    # And again between the neighbours of the worst of them.
+    beside = np.diff(depths)[int(np.searchsorted(depths, worst)) - 1] / (_DEPTHS + 1)
+    closer_by = worst + beside * np.arange(-_DEPTHS, _DEPTHS + 1) / (_DEPTHS + 1)
+    values = readings(closer_by)
+    k = int(np.argmax(values))
+    return float(values[k]), float(closer_by[k])
 
 
 def _rivals(field: Field) -> list[tuple[int, int, int]]:
@@ -203,7 +265,7 @@ def _rivals(field: Field) -> list[tuple[int, int, int]]:
     return first if field.worst in first else [field.worst, *first]
 
 
-def _nearer(response: Response, field: Field, at: tuple[int, int, int]) -> Field | None:
+def _nearer(means: Means, field: Field, at: tuple[int, int, int], *, rough: bool) -> Field | None:
     """The field up to the neighbours of a point of its map; None where they are too far."""
     row, *place = at
     plane = (field.data[name].to_numpy() for name in ("y", "x"))
@@ -212,7 +274,7 @@ def _nearer(response: Response, field: Field, at: tuple[int, int, int]) -> Field
         return None
     y, x = (np.asarray(one) for one in around)
     depth = field.data["depth"].to_numpy()[row : row + 1]
-    return replace(field, data=_solved(response, depth, field.length, x=x, y=y))
+    return replace(field, data=_read(means, field.quantity, depth, x=x, y=y, rough=rough))
 
 
 def _between(at: Array, k: int) -> Array:
@@ -223,17 +285,49 @@ def _between(at: Array, k: int) -> Array:
     return fine
 
 
-def _solved(response: Response, depths: Array, length: float, *, x: Array, y: Array) -> xr.Dataset:
-    assert response.road is not None
-    data = solve_response(
-        response.loads, response.road, depths=depths, x=x, y=y, speed=response.speed, side=response.side,
-        mean_over=length,
-    ).dataset  # fmt: skip
+def _read(means: Means, quantity: Quantity, depths: Array, *, x: Array, y: Array, rough: bool = False) -> xr.Dataset:
+    """Means at depths, over (depth, y, x), with the thermal stress that was added to the response."""
+    response = means.response
+    if set(quantity.needs) <= {*STRESS, *STRAIN}:
+        data = means.at(depths, x, y, rough=rough)
+    else:
+        data = solve_response(
+            response.loads, means.road, depths=depths, x=x, y=y, speed=response.speed, side=response.side,
+            mean_over=means.length,
+        ).dataset  # fmt: skip
     if not response.restrained:
         return data
     own = np.asarray(response.dataset["depth"].to_numpy())
-    stress = [response.restrained[int(np.argmin(np.abs(own - depth)))] for depth in data["depth"].to_numpy()]
+    stress = [response.restrained[int(np.argmin(np.abs(own - depth)))] for depth in depths]
     return with_horizontal_stress(data, np.array(stress))
+
+
+def _read_between(means: Means, quantity: Quantity, depths: Array, *, x: Array, y: Array, rough: bool) -> xr.Dataset:
+    """The same on points so near to each other that polynomials between few of Chebyshev's points give their fields.
+
+    The mean over a cube is that of points a fifth of its side below the surface or deeper, which is five times as far
+    as these reach; polynomials through n of Chebyshev's points then err as 10^-n.
+    """
+    (from_x, at_x), (from_y, at_y) = (_chebyshev(at) for at in (x, y))
+    few = _read(means, quantity, depths, x=at_x, y=at_y, rough=rough)
+    fields = {
+        str(name): (("depth", "y", "x"), np.einsum("ya,zab,xb->zyx", from_y, few[name].to_numpy(), from_x))
+        for name in few.data_vars
+    }
+    return variables.dataset(fields, {"depth": depths, "y": y, "x": x}, **few.attrs)
+
+
+def _chebyshev(at: Array) -> tuple[Array, Array]:
+    """Weights (m, n) of values at n points in those at m coordinates between, m, and the points; all if few."""
+    if len(at) <= _CHEBYSHEV:
+        return np.eye(len(at)), at
+    unit = np.cos(np.pi * (np.arange(_CHEBYSHEV) + 0.5) / _CHEBYSHEV)
+    middle, half = 0.5 * (at.max() + at.min()), 0.5 * np.ptp(at)
+    # Lagrange's polynomials.
+    others = ~np.eye(_CHEBYSHEV, dtype=bool)
+    away = ((at - middle) / half)[:, None, None] - unit
+    apart = np.where(others, np.subtract.outer(unit, unit), 1.0)
+    return np.where(others, away, 1.0).prod(axis=2) / apart.prod(axis=1), middle + half * unit
 
 
 def _around(at: Array, k: int, length: float) -> Array | None:

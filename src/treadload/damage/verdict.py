@@ -172,23 +172,24 @@ def assess(
     if shifted is not None:
         response = under_both(response, gather(shifted), depth)
     if depth is None:
-        data, said = mean_field(response, line, mean_over)
+        data, said, means = mean_field(response, line, mean_over)
         reading = f"mean over {float(data.attrs['mean_over']) * 1e3:g} mm"
     else:
-        data, said = local_field(response, line, depth), []
+        data, said, means = local_field(response, line, depth), [], None
         reading = "local, depends on the cells" if depth < _FELT else "local"
     quantity = line.reads if strain is None else line.reads.with_strain(strain)
     field = Field(data, quantity)
     row = field.worst[0]
     deep = float(data["depth"][row])
-    near = (closer(response, field) if depth is None and field.value[field.worst] > 0 else None) or field
+    found = closer(means, field) if means is not None and field.value[field.worst] > 0 else None
+    near, around = (field, field.largest) if found is None else found
     at = near.worst
     if near is not field:
         deep = float(near.data["depth"][at[0]])
         # Fields are drawn at the depth of the response that is nearest to it.
         row = int(np.abs(data["depth"].to_numpy() - deep).argmin())
     opens = bool(near.value[at] > 0)
-    angle, dip = (part[row] for part in field.crack)
+    angle, dip = (part[0] for part in field.crack_at(slice(row, row + 1)))
     worst_angle, worst_dip = (float(part[at]) for part in near.crack)
     codes = orientation(np.append(angle, worst_angle), np.append(dip, worst_dip), oblique_tolerance)
     dims, none = ("y", "x"), ()
@@ -209,10 +210,7 @@ def assess(
         "worst_crack_dip": (none, worst_dip),
         "worst_crack_orientation": (none, codes[-1]),
     }
-    largest = {
-        name: max(float(one.data[name].max()) for one in (field, near))
-        for name in ("principal_strain_1", "in_plane_strain_1")
-    }
+    largest = {name: max(value, around[name]) for name, value in field.largest.items()}
     unread = float(field.extension.max())
     if opens and unread > _NOTABLE * float(near.value[at]):
         said.append(

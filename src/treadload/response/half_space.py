@@ -11,6 +11,7 @@ from treadload.kernels.anisotropy import interior
 from treadload.kernels.anisotropy.interior import Modes
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
+from treadload.kernels.gridding.precorrected import Keeper
 from treadload.kernels.half_space.bilinear import bilinear_sums_on_grid
 from treadload.kernels.half_space.disc import disc_fields
 from treadload.kernels.half_space.interior import sums_on_grid
@@ -32,12 +33,17 @@ def half_space_response(
     y: Array,
     at: Points | None = None,
     tell: Callable[[str], None] | None = None,
+    *,
+    mean: Array | None = None,
+    moves: bool = True,
+    kept: Keeper | None = None,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a half-space under superposed loads.
 
     material: of the half-space. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates.
     at: of the grid of x and y only these points, line by line or summed directly. tell: called with a line of text
-    at every load of several.
+    at every load of several. mean, kept: see `half_space_fields`; of an isotropic material, or one that is the same
+    in all horizontal directions, alone. moves: False leaves the displacement out, NaN.
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
     `kernels.half_space.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where
     x and y lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
@@ -52,8 +58,11 @@ def half_space_response(
     else:
         unit = material.upright[0]
         medium, loads = modes_of(material, unit), on_cells(loads)
-    ((fields, method),) = half_space_fields([loads], medium, depths, x, y, at, tell)
-    stress, displacement = np.moveaxis(fields[:, :6], 1, 0), np.moveaxis(fields[:, 6:], 1, 0) / unit
+    ((fields, method),) = half_space_fields(
+        [loads], medium, depths, x, y, at, tell, moves=moves, mean=mean, kept=kept
+    )  # fmt: skip
+    stress = np.moveaxis(fields[:, :6], 1, 0)
+    displacement = np.moveaxis(fields[:, 6:], 1, 0) / unit if moves else np.full((3, *stress.shape[1:]), np.nan)
     return stress, material.strain(stress), displacement, method
 
 
@@ -69,6 +78,7 @@ def half_space_fields(
     moves: bool = True,
     precision: type[np.floating[Any]] = np.float64,
     mean: Array | None = None,
+    kept: Keeper | None = None,
 ) -> list[tuple[Array, str]]:
     """Stress and displacement times the shear modulus, (nz, 9, my, mx), and the method, for each of some loads.
 
@@ -76,7 +86,8 @@ def half_space_fields(
     another along z; the shear modulus is then that of the horizontal plane. Or the modes of any other anisotropy, and
     the unit of its stiffness, for loads on cells alone. The others as in `half_space_response`;
     moves: False leaves the displacement out, (nz, 6, my, mx). precision: of convolutions and of what is returned.
-    mean: weights (rows, nz) of sums over the depths, which are given in their place; not of modes. What cells do to
+    mean: weights (rows, nz) of sums over the depths, which are given in their place; not of modes. kept: what further
+    calls under the same loads need again, see `kernels.gridding.precorrected`. What cells do to
     each other is computed once for all loads that stand on the same cells, and once for wheels behind each other that
     press alike.
     """
@@ -104,7 +115,7 @@ def half_space_fields(
     for (print_, places), members in _prints(loads).items():
         said(len(places) * len(members))
         array = np.stack([member for _, member in members], axis=1).astype(precision, copy=False)
-        fields, method = _under_print(print_, places, array, medium, depths, sums, x, y, at, moves=moves)
+        fields, method = _under_print(print_, places, array, medium, depths, sums, x, y, at, moves=moves, kept=kept)
         for column, (owner, _) in enumerate(members):
             results[owner] += fields[:, :, column]
             methods[owner].add(method)
@@ -151,6 +162,7 @@ def _under_print(
     at: Points | None,
     *,
     moves: bool,
+    kept: Keeper | None,
 ) -> tuple[Array, str]:
     """Fields (rows, 9 or 6, n, my, mx) of arrays (3, n, ny, nx) on the same cells, summed over their places."""
     _, _, dx, dy, y0, interpolation = cells
@@ -163,7 +175,7 @@ def _under_print(
             )
             return np.concatenate([stress, displacement] if moves else [stress], axis=1), method
         closed = bilinear_sums_on_grid if interpolation == "bilinear" else sums_on_grid
-        return closed(array, dx, dy, depths, mean, medium, x, y, moves=moves)
+        return closed(array, dx, dy, depths, mean, medium, x, y, moves=moves, kept=kept)
 
     def fields(x: Array, y: Array) -> Array:
         apart = (x - np.array(places)[:, None]).ravel()

@@ -13,6 +13,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.gridded import grid_cost
 from treadload.kernels.gridding.points import Points
+from treadload.kernels.gridding.precorrected import Keeper
 from treadload.kernels.layers.hankel import AxialPlanes, Disc, synthesise_discs
 from treadload.kernels.layers.layered import Stack, transfer
 from treadload.kernels.layers.synthesis import FULL, Accuracy, Cells, ElasticPlane, rule, synthesise_cells
@@ -43,7 +44,8 @@ class View:
     """What is asked of fields, and where.
 
     x: (mx,), y: (my,), m, any coordinates. at: of the grid of x and y only these points. components: those needed of
-    xx, yy, zz, xy, xz, yz and u_x, u_y, u_z. accuracy: of the waves.
+    xx, yy, zz, xy, xz, yz and u_x, u_y, u_z. accuracy: of the waves. kept: of other views of the same loads, see
+    `half_space_fields`.
     """
 
     x: Array
@@ -51,6 +53,7 @@ class View:
     at: Points | None = None
     components: Sequence[int] = ALL
     accuracy: Accuracy = FULL
+    kept: Keeper | None = None
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -287,6 +290,7 @@ class _Top:
                 moves=max(view.components) > _YZ,
                 precision=view.accuracy.precision,
                 mean=mean[rows],
+                kept=view.kept,
             )
         top, method = self.known[key][load]
         for place, component in enumerate(view.components):

@@ -6,7 +6,7 @@ spread over as much.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -17,6 +17,7 @@ from treadload import variables
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.synthesis import READING
+from treadload.materials.kinds import Solid
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS, tensor_fields
 from treadload.response.half_space import half_space_response
@@ -100,8 +101,12 @@ def answers(
     speed: float | None,
     mean_over: float | None,
     tell: Callable[[str], None] | None = None,
+    spread: Mapping[int, Loads] | None = None,
 ) -> list[Answer]:
-    """Stress, strain and displacement for each question in a view; arguments as in `solve_response`."""
+    """Stress, strain and displacement for each question in a view; arguments as in `solve_response`.
+
+    spread: loads that are spread over the length already, by the `id` of those of a question.
+    """
     asked = [replace(one, road=at_speed(one.road, speed)) for one in questions]
 
     def solve(several: Sequence[Question]) -> Iterator[MovingFields]:
@@ -112,7 +117,12 @@ def answers(
 
     if mean_over is None:
         return [Answer(fields, None) for fields in solve(asked)]
-    return _over_windows(solve, asked, mean_over, side)
+    return _over_windows(solve, asked, mean_over, side, spread or {})
+
+
+def all_spread(loads: Loads, length: float) -> Loads:
+    """Loads whose response is the mean over squares of a length, m, of that of some loads."""
+    return merged([spread_over(load, length) for load in loads])
 
 
 def _over_windows(
@@ -120,9 +130,10 @@ def _over_windows(
     asked: Sequence[Question],
     length: float,
     side: Side,
+    known: Mapping[int, Loads],
 ) -> list[Answer]:
     """Means over windows of depth under loads spread over as much, and the points themselves where those are read."""
-    spread: dict[int, Loads] = {}
+    spread = dict(known)
     parts: list[tuple[Question, Array]] = []
     reads, counts = [], []
     for one in asked:
@@ -133,7 +144,7 @@ def _over_windows(
         before = len(parts)
         if len(read.nodes):
             if id(one.loads) not in spread:
-                spread[id(one.loads)] = merged([spread_over(load, length) for load in one.loads])
+                spread[id(one.loads)] = all_spread(one.loads, length)
             within, own = np.unique(read.mean[~read.local], axis=0, return_inverse=True)
             share = np.zeros((len(one.depths), len(within)))
             share[~read.local] = np.eye(len(within))[own.ravel()]
@@ -199,23 +210,30 @@ def _solve(
             sites.append(Site(one.road, one.depths, one.mean))
         pairs.append((place[id(one.loads)], numbers[key]))
     found = layered_responses(several, sites, pairs, view, below=below)
+    moves = max(view.components) > len(COMPONENTS) - 1
     for one, parted in zip(questions, asked, strict=True):
+        # Whose fields at depths are to be summed after they are solved.
+        apart = one.mean is None or one.road.is_viscoelastic
         if one.road.is_viscoelastic:
             assert speed is not None
             fields = moving_response(one.loads, one.road, speed, one.depths, x, y, below=below, at=at)
         else:
-            solved = (
-                half_space_response(one.loads, one.road.surface_material, one.depths, x, y, at, tell)
-                if one.road.is_homogeneous
-                else next(found)
-            )
+            if one.road.is_homogeneous:
+                material = one.road.surface_material
+                apart = apart or not isinstance(material, Solid)
+                solved = half_space_response(
+                    one.loads, material, one.depths, x, y, at, tell, mean=None if apart else one.mean, moves=moves,
+                    kept=view.kept,
+                )  # fmt: skip
+            else:
+                solved = next(found)
             fields = MovingFields(*solved[:3], np.zeros((len(one.depths), len(y))), solved[3])
         if parted.road.parted is not None:
             fields = _with_face(fields, parted, view, below=below)
         depths = one.depths
         if parted.mean is not None:
             depths = parted.mean @ depths
-            if one.mean is None or one.road.is_viscoelastic or one.road.is_homogeneous:
+            if apart:
                 fields = _weighted([(fields, parted.mean)], len(parted.mean))
         _check(fields, depths, [part for part in view.components if part < 6])
         yield fields

@@ -8,7 +8,7 @@ lattice. Elsewhere it is summed, or interpolated, see `kernels.gridding.precorre
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -23,6 +23,8 @@ from treadload.kernels.arrays import Array, ComplexArray
 _SAME_PLACE = 1e-6
 # Fine cells in a coarse one from afar, and how many of these lie at least between a point and the load.
 _COARSE, _AFAR = 6, 25
+# Lattices whose first points differ by less than this part of a cell are the same.
+_KEPT = 1e-9
 # Points times cells evaluated at once: keeps the temporaries in cache.
 _BLOCK = 17_000
 
@@ -35,6 +37,9 @@ Corners = Callable[[Array, Array, float], Iterator[Corner]]
 A plain number stands for a function that is the same everywhere, of which no cell has a field.
 """
 AtDepth = Callable[..., Iterator[Corner]]
+OnLattice = Callable[..., Array]
+Spectrum = tuple[ComplexArray, tuple[Use, ...]]
+"""The transform of the field of one cell, and the (load, component) pairs that it serves."""
 Kernels = Callable[[Array, Array, tuple[int, int], float], Iterator[Corner]]
 """(x, y, (m, n), z) → fields of one cell, (b, m, a, n), each with the (load, component) pairs it serves.
 
@@ -115,18 +120,24 @@ def loaded(source: Source, x: Array, y: Array) -> tuple[Source, Array, Array] | 
     return replace(source, load=part), x - source.dx * columns[0], y - source.dy * rows[0]
 
 
-def by_lattices(source: Source, depths: Array, x: Array, y: Array) -> Array:
+def by_lattices(source: Source, depths: Array, x: Array, y: Array, near: OnLattice | None = None) -> Array:
     """Fields (nz, components, …, my, mx) on a grid by a convolution for each lattice that its coordinates form.
 
-    depths: (nz,), m. x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order.
+    depths: (nz,), m. x: (mx,), y: (my,): relative to the centre of the first cell, m, in any order. near: in place of
+    `on_lattice`, for lattices of all whose points some are asked.
     """
     ny, nx = source.load.shape[-2:]
     shape = (len(depths), source.components, *source.load.shape[1:-2], len(y), len(x))
     fields = np.zeros(shape, source.load.dtype)
     for y0, count_y, at_y, from_y in as_lattices(y, source.dy, ny):
         for x0, count_x, at_x, from_x in as_lattices(x, source.dx, nx):
-            way = from_afar if _is_far(source, x0, count_x) else on_lattice
-            fields[..., at_y[:, None], at_x] = way(source, depths, (count_y, count_x), x0, y0, (from_y, from_x))
+            shape, wanted = (count_y, count_x), (from_y, from_x)
+            if near is not None:
+                part = near(source, depths, shape, x0, y0)[..., from_y[:, None], from_x]
+            else:
+                way = from_afar if _is_far(source, x0, count_x) else on_lattice
+                part = way(source, depths, shape, x0, y0, wanted)
+            fields[..., at_y[:, None], at_x] = part
     return fields
 
 
@@ -189,11 +200,13 @@ def on_lattice(
     x0: float,
     y0: float,
     wanted: tuple[Indices | slice, Indices | slice] = (slice(None), slice(None)),
+    spectra: dict[tuple[Any, ...], list[Spectrum]] | None = None,
 ) -> Array:
     """Fields on points spaced like the cells, by zero-padded FFT convolution.
 
     shape: (my, mx) of the lattice. x0, y0: its first point minus the centre of the first cell, m.
-    wanted: its rows and columns to return; all. Returns (nz, components, …, rows, columns).
+    wanted: its rows and columns to return; all. spectra: of the kernels, kept for other loads on as many cells.
+    Returns (nz, components, …, rows, columns).
     """
     load, dx, dy = source.load, source.dx, source.dy
     ny, nx = load.shape[-2:]
@@ -206,19 +219,27 @@ def on_lattice(
     rows, columns = np.arange(ny - 1, high)[wanted[0]], np.arange(nx - 1, wide)[wanted[1]]
     fields = np.zeros((len(depths), source.components, *load.shape[1:-2], len(rows), len(columns)), load.dtype)
     for field, depth in zip(fields, depths, strict=True):
-        spectra: dict[int, ComplexArray] = {}
-        for values, uses in source.kernels(first_x, first_y, (high, wide), float(depth)):
-            served = [(k, component) for k, component in uses if k in transformed]
-            if not served:
-                continue
-            spectrum = fft.rfft2(values[0, :, 0].astype(load.dtype, copy=False), s=padded)
-            for k, component in served:
+        sums: dict[int, ComplexArray] = {}
+        key = (float(depth), round(x0 / (_KEPT * dx)), round(y0 / (_KEPT * dy)), load.shape[-2:], shape)
+        kernels: Iterable[Spectrum] = (
+            (fft.rfft2(values[0, :, 0].astype(load.dtype, copy=False), s=padded), uses)
+            for values, uses in source.kernels(first_x, first_y, (high, wide), float(depth))
+            if spectra is not None or any(k in transformed for k, _ in uses)
+        )
+        if spectra is not None:
+            if key not in spectra:
+                spectra[key] = list(kernels)
+            kernels = spectra[key]
+        for spectrum, uses in kernels:
+            for k, component in uses:
+                if k not in transformed:
+                    continue
                 product = spectrum * transformed[k]
-                if component in spectra:
-                    spectra[component] += product
+                if component in sums:
+                    sums[component] += product
                 else:
-                    spectra[component] = product
-        for component, spectrum in spectra.items():
+                    sums[component] = product
+        for component, spectrum in sums.items():
             part = fft.ifft(spectrum, axis=-2, overwrite_x=True)[..., rows, :]
             field[component] = fft.irfft(part, n=padded[1], axis=-1)[..., columns]
     return fields

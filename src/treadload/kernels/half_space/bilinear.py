@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.gridding.gridded import Method, on_grid
 from treadload.kernels.gridding.lattice import Corner, Kernels, Source, over_depths
+from treadload.kernels.gridding.precorrected import Keeper
 from treadload.kernels.half_space.corners import at_corners, at_nodes, is_surface
 from treadload.kernels.half_space.upright import Medium, fields_of
 from treadload.kernels.layers.wavenumbers import Spectrum, cells_spectrum
@@ -75,10 +76,12 @@ def bilinear_sums_on_grid(
     method: Method = "auto",
     *,
     moves: bool = True,
+    kept: Keeper | None = None,
 ) -> tuple[Array, str]:
     """As `kernels.half_space.interior.sums_on_grid`, of such a load."""
     summed, stand = over_depths(hat_kernels(dx, dy, poisson, moves=moves), depths, mean)
-    return on_grid(Source(load, dx, dy, summed, 9 if moves else 6, half=1.0), stand, x, y, method)
+    own = None if kept is None else kept.of("bilinear", poisson, dx, dy, *depths, mean.tobytes(), moves)
+    return on_grid(Source(load, dx, dy, summed, 9 if moves else 6, half=1.0), stand, x, y, method, own)
 
 
 def bilinear_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -> Spectrum:

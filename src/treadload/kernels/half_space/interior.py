@@ -20,13 +20,18 @@ import numpy as np
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.gridded import Method, on_grid
-from treadload.kernels.gridding.lattice import Corner, Source, of_corners, over_depths
-from treadload.kernels.half_space.corners import at_corners, is_surface, snapped
+from treadload.kernels.gridding.lattice import Corner, Corners, Indices, Source, of_corners, over_depths
+from treadload.kernels.gridding.precorrected import Keeper
+from treadload.kernels.half_space.corners import SNAP, at_corners, is_surface, snapped
 from treadload.kernels.half_space.upright import Medium, fields_of, own_share
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _XX, _YY, _ZZ, _XY, _XZ, _YZ = range(6)
 _P, _QX, _QY = range(3)
+# Components that have x, and y, once among their directions.
+_ALONG, _ACROSS = (_XY, _XZ, 6), (_XY, _YZ, 7)
+# Mirroring costs a part of what it saves: that so few distances must be left.
+_WORTH = 0.75
 
 
 def fields_on_grid(
@@ -69,10 +74,12 @@ def sums_on_grid(
     method: Method = "auto",
     *,
     moves: bool = True,
+    kept: Keeper | None = None,
 ) -> tuple[Array, str]:
     """Sums over depths (rows, 6 or 9, …, my, mx) of stress and, if it moves, displacement times the shear modulus.
 
-    mean: weights (rows, nz) of the depths in each sum. The others as in `fields_on_grid`. Returns the methods, too.
+    mean: weights (rows, nz) of the depths in each sum. kept: of further calls, see `kernels.gridding.precorrected`.
+    The others as in `fields_on_grid`. Returns the methods, too.
     """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
@@ -80,10 +87,42 @@ def sums_on_grid(
         return fields_of(lambda stretch: at_corners(x, y, z, dx, dy, stretch), poisson, deep, moves=moves)
 
     summed, stand = over_depths(corners, depths, mean)
-    source = Source(load, dx, dy, of_corners(summed, dx, dy), 9 if moves else 6)
-    both, used = on_grid(source, stand, x, y, method)
+    source = Source(load, dx, dy, of_corners(_mirrored(summed, dx, dy), dx, dy), 9 if moves else 6)
+    own = None if kept is None else kept.of("uniform", poisson, dx, dy, *depths, mean.tobytes(), moves)
+    both, used = on_grid(source, stand, x, y, method, own)
     _add_standing_load(both, load, dx, dy, mean @ is_surface(depths, dx, dy), poisson, x, y)
     return both, used
+
+
+def _mirrored(functions: Corners, dx: float, dy: float) -> Corners:
+    """The same functions, evaluated on one side of x = 0 and of y = 0 where the corners lie on both alike.
+
+    The field of a cell is even or odd in x by how often x stands among the directions of load and component, and so
+    in y. A function of its corners is the other of the two.
+    """
+
+    def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
+        (half_x, back_x, side_x), (half_y, back_y, side_y) = _one_side(x.ravel(), dx), _one_side(y.ravel(), dy)
+        if max(len(half_x) / x.size, len(half_y) / y.size) > _WORTH:
+            yield from functions(x, y, z)
+            return
+        for values, uses in functions(half_x[None], half_y[:, None], z):
+            if np.ndim(values):
+                load, component = uses[0]
+                values = np.take(np.take(values, back_y, axis=0), back_x, axis=1)
+                if (load == _QX) == (component in _ALONG):
+                    values *= side_x
+                if (load == _QY) == (component in _ACROSS):
+                    values *= side_y[:, None]
+            yield values, uses
+
+    return corners
+
+
+def _one_side(at: Array, size: float) -> tuple[Array, Indices, Array]:
+    """Distinct distances from zero of coordinates, m, the number of each one's, and the side that it lies on, ±1."""
+    _, first, back = np.unique(np.round(np.abs(at) / (SNAP * size)), return_index=True, return_inverse=True)
+    return np.abs(at[first]), back, np.sign(at)
 
 
 def _add_standing_load(

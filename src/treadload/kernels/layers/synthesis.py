@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
@@ -69,6 +69,8 @@ FULL = Accuracy(33.0, 1e-7, 8, 10)
 # 1e-7 of stress and strain alone, see `tests/unit/test_synthesis.py`: for what is read in five digits, a third of
 # the cost; 1e-6 with single numbers, half of that again.
 READING = Accuracy(28.0, 1e-4, 4, 6, np.float32)
+# The same with double numbers, where the largest of many values is looked for.
+SEARCH = replace(READING, precision=np.float64)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,78 @@
+"""Means of stress and strain over cubes of road under the same loads, wherever and however often they are read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import xarray as xr
+
+from treadload import variables
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.kernels.gridding.precorrected import FINE, ROUGH, Keeper
+from treadload.kernels.layers.synthesis import FULL, SEARCH
+from treadload.pavement import Pavement
+from treadload.response.fields import COMPONENTS, tensor_fields
+from treadload.response.layered import View
+from treadload.response.loads import UniformRectangle
+from treadload.response.material import windows
+from treadload.response.several import Loads, Question, all_spread, answers
+from treadload.response.solution import Response
+from treadload.response.superposition import merged
+
+
+@dataclass(frozen=True, eq=False)
+class Means:
+    """Stress and strain under the loads of a response as means over cubes of its road.
+
+    The same as `solve_response` gives with `mean_over`, without displacement and what follows from the tensors. What
+    depends on the loads and not on the points is computed once: the loads spread over the cube, and the fields
+    between which points below a half-space, or a top layer, interpolate.
+    response: of `solve_response`, with its road. length: side of the cube, m. loads: those of the response, at points
+    of their own. spread: the same as means over squares of that side.
+    """
+
+    response: Response
+    length: float
+    loads: Loads
+    spread: Loads
+    _kept: Keeper = field(default_factory=Keeper)
+
+    @classmethod
+    def of(cls, response: Response, length: float) -> Means:
+        """Of a response, over cubes of a side, m. Raises InputError for a response without its road."""
+        if response.road is None:
+            raise InputError(
+                "a mean over the road needs a response whose road can be solved again, got one without it"
+            )
+        loads = merged([load.cell if isinstance(load, UniformRectangle) else load for load in response.loads])
+        return cls(response, length, loads, all_spread(loads, length))
+
+    @property
+    def road(self) -> Pavement:
+        """The road of the response."""
+        assert self.response.road is not None
+        return self.response.road
+
+    def at(self, depths: Array, x: Array, y: Array, *, rough: bool = False) -> xr.Dataset:
+        """Stress and strain (depth, y, x) on a grid; depths: (nz,), x: (mx,), y: (my,), m.
+
+        rough: whether 1e-6 of the largest value will do, to find where that lies.
+        """
+        view = View(
+            x, y, components=tuple(range(len(COMPONENTS))), accuracy=SEARCH if rough else FULL,
+            kept=self._kept.with_order(ROUGH if rough else FINE),
+        )  # fmt: skip
+        (answer,) = answers(
+            [Question(self.loads, self.road, depths)], view, side=self.response.side, speed=self.response.speed,
+            mean_over=self.length, spread={id(self.loads): self.spread},
+        )  # fmt: skip
+        tensors = tensor_fields(answer.fields.stress, answer.fields.strain)
+        return variables.dataset(tensors, {"depth": depths, "y": y, "x": x}, mean_over=self.length)
+
+    def reads(self, depth: float) -> tuple[float, float]:
+        """From which depth to which, m, the cube at a depth, m, reaches; equal where the point itself is read."""
+        layer = self.road.layer_at(depth, self.response.side)
+        read = windows(np.array([depth]), self.length, self.road.interfaces, [layer])
+        return float(read.low[0]), float(read.high[0])
