@@ -249,7 +249,7 @@ def test_solving_a_contact_needs_no_figures_no_scan_and_no_units():
 
 
 def test_the_command_line_starts_without_numbers():
-    assert not loaded_after("import treadload.cli") & {"matplotlib", "scipy", "xarray", "trimesh"}
+    assert not loaded_after("import treadload.cli.commands") & {"matplotlib", "scipy", "xarray", "trimesh"}
 
 
 def test_no_public_name_hides_a_module():

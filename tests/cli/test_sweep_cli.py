@@ -103,7 +103,7 @@ def test_an_interruption_says_how_to_go_on(case, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(store.Store, "append", stop)
         done = run("sweep", case, "--vary", "poisson=0.2:0.4:3")
-    assert done.exit_code == 1
+    assert done.exit_code == 130
     assert "interrupted; 2 of 3 cases are kept in" in done.stderr
     assert run("sweep", case, "--vary", "poisson=0.2:0.4:3").exit_code == 0
 

@@ -51,3 +51,12 @@ def test_full_and_read_only_disks_are_sentences_and_old_files_stay(writers, name
     assert "refused" in by_limit(writer, (0.0, 0.9, 2.0), (False, True))
     assert {"refused", "not mounted"} & set(by_size(writer, (8, 40)))
     by_right(writer)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["run", "tables", "life", "sweep", "calibrate", "report"])
+def test_a_command_stopped_at_any_moment_leaves_what_is_whole_and_goes_on(name):
+    from faults.kills import kills
+
+    told = []
+    assert kills(2, [name], seed=1, tell=told.append) == 0, "\n".join(told)

@@ -380,8 +380,12 @@ def main() -> None:
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
 
     def write(line: str) -> None:
-        out.write(line)
-        out.flush()
+        try:
+            out.write(line)
+            out.flush()
+        except BrokenPipeError:
+            # The page has ended, and nobody is left to be told.
+            os._exit(0)
 
     engine = Engine(write)
     warm()

@@ -42,6 +42,8 @@ class Engine:
         process = await asyncio.create_subprocess_exec(
             sys.executable, "-P", "-m", "treadload.app.engine", limit=_LONGEST_LINE,
             stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
+            # Ctrl-C is for the page, which ends its processes; one that still loads would print where it was.
+            start_new_session=True,
             env={**os.environ, "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS", "1")},
         )  # fmt: skip
         engine = cls(process)

@@ -1,60 +1,29 @@
-"""The command line. Each module has the commands of one subject; here they are put together."""
+"""The command line. Each module has the commands of one subject; `commands` puts them together."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Any
 
-import typer
-
-from treadload._version import __version__
-from treadload.cli import cases, compare, design, exports, page, program, results, shell, studies, sweep, tires
+from treadload.cli import ending
 
 __all__ = ["app", "main"]
 
-app = typer.Typer(
-    help="What a tire does to a road: contact, rolling, strain, cracks and life.",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-)
 
-# In the order of the help.
-for _command in (
-    cases.run,
-    cases.life,
-    design.design,
-    sweep.sweep,
-    cases.calibrate,
-    cases.init,
-    cases.schema,
-    results.report,
-    exports.export,
-    exports.as_python,
-    exports.cite,
-    compare.compare,
-    tires.scan,
-    tires.card,
-    program.catalogue,
-    program.criteria,
-    page.app,
-    program.demo,
-    program.validate,
-):
-    app.command()(shell.one_sentence(_command))
-app.add_typer(studies.app, name="study")
+def __getattr__(name: str) -> Any:
+    if name != "app":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from treadload.cli.commands import app
 
-
-@app.callback(invoke_without_command=True)
-def _root(
-    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
-) -> None:
-    if version:
-        shell.out.print(f"treadload {__version__}")
-        raise typer.Exit(shell.DONE)
+    return app
 
 
 def main() -> None:
-    """Run the command line."""
-    app()
+    """Run the command line. Exit codes stand in `docs/howto/interruptions.md`."""
+    # Before anything is loaded that an interruption could find half done.
+    with ending.orderly():
+        from treadload.cli.commands import app
+
+        app()
 
 
 if __name__ == "__main__":

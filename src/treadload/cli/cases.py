@@ -75,8 +75,15 @@ def calibrate(
     from treadload.study import plan_calibration, run_calibration
 
     def solve(question: CalibrationCase) -> Answer:
-        with counts(shell.err, quiet=quiet) as tell:
-            return run_calibration(question, jobs=jobs, state=state, progress=tell)
+        try:
+            with counts(shell.err, quiet=quiet) as tell:
+                return run_calibration(question, jobs=jobs, state=state, progress=tell)
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(
+                "nothing is kept; with --state FILE, what is solved is kept, and the same command goes on from there"
+                if state is None
+                else f"what was solved is kept in {state}; the same command goes on from there"
+            ) from None
 
     _answer(case, CalibrationCase, plan_calibration, solve, output, changes, dry_run=dry_run)
 
@@ -140,7 +147,7 @@ def schema(
 
     text = json.dumps(json_schema(kind), indent=2, ensure_ascii=False)
     if output is None:
-        print(text)
+        shell.plain(f"{text}\n")
         return
     shell.written([write_whole(output, f"{text}\n")])
     shell.out.print(f"first line of the case, for editors that know Taplo: #:schema ./{output.name}", markup=False)

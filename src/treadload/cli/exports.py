@@ -91,7 +91,7 @@ def cite(
         used = citations_of(open_results(source).tree)
     text = bibtex(used)
     if output is None:
-        print(text, end="")
+        shell.plain(text)
         return
     shell.written([write_whole(output, text)])
 
@@ -113,6 +113,6 @@ def as_python(
         check_suffix(output, {".py": "Python"}, "a script")
     text = case_as_python(read_case(case, changes=changes or ()))
     if output is None:
-        print(text, end="")
+        shell.plain(text)
         return
     shell.written([write_whole(output, text)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from typing import Annotated
 
 import typer
@@ -29,4 +30,10 @@ def app(
             "cases on it; what is sent is not encrypted",
             style="bold", markup=False,
         )  # fmt: skip
-    serve(host=host, port=port, open_browser=open_browser)
+    if hasattr(signal, "SIGHUP"):
+        # The server knows the others, and closes its sessions.
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
+    try:
+        serve(host=host, port=port, open_browser=open_browser)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt("the page is closed, and results that were not taken home are gone") from None

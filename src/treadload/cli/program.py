@@ -10,7 +10,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from treadload.cli import shell
+from treadload.cli import ending, shell
 from treadload.cli.progress import stages
 
 
@@ -88,8 +88,13 @@ def demo(
     """A real truck tire, rolling freely and driving: results, figures and a report."""
     from treadload.demo import run_demo
 
-    with stages(shell.err, quiet=quiet) as tell:
-        made = run_demo(output, progress=tell)
+    try:
+        with stages(shell.err, quiet=quiet) as tell:
+            made = run_demo(output, progress=tell)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(
+            f"the files in {output} are whole; the same command makes all of them again"
+        ) from None
     heading, *rows = made.table
     table = Table(*heading, title="A 335/65R22.5 truck tire at 32.5 kN on asphalt, friction 0.7")
     for row in rows:
@@ -109,8 +114,8 @@ def validate(
     with stages(shell.err, quiet=quiet) as tell:
         checks = run_checks(progress=tell)
     # The table goes out as it is: a terminal may be narrower than it.
-    print(format_markdown(checks) if markdown else format_table(checks))
+    shell.plain(f"{format_markdown(checks) if markdown else format_table(checks)}\n")
     failed = [check for check in checks if not check.passed]
     if failed:
         shell.err.print(f"{len(failed)} of {len(checks)} checks failed", style="bold red")
-        raise typer.Exit(shell.FAILED)
+        raise typer.Exit(ending.FAILED)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated, Any, NoReturn, ParamSpec
@@ -12,15 +13,31 @@ from rich.console import Console
 from rich.table import Column
 from rich.text import Text
 
+from treadload.cli import ending
+from treadload.cli.ending import FAILED, WRONG
 from treadload.cli.progress import stages
 from treadload.errors import TreadloadError, WriteError
 
-DONE, FAILED, WRONG = 0, 1, 2
 _P = ParamSpec("_P")
 
+
+class _Screen(Console):
+    """A console that goes on where nobody reads any more, or the disk behind it is full: files are still written."""
+
+    def on_broken_pipe(self) -> None:
+        """Say nothing from now on."""
+        ending.let_go(self.file, BrokenPipeError())
+
+    def _check_buffer(self) -> None:
+        try:
+            super()._check_buffer()
+        except OSError as error:
+            ending.let_go(self.file, error)
+
+
 # Without markup: a bracket in a text, as that of [pavement], is printed, not parsed.
-out = Console(highlight=False, soft_wrap=True, markup=False)
-err = Console(stderr=True, highlight=False, soft_wrap=True, markup=False)
+out = _Screen(highlight=False, soft_wrap=True, markup=False)
+err = _Screen(stderr=True, highlight=False, soft_wrap=True, markup=False)
 
 Output = Annotated[
     Path | None,
@@ -59,7 +76,7 @@ def one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
             wrong = isinstance(error, ValueError) and not isinstance(error, WriteError)
             _fail(str(error), WRONG if wrong else FAILED)
         except KeyboardInterrupt as error:
-            _fail(f"interrupted; {str(error) or 'nothing more was written'}", FAILED)
+            _fail(*ending.interrupted(str(error)))
         except MemoryError:
             _fail("out of memory: the grid is too fine for this machine; use a larger spacing", FAILED)
 
@@ -69,6 +86,11 @@ def one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:
 def _fail(message: str, code: int) -> NoReturn:
     err.print(Text("error: ", style="bold red") + Text(message))
     raise typer.Exit(code)
+
+
+def plain(text: str) -> None:
+    """Print a text for another program or a file as it is."""
+    ending.say(text, sys.stdout)
 
 
 def planned(plan: str, path: Path) -> None:

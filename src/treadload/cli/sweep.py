@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from treadload.cli import shell
+from treadload.cli import ending, shell
 from treadload.cli.progress import counts
 
 Vary = Annotated[
@@ -94,4 +94,4 @@ def sweep(
     shell.out.print(study.summary(), markup=False)
     shell.written([path])
     if not study.stats["solved"]:
-        raise typer.Exit(shell.FAILED)
+        raise typer.Exit(ending.FAILED)

@@ -30,8 +30,12 @@ def pool_of(workers: int | None) -> Iterator[ThreadPoolExecutor]:
     """
     _enter()
     try:
-        with ThreadPoolExecutor(how_many(workers)) as pool:
+        pool = ThreadPoolExecutor(how_many(workers))
+        try:
             yield pool
+        finally:
+            # After an error or an interruption nobody waits for what has not begun.
+            pool.shutdown(cancel_futures=True)
     finally:
         _leave()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -59,12 +60,17 @@ class Evaluations:
         if self.jobs == 1:
             yield self
             return
-        with ProcessPoolExecutor(self.jobs, initializer=_begin, initargs=(self.problem,)) as pool:
-            self._pool = pool
-            try:
-                yield self
-            finally:
-                self._pool = None
+        pool = self._pool = ProcessPoolExecutor(self.jobs, initializer=_begin, initargs=(self.problem,))
+        try:
+            yield self
+        except BaseException:
+            # Nobody waits for a contact that is being solved.
+            for process in list(pool._processes.values()):
+                process.terminate()
+            raise
+        finally:
+            self._pool = None
+            pool.shutdown(cancel_futures=True)
 
     def at(self, points: Sequence[Point]) -> list[Array]:
         """All readings at each point, SI."""
@@ -103,6 +109,9 @@ class Evaluations:
 
 
 def _begin(problem: Problem) -> None:
+    # An interruption is for the search, which then ends its processes; what it does on a signal is not for them.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     _MODEL[:] = [Model(problem)]
 
 

@@ -1,0 +1,62 @@
+"""All commands, in the order of the help."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from treadload._version import __version__
+from treadload.cli import (
+    cases,
+    compare,
+    design,
+    ending,
+    exports,
+    page,
+    program,
+    results,
+    shell,
+    studies,
+    sweep,
+    tires,
+)
+
+app = typer.Typer(
+    help="What a tire does to a road: contact, rolling, strain, cracks and life.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+)
+
+for _command in (
+    cases.run,
+    cases.life,
+    design.design,
+    sweep.sweep,
+    cases.calibrate,
+    cases.init,
+    cases.schema,
+    results.report,
+    exports.export,
+    exports.as_python,
+    exports.cite,
+    compare.compare,
+    tires.scan,
+    tires.card,
+    program.catalogue,
+    program.criteria,
+    page.app,
+    program.demo,
+    program.validate,
+):
+    app.command()(shell.one_sentence(_command))
+app.add_typer(studies.app, name="study")
+
+
+@app.callback(invoke_without_command=True)
+def _root(
+    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
+) -> None:
+    if version:
+        shell.out.print(f"treadload {__version__}")
+        raise typer.Exit(ending.DONE)
