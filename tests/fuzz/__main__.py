@@ -57,6 +57,7 @@ KINDS = (
     "fits",
     "laser",
     "fringes",
+    "contacts",
 )
 _BATCH = 200
 

@@ -19,6 +19,7 @@ from fuzz.runner import attack_of, run
         pytest.param("fits", 40, marks=pytest.mark.slow),
         ("laser", 200),
         pytest.param("fringes", 40, marks=pytest.mark.slow),
+        ("contacts", 40),
     ],
 )
 def test_nothing_breaks(kind, count):

@@ -127,9 +127,12 @@ def test_rolling_falls_back_on_splitting(monkeypatch):
     np.testing.assert_allclose(found.shear, wanted.shear, atol=1e-4 * (MU * PATCH.normal.pressure).max())
 
 
-def test_rolling_says_how_far_it_came():
-    with pytest.raises(ConvergenceError, match="prescribe the creepage instead") as caught:
-        PATCH.roll(MU, forces=(0.5 * LIMIT, 0.0), tolerance=1e-18)
+@pytest.mark.parametrize(
+    ("part", "remedy"), [(0.5, "raise the tolerance"), (0.95, "95 % of friction: prescribe the creepage instead")]
+)
+def test_rolling_says_how_far_it_came(part, remedy):
+    with pytest.raises(ConvergenceError, match=remedy) as caught:
+        PATCH.roll(MU, forces=(part * LIMIT, 0.0), tolerance=1e-18)
     assert 0 < caught.value.residual < 1e-6
 
 

@@ -26,8 +26,11 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.kernels.mixing import Anderson
 
-_MOST_ROUNDS = 40
-_MEMORY = 6
+_MOST_ROUNDS = 150
+# Rounds that are mixed: from so many rounds on, all that are of use.
+_MEMORY, _SLOW, _LONG_MEMORY = 6, 20, 20
+# Where what pressing and rolling leave keeps them apart, both aim this much lower.
+_TIGHTER = 0.3
 # A change of the pressure below it is round-off.
 _SAME = 1e-14
 
@@ -90,42 +93,53 @@ def solve_coupled(
     if coupled and last is not None:
         offset = influence.gap_by_shear(last.shear)
 
-    def press(by_shear: Array, near: Array | None) -> NormalSolution:
+    def press(by_shear: Array, near: Array | None, within: float) -> NormalSolution:
         given = {"load": rolling.normal_load, "approach": rolling.approach}
         # Shear moves the gap's zero a little, and with it what the tolerance is relative to.
         share = 0.5 if coupled else 1.0
-        return solve_normal(influence, gap + by_shear, **given, start=near, tolerance=share * tolerance)
+        return solve_normal(influence, gap + by_shear, **given, start=near, tolerance=share * within)
 
-    normal = press(offset, None if start is None else start.pressure)
+    normal = press(offset, None if start is None else start.pressure, tolerance)
     check(normal.pressure)
     at_rest = _at_rest(normal.pressure, grid, rolling)
     rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
     if rows is not None:
         rigid[0] += rows
     mixing = Anderson(_MEMORY)
+    within = tolerance
     iterations, newton, krylov, splitting, change = normal.iterations, 0, 0, 0, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
         known = rigid + influence.slip_by_pressure(normal.pressure) / grid.dx if coupled else rigid
         slip = at_rest.slip if last is None else last.slip
         at = replace(at_rest, pressure=normal.pressure, slip=slip)
-        slipping = solve_slipping(influence, rolling.law, at, known, rolling.forces, start=last, tolerance=tolerance)
+        slipping = solve_slipping(influence, rolling.law, at, known, rolling.forces, start=last, tolerance=within)
         last = slipping.tangential
         newton, krylov = newton + slipping.newton, krylov + slipping.krylov
         splitting += slipping.splitting
-        if not coupled or not last.shear.any() or (rounds > 1 and change <= tolerance):
+        if not coupled or not (last.shear.any() or offset.any()):
             check(normal.pressure)
             return Coupled(normal, slipping, rounds, change, iterations, newton, krylov, splitting)
+        # The same pressure with the gap and the approach that this very shear makes.
+        opening = influence.gap_by_shear(last.shear)
+        fitting = normal.under(gap + opening, opening - offset, loaded=rolling.normal_load is not None)
+        settled = rounds > 1 and change <= tolerance
+        if settled and fitting.residual <= tolerance:
+            check(normal.pressure)
+            return Coupled(fitting, slipping, rounds, change, iterations, newton, krylov, splitting)
+        if settled:
+            within *= _TIGHTER
+        if rounds == _SLOW:
+            mixing.memory = _LONG_MEMORY
         before = normal.pressure
-        offset = mixing.next(offset, influence.gap_by_shear(last.shear))
-        normal = press(offset, before)
+        offset = mixing.next(offset, opening)
+        normal = press(offset, before, within)
         iterations += normal.iterations
         change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
-        if rounds > 1 and change <= _SAME:
+        if rounds > 1 and change <= _SAME and fitting.residual <= tolerance:
             # The shear that was found under the same pressure is that of this one.
             check(before)
-            normal = replace(normal, pressure=before)
-            return Coupled(normal, slipping, rounds, change, iterations, newton, krylov, splitting)
+            return Coupled(fitting, slipping, rounds, change, iterations, newton, krylov, splitting)
     raise ConvergenceError(
         f"normal and tangential contact did not settle in {_MOST_ROUNDS} rounds: the pressure still changes by "
         f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.dundurs:.3f}); "

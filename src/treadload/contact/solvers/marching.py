@@ -23,8 +23,13 @@ from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.tangential import Axes, Forces, TangentialSolution, solve_tangential
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.mixing import Anderson
 
-_MOST_ROUNDS = 40
+_MOST_ROUNDS = 150
+# Rounds that are mixed: from so many rounds on, all that are of use.
+_MEMORY, _SLOW, _LONG_MEMORY = 6, 20, 20
+# Pressing aims lower than the whole step, and both lower still where what they leave keeps them apart.
+_SHARE, _TIGHTER = 0.5, 0.3
 # Kernels of so many different travels are kept: equal steps need two.
 _KEPT_KERNELS = 4
 # Steps of more cells than this leave little of the last shear to go by.
@@ -239,23 +244,41 @@ def _press(
     The change in the first round shows how strongly the two are coupled: bodies nearly alike need no second.
     """
     coupled = influence.coupled
+    offset: Array = np.zeros(influence.shape)
     if not coupled and state is not None and state.normal is not None and _same_load(state.stage, stage):
         normal = state.normal
     else:
-        opening = here.gap(state.tangential.shear) if coupled and state is not None else 0.0
-        normal = _normal(influence, gap + opening, stage, state.pressure if state else None, tolerance)
+        if coupled and state is not None:
+            offset = here.gap(state.tangential.shear)
+        normal = _normal(
+            influence,
+            gap + offset,
+            stage,
+            state.pressure if state else None,
+            (_SHARE if coupled else 1.0) * tolerance,
+        )
+    mixing = Anderson(_MEMORY)
+    within = tolerance
     newton = products = 0
     for rounds in range(1, _MOST_ROUNDS + 1):
-        tangential = _shear(influence, here, stage, normal.pressure, known, start, tolerance)
+        tangential = _shear(influence, here, stage, normal.pressure, known, start, within)
         newton, products = newton + tangential.newton, products + tangential.products
-        fitting = normal
-        if coupled:
-            fitting = _normal(influence, gap + here.gap(tangential.shear), stage, normal.pressure, tolerance)
-        change = float(np.linalg.norm(fitting.pressure - normal.pressure) / np.linalg.norm(normal.pressure))
+        counted = replace(tangential, newton=newton, products=products)
+        if not coupled:
+            return State(stage, normal.pressure, counted, normal, rounds, 0.0)
+        opening = here.gap(tangential.shear)
+        fitting = normal.under(gap + opening, opening - offset, loaded=stage.load is not None)
+        if rounds == _SLOW:
+            mixing.memory = _LONG_MEMORY
+        offset = mixing.next(offset, opening)
+        before = normal.pressure
+        normal = _normal(influence, gap + offset, stage, before, _SHARE * within)
+        change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
+        if max(change, fitting.residual) <= tolerance:
+            return State(stage, before, counted, fitting, rounds, change)
         if change <= tolerance:
-            counted = replace(tangential, newton=newton, products=products)
-            return State(stage, normal.pressure, counted, normal, rounds, change)
-        normal, start = fitting, tangential
+            within *= _TIGHTER
+        start = tangential
     raise ConvergenceError(
         f"pressure and shear did not settle in {_MOST_ROUNDS} rounds of a step: the pressure still changes by "
         f"{change:.2e}, above the tolerance of {tolerance:.2e} (Dundurs' β = {influence.dundurs:.3f}); "

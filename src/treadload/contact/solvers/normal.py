@@ -39,6 +39,20 @@ class NormalSolution:
     iterations: int
     products: int
 
+    def under(self, gap: Array, change: Array | float, *, loaded: bool) -> NormalSolution:
+        """The same pressure under another gap, with the residual that it has there.
+
+        gap: (ny, nx) before loading, m. change: (ny, nx), by which it differs from the one solved for, m.
+        loaded: True where the load is known and the approach follows, False where the approach is known.
+        """
+        after = self.gap + change
+        pressed = self.pressure > 0
+        shift = float(after[pressed].mean()) if loaded else 0.0
+        after -= shift
+        scale = max(abs(self.approach + shift - float(np.nanmin(gap))), np.finfo(float).tiny)
+        apart = max(float(np.abs(after[pressed]).max(initial=0.0)), -float(np.nanmin(after)))
+        return replace(self, gap=after, approach=self.approach + shift, residual=apart / scale)
+
 
 def solve_normal(
     influence: Influence,

@@ -12,13 +12,15 @@ from treadload.contact.solvers.levels import halve, interpolate
 from treadload.errors import ConvergenceError
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.kernels.complementarity import coulomb_newton, coulomb_splitting
+from treadload.kernels.complementarity import coulomb_direct, coulomb_newton, coulomb_splitting
 from treadload.kernels.complementarity.coulomb import CoulombProblem, paired
 from treadload.kernels.complementarity.coulomb_newton import CoulombSolution
 
 # Below this many cells a side a solve costs nothing and needs no start from a coarser one.
 _COARSEST = 48
 _START_TOLERANCE = 1e-3
+# Share of friction from which on a force is what makes a solve hard.
+_NEARLY_ALL = 0.9
 
 Forces = tuple[float | None, float | None]
 Axes = tuple[float, float]
@@ -97,16 +99,28 @@ def solve_tangential(
 
 def _solve(problem: CoulombProblem, q: Array, xi: Array | None, tolerance: float) -> CoulombSolution:
     solution = coulomb_newton.solve(problem, q, xi, tolerance=tolerance)
-    if not solution.converged:
-        # The fast path stalled: the slow one always moves on, and the fast one polishes what it finds.
-        q, xi, steps = coulomb_splitting.split(problem, solution.shear, solution.xi, tolerance=0.1 * tolerance)
-        polished = coulomb_newton.solve(problem, q, xi, tolerance=tolerance)
+    if not solution.converged and (problem.bound > 0).sum() <= coulomb_direct.MOST_CELLS:
+        near = coulomb_direct.solve(problem, solution.shear, solution.xi, tolerance=tolerance)
+        solution = coulomb_newton.solve(problem, *near, tolerance=tolerance)
+    # Where the fast path stalls, the slow one always moves on, and the fast one polishes what it finds: from where it
+    # stalled, or from the start, where it has carried unknown rigid slips far away.
+    for q_near, xi_near in ((solution.shear, solution.xi), (q, np.zeros(2) if xi is None else xi)):
+        if solution.converged:
+            return solution
+        q_near, xi_near, steps = coulomb_splitting.split(problem, q_near, xi_near, tolerance=0.1 * tolerance)
+        polished = coulomb_newton.solve(problem, q_near, xi_near, tolerance=tolerance)
         solution = replace(polished, splitting=polished.splitting + solution.splitting + steps)
     if not solution.converged:
         what, unknown = ("rolling contact", "creepage") if problem.rolls else ("the shift", "shift")
+        used = math.hypot(*(total or 0.0 for total in problem.totals)) / float(problem.bound.sum())
+        remedy = (
+            f"the forces take {100 * used:.3g} % of friction: prescribe the {unknown} instead"
+            if used > _NEARLY_ALL
+            else "take smaller cells or raise the tolerance"
+        )
         raise ConvergenceError(
             f"{what} stopped with a residual of {solution.residual:.2e}, above the tolerance of {tolerance:.2e}; "
-            f"near gross sliding prescribe the {unknown} instead of the force",
+            f"{remedy}",
             solution.residual,
         )
     return solution

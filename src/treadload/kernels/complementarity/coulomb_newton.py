@@ -36,6 +36,10 @@ _OTHER_CELLS = 0.1
 _ROOM = 0.999
 # Forces are held this much tighter than the cells' conditions.
 _FORCE_WEIGHT = 100.0
+# A residual is relative to a hundred times the shear where that is less than friction: the error of shear is about
+# the residual, so that under a small creepage it is 1e-4 at most. Below the second, there is no shear; nor is shear
+# known better than a known rigid slip that an unknown one makes up for.
+_SMALL_SHEAR, _NO_SHEAR = 100.0, 1e-12
 # In the linear systems this much tighter: enough that the last step seldom leaves a force to mend.
 _FORCE_ROW = 10.0
 
@@ -46,7 +50,8 @@ class CoulombSolution:
 
     shear: q (2, ny, nx). slip: s (2, ny, nx). xi: ξ (2,), zero where prescribed.
     stick: (ny, nx) True where |q| < g. residual: |q - P(q - r s)| / |g|, or a hundred times the imbalance of
-    the forces relative to Σg if that is larger. newton, krylov, splitting, products: iterations, and
+    the forces relative to Σg if that is larger; where little of friction is used, with a hundred times the shear, or
+    what the known rigid slip asks of a cell, in the place of g. newton, krylov, splitting, products: iterations, and
     products with S.
     """
 
@@ -153,6 +158,8 @@ class _Newton:
     single: CoulombProblem = field(init=False)
     contact: BoolArray = field(init=False)
     n_cells: int = field(init=False)
+    # Shear that would make each cell by itself follow the known rigid slip.
+    wanted: float = field(init=False)
 
     def __post_init__(self) -> None:
         # The Krylov solves only need two digits: half the precision is half the time.
@@ -161,6 +168,7 @@ class _Newton:
         self.single = replace(self.problem, compliance=half.transpose(0, 2, 1))
         self.contact = self.problem.bound > 0
         self.n_cells = int(self.contact.sum())
+        self.wanted = float(np.linalg.norm(self.problem.rigid * self.contact)) / self.problem.self_influence
 
     def state_of(self, q: Array, xi: Array) -> _State:
         """State of shear (2, ny, nx) and ξ (2,)."""
@@ -174,12 +182,16 @@ class _Newton:
         reach = q - slip / problem.self_influence
         size = np.sqrt(_dot(reach, reach))
         factor = shrink(size, problem.bound)
-        error = q - reach * factor
+        projected = reach * factor
+        error = q - projected
         totals = problem.totals
         imbalance = np.array([0.0 if (total := totals[c]) is None else total - q[c].sum() for c in (0, 1)])
-        apart = float(np.linalg.norm(error) / max(np.linalg.norm(problem.bound), tiny))
+        friction = max(float(np.linalg.norm(problem.bound)), tiny)
+        apart = float(np.linalg.norm(error)) / friction
         short = float(np.linalg.norm(imbalance) / max(problem.bound.sum(), tiny))
         stick = self.contact & (size <= problem.bound)
+        used = max(_SMALL_SHEAR * float(np.linalg.norm(projected)), self.wanted) / friction
+        small = min(1.0, max(used, _NO_SHEAR))
         return _State(
             q,
             xi,
@@ -189,7 +201,7 @@ class _Newton:
             stick,
             error,
             imbalance,
-            max(apart, _FORCE_WEIGHT * short),
+            max(apart, _FORCE_WEIGHT * short) / small,
             math.hypot(apart, short),
         )
 
