@@ -28,6 +28,16 @@ Cases = Annotated[
         show_default=False,
     ),
 ]
+Ids = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--id",
+        metavar="COLUMN",
+        help="A column of --table that identifies its row; id, name, section and label do so by themselves. May be "
+        "given several times.",
+        show_default=False,
+    ),
+]
 Sample = Annotated[
     str,
     typer.Option(
@@ -62,6 +72,7 @@ def sweep(
     case: Annotated[Path, typer.Argument(help="The case, or the design case, a TOML file.")],
     vary: Vary = None,
     table: Cases = None,
+    ids: Ids = None,
     sample: Sample = "",
     seed: Seed = 0,
     fields: FieldNames = None,
@@ -81,8 +92,12 @@ def sweep(
     question = read_case(case, changes=changes or ())
     if table is not None and (vary or sample):
         raise InputError("--table gives all cases; leave out --vary and --sample, or the table")
+    if ids and table is None:
+        raise InputError("--id names a column of a table; give the table with --table")
     texts = vary or ()
-    design = from_file(question, table) if table else from_texts(question, texts, sample=sample, seed=seed)
+    design = (
+        from_file(question, table, ids=ids or ()) if table else from_texts(question, texts, sample=sample, seed=seed)
+    )
     path = output or case.with_suffix(".zarr")
     if dry_run:
         return shell.planned(plan_sweep(question, design, fields or ()), path)

@@ -18,6 +18,7 @@ from treadload.plots.sweeps.reading import FAILED, UNSOLVED, View
 from treadload.reporting.inputs import NamedTable
 from treadload.reporting.pictures import Picture, picture
 from treadload.study.sweeps import causes_of
+from treadload.study.sweeps.design import CASE
 from treadload.variables import VARIABLES
 
 # What a reader looks for first, in this order; behind what was asked for by name.
@@ -143,7 +144,11 @@ def _value(value: float, how: Shown) -> str:
 def _case(view: View, place: tuple[int, ...] | tuple[np.intp, ...]) -> str:
     """The inputs of a case in words."""
     at = dict(zip(view.dims, map(int, place), strict=True))
-    told = []
+    # The row of a table, and its ids.
+    coords = {
+        str(name): one for name, one in view.data.coords.items() if "key" not in one.attrs and one.dims == (CASE,)
+    }
+    told = [f"{name} {one.to_numpy()[at[CASE]]}" for name, one in coords.items()]
     for name in view.inputs:
         axis = view.data[name]
         value = axis.isel({dim: at[dim] for dim in map(str, axis.dims)}).to_numpy().item()

@@ -11,6 +11,14 @@ from treadload.errors import InputError, how_to_install
 def first_sheet(path: str | os.PathLike[str]) -> list[list[Any]]:
     """Rows of the first sheet of a workbook that hold anything, cells as they are, None for empty ones.
 
+    Raises InputError as `numbered_rows`.
+    """
+    return [row for _, row in numbered_rows(path)]
+
+
+def numbered_rows(path: str | os.PathLike[str]) -> list[tuple[int, list[Any]]]:
+    """Rows of the first sheet of a workbook that hold anything, with their numbers in the sheet, from 1.
+
     Raises InputError for what cannot be read, holds nothing, or without openpyxl.
     """
     try:
@@ -27,7 +35,7 @@ def first_sheet(path: str | os.PathLike[str]) -> list[list[Any]]:
     # Whatever a broken archive or a strange sheet raises.
     except Exception as error:
         raise InputError(f"cannot read {path} as an Excel workbook: {error}") from error
-    rows = [row for row in rows if any(cell is not None for cell in row)]
-    if not rows:
+    kept = [(number, row) for number, row in enumerate(rows, start=1) if any(cell is not None for cell in row)]
+    if not kept:
         raise InputError(f"{path} holds nothing: its first sheet is empty")
-    return rows
+    return kept

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,11 @@ METHODS = ("sobol", "latin", "random")
 # More cases than a study can hold in one table of scalars.
 _MOST = 10_000_000
 # Of a list of cases, read before any is solved.
-_TRIED = 8
+_TRIED = 64
+ROW = "row"
+"""Label of the rows of a file of cases: their numbers there."""
+# Names of a study that no label can have.
+_TAKEN = (CASE, "status", "seconds", "failure")
 # Text that stands for a table or a list, at most so long.
 _LABEL = 60
 
@@ -51,10 +56,16 @@ class Input:
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """The cases of a study. sizes: of its dimensions, in order. inputs: what is varied over them."""
+    """The cases of a study.
+
+    sizes: of its dimensions, in order. inputs: what is varied over them. labels: of a list of cases, name → what
+    identifies each, the row of its file and the ids that stand there. faults: of a list, why a case cannot be read.
+    """
 
     sizes: Mapping[str, int]
     inputs: tuple[Input, ...]
+    labels: Mapping[str, tuple[str | int, ...]] = field(default_factory=dict)
+    faults: Mapping[int, str] = field(default_factory=dict)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -77,14 +88,20 @@ class Design:
         return {one.key: one.values[tuple(place[dim] for dim in one.dims)] for one in self.inputs}
 
     def said(self, number: int) -> str:
-        """Case `number` in words: "friction 0.3, normal_load 2e+04"."""
+        """Case `number` in words: "friction 0.3, normal_load 2e+04"; with its labels first."""
         place = dict(zip(self.dims, np.unravel_index(number, self.shape), strict=True))
-        told = []
+        told = [f"{name} {values[number]}" for name, values in self.labels.items()]
         for one in self.inputs:
             label = one.labels[tuple(place[dim] for dim in one.dims)]
             unit = f" {one.unit}" if one.unit else ""
-            told.append(f"{one.name} {label:.6g}{unit}" if one.is_number else f"{one.name} {label}")
+            value = f"{label:.6g}{unit}" if one.is_number else str(label)
+            told.append(f"{one.name} {value}" if value and not value.startswith("nan") else f"no {one.name}")
         return ", ".join(told)
+
+    def named(self, number: int) -> str:
+        """Case `number` by its labels: "row 3 (section A12)"; "" without labels."""
+        first, *more = [f"{name} {values[number]}" for name, values in self.labels.items()] or [""]
+        return f"{first} ({', '.join(more)})" if more else first
 
     def coordinates(self) -> dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]:
         """The inputs as coordinates of a dataset: name → (dimensions, values, attributes)."""
@@ -95,6 +112,9 @@ class Design:
             if one.unit is not None:
                 about["units"] = one.unit or "1"
             made[one.name] = (one.dims, one.labels, about)
+        for name, values in self.labels.items():
+            about = {"long_name": "row of the table" if name == ROW else name.removeprefix("id_")}
+            made[name] = ((CASE,), np.array(values), about)
         return made
 
     def to_json(self) -> dict[str, Any]:
@@ -105,6 +125,8 @@ class Design:
                 {"name": one.name, "key": one.key, "dims": list(one.dims), "values": one.values.ravel().tolist()}
                 for one in self.inputs
             ],
+            **({"labels": {name: list(values) for name, values in self.labels.items()}} if self.labels else {}),
+            **({"faults": [[number, text] for number, text in self.faults.items()]} if self.faults else {}),
         }
 
     @classmethod
@@ -123,9 +145,13 @@ class Design:
             for name, key, dims, values in parts:
                 array = _objects(values).reshape([sizes[dim] for dim in dims])
                 inputs.append(Input(name, key, known.get(key), dims, array, _labels(array)))
+            labels = {str(name): tuple(values) for name, values in told.get("labels", {}).items()}
+            if any(len(values) != sizes.get(CASE) for values in labels.values()):
+                raise ValueError("labels of its cases")
+            faults = {int(number): str(text) for number, text in told.get("faults", ())}
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise InputError(f"the design of the study cannot be read: {error}") from error
-        return cls(sizes, tuple(inputs))
+        return cls(sizes, tuple(inputs), labels, faults)
 
 
 def product(case: FilePart, vary: Mapping[str, Any]) -> Design:
@@ -140,10 +166,18 @@ def product(case: FilePart, vary: Mapping[str, Any]) -> Design:
     return _checked(case, {name: ((name,), _objects(values)) for name, values in columns.items()})
 
 
-def listed(case: FilePart, rows: Sequence[Mapping[str, Any]]) -> Design:
+def listed(
+    case: FilePart,
+    rows: Sequence[Mapping[str, Any]],
+    *,
+    labels: Mapping[str, Sequence[str | int]] | None = None,
+    faults: Mapping[int, str] | None = None,
+) -> Design:
     """Cases in a list, over the dimension "case".
 
-    rows: key → value of each, the same keys in all. Raises InputError.
+    rows: key → value of each, the same keys in all, None where it has no value. labels: name → what identifies each.
+    faults: number of a case → why it cannot be read, known beforehand. A case whose values cannot be read has a fault
+    and fails alone. Raises InputError for keys that the case does not have, and where no case can be read.
     """
     if not rows:
         raise InputError("the list of cases is empty; give at least one")
@@ -151,7 +185,10 @@ def listed(case: FilePart, rows: Sequence[Mapping[str, Any]]) -> Design:
     for number, row in enumerate(rows):
         if set(row) != set(names):
             raise InputError(f"case {number} gives {', '.join(row)}, the first one {', '.join(names)}; give the same")
-    return _checked(case, {name: ((CASE,), _objects([row[name] for row in rows])) for name in names})
+    taken = {*names, *_TAKEN}
+    named = {f"id_{name}" if name in taken else name: tuple(values) for name, values in (labels or {}).items()}
+    columns = {name: ((CASE,), _objects([row[name] for row in rows])) for name in names}
+    return _checked(case, columns, faults=faults or {}, labels=named)
 
 
 def from_dataset(case: FilePart, data: xr.Dataset) -> Design:
@@ -226,9 +263,17 @@ def in_si(case: FilePart, values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _checked(
-    case: FilePart, given: Mapping[str, tuple[tuple[str, ...], np.ndarray]], dims: tuple[str, ...] | None = None
+    case: FilePart,
+    given: Mapping[str, tuple[tuple[str, ...], np.ndarray]],
+    dims: tuple[str, ...] | None = None,
+    *,
+    faults: Mapping[int, str] | None = None,
+    labels: Mapping[str, tuple[str | int, ...]] | None = None,
 ) -> Design:
-    """A design of these values in SI units; every value of a dimension of its own is read by the case."""
+    """A design of these values in SI units; every value of a dimension of its own is read by the case.
+
+    faults: of a list of cases, whose values may be wrong in some; None where each has to be right.
+    """
     keys = {name: find_key(case, name) for name in given}
     twice = next((key for key in keys.values() if list(keys.values()).count(key) > 1), None)
     if twice is not None:
@@ -238,23 +283,40 @@ def _checked(
     if math.prod(sizes.values()) > _MOST:
         raise InputError(f"the study has {math.prod(sizes.values())} cases, more than {_MOST}; vary less, or sample")
     units = keys_of(case)
-    first = {keys[name]: values[(0,) * values.ndim] for name, (_, values) in given.items()}
+    wrong = None if faults is None else dict(faults)
+    at = 0 if wrong is None else _readable(case, keys, given, wrong)
+    first = {keys[name]: values[(at,) * values.ndim] for name, (_, values) in given.items()}
     inputs = []
     for name, (own, values) in given.items():
         key = keys[name]
         single = own == (name,) or values.ndim == 0
         # Numbers are in SI units already; of text each is read once, beside the first of the other inputs.
         known: dict[Any, Any] = {}
-        for value in values.flat:
-            if single or not _is_number(value):
-                label = repr(value)
-                known[label] = in_si(case, {**first, key: value})[key] if label not in known else known[label]
+        for number, value in enumerate(values.flat):
+            if wrong is not None and number in wrong:
+                continue
+            if _is_number(value) and not single:
+                if wrong is not None and not math.isfinite(value):
+                    wrong[number] = f"{key} must be a finite number, got {value}"
+                continue
+            label = repr(value)
+            if label in known:
+                continue
+            try:
+                known[label] = in_si(case, {**first, key: value})[key]
+            except InputError as error:
+                if wrong is None:
+                    raise
+                wrong[number] = str(error).removeprefix("the study: ")
         read = _objects([known.get(repr(value), value) for value in values.flat]).reshape(values.shape)
-        labels = _labels(read)
-        if single and len(np.unique(labels)) < labels.size:
+        if wrong:
+            # What cannot be read has no value.
+            read = _objects([None if k in wrong and not _is_finite(one) else one for k, one in enumerate(read)])
+        shown = _labels(read)
+        if single and len(np.unique(shown)) < shown.size:
             raise InputError(f"values of {name} are given twice; give each once")
-        inputs.append(Input(name, key, units.get(key), own, read, labels))
-    design = Design(sizes, tuple(inputs))
+        inputs.append(Input(name, key, units.get(key), own, read, shown))
+    design = Design(sizes, tuple(inputs), labels or {}, dict(sorted((wrong or {}).items())))
     if any(one.dims != (one.name,) for one in inputs):
         _check_some(case, design)
     return design
@@ -262,8 +324,10 @@ def _checked(
 
 def _check_some(case: FilePart, design: Design) -> None:
     """Refuse a list of cases of which none of the first can be read; single ones may fail, and the study tells."""
-    errors = []
-    for number in range(min(design.count, _TRIED)):
+    errors = [InputError(f"{design.named(number)}: {text}") for number, text in design.faults.items()][:1]
+    for number in _spread(design.count):
+        if number in design.faults:
+            continue
         try:
             in_si(case, design.at(number))
         except InputError as error:
@@ -271,6 +335,29 @@ def _check_some(case: FilePart, design: Design) -> None:
         else:
             return
     raise errors[0]
+
+
+def _readable(
+    case: FilePart, keys: Mapping[str, str], given: Mapping[str, tuple[Any, np.ndarray]], faults: Mapping[int, str]
+) -> int:
+    """The first case of a list that can be read; the first of all where none of those tried can."""
+    count = min(len(values) for _, values in given.values())
+    for number in _spread(count):
+        if number not in faults:
+            with contextlib.suppress(InputError):
+                in_si(case, {keys[name]: values[number] for name, (_, values) in given.items()})
+                return number
+    return 0
+
+
+def _spread(count: int) -> list[int]:
+    """The first cases of a list, and some of the others."""
+    few = range(min(count, _TRIED // 2))
+    return list(dict.fromkeys([*few, *np.linspace(0, count - 1, _TRIED // 2, dtype=int).tolist()]))
+
+
+def _is_finite(value: Any) -> bool:
+    return _is_number(value) and math.isfinite(value)
 
 
 def _is_number(value: Any) -> bool:
@@ -299,12 +386,12 @@ def _objects_like(values: np.ndarray) -> np.ndarray:
 def _labels(values: np.ndarray) -> np.ndarray:
     """Values as coordinates: numbers, or texts that differ where they do."""
     flat = list(values.flat)
-    if all(_is_number(value) for value in flat):
-        numbers = np.array(flat, dtype=float).reshape(values.shape)
-        if not np.isfinite(numbers).all():
+    if all(_is_number(value) or value is None for value in flat):
+        numbers = np.array([math.nan if one is None else one for one in flat], dtype=float).reshape(values.shape)
+        if not np.isfinite(numbers[values != None]).all():  # noqa: E711  of each
             raise InputError(f"values must be finite numbers, got {numbers[~np.isfinite(numbers)][0]}")
         return numbers
-    texts = [value if isinstance(value, str) else _short(value) for value in flat]
+    texts = ["" if one is None else one if isinstance(one, str) else _short(one) for one in flat]
     whole = {text: [repr(v) for t, v in zip(texts, flat, strict=True) if t == text] for text in texts}
     numbers_of = {text: itertools.count(1) for text, own in whole.items() if len(set(own)) > 1}
     told = [f"{text} ({next(numbers_of[text])})" if text in numbers_of else text for text in texts]

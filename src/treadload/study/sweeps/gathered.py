@@ -62,7 +62,7 @@ def with_fields(data: xr.Dataset, design: Design, records: Sequence[Record]) -> 
             if name in one.fields:
                 place(values[one.number : one.number + 1], one.fields[name], one.coordinates, axes)
         made[name] = ((*design.dims, *dims), values)
-    return data.merge(_dataset(design, made, axes))
+    return data.merge(_dataset(design, made, axes), compat="no_conflicts")
 
 
 def _dataset(design: Design, made: Mapping[str, Values], axes: Mapping[str, np.ndarray]) -> xr.Dataset:
@@ -83,7 +83,7 @@ def coordinates_of(axes: Mapping[str, np.ndarray]) -> dict[str, Any]:
 
 def label_of(name: str, design: Design) -> str:
     """The name of a result in a study, which no input has: "solved_normal_load" of one over "normal_load"."""
-    taken = {*design.dims, *(one.name for one in design.inputs)}
+    taken = {*design.dims, *(one.name for one in design.inputs), *design.labels}
     return f"solved_{name}" if name in taken else name
 
 

@@ -30,6 +30,9 @@ def plan_sweep(case: FilePart, design: Design, fields: Sequence[str] = ()) -> st
     plan, wrong = "", []
     tried = min(design.count, _TRIED)
     for number in range(tried):
+        if number in design.faults:
+            wrong.append(f"{design.named(number)}: {design.faults[number]}")
+            continue
         try:
             one = type(case).from_dict(
                 with_values(case.given(), design.at(number)), folder=case.folder, name=design.said(number)

@@ -47,8 +47,8 @@ _KINDS: Mapping[str, type[FilePart]] = {kind.__name__: kind for kind in (Case, L
 class Store:
     """The records of a study, on disk as they come. Use `opened` or `begun`.
 
-    finished: True where every case is solved and the arrays hold it: then no record is read. repaired: a sentence on
-    what was damaged and is solved again, "" if nothing was.
+    finished: True where every case that can be is solved and the arrays hold it: then no record is read. repaired: a
+    sentence on what was damaged and is solved again, "" if nothing was.
     """
 
     def __init__(self, path: Path, case: FilePart, design: Design, question: Question, name: str) -> None:
@@ -64,7 +64,8 @@ class Store:
         self._kept, self._dirty = journal, not current
         self.repaired = journal.damage(self.design.count - len(journal.records), repaired=True)
         # Failures are tried again: a machine, a limit or the program may be another today.
-        self.records = {number: one for number, one in journal.records.items() if one.failure is None}
+        faults = self.design.faults
+        self.records = {n: one for n, one in journal.records.items() if one.failure is None or n in faults}
 
     def append(self, record: Record) -> None:
         """Keep a record. Raises WriteError where the disk is full."""
@@ -92,7 +93,7 @@ class Store:
         self._kept.records = self.records
         current = {
             "journal": [self._kept.end, self._kept.crc],
-            "solved": sum(one.failure is None for one in self.records.values()),
+            "done": sum(one.failure is None or n in self.design.faults for n, one in self.records.items()),
             "names": _names(self._kept, self.design),
         }
         with self.writing():
@@ -167,7 +168,7 @@ def begun(path: str | os.PathLike[str], case: FilePart, design: Design, question
                 _write_study(path, case, design, question, name)
         current = _current(path)
         # Fields that wait are put together first.
-        whole = current.get("solved") == design.count and not (path / _FIELDS).exists()
+        whole = current.get("done") == design.count and not (path / _FIELDS).exists()
         if whole and current["journal"] == list(checksum(path / _JOURNAL)):
             store.finished = True
             yield store
@@ -339,7 +340,7 @@ def _current(path: Path) -> dict[str, Any]:
     """Of which journal the arrays are made; empty where nothing says it."""
     try:
         told = json.loads((path / _CURRENT).read_text(encoding="utf-8"))
-        return {"journal": list(told["journal"] or ()), "solved": int(told["solved"]), "names": list(told["names"])}
+        return {"journal": list(told["journal"] or ()), "done": int(told["done"]), "names": list(told["names"])}
     except FileNotFoundError:
         return {}
     except (OSError, ValueError, LookupError, TypeError, RecursionError):

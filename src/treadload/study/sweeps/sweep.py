@@ -41,7 +41,7 @@ _REDUCED = ("max_", "min_", "mean_of_")
 _CAUSES = 6
 # Texts of an input that are written out.
 _LISTED = 6
-_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+_NUMBER = re.compile(r"(?<=cannot read )'[^']*'|-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +112,11 @@ class Sweep(BaseResult, group="sweep"):
     def _failed(self) -> Iterator[str]:
         causes = causes_of(self.failures)
         for text, numbers in list(causes.items())[:_CAUSES]:
-            yield f"{_cases(len(numbers))} failed, the first with {self.design.said(min(numbers))}: {text}"
+            which = f"the first with {self.design.said(min(numbers))}"
+            if self.design.labels:
+                which = ", ".join(map(self.design.named, sorted(numbers)[:_LISTED]))
+                which += f" and {len(numbers) - _LISTED} more" if len(numbers) > _LISTED else ""
+            yield f"{_cases(len(numbers))} failed, {which}: {text}"
         if len(causes) > _CAUSES:
             yield f"and {len(causes) - _CAUSES} more causes of failures"
 
@@ -125,9 +129,9 @@ def varied(design: Design) -> list[str]:
     for one in design.inputs:
         labels = one.labels.ravel()
         unit = f" {one.unit}" if one.unit else ""
-        count = len(np.unique(labels))
+        count = len(np.unique(labels[~np.isnan(labels)] if one.is_number else labels))
         span = (
-            f"{labels.min():.6g} to {labels.max():.6g}{unit}, {count} value{'s' * (count > 1)}"
+            f"{np.nanmin(labels):.6g} to {np.nanmax(labels):.6g}{unit}, {count} value{'s' * (count > 1)}"
             if one.is_number
             else f"{', '.join(map(str, labels[:_LISTED]))}{' …' if labels.size > _LISTED else ''}"
         )
@@ -202,7 +206,12 @@ def _solved(
     tell: Progress,
 ) -> Iterator[Record]:  # fmt: skip
     """Records of the cases that are not known yet, as they come."""
-    tasks: list[Task] = [(number, design.at(number)) for number in range(design.count) if number not in known]
+    tasks: list[Task] = []
+    for number in (number for number in range(design.count) if number not in known):
+        if number in design.faults:
+            yield Record(number, 0.0, failure=design.faults[number])
+        else:
+            tasks.append((number, design.at(number)))
     if not tasks:
         return
     # Another study, or this one once more, must not be taken for it by workers that are still there.
@@ -279,7 +288,7 @@ def causes_of(failures: Iterable[tuple[int, str]]) -> dict[str, list[int]]:
 
 
 def by_cause(by_text: Mapping[str, Sequence[int]]) -> dict[str, list[int]]:
-    """Texts that differ in their numbers alone become one, the first; the most frequent first."""
+    """Texts that differ in numbers, or in what cannot be read, become one, the first; the most frequent first."""
     causes: dict[str, tuple[str, list[int]]] = {}
     for text, numbers in by_text.items():
         causes.setdefault(_NUMBER.sub("#", text), (text, []))[1].extend(map(int, numbers))

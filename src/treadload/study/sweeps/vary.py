@@ -12,15 +12,20 @@ import numpy as np
 
 from treadload.case.changes import read_value
 from treadload.case.file import FilePart
-from treadload.errors import InputError
+from treadload.case.keys import find_key
+from treadload.errors import InputError, nearest
 from treadload.files import EXCEL
-from treadload.results.sheets import first_sheet
-from treadload.study.sweeps.design import Design, bounds_of, listed, product, sampled
-from treadload.tables import read_table
+from treadload.results.sheets import numbered_rows
+from treadload.study.sweeps.design import ROW, Design, bounds_of, listed, product, sampled
+from treadload.tables import NO_DATA, read_table
 
 EXAMPLES = 'friction=0.3:0.9:7, normal_load="20 kN:40 kN:5" or pavement.temperature=[5, 15, 35]'
 # Values that one text may ask for.
 _MOST = 100_000
+IDS = ("id", "name", "section", "label")
+"""Headings, in capitals or not, of columns that identify a row of a table."""
+# Cells without a value.
+_EMPTY = {"", *(word.casefold() for word in NO_DATA)}
 _HEADING = re.compile(r"(?P<name>[^\[(]+?)\s*(?:[\[(](?P<unit>[^\])]*)[\])])?")
 
 
@@ -85,50 +90,94 @@ def _values(case: FilePart, name: str, text: str) -> list[Any]:
     return [float(f"{value:.12g}") for value in values]
 
 
-def from_file(case: FilePart, path: str | os.PathLike[str]) -> Design:
+def from_file(case: FilePart, path: str | os.PathLike[str], *, ids: Sequence[str] = ()) -> Design:
     """Cases from a CSV file or the first sheet of an Excel workbook: headings are keys, rows are cases.
 
-    A heading may carry a unit, "normal_load [kN]"; a cell may, too. Raises InputError.
+    A heading may carry a unit, "normal_load [kN]"; a cell may, too. ids: headings of columns that only identify a row
+    and go through to the results, as `IDS` do without being listed; so does the number of the row. A row that cannot
+    be read fails alone. Raises InputError.
     """
     path = Path(path)
     head, rows = _sheet(path) if path.suffix.lower() in EXCEL else _text(path)
-    columns = []
+    columns: list[tuple[str, str]] = []
     for cell in head:
         match = _HEADING.fullmatch(str(cell).strip())
         if match is None:
             raise InputError(f"{path}: {cell!r} is no heading of a key, such as friction or normal_load [kN]")
         columns.append((match["name"].strip(), (match["unit"] or "").strip()))
-    return listed(
-        case,
-        [
-            {name: _cell(cell, unit) for (name, unit), cell in zip(columns, row, strict=True)}
-            for row in rows
-        ],
-    )  # fmt: skip
+    names = [name for name, _ in columns]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise InputError(f"{path} has two columns {twice!r}; give each its heading")
+    unknown = next((name for name in ids if name not in names), None)
+    if unknown is not None:
+        raise InputError(f"{path} has no column {unknown!r} of ids; {nearest(unknown, names, 'it has')}")
+    chosen = [name for name in names if name in ids or name.casefold() in IDS]
+    _check_keys(case, path, [name for name in names if name not in chosen])
+    called = {name: f"id_{name}" if name == ROW else name for name in chosen}
+    labels: dict[str, list[str | int]] = {ROW: [], **{name: [] for name in called.values()}}
+    cases: list[dict[str, Any]] = []
+    faults: dict[int, str] = {}
+    for number, (line, row) in enumerate(rows):
+        cells = dict(zip(names, [*row, *[None] * len(names)], strict=False))
+        labels[ROW].append(line)
+        for name in chosen:
+            labels[called[name]].append(_label(cells[name]))
+        wanted = {name: unit for name, unit in columns if name not in chosen}
+        empty = [name for name in wanted if _is_empty(cells[name])]
+        if any(not _is_empty(cell) for cell in row[len(names) :]) or len(row) < len(names):
+            faults[number] = f"{len(row)} values where the header has {len(names)}"
+        elif empty:
+            faults[number] = f"no value of {', '.join(empty)}"
+        cases.append({name: None if name in empty else _cell(cells[name], unit) for name, unit in wanted.items()})
+    if rows and len(faults) == len(rows):
+        raise InputError(f"{path}, line {rows[0][0]}: {faults[0]}; no row of the table can be read")
+    return listed(case, cases, labels=labels, faults=faults)
+
+
+def _check_keys(case: FilePart, path: Path, names: Sequence[str]) -> None:
+    """Raise InputError for headings that are no keys of a case, with what a column of ids needs."""
+    if not names:
+        raise InputError(f"{path} varies nothing: its columns are ids; add one that is a key, such as friction")
+    for name in names:
+        try:
+            find_key(case, name)
+        except InputError as error:
+            raise InputError(
+                f"{path}, column {name!r}: {error}; a column that only identifies its row has the heading "
+                f"{', '.join(IDS[:-1])} or {IDS[-1]}, or is named by --id {name!r}"
+            ) from error
+
+
+def _is_empty(cell: Any) -> bool:
+    return cell is None or (isinstance(cell, str) and cell.strip().casefold() in _EMPTY)
+
+
+def _label(cell: Any) -> str:
+    """A cell as the text of an id: 12 for the 12.0 of a spreadsheet."""
+    whole = isinstance(cell, float) and cell.is_integer()
+    return "" if cell is None else str(int(cell) if whole else cell).strip()
 
 
 def _cell(cell: Any, unit: str) -> Any:
+    if not isinstance(cell, bool | int | float | str):
+        # A date, say, which is no value of a case.
+        cell = str(cell)
     if isinstance(cell, str):
         return f"{cell} {unit}" if unit and unit not in ("-", "1") else read_value(cell)
     return f"{cell!r} {unit}" if unit and unit not in ("-", "1") else cell
 
 
-def _text(path: Path) -> tuple[Sequence[Any], Sequence[Sequence[Any]]]:
+def _text(path: Path) -> tuple[Sequence[Any], Sequence[tuple[int, Sequence[Any]]]]:
     table = read_table(path)
     if not table.has_header:
         raise InputError(
             f"{path}: the first line names the keys, such as friction;normal_load [kN]; it holds numbers"
         )
-    for line, row in zip(table.lines, table.rows, strict=True):
-        if len(row) != len(table.rows[0]):
-            raise InputError(f"{path}, line {line}: {len(row)} values where the header has {len(table.rows[0])}")
-    return table.rows[0], table.rows[1:]
+    return table.rows[0], list(zip(table.lines[1:], table.rows[1:], strict=True))
 
 
-def _sheet(path: Path) -> tuple[Sequence[Any], Sequence[Sequence[Any]]]:
-    rows = first_sheet(path)
-    width = max((k + 1 for k, cell in enumerate(rows[0]) if cell is not None), default=0)
-    for number, row in enumerate(rows, start=1):
-        if any(cell is None for cell in row[:width]) or any(cell is not None for cell in row[width:]):
-            raise InputError(f"{path}, row {number}: {width} cells are needed, one under each heading")
-    return rows[0][:width], [row[:width] for row in rows[1:]]
+def _sheet(path: Path) -> tuple[Sequence[Any], Sequence[tuple[int, Sequence[Any]]]]:
+    (_, head), *rows = numbered_rows(path)
+    width = max((k + 1 for k, cell in enumerate(head) if cell is not None), default=0)
+    return head[:width], rows
