@@ -200,6 +200,8 @@ _PASSES = {
     "contact_width": ("m", "width of the contact across travel"),
     "contact_area": ("m^2", "area of the cells in contact"),
     "peak_pressure": ("Pa", "largest contact pressure of a cell"),
+    "peak_pressure_error": ("Pa", "change of the peak pressure by half as long load steps"),
+    "largest_plastic_strain_error": ("1", "change of the largest plastic strain by half as long load steps"),
     "largest_plastic_strain": ("1", "largest accumulated equivalent plastic strain"),
     "shakedown_load": ("1", "largest load that shakes down, over that at first yield without shear"),
     "elastic_limit_load": ("1", "largest load that yields nowhere, over that at first yield without shear"),

@@ -85,7 +85,7 @@ def test_a_dry_run_tells_what_would_be_solved():
         (PRESSED, '["640 N", "0 N"]', "[]", "loads must be forces >= 0 N with one above"),
         (PRESSED, '["640 N", "0 N"]', '["-1 N"]', "loads must be forces >= 0 N with one above"),
         (PRESSED, "layers = 6", "layers = 1", r"layers must lie in \[2, 64\], got 1; 14 is the default"),
-        (PRESSED, "layers = 6", "tolerance = 1", r"tolerance must lie in \[1e-6, 0.1\], got 1; 0.0001"),
+        (PRESSED, "layers = 6", "tolerance = 1", r"tolerance must lie in \[1e-6, 0.1\], got 1; 0.001"),
         (PRESSED, "[indentation]", '[damage]\nfatigue = { epsilon_6 = 1e-4, slope = -0.2 }\n[indentation]',
          "leave out damage"),
         (PRESSED, 'name = "soft"', 'thickness = "5 cm"\nmaterial = { modulus = "1 GPa", poisson = 0.3 }\n'

@@ -23,7 +23,7 @@ class IndentationPart(Table):
     spacing: Length | None = None
     depth: Length | None = None
     layers: int = 14
-    tolerance: Number = 1e-4
+    tolerance: Number = 1e-3
 
     @model_validator(mode="after")
     def _possible(self) -> IndentationPart:
