@@ -2,9 +2,9 @@
 
 tamaas solves contact and plasticity in turn (EPIC, accelerated, to 1e-4, DF-SANE inside from 1e-2 to 1e-5) on even
 cells of a periodic volume; ours solves one fixed point, to 1e-3, on a half-space, with graded rows, five for eight of
-theirs. Both take each load in one jump from nothing; one thread, process time, operators included. Peak pressures over
-the yield stress stand beside; then ours in parts, halved until the peak pressure holds, as users get it. tamaas runs in
-the environment that `peers.py` makes; where that fails, a sentence says why.
+theirs. Both take each load in one jump from nothing; one thread, process time, operators included. Peak pressures
+over the yield stress stand beside; then ours in parts, halved until the peak pressure holds, as users get it. tamaas
+runs in the environment that `peers.py` makes; where that fails, a sentence says why.
 
     python benchmarks/indentation.py            python benchmarks/indentation.py 64 32
 """

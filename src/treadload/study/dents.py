@@ -79,5 +79,5 @@ def plan_dents(case: Case) -> str:
         )
     if case.drum is not None:
         lines.append(f"rolled    {case.drum.load / 1e3:.4g} kN, at most {case.drum.passes} pass(es)")
-    lines.append("estimate  minutes at most: half a minute a step or a pass on 64 x 64 cells in 14 rows")
+    lines.append("estimate  minutes: on 64 x 64 cells in 14 rows at most five a step, half a one a pass")
     return "\n".join([*lines, "", road_in_rows(case.build_road(), case)])
