@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pytest
 
@@ -146,3 +147,24 @@ def test_a_class_is_judged_by_its_own_tire():
     said = traffic_doubts(TRUCK, tl.damage.Traffic(tuple(rows), 1e5), tl.damage.Climate.constant(15.0))
     assert len(said) == 1
     assert "wheel load of truck is 20 N" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("load", "belt", "words"),
+    [
+        (10e3, None, r"is 0\.\d+ times the inflation pressure.*too large.*give a belt"),
+        (32.5e3, None, ""),
+        (32.5e3, "315/80R22.5", ""),
+        (60e3, "315/80R22.5", r"is 1\.\d+ times the inflation pressure.*too small.*look at the load"),
+    ],
+)
+def test_a_mean_pressure_that_no_inflated_tire_has_is_named(load, belt, words):
+    """On cells of 12 mm the area is right within a few per cent; the bounds are wider."""
+    pressure = 820e3 if load < 50e3 else 560e3
+    made = None if belt is None else tl.tire.Belt.from_library(belt)
+    tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=pressure, belt=made)
+    road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    contact = tl.solve_contact(tire, road, tl.Rolling(normal_load=load, friction=0.7), spacing=12e-3)
+    told = [text for text in contact.warnings if "times the inflation pressure" in text]
+    assert len(told) == bool(words)
+    assert not words or re.search(words, told[0])

@@ -18,6 +18,10 @@ from treadload.tire.surface import HeightMapSurface
 # NaN by design: no material, or nothing that rolls.
 _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip_y", "approach"}
 
+# Mean pressure of a footprint over the inflation pressure: a sensor below 315/80R22.5 at 35 kN gave 0.73 (Materials
+# 2021, 14, 2117), rated loads give 1.0 to 1.3 (from memory), overload more.
+_MEAN_OVER_INFLATION = (0.6, 1.6)
+
 
 def of_tire(tire: Tire) -> list[str]:
     """What is known of the tire's surface, and where its modulus comes from when nobody gave it."""
@@ -62,6 +66,25 @@ def of_numbers(tire: Tire, rolling: Rolling, grid: Grid) -> list[str]:
         said += doubt("speed", rolling.speed)
     said += doubt("size of the cells", min(grid.dx, grid.dy)) or doubt("size of the cells", max(grid.dx, grid.dy))
     return list(said)
+
+
+def of_mean_pressure(tire: Tire, load: float, area: float) -> list[str]:
+    """A mean pressure that no inflated tire has, by its inflation pressure. load: N. area: in contact, m²."""
+    inflation = tire.inflation_pressure
+    if inflation is None or not (area > 0 and load > 0 and inflation > 0):
+        return []
+    ratio, (low, high) = load / area / inflation, _MEAN_OVER_INFLATION
+    if low <= ratio <= high:
+        return []
+    remedy = (
+        "the tread's modulus, and that it has no belt, hold for loads near the rated one: give a belt or a modulus"
+        if tire.belt is None
+        else "look at the load, the inflation pressure and the belt"
+    )
+    return [
+        f"the mean contact pressure is {ratio:.2g} times the inflation pressure, {low:g} to {high:g} is "
+        f"usual: the footprint is too {'large' if ratio < low else 'small'} for this load; {remedy}"
+    ]
 
 
 def of_fields(data: xr.Dataset) -> list[str]:

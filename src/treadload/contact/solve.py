@@ -331,9 +331,11 @@ def _contact(
         *cautions.of_numbers(tire, rolling, grid),
         *(() if relief is None else doubts_of(relief, grid)),
     ]
+    area = float((normal.pressure > 0).sum()) * grid.cell_area
+    if relief is None:
+        warnings += cautions.of_mean_pressure(tire, load, area)
     if pair.splitting:
         warnings.append(f"Newton's method stalled and went on after {pair.splitting} steps of the slower splitting")
-    area = float((normal.pressure > 0).sum()) * grid.cell_area
     share = _share(scene, area)
     layered = road_compliance == "layers" and not road.is_homogeneous
     if share is not None:
