@@ -7,7 +7,7 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from treadload.app.fielding import plain
+from treadload.app.elements import heading, plain, with_attributes
 from treadload.app.figures import Place
 from treadload.app.form import Form
 from treadload.app.left import Left
@@ -47,21 +47,23 @@ class Bench(Tab):
     def _centre(self) -> None:
         with ui.element("div").classes("tools"):
             self._maps_of = {
-                side: ui.select({self._view[side]: "…"}, value=self._view[side], label=f"{side} map",
-                                on_change=lambda event, side=side: self._look(**{side: event.value}))
-                .props(f'dense outlined options-dense data-map="{side}"').classes("long")
+                side: with_attributes(
+                    ui.select({self._view[side]: "…"}, value=self._view[side], label=f"{side} map",
+                              on_change=lambda event, side=side: self._look(**{side: event.value})),
+                    data_map=side,
+                ).props("dense outlined options-dense").classes("long")
                 for side in ("left", "right")
             }  # fmt: skip
             self._depth = ui.select({0: "surface"}, value=0, label="depth of maps",
                                     on_change=lambda event: self._look(depth=event.value))  # fmt: skip
             self._depth.props('dense outlined options-dense data-map="depth"').style("max-width:150px")
-            plain("whole contact", lambda: self.js("treadloadWhole()"))
-            plain("SVG", lambda: self.js("treadloadPicture('svg')"), label="take the maps home as SVG")
-            plain("PNG", lambda: self.js("treadloadPicture('png')"), label="take the maps home as PNG")
+            plain("whole contact", lambda: self.js("treadloadWhole"))
+            plain("SVG", lambda: self.js("treadloadPicture", "svg"), label="take the maps home as SVG")
+            plain("PNG", lambda: self.js("treadloadPicture", "png"), label="take the maps home as PNG")
         self._maps = Place("maps", "two linked maps of the result")
         self._slice.build()
         with ui.element("div").classes("tools"):
-            ui.element("h2").props('innerHTML="Runs"').style("margin:8px 0")
+            heading("Runs").style("margin:8px 0")
             self._runs.button()
             plain("Tread in space", self._show_tread).props('id="tread"')
         self._runs.build()
@@ -156,7 +158,7 @@ class Bench(Tab):
 
     def fly(self, x: float, y: float) -> None:
         """Show the maps around a place, m."""
-        self.js(f"treadloadFly({x * 1e3:.3f}, {y * 1e3:.3f})")
+        self.js("treadloadFly", round(x * 1e3, 3), round(y * 1e3, 3))
 
     async def _show_tread(self) -> None:
         """Show the tread in space, or put it away."""

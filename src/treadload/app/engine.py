@@ -107,7 +107,7 @@ class Engine:
         def say(figures: dict[str, Any] | None = None, **told: Any) -> None:
             # Figures are JSON already, which the browser alone reads.
             if figures:
-                told["figures"] = {name: one.to_json() for name, one in figures.items()}
+                told["figures"] = {name: drawing.as_text(one) for name, one in figures.items()}
             whole = json.dumps({"id": number, **told}, default=float)
             with self._lock:
                 self._write(f"{whole}\n")

@@ -8,6 +8,7 @@ from typing import Any
 
 from nicegui import events, ui
 
+from treadload.app.elements import plain, with_attributes
 from treadload.app.fields import Field, default_of
 from treadload.app.form import Checked, Form
 from treadload.app.guard import MOST_UPLOADED
@@ -15,22 +16,6 @@ from treadload.app.session import Session
 from treadload.errors import InputError
 
 _TOO_LARGE = f"this file is not of the kind that goes here, or larger than {MOST_UPLOADED // 2**20} MB"
-
-
-def plain(text: str, do: Callable[..., Any], *, main: bool = False, label: str = "") -> Any:
-    """A button. label: for who does not see it, where the text alone does not say."""
-    button = ui.element("button").classes("plain main" if main else "plain").props('type="button"')
-    if label:
-        button.props(f'aria-label="{label}"')
-    with button:
-        ui.html(text, sanitize=False)
-    return button.on("click", lambda: do())
-
-
-def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], Any]) -> Any:
-    """One of a few."""
-    select = ui.select(options, value=value, label=label, on_change=lambda event: do(event.value))
-    return select.props("dense outlined options-dense").classes("wide")
 
 
 class Uploads:
@@ -57,7 +42,7 @@ class Uploads:
                 auto_upload=True, max_file_size=MOST_UPLOADED, on_rejected=lambda: self.say(_TOO_LARGE),
                 on_upload=lambda event: self._uploaded(event, suffixes, kept),
             )  # fmt: skip
-            chooser.props(f'accept="{",".join(suffixes)}" aria-hidden="true"').classes(f"upload-{name}")
+            with_attributes(chooser, accept=",".join(suffixes), aria_hidden="true").classes.append(f"upload-{name}")
             plain(text, lambda: chooser.run_method("pickFiles"))
 
     async def _uploaded(
@@ -144,7 +129,7 @@ class Fields(Uploads, ABC):
             # What a road of yours leaves out is no value of yours.
             yours = given and self.form.is_yours(path)
             hint = "yours" if yours else "default" if given or not otherwise else f"default: {otherwise}"
-            element.props(f'hint="{hint}"').props(remove="error error-message")
+            with_attributes(element, hint=hint).props(remove="error error-message")
             element.classes(add="is-yours" if yours else "", remove="" if yours else "is-yours")
             if wrong:
                 element.props["error"], element.props["error-message"] = True, wrong
@@ -173,11 +158,11 @@ class Fields(Uploads, ABC):
             element.props("options-dense")
         else:
             element = ui.input(field.label, value=value)
-            suffix = field.unit if field.unit else ""
-            element.props(f'suffix="{suffix}" stack-label autocomplete="off"')
+            with_attributes(element, suffix=field.unit).props('stack-label autocomplete="off"')
             element.on("blur", lambda: self._typed(field, str(element.value or "")))
             element.on("keydown.enter", lambda: self._typed(field, str(element.value or "")))
-        element.props(f'dense outlined data-path="{field.path}"').classes("field wide" if wide else "field")
+        with_attributes(element, data_path=field.path).props("dense outlined")
+        element.classes("field wide" if wide else "field")
         if field.words:
             element.tooltip(field.words)
         self._shown[field.path] = (field, element)

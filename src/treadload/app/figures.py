@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
 from nicegui import ui
 
+from treadload.app.elements import call_script, with_attributes
 from treadload.plots.interactive.view import CONFIG
 
 
@@ -14,14 +13,13 @@ class Place:
 
     def __init__(self, name: str, words: str) -> None:
         self.name, self._client = name, ui.context.client
-        self._element = ui.element("div").classes(f"figure {name}")
-        self._element.props(f'role="group" aria-label="{words}"')
+        self._element = with_attributes(ui.element("div"), role="group", aria_label=words)
+        self._element.classes.extend(("figure", name))
 
     def draw(self, figure: str, mark: str = "", *, add: bool = False) -> None:
         """Draw a figure, given as JSON; the newest wins. mark: stands on the body of the page once it is drawn.
 
         add: True to add its traces to what stands there.
         """
-        told = ", ".join(json.dumps(one) for one in (self.name, figure, mark, CONFIG, add))
         with self._client:
-            ui.run_javascript(f"treadloadDraw({told})")
+            call_script("treadloadDraw", self.name, figure, mark, CONFIG, add)

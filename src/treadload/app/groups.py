@@ -9,7 +9,8 @@ from typing import Any
 from nicegui import ui
 
 from treadload.app import fields as keys
-from treadload.app.fielding import Fields, choosing, plain
+from treadload.app.elements import choosing, heading, plain
+from treadload.app.fielding import Fields
 from treadload.app.fields import Field
 from treadload.app.figures import Place
 from treadload.app.form import profile_of
@@ -28,7 +29,7 @@ class CaseFields(Fields):
     def tire(self) -> None:
         """What rolls."""
         form = self.form
-        ui.element("h2").style("margin-top:4px").props('innerHTML="Tire"')
+        heading("Tire").style("margin-top:4px")
         with ui.element("div").classes("fields"):
             choosing(dict(keys.SURFACES), form.surface, "Surface", self._surface)
             if form.surface in ("scan", "height_map"):
@@ -101,7 +102,7 @@ class CaseFields(Fields):
     def road(self) -> None:
         """What it rolls on."""
         form = self.form
-        ui.element("h2").props('innerHTML="Road"')
+        heading("Road")
         with ui.element("div").classes("fields"):
             choosing(dict(keys.ROADS), form.road, "Road", lambda kind: self.again(self.form.with_road(kind)))
             if form.road == "structure":

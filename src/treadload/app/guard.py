@@ -16,6 +16,8 @@ from http.cookies import CookieError, SimpleCookie
 from typing import Any
 from urllib.parse import parse_qs
 
+from treadload.app.policy import NONCE, headers_of, new_nonce
+
 Scope = MutableMapping[str, Any]
 Message = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Message]]
@@ -36,19 +38,6 @@ _AROUND = 2**16
 _CLIENT = re.compile(r"^/_nicegui/client/([^/]+)/")
 _UPLOAD = re.compile(r"^/_nicegui/client/[^/]+/upload/[0-9]+$")
 _SOCKET = "/_nicegui_ws/"
-# The page is made by scripts in it; none of them, no picture and no call comes from elsewhere.
-_POLICY = (
-    "default-src 'self' data: blob:; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:; "
-    "style-src 'self' 'unsafe-inline'; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
-)
-_HEADERS = {
-    "content-security-policy": _POLICY,
-    "cross-origin-opener-policy": "same-origin",
-    "cross-origin-resource-policy": "same-origin",
-    "referrer-policy": "no-referrer",
-    "x-content-type-options": "nosniff",
-    "x-frame-options": "DENY",
-}
 _ENTER = "open the address that `treadload app` printed when it started; it carries the token of this server"
 
 
@@ -152,7 +141,9 @@ class Guard:
             return
         scope[SESSION] = session
         if scope["type"] == "http":
-            await self._app(scope, _Counted(receive, _most(scope["path"])), _with_headers(send))
+            scope[NONCE] = new_nonce()
+            extra = headers_of(scope[NONCE], _header(scope, "host"))
+            await self._app(scope, _Counted(receive, _most(scope["path"])), _with_headers(send, extra))
         else:
             await self._app(scope, receive, send)
 
@@ -199,7 +190,7 @@ class Guard:
         if session is None:
             said = f"{self._keys.cookie}={self._keys.enter()}; Path=/; HttpOnly; SameSite=Strict"
             headers.append((b"set-cookie", said.encode()))
-        await send({"type": "http.response.start", "status": 303, "headers": headers + _extra()})
+        await send({"type": "http.response.start", "status": 303, "headers": headers + headers_of()})
         await send({"type": "http.response.body", "body": b""})
 
 
@@ -232,15 +223,11 @@ def _header(scope: Scope, wanted: str) -> str:
     return joint.join(value for name, value in _headers(scope) if name == wanted)
 
 
-def _extra() -> list[tuple[bytes, bytes]]:
-    return [(name.encode(), value.encode()) for name, value in _HEADERS.items()]
-
-
-def _with_headers(send: Send) -> Send:
+def _with_headers(send: Send, extra: list[tuple[bytes, bytes]]) -> Send:
     async def sent(message: Message) -> None:
         if message["type"] == "http.response.start":
             own = [one for one in message.get("headers", ()) if not one[0].lower().startswith(b"access-control-")]
-            message = {**message, "headers": [*own, *_extra()]}
+            message = {**message, "headers": [*own, *extra]}
         await send(message)
 
     return sent
@@ -258,5 +245,5 @@ async def _answer(send: Send, refusal: Refusal) -> None:
     body = f"treadload: {refusal.why}\n".encode()
     headers = [(b"content-type", b"text/plain; charset=utf-8"), (b"cache-control", b"no-store")]
     headers += [(b"content-length", str(len(body)).encode()), (b"connection", b"close")]
-    await send({"type": "http.response.start", "status": refusal.status, "headers": headers + _extra()})
+    await send({"type": "http.response.start", "status": refusal.status, "headers": headers + headers_of()})
     await send({"type": "http.response.body", "body": body})

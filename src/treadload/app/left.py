@@ -8,7 +8,7 @@ from typing import Any
 from nicegui import ui
 
 from treadload.app import fields as keys
-from treadload.app.fielding import choosing, plain
+from treadload.app.elements import choosing, heading, plain
 from treadload.app.form import Form
 from treadload.app.groups import CaseFields
 from treadload.app.session import FOOTPRINTS, Session
@@ -34,7 +34,7 @@ class Left(CaseFields):
 
     def _rolling(self) -> None:
         form = self.form
-        ui.element("h2").props('innerHTML="Wheel"')
+        heading("Wheel")
         with ui.element("div").classes("fields"):
             self.field(keys.LOAD)
             self.field(keys.FRICTION)
@@ -50,7 +50,7 @@ class Left(CaseFields):
                     self.field(field)
 
     def _grid(self) -> None:
-        ui.element("h2").props('innerHTML="Grid and verdict"')
+        heading("Grid and verdict")
         with ui.element("div").classes("fields"):
             self.field(keys.SPACING)
             self.field(keys.TOLERANCE)
@@ -67,7 +67,7 @@ class Left(CaseFields):
             plain("no verdict", lambda: self.again(self.form.with_values({"damage": None})))
 
     def _own_file(self) -> None:
-        ui.element("h2").props('innerHTML="Your case"')
+        heading("Your case")
         with ui.element("div").classes("line"):
             self.upload("open a TOML …", (".toml",), None, "toml")
             self.upload("open a result …", (".nc",), lambda kept: self._opened("result", kept), "result")

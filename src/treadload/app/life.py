@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 
 from nicegui import background_tasks, ui
 
+from treadload.app.elements import heading, with_attributes
 from treadload.app.life_left import LifeLeft
 from treadload.app.right import Right
 from treadload.app.runs import Runs
@@ -45,7 +46,7 @@ class LifePage(Tab):
                                      on_change=lambda event: self._choose(str(event.value or "")))  # fmt: skip
                 self._by.props('dense outlined options-dense id="by"')
             self._pictures = ui.element("div").classes("pictures").props('id="pictures"')
-            ui.element("h2").props('innerHTML="Runs"')
+            heading("Runs")
             self._runs.build()
         with ui.element("section").classes("right").props('aria-label="the verdict"'):
             self.right = Right(lambda row: self._choose(row["criterion"]), self.take_home)
@@ -78,10 +79,8 @@ class LifePage(Tab):
         with self._pictures:
             for name, words in _PICTURES.items():
                 if name in self._drawn:
-                    wide = "wide" if name in ("shares", "across") else ""
-                    ui.element("img").classes(wide).props(
-                        f'src="{self._drawn[name]}" alt="{words}" data-picture="{name}"'
-                    )
+                    picture = ui.element("img").classes("wide" if name in ("shares", "across") else "")
+                    with_attributes(picture, src=self._drawn[name], alt=words, data_picture=name)
 
     def finished(self, run: Run) -> None:
         """A card for it."""

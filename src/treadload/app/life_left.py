@@ -10,7 +10,7 @@ from nicegui import ui
 from treadload.app import fields as keys
 from treadload.app import life_form as own
 from treadload.app import maneuvers
-from treadload.app.fielding import choosing, plain
+from treadload.app.elements import choosing, heading, plain, with_attributes
 from treadload.app.fields import Field
 from treadload.app.form import Form
 from treadload.app.groups import CaseFields
@@ -48,7 +48,7 @@ class LifeLeft(CaseFields):
         self._grid()
 
     def _traffic(self) -> None:
-        ui.element("h2").style("margin-top:4px").props('innerHTML="Traffic"')
+        heading("Traffic").style("margin-top:4px")
         with ui.element("div").classes("fields"):
             for field in own.PASSES:
                 self.field(field)
@@ -57,7 +57,7 @@ class LifeLeft(CaseFields):
         plain("add axles", lambda: self.again(self.life.with_more("traffic.classes")), label="add a class of axles")
 
     def _climate(self) -> None:
-        ui.element("h2").props('innerHTML="Climate"')
+        heading("Climate")
         kind = self.life.climate
         with ui.element("div").classes("fields"):
             choosing(dict(own.CLIMATES), kind, "Given as", self._kind_of_climate)
@@ -78,7 +78,7 @@ class LifeLeft(CaseFields):
         self.again(self.life.with_climate(kind))
 
     def _criteria(self) -> None:
-        ui.element("h2").props('innerHTML="Criteria"')
+        heading("Criteria")
         case = self.form.check(self.session.folder).case
         layers = (
             [layer.name for layer in case.build_road().layers if layer.name] if isinstance(case, LifeCase) else []
@@ -116,8 +116,10 @@ class LifeLeft(CaseFields):
         for which, told in enumerate(held or [self.form.value(f"{path}.maneuver")]):
             one, here = (which, f"{path}.maneuvers.{which}") if held else (None, f"{path}.maneuver")
             with ui.element("div").classes("fields"):
-                choosing(maneuvers.choices_of(told), maneuvers.kind_of(told), "Rolls", self._chosen(number, one)
-                         ).props(f'data-move="{number}.{which}"').classes(remove="wide")  # fmt: skip
+                rolls = choosing(
+                    maneuvers.choices_of(told), maneuvers.kind_of(told), "Rolls", self._chosen(number, one)
+                )
+                with_attributes(rolls, data_move=f"{number}.{which}").classes(remove="wide")
                 for field in maneuvers.maneuver_fields(here, told):
                     self.field(field)
             if held:
@@ -132,11 +134,11 @@ class LifeLeft(CaseFields):
         return lambda kind: self.again(maneuvers.with_kind(self.life, number, kind, which))
 
     def _grid(self) -> None:
-        ui.element("h2").props('innerHTML="Grid"')
+        heading("Grid")
         with ui.element("div").classes("fields"):
             self.field(keys.SPACING)
             self.field(keys.TOLERANCE)
-        ui.element("h2").props('innerHTML="Your case"')
+        heading("Your case")
         with ui.element("div").classes("line"):
             self.upload("open a TOML …", (".toml",), None, "toml")
             plain("begin anew", lambda: self.again(LifeForm.first()))

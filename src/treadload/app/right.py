@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Callable
 from typing import Any
 
 from nicegui import ui
 
-from treadload.app.fielding import plain
+from treadload.app.elements import heading, plain, text, with_attributes
 
 _GROUPS = {
     "contact": "Contact", "road": "Road", "life": "Years by criterion", "who": "Who does it", "when": "When",
@@ -47,24 +46,23 @@ class Right:
             for group, title in _GROUPS.items():
                 own = [row for row in rows if row["group"] == group]
                 if own:
-                    ui.element("h2").props(f'innerHTML="{title}"')
+                    heading(title)
                     self._table(own)
                 if group == "road":
                     self._allowed = ui.element("div").props('id="allowed"')
                     self.show_allowed(allowed or {})
-            for text in warnings:
-                ui.label(text).classes("warning")
+            for warning in warnings:
+                ui.label(warning).classes("warning")
             if not done:
                 ui.label("the rest is being solved").classes("note")
                 return
-            ui.element("h2").props('innerHTML="Take home"')
+            heading("Take home")
             with ui.element("div").classes("home"):
                 if self._case:
                     plain("TOML", lambda: self._take("toml"), label="take the case home as TOML")
                     plain("copy as Python", lambda: self._take("python"))
                 for kind, words in self._home.items():
-                    with ui.element("a").props(f'href="/take/{run}/{kind}" download data-take="{kind}"'):
-                        ui.html(words, sanitize=False)
+                    with_attributes(text("a", words), href=f"/take/{run}/{kind}", data_take=kind).props("download")
             if self._case:
                 ui.label("NetCDF and report hold what `treadload run` gives; they take some seconds.").classes("note")
 
@@ -74,7 +72,7 @@ class Right:
                 with ui.element("tr"):
                     with ui.element("td"):
                         ui.label(row["label"]).style("display:inline")
-                    with ui.element("td").props(f'data-row="{row["key"]}"') as cell:
+                    with with_attributes(ui.element("td"), data_row=row["key"]) as cell:
                         if row.get("x") is not None or row.get("criterion"):
                             with ui.element("button").classes("go").props('type="button"') as go:
                                 ui.label(row["value"]).style("display:inline")
@@ -94,13 +92,13 @@ class Right:
         if not told:
             return
         with self._allowed:
-            ui.element("h2").props('innerHTML="Passes by criterion"')
+            heading("Passes by criterion")
             with ui.element("table").classes("rows allowed"):
                 for row in told["rows"]:
                     with ui.element("tr"):
                         with ui.element("td"):
                             ui.label(row["label"])
-                        with ui.element("td").props(f'data-row="{row["key"]}"') as cell:
+                        with with_attributes(ui.element("td"), data_row=row["key"]) as cell:
                             if row.get("x") is None:
                                 ui.label(row["value"])
                             else:
@@ -109,18 +107,18 @@ class Right:
                                 go.on("click", lambda row=row: self._go(row))
                         cell.tooltip(row["note"])
                     with ui.element("tr"), ui.element("td").props('colspan="2"'):
-                        ui.label(f"{row['place']}: {row['reading']}").props(f'data-detail="{row["key"]}"')
-            for text in told["said"]:
-                ui.label(text).classes("note")
+                        with_attributes(ui.label(f"{row['place']}: {row['reading']}"), data_detail=row["key"])
+            for said in told["said"]:
+                ui.label(said).classes("note")
             with ui.element("p").classes("note"):
                 ui.html("Passes of this one load at this one temperature, not a life: that is on the "
                         '<a href="/life">life page</a>.', sanitize=False)  # fmt: skip
 
-    def program(self, text: str) -> None:
+    def program(self, program: str) -> None:
         """Show a program that was copied."""
         self._program.clear()
         with self._program, ui.card().style("max-width:760px"):
             ui.label("Copied. The same as a program:")
-            ui.html(f'<pre class="said">{html.escape(text, quote=False)}</pre>', sanitize=False)
+            text("pre", program).classes("said")
             plain("Close", self._program.close)
         self._program.open()

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from nicegui import ui
 
-from treadload.app.fielding import plain
+from treadload.app.elements import plain, text
 from treadload.app.session import Run, Session
 
 
@@ -63,7 +62,7 @@ class Runs:
                 card.picture.props["src"] = run.thumb
                 card.picture.update()
             card.picture.set_visibility(bool(run.thumb))
-            card.said.set_content(f"<b>{html.escape(run.title)}</b>{html.escape(_first(run.rows))}")
+            card.said.set_text(_first(run.rows))
             shown = now is not None and name == now.name
             card.whole.classes(add="now" if shown else "", remove="" if shown else "now")
 
@@ -71,7 +70,8 @@ class Runs:
         with ui.element("div").classes("run").props('role="listitem"') as whole:
             picture = ui.element("img").props('alt="pressure of this run"')
             with ui.element("div").classes("say"):
-                said = ui.html("", sanitize=False)
+                text("b", run.title)
+                said = text("span", "")
             with ui.element("div").classes("line"):
                 plain("show", lambda: self._show(run), label=f"show the run {run.title}")
                 sides = {

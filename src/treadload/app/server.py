@@ -13,14 +13,17 @@ from typing import Any
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
 from nicegui import app, core, ui
+from nicegui.client import templates
 
 from treadload.app.engines import EngineLost, Engines
 from treadload.app.guard import SESSION, Guard, Keys
 from treadload.app.page import KINDS_OF_PAGES, LOOK, build
+from treadload.app.policy import Nonced
 from treadload.app.session import Session
 from treadload.app.tab import PAGES, Tab
 from treadload.app.takehome import KINDS
 from treadload.errors import InputError
+from treadload.plots.interactive import link_script
 
 _ICON = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32"><rect width="32" height="32" rx="6" fill="#14181d"/>'
@@ -105,7 +108,14 @@ def prepare(keys: Keys, engines: Engines, sessions: dict[str, Session]) -> None:
             return PlainTextResponse("treadload: no such file\n", status_code=404)
         return FileResponse(path, filename=f"treadload_{KINDS[kind]}", headers={"cache-control": "no-store"})
 
+    @app.get("/link.js")
+    async def link() -> Response:
+        return Response(link_script(), media_type="text/javascript", headers={"cache-control": "no-cache"})
+
     app.add_static_files("/look", LOOK, max_cache_age=0)
+    held = templates.env.loader
+    assert held is not None
+    templates.env.loader = Nonced(held)
     _own_events(keys)
     _around_everything(keys)
 

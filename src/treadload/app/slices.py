@@ -8,7 +8,7 @@ from typing import Any
 
 from nicegui import ui
 
-from treadload.app.fielding import plain
+from treadload.app.elements import plain
 from treadload.app.figures import Place
 
 # Of a line as plotly holds it.
@@ -25,10 +25,10 @@ class Slice:
     """Where the line lies and what is below it.
 
     The browser draws what lies along a line by itself where it holds the fields, which come with the figures.
-    cut: called where it does not, and when other fields are wanted. js: runs a script in the browser.
+    cut: called where it does not, and when other fields are wanted. js: calls a function in the browser.
     """
 
-    def __init__(self, cut: Callable[[], Any], js: Callable[[str], Any]) -> None:
+    def __init__(self, cut: Callable[[], Any], js: Callable[..., Any]) -> None:
         self._cut, self._js = cut, js
         self.line: list[float] | None = None
         self.section_of = "principal_strain_1"
@@ -37,8 +37,8 @@ class Slice:
         """Put the tools, the profile and the section on the page."""
         with ui.element("div").classes("tools").props('role="group" aria-label="slice"'):
             ui.label("Slice: drag the line on the left map, or put it")
-            plain("along travel", lambda: self._js("treadloadPut({ along: 'x', at: 0 })")).props('id="along"')
-            plain("across", lambda: self._js("treadloadPut({ along: 'y', at: 0 })")).props('id="across"')
+            plain("along travel", lambda: self._js("treadloadPut", {"along": "x", "at": 0})).props('id="along"')
+            plain("across", lambda: self._js("treadloadPut", {"along": "y", "at": 0})).props('id="across"')
             with ui.element("span").classes("at"):
                 # The browser alone moves it: a value from here would put it back.
                 at = ui.element("input").props('type="range" min="-150" max="150" step="1" id="place"')

@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 
 from nicegui import background_tasks, ui
 
+from treadload.app.elements import heading, with_attributes
 from treadload.app.fielding import Uploads
 from treadload.app.figures import Place
 from treadload.app.right import Right
@@ -33,7 +34,7 @@ class StudyPage(Tab):
         with ui.element("section").classes("left").props('aria-label="the study"'):
             self.left = Uploads(self.session)
             self.left.build()
-            ui.element("h2").style("margin-top:4px").props('innerHTML="Study"')
+            heading("Study").style("margin-top:4px")
             with ui.element("div").classes("line"):
                 self.left.upload("open a study …", STUDIES, self._opened, "study")
             self._name = ui.label("").classes("note")
@@ -96,15 +97,15 @@ class StudyPage(Tab):
                 with ui.element("div").classes("slide"):
                     with ui.element("div").classes("head"):
                         ui.label(one["words"])
-                        said = ui.label(one["values"][0]).props(f'data-at="{one["name"]}"')
+                        said = with_attributes(ui.label(one["values"][0]), data_at=one["name"])
                     slider = ui.slider(min=0, max=max(1, len(one["values"]) - 1), step=1, value=0)
-                    slider.props(f'aria-label="{one["words"]}" data-dim="{one["name"]}" snap markers')
+                    with_attributes(slider, aria_label=one["words"], data_dim=one["name"]).props("snap markers")
                     if len(one["values"]) < 2:
                         slider.disable()
                     slider.on_value_change(lambda event, one=one, said=said: self._moved(one, said, int(event.value)))
         self._summary.clear()
         with self._summary:
-            ui.element("h2").props('innerHTML="Summary"')
+            heading("Summary")
             # Warnings stand at the right.
             for line in self._about["summary"].splitlines():
                 if not line.startswith("warning: "):
@@ -119,7 +120,7 @@ class StudyPage(Tab):
                 if options:
                     select = ui.select(dict(options), value=self._asked[key], label=words,
                                        on_change=lambda event, key=key: self._chosen(key, event.value))  # fmt: skip
-                    select.props(f'dense outlined options-dense data-choice="{key}"')
+                    with_attributes(select, data_choice=key).props("dense outlined options-dense")
 
     def _moved(self, one: dict[str, Any], said: Any, number: int) -> None:
         said.text = one["values"][min(number, len(one["values"]) - 1)]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import json
 from typing import Any, ClassVar
 
 from nicegui import background_tasks, ui
 
+from treadload.app.elements import call_script, plain, text, with_attributes
 from treadload.app.engines import EngineLost
-from treadload.app.fielding import Fields, Uploads, plain
+from treadload.app.fielding import Fields, Uploads
 from treadload.app.form import Form
 from treadload.app.right import Right
 from treadload.app.session import Run, Session
@@ -47,11 +47,10 @@ class Tab:
         """Put everything on the page."""
         self._dark = ui.dark_mode(value=None)
         with ui.element("header").classes("bar"):
-            ui.element("h1").props(f'innerHTML="treadload, {PAGES[self.address]}"')
+            text("h1", f"treadload, {PAGES[self.address]}")
             with ui.element("nav").classes("pages").props('aria-label="pages"'):
                 for address, words in PAGES.items():
-                    with ui.element("a").props(f'href="{address}"') as link:
-                        ui.html(words, sanitize=False)
+                    link = with_attributes(text("a", words), href=address)
                     if address == self.address:
                         link.props('aria-current="page"')
             self.stage = ui.label("starting").classes("stage").props('role="status" aria-live="polite" id="stage"')
@@ -121,10 +120,10 @@ class Tab:
             self.width = width
             self.redraw()
 
-    def js(self, code: str) -> None:
-        """Run a script of ours in the browser."""
+    def js(self, name: str, *told: Any) -> None:
+        """Call a function of ours in the browser."""
         with self.client:
-            ui.run_javascript(code)
+            call_script(name, *told)
 
     def state(self, state: str, **more: str) -> None:
         """Say on the page where it stands."""
@@ -245,4 +244,4 @@ class Tab:
             else:
                 program = case_as_python(form.kind.from_text(toml))
                 self.right.program(program)
-                ui.run_javascript(f"treadloadCopy({json.dumps(program)})")
+                call_script("treadloadCopy", program)

@@ -1,0 +1,56 @@
+"""Elements of the page whose texts and attributes come from files and fields.
+
+A string of props, of HTML or of a script is parsed by whoever gets it, so none is ever made of a variable: what
+varies is set as a text or as an attribute, and what a script is called with goes as JSON. `tests/app/test_markup.py`
+reads the sources for it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from nicegui import ui
+from nicegui.elements.mixins.text_element import TextElement
+
+Any_Element = TypeVar("Any_Element", bound=Any)
+
+
+def text(tag: str, content: str) -> TextElement:
+    """An element that shows a text, whatever is in it. tag: of HTML, such as "h2"."""
+    return TextElement(tag=tag, text=content)
+
+
+def heading(content: str) -> TextElement:
+    """The heading of a group."""
+    return text("h2", content)
+
+
+def with_attributes(element: Any_Element, **attributes: str) -> Any_Element:
+    """The element with attributes of HTML; "_" in their names stands for "-"."""
+    for name, value in attributes.items():
+        element.props[name.replace("_", "-")] = value
+    return element
+
+
+def plain(content: str, do: Callable[..., Any], *, main: bool = False, label: str = "") -> Any:
+    """A button. label: for who does not see it, where the text alone does not say."""
+    button = ui.element("button").classes("plain main" if main else "plain").props('type="button"')
+    if label:
+        with_attributes(button, aria_label=label)
+    with button:
+        text("div", content)
+    return button.on("click", lambda: do())
+
+
+def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], Any]) -> Any:
+    """One of a few."""
+    select = ui.select(options, value=value, label=label, on_change=lambda event: do(event.value))
+    return select.props("dense outlined options-dense").classes("wide")
+
+
+def call_script(name: str, *told: Any) -> None:
+    """Call a function of `look/bench.js` in the browser of the page that is being built."""
+    assert name.isidentifier()
+    ui.run_javascript(f"{name}({', '.join(json.dumps(one) for one in told)})")
