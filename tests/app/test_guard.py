@@ -35,9 +35,31 @@ async def behind(scope, receive, send):
     await send({"type": "http.response.body", "body": body})
 
 
+class Tokens:
+    """Tokens that open once."""
+
+    def __init__(self):
+        self.left, self.count = set(), 0
+
+    def new(self):
+        self.count += 1
+        self.left.add(f"token{self.count}")
+        return f"token{self.count}"
+
+    def use(self, token):
+        opens = token in self.left
+        self.left.discard(token)
+        return opens
+
+
 @pytest.fixture
-def keys():
-    return Keys("127.0.0.1", 8137)
+def tokens():
+    return Tokens()
+
+
+@pytest.fixture
+def keys(tokens):
+    return Keys("127.0.0.1", 8137, tokens.use)
 
 
 def visitor(keys, **more):
@@ -46,23 +68,55 @@ def visitor(keys, **more):
 
 def entered(keys):
     browser = visitor(keys)
-    assert browser.get(f"/?token={keys.token}").status_code == 303
+    answer = browser.get(f"/?token={keys.opens.__self__.new()}")
+    assert answer.status_code == 200
+    assert "set-cookie" in answer.headers
     return browser
 
 
-def test_the_token_opens_once_and_leaves_the_address(keys):
-    browser = visitor(keys)
-    answer = browser.get(f"/?token={keys.token}")
-    assert answer.headers["location"] == "/"
+def test_a_token_opens_once_and_leaves_the_address(keys, tokens):
+    browser, token = visitor(keys), tokens.new()
+    answer = browser.get(f"/?token={token}")
+    assert 'http-equiv="refresh" content="0;url=/"' in answer.text
     cookie = answer.headers["set-cookie"]
     assert "HttpOnly" in cookie
     assert "SameSite=Strict" in cookie
-    assert keys.token not in cookie
+    assert token not in cookie + answer.text
+    assert answer.headers["cache-control"] == "no-store"
     first = browser.get("/").text
-    # Who comes with the token again stays who they are; another browser is another.
-    browser.get(f"/?token={keys.token}")
+    # Who comes with it again stays who they are; for another browser it is void, and the remedy is told.
+    again = browser.get(f"/?token={token}")
+    assert again.status_code == 200
+    assert "set-cookie" not in again.headers
     assert browser.get("/").text == first
+    stranger = visitor(keys).get(f"/?token={token}")
+    assert stranger.status_code == 403
+    assert "set-cookie" not in stranger.headers
+    assert "treadload app --new-link" in stranger.text
     assert entered(keys).get("/").text != first
+
+
+def test_what_looks_ahead_does_not_use_a_token(keys, tokens):
+    """A browser that fetches what might be opened, or a check whether a link is good."""
+    token = tokens.new()
+    assert visitor(keys).head(f"/?token={token}").status_code == 503
+    ahead = visitor(keys).get(f"/?token={token}", headers={"sec-purpose": "prefetch;prerender"})
+    assert ahead.status_code == 503
+    assert visitor(keys).get(f"/?token={token}").status_code == 200
+
+
+def test_the_session_that_was_not_seen_for_longest_goes_for_another(keys, monkeypatch):
+    gone = []
+    monkeypatch.setattr(guard, "_MOST_SESSIONS", 3)
+    keys.evicted = gone.append
+    browsers = [entered(keys) for _ in range(3)]
+    names = [one.get("/").text.split()[0] for one in browsers]
+    keys.owners |= {"page-0": names[0], "page-1": names[1]}
+    browsers[0].get("/")
+    entered(keys)
+    assert gone == [names[1]]
+    assert keys.owners == {"page-0": names[0]}
+    assert [one.get("/").status_code for one in browsers] == [200, 403, 200]
 
 
 @pytest.mark.parametrize(
@@ -86,7 +140,7 @@ def test_a_made_up_cookie_opens_nothing(keys):
 )
 def test_another_host_is_not_answered_even_with_the_token(keys, host):
     browser = entered(keys)
-    for path in ("/", f"/?token={keys.token}"):
+    for path in ("/", f"/?token={keys.opens.__self__.new()}"):
         answer = browser.get(path, headers={"host": host})
         assert answer.status_code == 421
 
@@ -172,11 +226,12 @@ def test_every_answer_carries_its_policy(keys):
 
 
 def test_a_server_for_others_answers_to_its_name():
-    keys = Keys("192.0.2.7", 80)
+    keys = Keys("192.0.2.7", 80, lambda token: False)
     assert {"192.0.2.7", "192.0.2.7:80", "127.0.0.1:80"} <= keys.hosts
-    assert Keys("::1", 5).address.startswith("http://[::1]:5/?token=")
-    assert keys.token not in repr(keys)
-    assert not keys.opens("")
+    assert guard.address_of("::1", 5) == "http://[::1]:5/"
+    assert guard.address_of("0.0.0.0", 5) == "http://127.0.0.1:5/"
+    secret = keys.enter()
+    assert secret not in repr(keys)
 
 
 def test_the_guard_lets_the_server_begin_and_end(keys):
@@ -187,3 +242,34 @@ def test_the_guard_lets_the_server_begin_and_end(keys):
 
     asyncio.run(Guard(inner, keys)({"type": "lifespan"}, None, None))
     assert seen == ["lifespan"]
+
+
+def test_a_body_that_stops_coming_is_given_up(keys, monkeypatch):
+    monkeypatch.setattr(guard, "_PATIENCE", 0.05)
+    said = []
+
+    async def receive():
+        if not said:
+            said.append("begun")
+            return {"type": "http.request", "body": b"x", "more_body": True}
+        await asyncio.sleep(60)
+
+    body = guard._Counted(receive, 100)
+    assert asyncio.run(_read(body)) == ["http.request", "http.disconnect"]
+
+
+def test_what_waits_for_the_caller_to_leave_may_wait(keys, monkeypatch):
+    monkeypatch.setattr(guard, "_PATIENCE", 0.01)
+    messages = [{"type": "http.request", "body": b"x"}, {"type": "http.disconnect"}]
+
+    async def receive():
+        await asyncio.sleep(0 if len(messages) > 1 else 0.1)
+        return messages.pop(0)
+
+    body = guard._Counted(receive, 100)
+    assert asyncio.run(_read(body)) == ["http.request", "http.disconnect"]
+    assert not messages
+
+
+async def _read(body):
+    return [(await body())["type"], (await body())["type"]]

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from treadload.errors import InputError, how_to_install
 
-__all__ = ["serve"]
+__all__ = ["new_link", "serve"]
 
 
 def serve(*, host: str = "127.0.0.1", port: int = 0, open_browser: bool = True) -> None:
     """Serve the page until it is interrupted.
 
-    host: that it listens on; another than that of this machine lets others in who have the token. port: 0 takes a
-    free one. open_browser: show the page at once. Raises InputError without the packages of the extra "app", and for
-    a port that is taken.
+    host: that it listens on; another than that of this machine lets others in who have an address of it. port: 0
+    takes a free one. open_browser: show the page at once. Raises InputError without the packages of the extra "app",
+    and for a port that is taken.
     """
     try:
         import nicegui  # noqa: F401
@@ -22,3 +22,13 @@ def serve(*, host: str = "127.0.0.1", port: int = 0, open_browser: bool = True) 
     from treadload.app.server import run
 
     run(host, port, open_browser=open_browser)
+
+
+def new_link(port: int = 0) -> str:
+    """Another address, good for one visit, of the page that this user serves on this machine.
+
+    port: of its server, where there are several. Raises InputError where there is none.
+    """
+    from treadload.app.links import new_link as another
+
+    return another(port)

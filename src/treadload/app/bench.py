@@ -100,7 +100,8 @@ class Bench(Tab):
         if "choices" in answer:
             self._offer(answer["choices"], answer["depths"])
         if "rows" in answer:
-            self.right.show(run.rows, run.warnings, run.name, done=run.ready, allowed=run.allowed)
+            self.right.show(run.rows, run.warnings, run.name, done=run.ready, allowed=run.allowed,
+                            unsolved=run.unsolved)  # fmt: skip
 
     def finished(self, run: Run) -> None:
         """A card for it, with a thumbnail once the maps are drawn."""

@@ -160,12 +160,13 @@ class Engine:
                 seconds=time.monotonic() - began, process=time.process_time() - used)  # fmt: skip
 
         tell("reading the case")
-        if case.footprint is None:
+        if case.footprint is None and not case.dents:
             road = case.pavement.build()
             contact = contact_of(case, road, tell, tire=self._tire(case, tell))
             held.parts["contact"] = contact
             held.load = load_case(case, tell, contact=contact)
         else:
+            # Which refuses a body that dents its road, and says what solves it.
             held.load = load_case(case, tell)
             assert held.load.footprint is not None
             held.parts["contact"] = held.load.footprint

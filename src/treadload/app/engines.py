@@ -1,4 +1,4 @@
-"""Processes that solve and draw, one for each browser, and one kept warm for the next."""
+"""Processes that solve and draw, one for each page of a browser, and one kept warm for the next; never too many."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import itertools
 import json
 import os
 import sys
+import time
 from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,9 @@ _ENDS = ("done", "error", "stopped")
 _PATIENCE = 0.4
 # When the next process is started after one was taken, s: not while the first case of a browser is solved.
 _LATER = 12.0
+MOST_PROCESSES = 8
+"""Processes of one server, 250 to 475 MB each; the one that has been idle for longest ends for another."""
+_ENDED = "the process that solves has ended"
 
 
 class EngineLost(Exception):
@@ -35,6 +39,8 @@ class Engine:
         # Solves that the process has not ended yet, whether anybody still waits for them or not.
         self._solving: set[int] = set()
         self._reading = asyncio.create_task(self._read())
+        self._killed = False
+        self.used = time.monotonic()
 
     @classmethod
     async def start(cls) -> Engine:
@@ -54,7 +60,12 @@ class Engine:
     @property
     def lives(self) -> bool:
         """False once it ended."""
-        return self._process.returncode is None and not self._reading.done()
+        return not self._killed and self._process.returncode is None and not self._reading.done()
+
+    @property
+    def is_idle(self) -> bool:
+        """True where nobody waits for an answer, and nothing is being solved."""
+        return not self._solving and len(self._waiting) == 1
 
     @property
     def pid(self) -> int:
@@ -65,14 +76,15 @@ class Engine:
         """Answers as they come; the last holds "done", "error" or "stopped". Raises EngineLost."""
         number, queue = next(self._numbers), asyncio.Queue[dict[str, Any] | None]()
         self._waiting[number] = queue
-        if do == "solve":
+        if do in ("solve", "life"):
             self._solving.add(number)
+        self.used = time.monotonic()
         try:
             await self._send({"id": number, "do": do, **told})
             while True:
                 answer = await queue.get()
                 if answer is None:
-                    raise EngineLost("the process that solves has ended")
+                    raise EngineLost(_ENDED)
                 yield answer
                 if any(end in answer for end in _ENDS):
                     return
@@ -100,6 +112,7 @@ class Engine:
 
     def kill(self) -> None:
         """End the process at once."""
+        self._killed = True
         with contextlib.suppress(ProcessLookupError):
             self._process.kill()
 
@@ -109,7 +122,7 @@ class Engine:
             self._process.stdin.write(json.dumps(told).encode() + b"\n")
             await self._process.stdin.drain()
         except (ConnectionError, RuntimeError) as error:
-            raise EngineLost("the process that solves has ended") from error
+            raise EngineLost(_ENDED) from error
 
     async def _read(self) -> None:
         assert self._process.stdout is not None
@@ -136,6 +149,7 @@ class Engines:
         self._spare: asyncio.Task[Engine] | None = None
         self._later: asyncio.TimerHandle | None = None
         self._all: list[Engine] = []
+        self._starting = 0
 
     def warm(self) -> None:
         """Have one ready for whoever asks next."""
@@ -143,9 +157,27 @@ class Engines:
             self._spare = asyncio.create_task(self._start())
 
     async def _start(self) -> Engine:
-        engine = await Engine.start()
-        self._all = [one for one in self._all if one.lives] + [engine]
+        self._make_room()
+        self._starting += 1
+        try:
+            engine = await Engine.start()
+        finally:
+            self._starting -= 1
+        self._all.append(engine)
         return engine
+
+    def _make_room(self) -> None:
+        """End what has been idle for longest, where there are too many. Raises EngineLost where all of them solve."""
+        self._all = [one for one in self._all if one.lives]
+        if len(self._all) + self._starting < MOST_PROCESSES:
+            return
+        idle = [one for one in self._all if one.is_idle]
+        if not idle:
+            raise EngineLost(
+                f"{MOST_PROCESSES} cases are being solved at once, the most of this server; solve again when one of "
+                "them is done, or cancel one"
+            )
+        min(idle, key=lambda one: one.used).kill()
 
     async def take(self, folder: Path) -> Engine:
         """A process for the browser with this folder."""
@@ -156,15 +188,25 @@ class Engines:
             # Who leaves while it starts leaves it to the next.
             engine = await asyncio.shield(spare)
         except asyncio.CancelledError:
-            self._spare = self._spare or spare
+            if self._spare is None:
+                self._spare = spare
+            else:
+                spare.add_done_callback(_end)
             raise
         if not engine.lives:
             engine = await self._start()
+        engine.used = time.monotonic()
         await engine.last("folder", folder=str(folder))
         if self._later is not None:
             self._later.cancel()
-        self._later = asyncio.get_running_loop().call_later(_LATER, self.warm)
+        self._later = asyncio.get_running_loop().call_later(_LATER, self._warm_later)
         return engine
+
+    def _warm_later(self) -> None:
+        """Have one ready for the next, where it takes the place of none."""
+        self._all = [one for one in self._all if one.lives]
+        if len(self._all) + self._starting < MOST_PROCESSES:
+            self.warm()
 
     def close(self) -> None:
         """End all processes."""
@@ -174,3 +216,9 @@ class Engines:
             self._spare.cancel()
         for engine in self._all:
             engine.kill()
+
+
+def _end(started: asyncio.Task[Engine]) -> None:
+    """End a process that nobody takes."""
+    if not started.cancelled() and started.exception() is None:
+        started.result().kill()

@@ -24,6 +24,7 @@ class Uploads:
     def __init__(self, session: Session) -> None:
         self.session = session
         self._problems: Any = None
+        self._said = False
 
     def build(self) -> None:
         """Put the place for problems on the page."""
@@ -31,9 +32,16 @@ class Uploads:
 
     def say(self, text: str) -> None:
         """Say what is wrong with the whole."""
+        self._said = True
         self._problems.clear()
         with self._problems:
             ui.label(text).classes("problem")
+
+    def unsay(self) -> None:
+        """What was said is over: something was solved since."""
+        if self._said:
+            self._said = False
+            self._problems.clear()
 
     def upload(self, text: str, suffixes: tuple[str, ...], kept: Callable[[str], Any] | None, name: str) -> None:
         """A button that asks for a file. kept: called with the name under which it is kept."""
@@ -138,7 +146,13 @@ class Fields(Uploads, ABC):
         with self._problems:
             for text in self._checked.elsewhere(set(self._shown)):
                 ui.label(text).classes("problem")
+        self._said = False
         self.told()
+
+    def unsay(self) -> None:
+        """What was said is over; what is wrong with the fields of now is not."""
+        if self._said:
+            self.tell()
 
     def told(self) -> None:
         """What is said of the fields has been said."""

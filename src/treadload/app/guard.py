@@ -1,12 +1,14 @@
 """Who may speak to the page: one layer around every route and socket.
 
-A token in the first address is exchanged for a cookie that names a session of one browser. Everything else is refused
-with a sentence: another host name (a page elsewhere that was made to resolve to this machine), another origin (a page
-elsewhere that calls this one), no cookie, a page of another session, too many bytes.
+A token in the first address is good for one visit and is exchanged for a cookie that names a session of one browser,
+see `links`. Everything else is refused with a sentence: another host name (a page elsewhere that was made to resolve
+to this machine), another origin (a page elsewhere that calls this one), no cookie, a page of another session, too
+many bytes.
 """
 
 from __future__ import annotations
 
+import asyncio
 import hmac
 import re
 import secrets
@@ -16,6 +18,7 @@ from http.cookies import CookieError, SimpleCookie
 from typing import Any
 from urllib.parse import parse_qs
 
+from treadload.app.links import sent_on
 from treadload.app.policy import NONCE, headers_of, new_nonce
 
 Scope = MutableMapping[str, Any]
@@ -31,26 +34,34 @@ MOST_SENT = 2**20
 SESSION = "treadload.session"
 """Key of a request's scope under which its session stands."""
 
-# Of one server; a browser whose cookies are wiped makes a new one.
+# Of one server; the one that was not seen for longest goes for another.
 _MOST_SESSIONS = 32
+# How long a caller may take for the next part of what it sends, s.
+_PATIENCE = 30.0
 # What a form adds around a file.
 _AROUND = 2**16
 _CLIENT = re.compile(r"^/_nicegui/client/([^/]+)/")
 _UPLOAD = re.compile(r"^/_nicegui/client/[^/]+/upload/[0-9]+$")
 _SOCKET = "/_nicegui_ws/"
-_ENTER = "open the address that `treadload app` printed when it started; it carries the token of this server"
+_ENTER = (
+    "open the address that `treadload app` printed when it started; its token is good for one visit, and "
+    "`treadload app --new-link`, on the machine of the server, prints another"
+)
 
 
 @dataclass
 class Keys:
-    """What opens one server: its token, the names it answers to, and the browsers that came with the token.
+    """What opens one server: its addresses, the names it answers to, and the browsers that came by an address.
 
-    host: that it listens on. sessions: secret of a cookie → name of the session. owners: page of a browser → session.
+    host: that it listens on. opens: says once of a token that it opens this server. evicted: called with the name of
+    a session that goes for another. sessions: secret of a cookie → name of the session, the one seen last at the end.
+    owners: page of a browser → session.
     """
 
     host: str
     port: int
-    token: str = field(default_factory=lambda: secrets.token_urlsafe(32), repr=False)
+    opens: Callable[[str], bool] = field(repr=False)
+    evicted: Callable[[str], Any] = field(default=lambda name: None, repr=False)
     sessions: dict[str, str] = field(default_factory=dict, repr=False)
     owners: dict[str, str] = field(default_factory=dict, repr=False)
 
@@ -68,23 +79,14 @@ class Keys:
         ports = {f"{name}:{self.port}" for name in names}
         return frozenset(ports | names if self.port == 80 else ports)
 
-    @property
-    def address(self) -> str:
-        """Where the page is, with its token."""
-        shown = "127.0.0.1" if self.host in ("0.0.0.0", "::") else self.host
-        shown = f"[{shown}]" if ":" in shown else shown
-        return f"http://{shown}:{self.port}/?token={self.token}"
-
-    def opens(self, token: str) -> bool:
-        """True for the token of the server."""
-        return hmac.compare_digest(token.encode(), self.token.encode())
-
     def enter(self) -> str:
         """The secret of a new session."""
         secret = secrets.token_urlsafe(32)
         self.sessions[secret] = secrets.token_hex(8)
         while len(self.sessions) > _MOST_SESSIONS:
-            del self.sessions[next(iter(self.sessions))]
+            name = self.sessions.pop(next(iter(self.sessions)))
+            self.owners = {page: owner for page, owner in self.owners.items() if owner != name}
+            self.evicted(name)
         return secret
 
     def session_of(self, cookies: str) -> str | None:
@@ -96,12 +98,23 @@ class Keys:
         morsel = jar.get(self.cookie)
         if morsel is None:
             return None
-        return next((name for one, name in self.sessions.items() if _same(one, morsel.value)), None)
+        secret = next((one for one in self.sessions if _same(one, morsel.value)), None)
+        if secret is None:
+            return None
+        name = self.sessions[secret] = self.sessions.pop(secret)
+        return name
 
     def may_use(self, client: str, session: str) -> bool:
         """True where a page belongs to a session."""
         owner = self.owners.get(client)
         return owner is not None and hmac.compare_digest(owner, session)
+
+
+def address_of(host: str, port: int) -> str:
+    """Where the page of a server is, for a browser on its machine."""
+    shown = "127.0.0.1" if host in ("0.0.0.0", "::") else host
+    shown = f"[{shown}]" if ":" in shown else shown
+    return f"http://{shown}:{port}/"
 
 
 def _same(one: str, other: str) -> bool:
@@ -132,7 +145,7 @@ class Guard:
         if refused is None and scope["type"] == "http" and scope["path"] == "/":
             token = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token")
             if token is not None:
-                await self._enter(token[-1], session, send)
+                await self._enter(scope, token[-1], session, send)
                 return
         if refused is None:
             refused = self._wrong_session(scope, session)
@@ -181,27 +194,40 @@ class Guard:
             return Refusal(403, "this page belongs to another browser, or the server was started anew; load it again")
         return None
 
-    async def _enter(self, token: str, session: str | None, send: Send) -> None:
+    async def _enter(self, scope: Scope, token: str, session: str | None, send: Send) -> None:
         """Exchange the token for a cookie, and send the browser to the address without it."""
-        if not self._keys.opens(token):
-            await _answer(send, Refusal(403, f"this is not the token of this server; {_ENTER}"))
+        if scope["method"] != "GET" or "prefetch" in _header(scope, "sec-purpose"):
+            await _answer(send, Refusal(503, "this address is good for one visit, and this is none"))
             return
-        headers = [(b"location", b"/"), (b"cache-control", b"no-store"), (b"content-length", b"0")]
+        if not self._keys.opens(token) and session is None:
+            why = "this is no token of this server, or it was used before"
+            await _answer(send, Refusal(403, f"{why}; {_ENTER}"))
+            return
+        # A page of this server has to send the browser on: a cookie of the strictest kind is withheld from all
+        # redirections of a visit that began elsewhere, as it does in the file that the browser is opened with.
+        body = sent_on("/").encode()
+        headers = [(b"content-type", b"text/html; charset=utf-8"), (b"cache-control", b"no-store")]
+        headers.append((b"content-length", str(len(body)).encode()))
         if session is None:
             said = f"{self._keys.cookie}={self._keys.enter()}; Path=/; HttpOnly; SameSite=Strict"
             headers.append((b"set-cookie", said.encode()))
-        await send({"type": "http.response.start", "status": 303, "headers": headers + headers_of()})
-        await send({"type": "http.response.body", "body": b""})
+        await send({"type": "http.response.start", "status": 200, "headers": headers + headers_of()})
+        await send({"type": "http.response.body", "body": body})
 
 
 class _Counted:
-    """The body of a request, as long as it stays below a bound; past it the caller is gone."""
+    """The body of a request, as long as it stays below a bound and goes on coming; else the caller is gone."""
 
     def __init__(self, receive: Receive, most: int) -> None:
-        self._receive, self._most, self._seen = receive, most, 0
+        self._receive, self._most, self._seen, self._more = receive, most, 0, True
 
     async def __call__(self) -> Message:
-        message = await self._receive()
+        try:
+            # Once all of it is there, this waits for the caller to leave.
+            message = await asyncio.wait_for(self._receive(), _PATIENCE if self._more else None)
+        except TimeoutError:
+            return {"type": "http.disconnect"}
+        self._more = bool(message.get("more_body"))
         self._seen += len(message.get("body", b""))
         return message if self._seen <= self._most else {"type": "http.disconnect"}
 

@@ -39,8 +39,12 @@ class Right:
         *,
         done: bool,
         allowed: dict[str, Any] | None = None,
+        unsolved: str = "",
     ) -> None:
-        """Show the verdict of a run. done: False while the rest is being solved. allowed: see `show_allowed`."""
+        """Show the verdict of a run. done: False while the rest is being solved. allowed: see `show_allowed`.
+
+        unsolved: a sentence on what of the case this is not.
+        """
         self._all.clear()
         with self._all:
             for group, title in _GROUPS.items():
@@ -51,6 +55,8 @@ class Right:
                 if group == "road":
                     self._allowed = ui.element("div").props('id="allowed"')
                     self.show_allowed(allowed or {})
+            if unsolved:
+                ui.label(unsolved).classes("warning").props('id="unsolved"')
             for warning in warnings:
                 ui.label(warning).classes("warning")
             if not done:

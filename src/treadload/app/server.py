@@ -15,11 +15,13 @@ from fastapi.responses import FileResponse, PlainTextResponse, Response
 from nicegui import app, core, ui
 from nicegui.client import templates
 
+from treadload.app.connections import Impatient
 from treadload.app.engines import EngineLost, Engines
-from treadload.app.guard import SESSION, Guard, Keys
+from treadload.app.guard import SESSION, Guard, Keys, address_of
+from treadload.app.links import Links
 from treadload.app.page import KINDS_OF_PAGES, LOOK, build
 from treadload.app.policy import Nonced
-from treadload.app.session import Session
+from treadload.app.sessions import TAB_GONE, Sessions
 from treadload.app.tab import PAGES, Tab
 from treadload.app.takehome import KINDS
 from treadload.errors import InputError
@@ -49,53 +51,55 @@ def free_port(host: str, port: int) -> int:
 
 def run(host: str, port: int, *, open_browser: bool) -> None:
     """Serve until interrupted."""
-    keys = Keys(host, free_port(host, port))
+    port = free_port(host, port)
+    links = Links.begin(host, port, address_of(host, port))
     engines = Engines()
-    sessions: dict[str, Session] = {}
-    prepare(keys, engines, sessions)
+    sessions = Sessions(engines, links.folder)
+    keys = Keys(host, port, links.use, sessions.end)
+    prepare(keys, sessions)
 
     def ready() -> None:
         engines.warm()
-        print(f"treadload app: {keys.address}", flush=True)
+        print(f"treadload app: {links.new()}", flush=True)
         if open_browser:
-            webbrowser.open(keys.address)
+            webbrowser.open(links.for_browser())
 
     def over() -> None:
         engines.close()
-        for session in sessions.values():
-            session.close()
+        sessions.close()
 
     app.on_startup(ready)
     app.on_shutdown(over)
+    try:
+        _serve(host, port)
+    finally:
+        links.end()
+
+
+def _serve(host: str, port: int) -> None:
     ui.run(
-        host=host, port=keys.port, show=False, reload=False, title="treadload", favicon=_ICON, dark=None,
-        tailwind=False, show_welcome_message=False, language="en-US", reconnect_timeout=10.0, on_air=None,
-        proxy_headers=False, server_header=False, binding_refresh_interval=None, access_log=False,
+        host=host, port=port, show=False, reload=False, title="treadload", favicon=_ICON, dark=None,
+        tailwind=False, show_welcome_message=False, language="en-US", reconnect_timeout=TAB_GONE, on_air=None,
+        http=Impatient, proxy_headers=False, server_header=False, binding_refresh_interval=None, access_log=False,
         # On this machine it takes longer to pack than to send.
         gzip_middleware_factory=None, ws_per_message_deflate=False,
     )  # fmt: skip
 
 
-def prepare(keys: Keys, engines: Engines, sessions: dict[str, Session]) -> None:
+def prepare(keys: Keys, sessions: Sessions) -> None:
     """Put the page and its guard into the application."""
     logging.getLogger("nicegui").setLevel(logging.ERROR)
     # A bar over the page at each upload, which has no name for who does not see it.
     app.config.quasar_config["loadingBar"]["skipHijack"] = True
 
-    def session_of(request: Request) -> Session:
-        name = request.scope[SESSION]
-        if name not in sessions:
-            sessions[name] = Session(engines)
-        return sessions[name]
-
     for kind in KINDS_OF_PAGES:
-        _page(keys, session_of, kind)
+        _page(keys, sessions, kind)
 
     @app.get("/take/{run}/{kind}")
     async def take(request: Request, run: str, kind: str) -> Response:
-        session = session_of(request)
-        held = session.runs.get(run)
-        if held is None or kind not in KINDS:
+        session = sessions.get(request.scope[SESSION])
+        held = None if session is None else session.runs.get(run)
+        if session is None or held is None or kind not in KINDS:
             return PlainTextResponse("treadload: this browser has no such result\n", status_code=404)
         try:
             answer = await session.last(held.room, "export", run=run, kind=kind)
@@ -120,15 +124,21 @@ def prepare(keys: Keys, engines: Engines, sessions: dict[str, Session]) -> None:
     _around_everything(keys)
 
 
-def _page(keys: Keys, session_of: Callable[[Request], Session], kind: type[Tab]) -> None:
+def _page(keys: Keys, sessions: Sessions, kind: type[Tab]) -> None:
     """A page at its address, for tabs of whoever asks."""
 
     @ui.page(kind.address, title=f"treadload, {PAGES[kind.address]}", response_timeout=30.0)
     async def made(request: Request) -> None:
-        client = ui.context.client
-        keys.owners[client.id] = request.scope[SESSION]
-        client.on_delete(lambda: keys.owners.pop(client.id, None))
-        build(session_of(request), kind)
+        name, client = request.scope[SESSION], ui.context.client
+        session, left = sessions.tab(name)
+        keys.owners[client.id] = name
+
+        def gone() -> None:
+            keys.owners.pop(client.id, None)
+            left()
+
+        client.on_delete(gone)
+        build(session, kind)
 
 
 def _around_everything(keys: Keys) -> None:

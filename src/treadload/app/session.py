@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from treadload.app.engines import Engine, Engines
+from treadload.app.engines import Engine, EngineLost, Engines
 from treadload.app.form import Form
 from treadload.app.life_form import LifeForm
 from treadload.errors import InputError
@@ -32,7 +32,7 @@ _STORES = (".zarr", ".zip")
 @dataclass
 class Run:
     """A solved case. room: of the page that asked for it. rows: of the verdict. allowed: passes by
-    criterion. thumb: a picture, as data URL.
+    criterion. unsolved: a sentence on what of its case the page did not solve. thumb: a picture, as data URL.
     """
 
     name: str
@@ -42,6 +42,7 @@ class Run:
     rows: list[dict[str, Any]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     allowed: dict[str, Any] = field(default_factory=dict)
+    unsolved: str = ""
     ready: bool = False
     thumb: str = ""
 
@@ -57,13 +58,18 @@ class Session:
     files: dict[str, str] = field(default_factory=dict)
     _engines: dict[str, Engine] = field(default_factory=dict)
     _lock: asyncio.Lock = field(default_factory=asyncio.Lock)
+    _closed: bool = False
 
     async def engine(self, room: str) -> Engine:
         """The process of this browser for a page: a life goes on while the bench solves another wheel."""
         async with self._lock:
             engine = self._engines.get(room)
             if engine is None or not engine.lives:
-                engine = self._engines[room] = await self.engines.take(self.folder)
+                engine = await self.engines.take(self.folder)
+                if self._closed:
+                    engine.kill()
+                    raise EngineLost("this page was closed, and its session has ended; load it again")
+                self._engines[room] = engine
             return engine
 
     async def ask(self, room: str, do: str, **told: Any) -> AsyncIterator[dict[str, Any]]:
@@ -105,7 +111,10 @@ class Session:
             raise InputError(f"{shown} is none of the files that go here: {', '.join(suffixes)}")
         held = sum(one.stat().st_size for one in self.folder.iterdir() if one.is_file())
         if len(self.files) >= _MOST_FILES or held + len(content) > _MOST_BYTES:
-            raise InputError(f"this page keeps {_MOST_FILES} files and {_MOST_BYTES // 2**20} MB; restart the server")
+            raise InputError(
+                f"this browser has {len(self.files)} files and {held / 2**20:.0f} MB here, and {_MOST_FILES} files "
+                f"and {_MOST_BYTES // 2**20} MB are the most; close its tabs for a minute, and all are removed"
+            )
         kept = f"upload_{secrets.token_hex(8)}{suffix}"
         write_whole(self.folder / kept, content)
         self.files[shown] = kept
@@ -124,6 +133,7 @@ class Session:
 
     def close(self) -> None:
         """End its processes and remove its files."""
+        self._closed = True
         for engine in self._engines.values():
             engine.kill()
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -162,4 +162,5 @@ class StudyPage(Tab):
             for name, text in answer["figures"].items():
                 self._places[name].draw(text, f"{self._moves}")
             self.right.show(answer["rows"], answer["warnings"], run.name, done=True)
+            self.left.unsay()
             self.state("shown", moves=str(self._moves))

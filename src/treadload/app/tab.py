@@ -14,6 +14,7 @@ from treadload.app.fielding import Fields, Uploads
 from treadload.app.form import Form
 from treadload.app.right import Right
 from treadload.app.session import Run, Session
+from treadload.app.unsolved import said_of
 from treadload.study.as_python import case_as_python
 
 PAGES = {"/": "the bench", "/life": "life", "/study": "study"}
@@ -136,17 +137,19 @@ class Tab:
 
     def solve(self, form: Form) -> None:
         """Solve a form in the process of the session; what was being solved is left."""
-        if form.check(self.session.folder).case is None:
+        case = form.check(self.session.folder).case
+        if case is None:
             if isinstance(self.left, Fields):
                 self.left.tell()
             return
         if self._solving is not None:
             self._solving.cancel()
-        self._solving = background_tasks.create(self._solve(form))
+        self._solving = background_tasks.create(self._solve(form, said_of(case)))
 
-    async def _solve(self, form: Form) -> None:
+    async def _solve(self, form: Form, unsolved: str) -> None:
         with self.client:
             run = self.session.new_run(form, self.title(form), self.room)
+            run.unsolved = unsolved
             self.state("solving")
             self._cancel.props(remove="disabled")
             self.stage.text = "waiting for the process that solves"
@@ -156,6 +159,9 @@ class Tab:
                 async for answer in self.session.ask(self.room, form.solver, **told):
                     self._hear(run, answer)
             except EngineLost as error:
+                if self.client.is_deleted:
+                    self.session.runs.pop(run.name, None)
+                    return
                 # The process is ended where it does not stop of itself.
                 self._failed(run, "cancelled" if self._solving is None else str(error))
             except asyncio.CancelledError:
@@ -181,7 +187,8 @@ class Tab:
         if "ready" in answer:
             run.ready = True
             self._count += 1
-            self.right.show(run.rows, run.warnings, run.name, done=True)
+            self.left.unsay()
+            self.right.show(run.rows, run.warnings, run.name, done=True, unsolved=run.unsolved)
             self.state("ready", ready=str(self._count), seconds=f"{answer['seconds']:.3f}",
                        process=f"{answer['process']:.3f}", run=run.name)  # fmt: skip
             self.stage.text = f"solved in {answer['seconds']:.1f} s"
