@@ -119,7 +119,8 @@ class Fields(Uploads, ABC):
         self._solve()
 
     def _solve(self) -> None:
-        if self._checked.case is not None:
+        # The fields of another form are put on the page, and what is wrong with it is told, a moment later.
+        if self.form.check(self.session.folder).case is not None:
             self._changed(self.form)
 
     def take(self, form: Form) -> None:

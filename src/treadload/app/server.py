@@ -67,6 +67,8 @@ def run(host: str, port: int, *, open_browser: bool) -> None:
     def over() -> None:
         engines.close()
         sessions.close()
+        # Here as well: a server that gets a signal ends by it once it has shut down.
+        links.end()
 
     app.on_startup(ready)
     app.on_shutdown(over)
