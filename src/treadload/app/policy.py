@@ -10,10 +10,7 @@ from __future__ import annotations
 
 import re
 import secrets
-from collections.abc import Callable, MutableMapping
 from typing import Any
-
-from jinja2 import BaseLoader, Environment
 
 NONCE = "treadload.nonce"
 """Key of a request's scope under which the nonce of its answer stands."""
@@ -58,20 +55,12 @@ def _policy(nonce: str, host: str) -> str:
     )
 
 
-class Nonced(BaseLoader):
-    """Templates of another loader whose scripts and style sheets carry the nonce of the answer."""
+def give_nonces(loader: Any) -> None:
+    """Let the scripts and style sheets of templates carry the nonce of their answer. loader: of jinja2."""
+    inner = loader.get_source
 
-    def __init__(self, loader: BaseLoader) -> None:
-        self._loader = loader
+    def get_source(environment: Any, template: str) -> tuple[Any, ...]:
+        source, *rest = inner(environment, template)
+        return (_TAG.sub(rf'<\1 nonce="{{{{ request.scope["{NONCE}"] }}}}"', source), *rest)
 
-    def get_source(
-        self, environment: Environment, template: str
-    ) -> tuple[str, str | None, Callable[[], bool] | None]:
-        """The text of a template, see jinja2."""
-        source, name, fresh = self._loader.get_source(environment, template)
-        return _TAG.sub(rf'<\1 nonce="{{{{ request.scope["{NONCE}"] }}}}"', source), name, fresh
-
-
-def nonce_of(scope: MutableMapping[str, Any]) -> str:
-    """The nonce of the answer to a request."""
-    return str(scope[NONCE])
+    loader.get_source = get_source

@@ -20,7 +20,7 @@ from treadload.app.engines import EngineLost, Engines
 from treadload.app.guard import SESSION, Guard, Keys, address_of
 from treadload.app.links import Links
 from treadload.app.page import KINDS_OF_PAGES, LOOK, build
-from treadload.app.policy import Nonced
+from treadload.app.policy import give_nonces
 from treadload.app.sessions import TAB_GONE, Sessions
 from treadload.app.tab import PAGES, Tab
 from treadload.app.takehome import KINDS
@@ -119,9 +119,7 @@ def prepare(keys: Keys, sessions: Sessions) -> None:
         return Response(link_script(), media_type="text/javascript", headers={"cache-control": "no-cache"})
 
     app.add_static_files("/look", LOOK, max_cache_age=0)
-    held = templates.env.loader
-    assert held is not None
-    templates.env.loader = Nonced(held)
+    give_nonces(templates.env.loader)
     _own_events(keys)
     _around_everything(keys)
 
