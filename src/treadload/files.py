@@ -14,7 +14,7 @@ import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from treadload.errors import InputError, WriteError, one_line
 
@@ -129,29 +129,72 @@ def parse_toml(text: str, name: str) -> dict[str, Any]:
 
 
 def read_tree(path: Path, kind: str) -> xr.DataTree:
-    """A NetCDF-4 file in memory. kind: what it should be, for the error. Raises InputError if it cannot be read."""
+    """A NetCDF-4 file in memory. kind: what it should be, for the error.
+
+    Raises InputError if it cannot be read, changes while it is read, or has links that lead in circles or out of it.
+    """
+    try:
+        # Held open, it is the same file to the end, also where another one takes its name.
+        with path.open("rb") as stream:
+            before = _state(stream)
+            try:
+                return _tree(path)
+            finally:
+                if _state(stream) != before:
+                    raise InputError("it changed while it was read; wait for what writes it, and read it again")
+    except Exception as error:
+        why = one_line(getattr(error, "strerror", None) or str(error))
+        if why.startswith(_TWICE):
+            why = "a variable has the same dimension twice; give the second another name"
+        raise InputError(f"cannot read {path} as {kind}: {why}") from error
+
+
+def _tree(path: Path) -> xr.DataTree:
     # The command line writes files and starts without numbers.
     import h5py
     import xarray as xr
 
-    try:
-        # Of a file whose root cannot be read h5netcdf makes half an object, whose end prints a traceback.
-        with h5py.File(path, "r") as probe:
-            probe.attrs.get("_nc3_strict")
-        # Units are read by who needs them: none of them is a date.
-        with warnings.catch_warnings():
-            warnings.filterwarnings("error", _TWICE, UserWarning)
-            with xr.open_datatree(path, engine="h5netcdf", decode_times=False) as tree:
-                loaded: xr.DataTree = tree.load()
-        # A variable whose dimensions were lost shows when its group is put together.
-        for node in loaded.subtree:
-            node.to_dataset()
-    except Exception as error:
-        why = one_line(str(error))
-        if why.startswith(_TWICE):
-            why = "a variable has the same dimension twice; give the second another name"
-        raise InputError(f"cannot read {path} as {kind}: {why}") from error
+    # Of a file whose root cannot be read h5netcdf makes half an object, whose end prints a traceback.
+    with h5py.File(path, "r") as probe:
+        probe.attrs.get("_nc3_strict")
+        _check_links(probe)
+    # Units are read by who needs them: none of them is a date.
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", _TWICE, UserWarning)
+        with xr.open_datatree(path, engine="h5netcdf", decode_times=False) as tree:
+            loaded: xr.DataTree = tree.load()
+    # A variable whose dimensions were lost shows when its group is put together.
+    for node in loaded.subtree:
+        node.to_dataset()
     return loaded
+
+
+def _state(stream: BinaryIO) -> tuple[int, int]:
+    """How long a file is and when it was last written."""
+    now = os.fstat(stream.fileno())
+    return now.st_size, now.st_mtime_ns
+
+
+def _check_links(file: Any) -> None:
+    """Refuse what a reader follows for ever, or to another file. file: of h5py. Raises ValueError."""
+    import h5py
+
+    seen, waiting = {file["/"]}, [file["/"]]
+    while waiting:
+        group = waiting.pop()
+        for name in group:
+            place = f"{group.name.rstrip('/')}/{name}"
+            if isinstance(group.get(name, getlink=True), h5py.ExternalLink):
+                raise ValueError(f"{place} is a link to another file; put what it holds into this one")
+            if group.get(name, getclass=True) is not h5py.Group:
+                continue
+            inner = group[name]
+            if inner in seen:
+                raise ValueError(f"{place} is a link to a group that has another name; write the file without links")
+            if place.count("/") > _DEEPEST:
+                raise ValueError(f"{place[:100]} lies more than {_DEEPEST} groups deep; write the file with fewer")
+            seen.add(inner)
+            waiting.append(inner)
 
 
 def _check_no_folder(path: Path) -> None:

@@ -60,3 +60,25 @@ def test_a_command_stopped_at_any_moment_leaves_what_is_whole_and_goes_on(name):
 
     told = []
     assert kills(2, [name], seed=1, tell=told.append) == 0, "\n".join(told)
+
+
+def test_a_file_is_read_whole_or_refused_while_it_changes():
+    from faults.races import read_while_replaced
+
+    assert read_while_replaced(10, whole=True) == {"read": 10}
+    read_while_replaced(10, whole=False)
+
+
+def test_two_writers_leave_what_is_of_one():
+    from faults.races import two_writers_of_a_file
+
+    two_writers_of_a_file(50)
+
+
+@pytest.mark.slow
+def test_the_second_writer_of_a_store_is_refused_and_the_first_goes_on():
+    from faults.races import read_while_replaced, two_writers_of_a_store
+
+    assert "is being written by another study; wait for it" in two_writers_of_a_store()
+    assert read_while_replaced(80, whole=True) == {"read": 80}
+    assert sum(read_while_replaced(80, whole=False).values()) == 80

@@ -43,7 +43,7 @@ def store(path: Path, count: int = DESIGN.count) -> None:
     """A study of a function, up to so many of its cases."""
     with begun(path, FREE, DESIGN, question(FREE)) as keeping:
         for record in records_of(DESIGN, wheel):
-            if record.number not in keeping.records and record.number < count:
+            if not keeping.finished and record.number not in keeping.records and record.number < count:
                 keeping.append(record)
 
 

@@ -1,13 +1,16 @@
 import errno
 import os
 import stat
+import time
 
+import h5py
 import pytest
+import xarray as xr
 
 import treadload as tl
 from treadload.case.schema import read_case
 from treadload.errors import InputError, WriteError
-from treadload.files import check_writable, write_all, write_whole
+from treadload.files import check_writable, read_tree, write_all, write_whole
 from treadload.tire.fringes import read_fringes
 from treadload.tire.scan.laser_file import asked_of, is_laser
 
@@ -125,6 +128,49 @@ def test_links_that_lead_nowhere_are_refused(tmp_path):
     with pytest.raises(InputError, match="symbolic links; give another name"):
         write_whole(tmp_path / "a", "new")
     assert (tmp_path / "a").is_symlink()
+
+
+@pytest.mark.parametrize(
+    ("link", "said"),
+    [
+        (lambda file: file["/"], "/part/again is a link to a group that has another name"),
+        (lambda file: h5py.SoftLink("/"), "/part/again is a link to a group that has another name"),
+        (lambda file: h5py.ExternalLink("other.nc", "/"), "/part/again is a link to another file"),
+        (lambda file: h5py.SoftLink("/part/again"), "too many links"),
+    ],
+)
+def test_groups_that_lead_in_circles_are_refused_at_once(tmp_path, link, said):
+    path = tmp_path / "a.nc"
+    xr.DataTree.from_dict({"/part": xr.Dataset({"a": 1.0})}).to_netcdf(path, engine="h5netcdf")
+    with h5py.File(path, "a") as file:
+        file["part/again"] = link(file)
+    began = time.process_time()
+    with pytest.raises(InputError, match=said):
+        read_tree(path, "NetCDF-4")
+    # A reader that follows them ends after minutes, if at all.
+    assert time.process_time() - began < 5
+
+
+def test_groups_beyond_all_depth_are_refused(tmp_path):
+    with h5py.File(tmp_path / "a.nc", "w") as file:
+        file.create_group("/".join("a" * 300))
+    with pytest.raises(InputError, match="more than 60 groups deep"):
+        read_tree(tmp_path / "a.nc", "NetCDF-4")
+
+
+def test_a_file_that_changes_while_it_is_read_is_refused(tmp_path, monkeypatch):
+    path = tmp_path / "a.nc"
+    xr.Dataset({"a": 1.0}).to_netcdf(path, engine="h5netcdf")
+    load = xr.DataTree.load
+
+    def changed(tree):
+        loaded = load(tree)
+        os.utime(path, ns=(1, 1))
+        return loaded
+
+    monkeypatch.setattr(xr.DataTree, "load", changed)
+    with pytest.raises(InputError, match="changed while it was read; wait for what writes it"):
+        read_tree(path, "NetCDF-4")
 
 
 @pytest.mark.parametrize(
