@@ -65,6 +65,14 @@ def positive(name: str, value: float | str, unit: str = "", remedy: str = "") ->
     raise InputError(f"{name} must be a positive number{of}, got {said}{end}")
 
 
+def within(name: str, value: float, low: float, high: float, unit: str = "", remedy: str = "") -> None:
+    """Raise InputError unless low <= value <= high; NaN is not. name, unit, remedy: as for `positive`."""
+    if low <= value <= high:
+        return
+    of, end = f" {unit}" if unit else "", f"; {remedy}" if remedy else ""
+    raise InputError(f"{name} must lie between {low:g} and {high:g}{of}, got {value:g}{of}{end}")
+
+
 def said(error: BaseException) -> str:
     """An error of another library in one short line."""
     words = " ".join(str(error).split())

@@ -17,7 +17,8 @@ class Range:
 
     unit: SI. low, high: outside them a sentence is given. usual: what most are. owner: whose it is, in words. units:
     that a person may have thought in, with what they are worth in SI; the usual values are given in the first.
-    reason: why these bounds. noun: the quantity in a sentence; left out, the key of the row.
+    reason: why these bounds. noun: the quantity in a sentence; left out, the key of the row. remedy: what to do where
+    no other unit was likely meant.
     """
 
     unit: str
@@ -28,6 +29,7 @@ class Range:
     units: tuple[tuple[str, float], ...]
     reason: str
     noun: str = ""
+    remedy: str = ""
 
 
 _LENGTHS = (("mm", 1e-3), ("cm", 1e-2), ("m", 1.0))
@@ -51,6 +53,8 @@ RANGES: dict[str, Range] = {
     "friction": Range(
         "", 0.0, 2.0, (0.05, 1.5), "road and tire usually have", (("", 1.0), ("%", 1e-2)),
         "Racing tires reach 1.8.",
+        remedy="a dry road is near 0.7, a wet one near 0.4, and racing tires reach 1.8: lower it, or prescribe a "
+        "creepage of 0 where nothing is to slip",
     ),
     "speed": Range(
         "m/s", 0.0, 60.0, (0.3, 38.0), "vehicles usually roll at", (("km/h", 1 / 3.6),),
@@ -135,6 +139,8 @@ def doubt(kind: str, value: float, where: str = "", scale: float = 1.0) -> tuple
         text += f": did you mean {' or '.join(meant[:2])}?"
     elif row.unit:
         text += f" (a number without a unit is in {row.unit})"
+    elif row.remedy:
+        text += f"; {row.remedy}"
     return (text,)
 
 

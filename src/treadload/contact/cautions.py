@@ -12,6 +12,7 @@ from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.plausible import doubt, load_doubt
 from treadload.tire import Tire
+from treadload.tire.belt import belt_doubt
 from treadload.tire.modulus import modulus_doubt
 from treadload.tire.surface import HeightMapSurface
 
@@ -36,6 +37,10 @@ def of_tire(tire: Tire) -> list[str]:
     if tire.material is None and tire.belt is None and tire.inflation_pressure is not None:
         radius = tire.outer_radius
         told = modulus_doubt(tire.inflation_pressure, None if radius is None else 2 * radius)
+        said += [] if told is None else [told]
+    if tire.belt is not None and tire.inflation_pressure is not None:
+        radius = tire.outer_radius
+        told = belt_doubt(tire.belt, tire.inflation_pressure, None if radius is None else 2 * radius)
         said += [] if told is None else [told]
     return said
 

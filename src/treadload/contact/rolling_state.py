@@ -8,7 +8,7 @@ from functools import cached_property
 
 from treadload.contact.friction.laws import Coulomb, FrictionLaw, largest_force, law_of
 from treadload.describing import as_call
-from treadload.errors import InputError, positive
+from treadload.errors import InputError, positive, within
 from treadload.units import Curvature, Force, Length, Number, Speed
 
 # Name, unit, and what is usual, of what must lie above zero.
@@ -17,6 +17,9 @@ _ABOVE_ZERO = (
     ("approach", "metres", "1 mm is 0.001"),
     ("speed", "m/s", "80 km/h is 22.2"),
 )
+
+# Beyond them arithmetic ends, not tires: solvers square what they compare in single precision.
+_LOADS, _APPROACHES, _MOST_SPIN = (1e-15, 1e15), (1e-15, 1e3), 1e6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,6 +56,11 @@ class Rolling:
             value = getattr(self, name)
             if value is not None:
                 positive(name, value, unit, usual)
+        if self.normal_load is not None:
+            within("normal_load", self.normal_load, *_LOADS, "N", "a truck's wheel carries 20e3 to 60e3")
+        if self.approach is not None:
+            within("approach", self.approach, *_APPROACHES, "m", "1 mm is 0.001")
+        within("spin", self.spin, -_MOST_SPIN, _MOST_SPIN, "rad/m", "a turn of 20 m radius has 0.05")
         if self.law.needs_speed and self.speed is None:
             raise InputError(f"friction {self.law} depends on the slip speed: give the rolling speed (m/s) too")
         for force, creepage in (("tractive_force", "creepage_x"), ("lateral_force", "creepage_y")):

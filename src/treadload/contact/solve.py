@@ -14,6 +14,7 @@ from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair, RoadCompliance
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.layers import RoadShare, half_space_share, road_share
+from treadload.contact.bounds import check_modulus, check_numbers, check_spacing
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
 from treadload.contact.relief import above, check_step, doubts_of, heights_on
@@ -95,6 +96,8 @@ def solve_contact(
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
     bodies = Pair.of(tire, road, speed=rolling.speed, road_compliance=road_compliance)
+    for name, body in (("the tire", bodies.tire), ("the road", bodies.road)):
+        check_modulus(name, body)
     if rolling.law.largest > 0:
         bodies.both.check_shear()
     tell("locating the contact")
@@ -154,9 +157,12 @@ def place(
                 f"the height map has cells of {grid.dx * 1e3:g} mm and keeps them, got spacing = "
                 f"{spacing * 1e3:g} mm; leave spacing out, or resample the map"
             )
-        return grid, tire.height_map(grid)
+        gap = tire.height_map(grid)
+        check_numbers(rolling, bodies, grid, gap)
+        return grid, gap
     step = DEFAULT_SPACING if spacing is None else spacing
     positive("spacing", step, "metres", "3 mm is 0.003")
+    check_spacing(step, step)
     length, width = tire.extent
     cells = length * width / step**2
     if cells > _MOST_CELLS:
@@ -170,9 +176,11 @@ def place(
             f"{min(length, width) * 1e3:.0f} mm; use {min(length, width) / 64 * 1e3:.2g} mm or less"
         )
     coarse = Grid.centred(length, width, max(step, max(length, width) / _LOCATING_CELLS))
+    shape = tire.height_map(coarse)
+    check_numbers(rolling, bodies, coarse, shape)
     first = solve_normal(
         Influence(coarse.shape, coarse.dx, coarse.dy, bodies.at_rest),
-        tire.height_map(coarse),
+        shape,
         load=rolling.normal_load,
         approach=rolling.approach,
         tolerance=1e-2,

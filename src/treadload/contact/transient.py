@@ -28,13 +28,16 @@ from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.contact.solvers.tangential import Forces
-from treadload.errors import InputError
+from treadload.errors import InputError, within
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.tables import finite_list
 from treadload.tire import Tire
 from treadload.variables import dataset
+
+# Farther, the distances between cells are lost in round-off; shorter, a step is lost beside a cell.
+_FARTHEST, _SHORTEST = 1e6, 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,7 +230,14 @@ def _dataset(grid: Grid, rows: Sequence[dict[str, Any]]) -> xr.Dataset:
 
 def _checked_distances(distances: Sequence[float] | Array) -> Array:
     ends = finite_list(distances, "distances", "m")
+    within("distances", float(np.abs(ends).max(initial=0.0)), 0.0, _FARTHEST, "m", "a contact is 0.2 m long")
     steps = np.diff(ends, prepend=0.0)
+    short = steps[(steps > 0) & (steps < _SHORTEST)]
+    if short.size:
+        raise InputError(
+            f"a step of the distances is {short[0]:g} m, and below {_SHORTEST:g} m it is lost in round-off; a step "
+            "of 0 m shifts the wheel where it stands"
+        )
     if (steps < 0).any():
         where = int(np.argmax(steps < 0))
         raise InputError(

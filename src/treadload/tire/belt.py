@@ -14,6 +14,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.belt import Sheet
 from treadload.materials import Elastic, Prony
 from treadload.named import Catalogue, read_tables
+from treadload.tire.modulus import unlike_a_truck
 from treadload.units import BendingStiffness, Length, PerLength, Pressure, Radius, Stiffness
 
 # Thinner than any worn tread with its undertread, thicker than any new one, m.
@@ -185,6 +186,23 @@ class InflatedBelt:
         if radius is None:
             return np.zeros_like(y)
         return np.asarray(np.square(y) / (2 * radius * self.rolling_radius))
+
+
+def belt_doubt(belt: Belt, inflation_pressure: float, diameter: float | None) -> str | None:
+    """A sentence where a belt has numbers of the truck tire that are the defaults, on a tire of another kind.
+
+    inflation_pressure: Pa. diameter: outer, m; None where it is not known.
+    """
+    off = unlike_a_truck(inflation_pressure, diameter)
+    truck = Belt()
+    same = [name for name in ("foundation", "meridional", "bending") if getattr(belt, name) == getattr(truck, name)]
+    if off is None or not same:
+        return None
+    return (
+        f"{', '.join(same)} of the belt {'is' if len(same) == 1 else 'are'} those of one truck tire (315/80R22.5 at "
+        f"820 kPa), and this one has {off}: give Belt({', '.join(f'{name}=...' for name in same)}), fitted to a "
+        "measured deflection or footprint"
+    )
 
 
 def read_belts(path: str | Path) -> list[Belt]:

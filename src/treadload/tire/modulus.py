@@ -54,16 +54,25 @@ def modulus_doubt(inflation_pressure: float, diameter: float | None) -> str | No
 
     inflation_pressure: Pa. diameter: outer, m; None where it is not known.
     """
+    off = unlike_a_truck(inflation_pressure, diameter)
+    if off is None:
+        return None
+    return (
+        f"the tire's modulus of {modulus_from_inflation(inflation_pressure) / 1e6:.3g} MPa comes from its inflation "
+        f"pressure by a line that was fitted to one truck tire (315/80R22.5 at 820 kPa), and this one has "
+        f"{off}: give its material, fitted to a measured deflection or footprint"
+    )
+
+
+def unlike_a_truck(inflation_pressure: float, diameter: float | None) -> str | None:
+    """What of a tire is beyond those of trucks, with the bounds; None of nothing.
+
+    inflation_pressure: Pa. diameter: outer, m; None where it is not known.
+    """
     off = []
     if diameter is not None and not TRUCK_DIAMETERS[0] <= diameter <= TRUCK_DIAMETERS[1]:
         off.append(f"an outer diameter of {diameter:.2g} m (not {TRUCK_DIAMETERS[0]:g} to {TRUCK_DIAMETERS[1]:g} m)")
     if not TRUCK_PRESSURES[0] <= inflation_pressure <= TRUCK_PRESSURES[1]:
         low, high = (value / 1e3 for value in TRUCK_PRESSURES)
         off.append(f"{inflation_pressure / 1e3:.3g} kPa (not {low:g} to {high:g} kPa)")
-    if not off:
-        return None
-    return (
-        f"the tire's modulus of {modulus_from_inflation(inflation_pressure) / 1e6:.3g} MPa comes from its inflation "
-        f"pressure by a line that was fitted to one truck tire (315/80R22.5 at 820 kPa), and this one has "
-        f"{' and '.join(off)}: give its material, fitted to a measured deflection or footprint"
-    )
+    return " and ".join(off) or None

@@ -16,10 +16,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from treadload.errors import InputError, positive
+from treadload.errors import InputError, positive, within
 from treadload.kernels.arrays import Array
 from treadload.registry import FRICTION
 from treadload.units import Number, Pressure, SlidingSpeed
+
+# Beyond them arithmetic ends, not friction: of μ > 0, of the ratio of an ellipse's axes, of slip speeds, m/s, and of
+# pressures, Pa.
+_COEFFICIENTS, _LONGEST, _SPEEDS, _PRESSURES = (1e-9, 1e6), 1e3, (1e-12, 1e12), (1e-9, 1e15)
 
 
 @dataclass(frozen=True)
@@ -146,6 +150,7 @@ class _Falling(FrictionLaw):
                 "friction that rises with slip is not supported"
             )
         positive("reference_speed", self.reference_speed, "m/s", "without a fall, friction is a number")
+        within("reference_speed", self.reference_speed, *_SPEEDS, "m/s", "without a fall, friction is a number")
 
     @property
     def needs_speed(self) -> bool:
@@ -214,6 +219,7 @@ class PressureDependent(FrictionLaw):
     def __post_init__(self) -> None:
         check_coefficient("reference friction", self.reference)
         positive("reference_pressure", self.reference_pressure, "Pa", "tires press with some 1e6")
+        within("reference_pressure", self.reference_pressure, *_PRESSURES, "Pa", "tires press with some 1e6")
         if not (math.isfinite(self.exponent) and 0 <= self.exponent <= 1 / 3 + 1e-12):
             raise InputError(f"exponent of the pressure must lie in [0, 1/3], got {self.exponent:g}")
         if self.upper is not None:
@@ -256,6 +262,10 @@ class Anisotropic(FrictionLaw):
     def __post_init__(self) -> None:
         positive("friction along travel", self.along, remedy="a dry road is near 0.7")
         positive("friction across travel", self.across, remedy="a dry road is near 0.7")
+        ratio = self.along / self.across
+        within(
+            "friction along travel over that across", ratio, 1 / _LONGEST, _LONGEST, "", "grooves make it 0.5 to 2"
+        )
         check_base("an ellipse", self.base)
 
     @property
@@ -310,7 +320,7 @@ def largest_force(
     demand = math.hypot(*pull)
     # Stretched by its axes, the ellipse is a disc: on it the direction counts.
     stretched = math.hypot(*(force / d for force, d in zip(pull, axes, strict=True)))
-    return demand, total if demand == 0 else total * demand / stretched
+    return demand, total if demand == 0 else total * (demand / stretched)
 
 
 def check_coefficient(name: str, value: float) -> None:
@@ -319,6 +329,8 @@ def check_coefficient(name: str, value: float) -> None:
         raise InputError(f"{name} must be a finite number, got {value}")
     if value < 0:
         raise InputError(f"{name} must be >= 0, got {value:g}; a dry road is near 0.7")
+    if value > 0:
+        within(name, value, *_COEFFICIENTS, "", "a dry road is near 0.7, and 0 is no friction")
 
 
 def check_base(what: str, base: object) -> None:
