@@ -26,6 +26,7 @@ from treadload.damage import (
 )
 from treadload.damage.quantities import EXTENSION, SUBGRADE_COMPRESSION, TENSION
 from treadload.damage.quantity import Quantity
+from treadload.damage.ratios import OctahedralRatio
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.materials import Elastic
@@ -325,6 +326,13 @@ def test_the_energy_ratio_reads_a_quantity(response):
         (
             lambda: Criterion("a", FatigueLine(1e-4, -0.2), place="interface"),
             "reads an interface.*give place = .bottom",
+        ),
+        (
+            # The class is the same, and the numbers of the law hold for another strength.
+            lambda: Criterion(
+                "a", PowerLine(OctahedralRatio(2e5, 0.6), 0.5, -0.2), reads=OctahedralRatio(2e5, 0.7)
+            ),
+            r"friction_angle = 0\.7.*fitted with friction_angle = 0\.6; give friction_angle = 0\.6",
         ),
         (lambda: Extension("sideways"), 'strain must be "principal" or "in-plane"'),
         (lambda: tl.assess(None, FatigueLine(1e-4, -0.2, MazarsStrain())), "a verdict reads an extension, but"),

@@ -88,6 +88,12 @@ class Criterion:
             self._check_search(self.search_to)
         if self.parts < 1:
             raise InputError(f"parts of the criterion {self.name!r} must be 1 or more, got {self.parts}")
+        if self.reads is not None and (unlike := law.reads.differences(self.reads)):
+            own, given = (", ".join(f"{name} = {two[k]:g}" for name, two in unlike.items()) for k in (0, 1))
+            raise InputError(
+                f"the criterion {self.name!r} reads the {self.reads} with {given}, but the numbers of its law, {law}, "
+                f"were fitted with {own}; give {own} in reads, or a law fitted with {given}"
+            )
         if self.reads is not None and not law.reads.admits(self.reads):
             raise InputError(
                 f"the criterion {self.name!r} reads the {self.reads}, but the numbers of its law, {law}, hold for "

@@ -18,9 +18,10 @@ own:
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from types import MappingProxyType
 from typing import Any, Literal, Self
 
@@ -150,7 +151,27 @@ class Quantity(ABC):
 
     def admits(self, other: Quantity) -> bool:
         """True if the numbers of a law that reads this one hold for another too: the same with its details given."""
-        return isinstance(other, type(self))
+        return isinstance(other, type(self)) and not self.differences(other)
+
+    def differences(self, other: Quantity) -> dict[str, tuple[float, float]]:
+        """Numbers of this quantity, and of another of its class, that are not the same, by name.
+
+        Not of a quantity whose details follow the temperature or the wheel, and not those that this one leaves open or
+        at their usual values.
+        """
+        follows = type(self).at is not Quantity.at or type(self).passing is not Quantity.passing
+        if follows or not is_dataclass(self) or not isinstance(other, type(self)):
+            return {}
+        pairs = {
+            one.name: (getattr(self, one.name), getattr(other, one.name))
+            for one in fields(self)
+            if getattr(self, one.name) != one.default
+        }
+        return {
+            name: (own, given)
+            for name, (own, given) in pairs.items()
+            if isinstance(own, int | float) and isinstance(given, int | float) and not math.isclose(own, given)
+        }
 
     def values(self, data: xr.Dataset) -> Array:
         """The quantity over (depth, y, x) of a response's dataset, or fewer. Raises InputError for what it lacks."""
