@@ -32,7 +32,7 @@ from treadload.results import to_tree
 LINE = FatigueLine(120e-6, -0.2)
 Y = np.linspace(-0.2, 0.2, 21)
 # What may be said of cracks where none opens.
-DENIED = re.compile(r"no crack|sees no crack|none runs down|cracks? side|would crack")
+DENIED = re.compile(r"no crack|predicts no crack|none runs down|cracks? side|would crack")
 
 
 def a_life(dips=(90.0, 90.0, np.nan, np.nan), years=20.0):

@@ -150,7 +150,7 @@ def test_nothing_cracks_where_nothing_is_tensile():
     assert float(pressed.dataset.principal_strain_1.max()) > 10e-6
     assert verdict.orientation == "none"
     assert np.isinf(verdict.dataset.allowable_passes).all()
-    assert "only where no principal stress is tensile; this law sees no crack" in verdict.summary()
+    assert "only where no principal stress is tensile; this criterion predicts no cracking" in verdict.summary()
     assert "worst point" not in verdict.summary()
 
 

@@ -329,9 +329,7 @@ def test_the_energy_ratio_reads_a_quantity(response):
         ),
         (
             # The class is the same, and the numbers of the law hold for another strength.
-            lambda: Criterion(
-                "a", PowerLine(OctahedralRatio(2e5, 0.6), 0.5, -0.2), reads=OctahedralRatio(2e5, 0.7)
-            ),
+            lambda: Criterion("a", PowerLine(OctahedralRatio(2e5, 0.6), 0.5, -0.2), reads=OctahedralRatio(2e5, 0.7)),
             r"friction_angle = 0\.7.*fitted with friction_angle = 0\.6; give friction_angle = 0\.6",
         ),
         (lambda: Extension("sideways"), 'strain must be "principal" or "in-plane"'),

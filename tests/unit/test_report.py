@@ -227,11 +227,11 @@ def test_verdict_without_sentence_is_composed(results, tmp_path):
     damage["worst_strain"], damage["worst_passes"] = -1e-6, np.inf
     tree = xr.DataTree.from_dict({"/damage": damage})
     page = _Page(write_report({"case": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
-    assert "but only where no principal stress is tensile; this law sees no crack" in page.words
+    assert "only where no principal stress is tensile; this criterion predicts no cracking" in page.words
     damage.attrs["largest_unread"] = -1e-6
     tree = xr.DataTree.from_dict({"/damage": damage})
     page = _Page(write_report({"case": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
-    assert "no extension here" in page.words
+    assert "no tensile strain here" in page.words
 
 
 def test_a_path_that_cannot_be_written_leaves_nothing(results, tmp_path):

@@ -151,7 +151,7 @@ def test_nothing_extends_nothing_cracks():
     )
     verdict = local(squeezed, LINE)
     assert verdict.orientation == "none"
-    assert "sees no crack" in verdict.summary()
+    assert "predicts no cracking" in verdict.summary()
 
 
 def test_the_tolerance_moves_the_border():

@@ -83,7 +83,7 @@ def verdict_rows(verdict: Verdict) -> list[Row]:
                note=f"under {under(data)}; the maps show points, whose readings beside edges of the contact are far "
                     "higher")  # fmt: skip
     if not strain > 0:
-        return [row("verdict", "Life", "this law sees no crack", group="road", note=sentence), read]
+        return [row("verdict", "Life", "no cracking predicted", group="road", note=sentence), read]
     x, y, depth = (float(data[f"worst_{name}"]) for name in ("x", "y", "depth"))
     at = {"x": x, "y": y, "depth": depth}
     where = f"x {x * 1e3:.1f}, y {y * 1e3:.1f}, {depth * 1e3:g} mm deep"

@@ -49,10 +49,10 @@ def first_to_expect(orientation: str) -> str:
 def nothing_opens(unread: float) -> str:
     """Why nothing cracks, in a sentence. unread: the largest extension, whatever opens."""
     if unread <= 0:
-        return "no extension here; this law sees no crack."
+        return "no tensile strain here; this criterion predicts no cracking."
     return (
-        f"the road extends by up to {unread * 1e6:.1f} microstrain, but only where no principal stress is tensile; "
-        "this law sees no crack."
+        f"the tensile strain reaches {unread * 1e6:.3g} microstrain, but only where no principal stress is tensile; "
+        "this criterion predicts no cracking."
     )
 
 

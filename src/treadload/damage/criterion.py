@@ -91,8 +91,8 @@ class Criterion:
         if self.reads is not None and (unlike := law.reads.differences(self.reads)):
             own, given = (", ".join(f"{name} = {two[k]:g}" for name, two in unlike.items()) for k in (0, 1))
             raise InputError(
-                f"the criterion {self.name!r} reads the {self.reads} with {given}, but the numbers of its law, {law}, "
-                f"were fitted with {own}; give {own} in reads, or a law fitted with {given}"
+                f"the criterion {self.name!r} reads the {self.reads} with {given}, but the numbers of its law, "
+                f"{law}, were fitted with {own}; give {own} in reads, or a law fitted with {given}"
             )
         if self.reads is not None and not law.reads.admits(self.reads):
             raise InputError(

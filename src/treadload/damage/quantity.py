@@ -156,8 +156,8 @@ class Quantity(ABC):
     def differences(self, other: Quantity) -> dict[str, tuple[float, float]]:
         """Numbers of this quantity, and of another of its class, that are not the same, by name.
 
-        Not of a quantity whose details follow the temperature or the wheel, and not those that this one leaves open or
-        at their usual values.
+        Not of a quantity whose details follow the temperature or the wheel, and not those that this one leaves
+        open or at their usual values.
         """
         follows = type(self).at is not Quantity.at or type(self).passing is not Quantity.passing
         if follows or not is_dataclass(self) or not isinstance(other, type(self)):

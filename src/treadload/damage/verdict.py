@@ -25,6 +25,7 @@ from treadload.damage.cracks import (
 from treadload.damage.laws.fatigue import PowerLaw, warnings_of
 from treadload.damage.quantity import READINGS, Reading, check_reading
 from treadload.damage.reading import Field, check_law, closer, local_field, mean_field, under_both
+from treadload.damage.unevaluated import bottoms_without_depth, bright_spot
 from treadload.describing import first_line
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.loads import Load, gather
@@ -169,6 +170,7 @@ def assess(
         check_reading(strain)
     check_tolerance(oblique_tolerance)
     check_law(line)
+    alone = response
     if shifted is not None:
         response = under_both(response, gather(shifted), depth)
     if depth is None:
@@ -217,6 +219,9 @@ def assess(
             f"the largest extension, {unread * 1e6:.1f} microstrain, lies where no principal stress is tensile: no "
             f"crack opens there, and it is not read; it would allow {float(line.allowable_passes(unread)):.2g} passes"
         )
+    evaluated = float(near.value[at]) if opens else 0.0
+    said += bright_spot(alone, quantity.strain, evaluated, data.attrs.get("mean_over"))
+    said += bottoms_without_depth(alone)
     dataset = variables.dataset(
         fields,
         {"depth": data["depth"].to_numpy(), "y": data["y"].to_numpy(), "x": data["x"].to_numpy()},

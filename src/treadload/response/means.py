@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,7 +16,7 @@ from treadload.kernels.layers.synthesis import FULL, SEARCH
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS, tensor_fields
 from treadload.response.layered import View
-from treadload.response.loads import UniformRectangle
+from treadload.response.loads import PlacedLoad, UniformRectangle
 from treadload.response.material import windows
 from treadload.response.several import Loads, Question, all_spread, answers
 from treadload.response.solution import Response
@@ -46,7 +47,7 @@ class Means:
             raise InputError(
                 "a mean over the road needs a response whose road can be solved again, got one without it"
             )
-        loads = merged([load.cell if isinstance(load, UniformRectangle) else load for load in response.loads])
+        loads = cells_of(response.loads)
         return cls(response, length, loads, all_spread(loads, length))
 
     @property
@@ -76,3 +77,8 @@ class Means:
         layer = self.road.layer_at(depth, self.response.side)
         read = windows(np.array([depth]), self.length, self.road.interfaces, [layer])
         return float(read.low[0]), float(read.high[0])
+
+
+def cells_of(loads: Sequence[PlacedLoad]) -> Loads:
+    """Loads as they are solved: rectangles as cells, and those that share cells as one."""
+    return merged([load.cell if isinstance(load, UniformRectangle) else load for load in loads])
