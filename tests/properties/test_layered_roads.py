@@ -126,8 +126,23 @@ def test_what_nothing_holds_is_not_given():
     assert np.isnan(response.dataset["displacement_x"].to_numpy().ravel()).tolist() == [True, True, False]
     assert np.isfinite(response.dataset["displacement_y"]).all()
     assert np.isfinite(response.dataset["strain_xx"]).all()
-    assert "nothing holds" in response.warnings[0]
+    assert "net shear force of 2e+03 N along x" in response.warnings[0]
+    assert "NaN at 0, 100 mm" in response.warnings[0]
+    assert "Bond(stiffness=...)" in response.warnings[0]
     assert not tl.solve_response(tl.UniformDisc(0.1, 5e5), slab, **points).warnings
+
+
+def test_means_below_a_face_that_nothing_holds_are_finite():
+    points = {"depths": [0.05, 0.5], "x": [0.0], "y": [0.0]}
+    slab, rectangle = road(other=tl.FRICTIONLESS), tl.UniformRectangle(0.2, 0.1, 5e5, traction_x=1e5)
+    point = tl.solve_response(rectangle, slab, **points).dataset
+    means = tl.solve_response(rectangle, slab, mean_over=0.02, **points)
+    moved = means.dataset["displacement_x"].to_numpy().ravel()
+    # Weights of nothing times NaN had left none.
+    assert np.isnan(moved).tolist() == [True, False]
+    assert "NaN at 50 mm" in means.warnings[0]
+    # 20 mm at half a metre: what the mean leaves of the second derivative.
+    assert moved[1] == pytest.approx(float(point["displacement_x"][1, 0, 0]), rel=1e-3, abs=1e-9)
 
 
 def test_a_rigid_base_does_not_move():

@@ -166,13 +166,24 @@ def _weighted(parts: Sequence[tuple[MovingFields, Array]], count: int) -> Moving
     if len(parts) == 1 and np.array_equal(weights, np.eye(count)):
         return replace(first, energy=np.zeros((count, 0)))
     stress, strain, displacement = (
-        sum(np.einsum("zn,cnyx->czyx", weights, getattr(one, name)) for one, weights in parts)
+        sum((_over_depths(weights, getattr(one, name)) for one, weights in parts), np.zeros(()))
         for name in ("stress", "strain", "displacement")
     )
     solved = [part for part, _ in parts]
     methods = " and ".join(dict.fromkeys(one.method for one in solved))
     warnings = tuple(dict.fromkeys(text for one in solved for text in one.warnings))
     return MovingFields(stress, strain, displacement, np.zeros((count, 0)), methods, warnings)
+
+
+def _over_depths(weights: Array, values: Array) -> Array:
+    """Sums (c, nz, ny, nx) of values (c, n, ny, nx); NaN counts where it has a weight (nz, n)."""
+    gone = np.isnan(values)
+    if not gone.any():
+        whole: Array = np.einsum("zn,cnyx->czyx", weights, values)
+        return whole
+    total: Array = np.einsum("zn,cnyx->czyx", weights, np.where(gone, 0.0, values))
+    total[np.einsum("zn,cnyx->czyx", weights != 0, gone)] = np.nan
+    return total
 
 
 def _solve(

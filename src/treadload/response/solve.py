@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from treadload import variables
 from treadload.errors import InputError
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.layers.depths import snapped
 from treadload.materials.kinds import upright
@@ -136,12 +136,25 @@ def solve_response(
     local = at_depths if read is None else at_depths[read.local]
     warnings = _warnings(gridded, local) + solved.warnings
     warnings += question_doubts(at_depths, speed) + road_doubts(road) + overlapping(superposed)
-    if np.isnan(displacement).any():
-        warnings += (
-            "a net shear force acts above a frictionless or half-bonded interface, where nothing holds the layers: "
-            "their horizontal displacement has no finite value and is NaN; stress and strain hold",
-        )
+    warnings += _drift(displacement, at_depths, cells)
     return Response(dataset, stats, warnings, superposed, asked, speed, side)
+
+
+def _drift(displacement: Array, depths: Array, loads: Sequence[Any]) -> tuple[str, ...]:
+    """A sentence where displacement (3, nz, my, mx) is NaN: along a net shear force over a face that bears none."""
+    gone: BoolArray = np.isnan(displacement).any(axis=(2, 3))  # type: ignore[assignment]
+    if not gone.any():
+        return ()
+    gridded = [load for load in loads if isinstance(load, GridLoad)]
+    forces = [sum(float(load.array[1 + axis].sum()) * load.grid.cell_area for load in gridded) for axis in (0, 1)]
+    along = [axis for axis in (0, 1) if gone[axis].any()]
+    net = " and ".join(f"{abs(forces[axis]):.3g} N along {'xy'[axis]}" for axis in along)
+    rows = ", ".join(f"{depth * 1e3:g}" for depth in depths[gone.any(axis=0)])
+    return (
+        f"a net shear force of {net} acts above a frictionless or half-bonded interface, where nothing holds the "
+        f"layers: their displacement along it grows without bound and is NaN at {rows} mm; settlement, stress and "
+        "strain are finite; for a finite one take a bond that bears shear, Bond(stiffness=...) or Parted(friction)",
+    )
 
 
 def _in_words(road: Pavement) -> str:
