@@ -1,7 +1,8 @@
 """Friction laws: how much shear a cell of the contact can carry.
 
-A law gives the local coefficient μ ≥ 0; the bound of the shear is μp. Laws that read the slip fall with it, so
-that the bound at rest is the largest. Laws on a `base` multiply its coefficient.
+A law gives the local coefficient μ ≥ 0; the bound of the shear is μp. The laws here that read the slip fall with it,
+so that the bound at rest is the largest; another may rise, as rubber does at first. Laws on a `base` multiply its
+coefficient.
 
 Sources: Vollebregt & Schuttelaars (2012), J. Sound Vib. 331, 2141-2155 (falling friction, half-value speeds, as
 in the program CONTACT); Kalker (1990), section 1.4; Schallamach (1952), Proc. Phys. Soc. B 65, 657-661 (rubber).
@@ -147,7 +148,7 @@ class _Falling(FrictionLaw):
         if self.kinetic > self.static:
             raise InputError(
                 f"kinetic friction must be at most the static, got {self.kinetic:g} > {self.static:g}; "
-                "friction that rises with slip is not supported"
+                "for friction that rises with slip write a law of your own"
             )
         positive("reference_speed", self.reference_speed, "m/s", "without a fall, friction is a number")
         within("reference_speed", self.reference_speed, *_SPEEDS, "m/s", "without a fall, friction is a number")

@@ -19,7 +19,7 @@ from treadload.contact.friction.laws import Interface
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip
-from treadload.contact.solvers.slipping import SlippingSolution, solve_slipping
+from treadload.contact.solvers.slipping import SlippingSolution, solve_slipping, strongest
 from treadload.contact.solvers.tangential import TangentialSolution
 from treadload.errors import ConvergenceError, InputError
 from treadload.grid import Grid
@@ -156,5 +156,5 @@ def _at_rest(pressure: Array, grid: Grid, rolling: Rolling) -> Interface:
             f"an approach of {(rolling.approach or 0) * 1e3:g} mm does not bring tire and road into contact; raise it"
         )
     at_rest = Interface(pressure, np.zeros((2, *grid.shape)), grid.x, grid.y, grid.dx, rolling.speed)
-    rolling.check_friction_limit(load, float(rolling.law.bound(at_rest).sum()) * grid.cell_area)
+    rolling.check_friction_limit(load, float(strongest(rolling.law, at_rest).sum()) * grid.cell_area)
     return at_rest
