@@ -58,6 +58,8 @@ KINDS = (
     "laser",
     "fringes",
     "contacts",
+    "solved",
+    "solved_lives",
 )
 _BATCH = 200
 

@@ -27,3 +27,12 @@ def test_nothing_breaks(kind, count):
     assert not tally.failures, str(tally)
     # An attack that only ever is refused, or only ever taken, tests little.
     assert {"refused", "taken"} <= set(tally.words)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("kind", "count"), [("solved", 40), ("solved_lives", 15)])
+def test_what_is_drawn_is_solved_and_right(kind, count):
+    tally = run(kind, attack_of(kind), seed=1, indices=range(count))
+    assert not tally.failures, str(tally)
+    # Drawn to be accepted: what is refused tests no solver.
+    assert tally.words["solved"] >= 0.7 * count
