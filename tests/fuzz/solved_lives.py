@@ -34,8 +34,9 @@ def draw(rng: random.Random) -> Table:
     structure = rng.choice(list(_STRUCTURES))
     top, base = _STRUCTURES[structure]
     case: Table = {
-        "spacing": "20 mm", "tolerance": 0.02, "tire": {"profile": "315/80R22.5"}, "pavement": {"structure": structure},
-        "climate": _climate(rng), "traffic": _traffic(rng), "criteria": _criteria(rng, top, base),
+        "spacing": "20 mm", "tolerance": 0.02, "tire": {"profile": "315/80R22.5"},
+        "pavement": {"structure": structure}, "climate": _climate(rng), "traffic": _traffic(rng),
+        "criteria": _criteria(rng, top, base),
     }  # fmt: skip
     if rng.random() < 0.12:
         case["ageing"] = {"age": rng.randint(1, 20), "binder": "60/70", "mean_air": 11}
