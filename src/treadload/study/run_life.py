@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.pavement import Pavement
 from treadload.results import Study, to_tree
+from treadload.study.aged import longer_by_ageing
 from treadload.study.contacts import Contacts, Progress
 from treadload.study.designing import ThicknessDesign, design_thickness
 from treadload.study.equivalents import Equivalents, life_equivalents
@@ -90,16 +91,11 @@ def run_life(
         roads_asked(road, case.build_criteria(), case.reliability.build())
     contacts = Contacts(tire, spacing)
     shared: dict[str, Any] = {"spacing": spacing, "workers": workers, "progress": progress, "contacts": contacts}
-    life = solve_life(
-        tire,
-        road,
-        case.build_traffic(),
-        case.build_climate(),
-        case.build_criteria(),
-        tolerance=case.tolerance,
-        rutting=None if case.rutting is None else case.rutting.build(),
-        **shared,
-    )
+    question = (tire, road, case.build_traffic(), case.build_climate(), case.build_criteria())
+    rutting = None if case.rutting is None else case.rutting.build()
+    life = solve_life(*question, tolerance=case.tolerance, rutting=rutting, **shared)
+    longer = longer_by_ageing(*question, life, tolerance=case.tolerance, **shared)
+    life = replace(life, warnings=(*life.warnings, *longer))
     tell("life", life)
     ends = np.isfinite(life.years(life.governing_criterion))
     depends = life_sensitivity(tire, road, life, **shared) if sensitivity and ends else None
