@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -292,8 +292,9 @@ def _checked(
         single = own == (name,) or values.ndim == 0
         # Numbers are in SI units already; of text each is read once, beside the first of the other inputs.
         known: dict[Any, Any] = {}
+        tried = _tried(values) if single else range(values.size)
         for number, value in enumerate(values.flat):
-            if wrong is not None and number in wrong:
+            if number not in tried or (wrong is not None and number in wrong):
                 continue
             if _is_number(value) and not single:
                 if wrong is not None and not math.isfinite(value):
@@ -308,7 +309,10 @@ def _checked(
                 if wrong is None:
                     raise
                 wrong[number] = str(error).removeprefix("the study: ")
-        read = _objects([known.get(repr(value), value) for value in values.flat]).reshape(values.shape)
+        # What was not tried is a number of the same kind.
+        other = float if any(isinstance(one, float) for one in known.values()) else lambda value: value
+        read = _objects([known[label] if (label := repr(one)) in known else other(one) if _is_number(one) else one
+                         for one in values.flat]).reshape(values.shape)  # fmt: skip
         if wrong:
             # What cannot be read has no value.
             read = _objects([None if k in wrong and not _is_finite(one) else one for k, one in enumerate(read)])
@@ -354,6 +358,14 @@ def _spread(count: int) -> list[int]:
     """The first cases of a list, and some of the others."""
     few = range(min(count, _TRIED // 2))
     return list(dict.fromkeys([*few, *np.linspace(0, count - 1, _TRIED // 2, dtype=int).tolist()]))
+
+
+def _tried(values: np.ndarray) -> Collection[int]:
+    """Which values of a dimension the case reads beforehand: all, of many numbers the ends and some between."""
+    flat = list(values.flat)
+    if len(flat) <= _TRIED or not all(map(_is_number, flat)):
+        return range(len(flat))
+    return {*_spread(len(flat)), int(np.argmin(flat)), int(np.argmax(flat))}
 
 
 def _is_finite(value: Any) -> bool:
