@@ -285,3 +285,11 @@ Share = Annotated[float, Unit("", "share")]
 Years = Annotated[float, Unit("", "years")]
 PerYear = Annotated[float, Unit("", "1/year")]
 """Numbers of descriptions with their units, for annotations: a type checker sees a float."""
+
+
+def stress_in_words(value: float) -> str:
+    """A stress, Pa, as a reader needs it: whole kPa of a tire, three digits of MPa or GPa from 10 MPa on."""
+    for size, unit in ((1e9, "GPa"), (1e6, "MPa")):
+        if abs(value) >= 10e6 and abs(value) >= 0.9995 * size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value / 1e3:.0f} kPa"

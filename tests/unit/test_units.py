@@ -1,7 +1,7 @@
 import pytest
 
 from treadload.errors import InputError
-from treadload.units import quantity
+from treadload.units import quantity, stress_in_words
 
 
 @pytest.mark.parametrize(
@@ -86,3 +86,18 @@ def test_what_can_be_read_otherwise_is_refused_in_one_sentence(text, unit, words
 def test_an_integer_beyond_floats_is_refused():
     with pytest.raises(InputError, match="finite"):
         quantity(10**400, "m")
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (1.237679e12, "1.24e+03 GPa"),
+        (1.237679e9, "1.24 GPa"),
+        (0.9999e9, "1 GPa"),
+        (45.67e6, "45.7 MPa"),
+        (1.2376e6, "1238 kPa"),
+        (420.0, "0 kPa"),
+    ],
+)
+def test_a_stress_has_the_digits_that_a_reader_needs(value, words):
+    assert stress_in_words(value) == words

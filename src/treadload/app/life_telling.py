@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import base64
 import io
-import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
 from treadload.app.telling import Row, row
 from treadload.composing import BaseResult
 from treadload.damage.miner import Life
+from treadload.damage.words import years_in_words
 from treadload.plots import growth, life, reliability, ruts
 
 # Inputs that a life depends on, of which this many are told.
@@ -80,7 +80,7 @@ def _probabilities(parts: Mapping[str, BaseResult]) -> list[Row]:
 
 def years(value: float) -> str:
     """Years as the summary of a life has them."""
-    return "never" if math.isinf(value) else f"{value:.3g} years"
+    return years_in_words(value)
 
 
 def pictures_of(name: str, part: BaseResult) -> dict[str, str]:

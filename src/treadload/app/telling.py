@@ -12,6 +12,7 @@ from treadload.damage.quantity import READINGS
 from treadload.damage.verdict import under
 from treadload.plots.interactive import places_of
 from treadload.study.allowed import Allowed, PassesAllowed
+from treadload.units import stress_in_words
 
 # More passes than any road bears.
 _COUNTLESS = 1e10
@@ -47,14 +48,14 @@ def contact_rows(contact: Any) -> list[Row]:
         row("load", "Load", f"{load / 1e3:.3f} kN"),
         row("area", "Contact area", f"{area * 1e6:.0f} mm²"),
         row("mean", "Mean pressure", f"{mean:.0f} kPa"),
-        row("peak", "Peak pressure", f"{float(pressure.max()) / 1e3:.0f} kPa", x=peak.x, y=peak.y),
+        row("peak", "Peak pressure", stress_in_words(float(pressure.max())), x=peak.x, y=peak.y),
     ]
     if isinstance(contact, Contact):
         shear = (data["traction_x"] ** 2 + data["traction_y"] ** 2) ** 0.5
         at = shear.argmax(dim=("y", "x"))
         x, y = float(data["x"][at["x"]]), float(data["y"][at["y"]])
         rows += [
-            row("shear", "Peak shear", f"{float(shear.max()) / 1e3:.0f} kPa", x=x, y=y),
+            row("shear", "Peak shear", stress_in_words(float(shear.max())), x=x, y=y),
             row("slip", "Slip share", f"{100 * contact.slip_fraction:.1f} %"),
             row("approach", "Approach", f"{float(data['approach']) * 1e3:.2f} mm"),
             row("along", "Force along travel", f"{float(data['tractive_force']):z.1f} N"),

@@ -13,6 +13,7 @@ from treadload.composing import BaseResult, Holds
 from treadload.contact.rolling_state import Rolling
 from treadload.pavement import Pavement
 from treadload.tire import Tire
+from treadload.units import stress_in_words
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +70,8 @@ class Contact(BaseResult, group="contact"):
             f"grid          {d.sizes['x']} x {d.sizes['y']} cells of {dx:g} x {dy:g} mm",
             f"normal load   {float(d.normal_load) / 1e3:.3f} kN at an approach of {float(d.approach) * 1e3:.2f} mm",
             f"contact area  {area * 1e6:.0f} mm², mean pressure {mean:.0f} kPa",
-            f"peak pressure {float(d.pressure.max()) / 1e3:.0f} kPa",
-            f"peak shear    {float(shear.max()) / 1e3:.0f} kPa",
+            f"peak pressure {stress_in_words(float(d.pressure.max()))}",
+            f"peak shear    {stress_in_words(float(shear.max()))}",
             f"forces        Qx = {float(d.tractive_force):z.1f} N, Qy = {float(d.lateral_force):z.1f} N, "
             f"aligning moment {float(d.aligning_moment):z.1f} N m",
             f"creepage      x {float(d.creepage_x):z.5f}, y {float(d.creepage_y):z.5f}, spin {float(d.spin):g} rad/m",

@@ -20,6 +20,8 @@ from treadload.kernels.arrays import Array
 
 # Damage across flat planes above this share of a criterion's is worth a sentence.
 _MOSTLY = 0.2
+# Years beyond which no road is known and no number of a law is meant, a; files keep the number.
+LASTS = 1000.0
 RUT = "rut"
 """What a life calls its rut among what ends it."""
 
@@ -101,8 +103,10 @@ def rut_in_words(data: xr.Dataset) -> str:
 
 
 def years_in_words(years: float) -> str:
-    """Years with three digits, or that they never end."""
-    return "never" if math.isinf(years) else f"{years:.3g} years"
+    """Years with three digits, that they are more than roads last, or that they never end."""
+    if math.isinf(years):
+        return "never"
+    return f"{years:.3g} years" if years <= LASTS else f"more than {LASTS:g} years"
 
 
 def asked_in_words(criteria: Sequence[Criterion], laws: Sequence[FatigueLaw]) -> dict[str, str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import textwrap
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -47,6 +49,7 @@ from treadload.plots.kit.style import (
     thousands,
     travel_arrow,
 )
+from treadload.units import stress_in_words
 
 _ARROWS = 22
 
@@ -68,7 +71,7 @@ def pressure(contact: Source, *, ax: Axes | None = None) -> Figure:
     headline(ax, "Contact pressure", pressure_in_numbers(data))
     row, column = peak_of(values)
     if values[row, column] > 0:
-        mark_peak(ax, plan.x[column], plan.y[row], f"{measure(values[row, column])} kPa")
+        mark_peak(ax, plan.x[column], plan.y[row], stress_in_words(values[row, column] / KPA))
     else:
         empty_note(ax, "no contact")
     travel_arrow(ax)
@@ -123,6 +126,8 @@ def shear(contact: Source) -> Figure:
     contact: with traction_x, traction_y (y, x), Pa, and state (y, x). Returns the figure.
     """
     data = fields_of(contact, "traction_x", "traction_y", "state")
+    if "shear_round_off" in data.attrs:
+        return stick_slip(contact)
     plan, values = Plan.of(data), _shear(data)
     scale = limits(values)
     figure = new_figure(11.4, 5.3)
@@ -198,6 +203,7 @@ def _section(ax: Axes, data: xr.Dataset, at: Array, cut: tuple[int | slice, int 
         ax.step(at, bound, where="mid", color=MUTED, lw=0.9, ls=(0, (3, 2)), label="friction × pressure")
     if "traction_x" in data and "traction_y" in data:
         q = _shear(data)[cut]
+    if "traction_x" in data and "traction_y" in data and "shear_round_off" not in data.attrs:
         ax.step(at, q, where="mid", color=STICK, lw=1.4, label="shear, where it sticks")
         if "state" in data:
             slipping = np.where(plane(data, "state")[cut] == 2, q, np.nan)
@@ -212,6 +218,11 @@ def _section(ax: Axes, data: xr.Dataset, at: Array, cut: tuple[int | slice, int 
 def draw_stick_slip(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
     """Draw shear, kPa, with its arrows and the zones that stick and slip, a colour bar and a legend."""
     values, state = _shear(data), plane(data, "state")
+    if said := data.attrs.get("shear_round_off"):
+        draw_cells(ax, plan, np.full_like(values, np.nan), sequential("shear"), scale)
+        draw_outline(ax, state > 0, plan, MUTED, 1.0)
+        empty_note(ax, textwrap.fill(said, 32))
+        return
     mesh = draw_cells(ax, plan, _where(state > 0, values), sequential("shear"), scale)
     colour_bar(mesh, ax, "shear (kPa)", scale)
     slip, stick = state == 2, state == 1
@@ -271,6 +282,8 @@ def _shear(data: xr.Dataset) -> Array:
 
 def shear_in_numbers(data: xr.Dataset) -> str:
     """Largest shear and the forces along the road in one line."""
+    if "shear_round_off" in data.attrs:
+        return "none above round-off"
     parts = [f"peak {measure(float(np.nanmax(_shear(data))))} kPa"]
     for name, symbol in (("tractive_force", "tractive"), ("lateral_force", "lateral")):
         if name in data and abs(float(data[name])) >= 0.5:

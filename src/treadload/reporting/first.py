@@ -15,6 +15,7 @@ import xarray as xr
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, crack_plane, in_a_cell, opens_down, orientation
 from treadload.damage.fields import known_quantities
 from treadload.damage.quantity import Quantity, cut, in_tension
+from treadload.damage.words import LASTS, years_in_words
 from treadload.plots.first import crack_or_not, failing_order, first_places
 from treadload.plots.kit.style import measure, power_of_ten, signed
 from treadload.plots.response import NAMES
@@ -186,9 +187,9 @@ def small_or(value: float) -> str:
 
 
 def _years(years: float) -> str:
-    if math.isinf(years):
-        return "never"
-    return f"{measure(years) if years < 1e4 else power_of_ten(years)} years"
+    if math.isinf(years) or years > LASTS:
+        return years_in_words(years)
+    return f"{measure(years)} years"
 
 
 def _deep(depth: float, place: str = "") -> str:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.plots.kit.plan import KPA, MICRO, Plan, plane
+from treadload.plots.kit.plan import KPA, MICRO, Plan, plane, without_round_off
 from treadload.plots.kit.style import measure, power_of_ten, signed, thousands
 from treadload.reporting.reading import ReportCase
 
@@ -180,6 +180,7 @@ def _area(data: xr.Dataset) -> float:
 
 
 def _shear(data: xr.Dataset) -> Any:
+    data = without_round_off(data)
     return np.hypot(plane(data, "traction_x"), plane(data, "traction_y"))
 
 

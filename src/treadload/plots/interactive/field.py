@@ -102,13 +102,14 @@ def shear_field(contact: Source) -> Field:
     arrows = np.stack([plan.x[columns], plan.y[rows], cut * along[rows, columns], cut * right[rows, columns]], -1)
     touching = _touching(data, values > 0)
     outlines: list[tuple[BoolArray, Plan, str]] = []
-    if "state" in data:
+    if "state" in data and "shear_round_off" not in data.attrs:
         state = plane(data, "state")
         outlines = [(state == 1, plan, "stick"), (state == 2, plan, "slip")]
+    title = str(data.attrs.get("shear_round_off", "Shear of the tire on the road"))
     return _thinned(
         Field(
             "shear", "shear on the road", "kPa", plan, np.where(touching, values, np.nan), "shear", scale,
-            "Shear of the tire on the road", tuple(outlines), arrows, peak=_peak(plan, values, "kPa"),
+            title, tuple(outlines), arrows, peak=_peak(plan, values, "kPa"),
         )
     )  # fmt: skip
 

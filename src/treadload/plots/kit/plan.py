@@ -20,6 +20,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.layers.depths import same_depth
 from treadload.plots.kit.style import INK, MUTED, PAPER, RULE, figure_of, halo
+from treadload.units import stress_in_words
 
 MM = 1e3
 KPA = 1e-3
@@ -35,6 +36,8 @@ _LABEL = 46
 # A colour scale is cut when the peak stands this far above all but the highest 0.5 % of the loaded cells.
 _OUTSTANDING = 1.3
 _HIGHEST = 0.995
+# Shear below this part of the largest pressure is round-off: ten times the solvers' usual tolerance of μp.
+_ROUND_OFF = 1e-5
 
 
 def fields_of(source: Source, *names: str) -> xr.Dataset:
@@ -49,7 +52,29 @@ def fields_of(source: Source, *names: str) -> xr.Dataset:
     if missing:
         known = ", ".join(sorted(map(str, data.data_vars))) or "nothing"
         raise InputError(f"this figure needs {', '.join(missing)}; the dataset has {known}")
-    return data
+    return without_round_off(data)
+
+
+def without_round_off(data: xr.Dataset) -> xr.Dataset:
+    """A contact whose shear is round-off of the solver without that shear; any other dataset as it is.
+
+    Solvers keep slip and shear to a tolerance of the friction bound μp, so that shear below a part of the largest
+    pressure says nothing. The attribute `shear_round_off` then is a sentence for the figure.
+    """
+    names = ("traction_x", "traction_y")
+    if "pressure" not in data or any(name not in data for name in names) or "depth" in data.dims:
+        return data
+    shear, pressure = (
+        max(float(np.nanmax(np.abs(data[name].to_numpy()), initial=0.0)) for name in each)
+        for each in (names, ("pressure",))
+    )
+    if not 0 < shear < _ROUND_OFF * pressure:
+        return data
+    said = f"no shear: {shear * KPA:.2g} kPa is round-off under a peak pressure of {stress_in_words(pressure)}"
+    bare = {name: data[name] * 0.0 for name in names}
+    return data.assign({name: part.assign_attrs(data[name].attrs) for name, part in bare.items()}).assign_attrs(
+        shear_round_off=said
+    )
 
 
 def at_depth(data: xr.Dataset, depth: float) -> xr.Dataset:
