@@ -29,3 +29,15 @@ def graded_edges(top: float, bottom: float, first: float, count: int) -> Array:
     steps = ratio ** np.arange(count)
     edges: Array = top + deep * np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
     return edges
+
+
+def spread_edges(top: float, bottom: float, first: float, ratio: float, most: int) -> Array:
+    """Edges (n + 1,), m, of as many rows as reach the bottom, each thicker by a ratio; graded more above `most`."""
+    deep = bottom - top
+    first = min(first, deep / 2)
+    count = math.ceil(math.log1p(deep / first * (ratio - 1)) / math.log(ratio) - 1e-9)
+    if count > most:
+        return graded_edges(top, bottom, first, most)
+    steps = ratio ** np.arange(max(count, 2))
+    edges: Array = top + deep * np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
+    return edges

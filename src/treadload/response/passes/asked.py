@@ -16,12 +16,21 @@ from treadload.materials import Elastic, Perzyna
 from treadload.pavement import Pavement
 from treadload.response.layered import View
 from treadload.response.loads import GridLoad, PlacedLoad, UniformRectangle, gather
-from treadload.response.passes.box import Box, Course, courses, over_strength, row_edges
+from treadload.response.passes.box import MOST_ROWS, Box, Course, courses, over_strength, row_edges
+from treadload.response.passes.patches import patch_width
 from treadload.response.several import Question, answers
 from treadload.response.superposition import merged
 
-# Cells of a box along the longer side of the footprint, where no spacing is given.
-_CELLS = 32
+# Cells of a box on the longer side of the footprint, where no spacing is given; across, so many on the width of its
+# patches where these are narrow, and at most so many times the former.
+_CELLS, _ON_PATCH, _FINER = 32, 12, 3
+# By which each row of depth is thicker than the one above, on those cells; on finer ones by less in their measure.
+_SPREADS = 0.10
+# Part of a patch's width over which the largest plastic strain is a mean: pressure that jumps at the edge of a rib
+# strains the cell below it the more the smaller it is, while this mean converges.
+_MEAN = 0.5
+# Rows of depth of a road that is not followed step by step.
+FEW_ROWS = 14
 # Beyond what yields on the elastic road the box reaches by this part of its size, and this much deeper.
 _BESIDE, _DEEPER = 0.2, 1.5
 # Depths, in halves of the footprint's longer side, that are searched for yield, and how many.
@@ -30,13 +39,18 @@ SEARCHED, _PROBED = 4.0, 14
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """What is rolled over what: loads as cells, the plastic courses, and what a pass is."""
+    """What is rolled over what: loads as cells, the plastic courses, and what a pass is.
+
+    spacing, across: sizes of the cells along and across travel, m. patch: width of what the load presses on, m.
+    """
 
     loads: tuple[Any, ...]
     road: Pavement
     courses: tuple[Course, ...]
     spacing: float
-    layers: int
+    across: float
+    patch: float
+    layers: int | None
     depth: float | None
     speed: float | None
     offsets: tuple[float, ...]
@@ -50,6 +64,22 @@ class Asked:
             min(low for low, _ in along), max(high for _, high in along),
             min(low for low, _ in across), max(high for _, high in across),
         )  # fmt: skip
+
+    @property
+    def longer(self) -> float:
+        """Longer side of the footprint, m."""
+        low_x, high_x, low_y, high_y = self.extent
+        return max(high_x - low_x, high_y - low_y)
+
+    @property
+    def mean_over(self) -> float:
+        """Width of the square over which the largest plastic strain is a mean, m."""
+        return _MEAN * self.patch
+
+    def row_edges(self, depth: float) -> Array:
+        """Edges of rows of depth of cells of these sizes, down to a depth, m."""
+        finer = self.across / _across(self.longer, self.patch)
+        return row_edges(self.courses, 0.8 * self.across, depth, self.layers, 1 + min(_SPREADS * finer, 1.0))
 
     def material_at(self, depth: float) -> Any:
         """The plastic material at a depth, m; None between its layers."""
@@ -88,11 +118,16 @@ def asked(
                 f"layer {layer.name!r} is {layer.resolved}: passes are known over layers that are elastic or "
                 "elastoplastic; give it an Elastic with its modulus at the time of loading"
             )
-    for name, value in (("spacing", spacing), ("depth", depth), ("wander", wander)):
+    along, across = spacing if isinstance(spacing, tuple | list) and len(spacing) == 2 else (spacing, spacing)
+    for name, value in (("spacing", along), ("spacing across", across), ("depth", depth), ("wander", wander)):
         if value is not None:
             positive(name, value, "metres", "leave it out for the default")
-    if isinstance(layers, bool) or not isinstance(layers, int) or not 2 <= layers <= 64:
-        raise InputError(f"layers must be a whole number in [2, 64], got {layers!r}; 14 is the default")
+    if layers is not None and (
+        isinstance(layers, bool) or not isinstance(layers, int) or not 2 <= layers <= MOST_ROWS
+    ):
+        raise InputError(
+            f"layers must be a whole number in [2, {MOST_ROWS}], got {layers!r}; leave it out for the default"
+        )
     viscous = any(isinstance(one.material.law, Perzyna) for one in among)
     if viscous and not (isinstance(speed, int | float) and 0 < speed < math.inf):
         raise InputError(f"a law of Perzyna follows the time under the load: give the speed, m/s, > 0, got {speed!r}")
@@ -110,13 +145,20 @@ def asked(
         places = np.zeros(1) if wander is None else wander * _normal_places()
     cells = tuple(merged([one.cell if isinstance(one, UniformRectangle) else one for one in placed]))
     question = Asked(
-        cells, road, among, 0.0, layers, depth, speed, tuple(places.tolist()),
+        cells, road, among, 0.0, 0.0, patch_width(cells), layers, depth, speed, tuple(places.tolist()),
         (lambda text: None) if tell is None else tell,
     )  # fmt: skip
-    low_x, high_x, low_y, high_y = question.extent
-    size = max(high_x - low_x, high_y - low_y)
+    if spacing is not None:
+        return replace(question, spacing=float(along), across=float(across))
     finest = max((one.grid.dx for one in cells if isinstance(one, GridLoad) and one.grid.nx > 1), default=0.0)
-    return replace(question, spacing=float(spacing) if spacing is not None else max(size / _CELLS, finest))
+    longest = max(question.longer / _CELLS, finest)
+    return replace(question, spacing=longest, across=_across(question.longer, question.patch))
+
+
+def _across(longer: float, patch: float) -> float:
+    """Size of the cells across travel, m, where no spacing is given."""
+    widest = longer / _CELLS
+    return max(min(widest, patch / _ON_PATCH), widest / _FINER)
 
 
 def _normal_places(count: int = 32) -> Array:
@@ -169,19 +211,19 @@ def probe(question: Asked) -> Box | None:
     """A box around what yields on the elastic road; None where nothing does."""
     found = _probed(question)
     x, y, depths, coarse = found.x, found.y, found.depths, found.coarse
-    step, top = question.spacing, question.courses[0].top
+    top = question.courses[0].top
     yields = found.over > 0
     if not yields.any():
         return None
     rows, lines, columns = (np.flatnonzero(yields.any(axis=other)) for other in ((1, 2), (0, 2), (0, 1)))
     below = float(depths[min(rows[-1] + 1, len(depths) - 1)])
     deep = question.depth if question.depth is not None else top + _DEEPER * (below - top)
-    edges = row_edges(question.courses, 0.8 * step, deep, question.layers)
-    places = [round(one / step) for one in question.offsets]
+    dx, dy = question.spacing, question.across
+    places = [round(one / dy) for one in question.offsets]
     left, right = -min(0, *places), max(0, *places)
-    nx, x0 = _covering(x[columns[0]], x[columns[-1]], coarse, step)
-    ny, y0 = _covering(y[lines[0]], y[lines[-1]], coarse, step)
-    return Box(nx, ny + left + right, step, step, x0, y0 - left * step, edges)
+    nx, x0 = _covering(x[columns[0]], x[columns[-1]], coarse, dx)
+    ny, y0 = _covering(y[lines[0]], y[lines[-1]], coarse, dy)
+    return Box(nx, ny + left + right, dx, dy, x0, y0 - left * dy, question.row_edges(deep))
 
 
 def _covering(low: float, high: float, coarse: float, step: float) -> tuple[int, float]:

@@ -12,7 +12,7 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.eigenstrain.operator import Grid as Cells
-from treadload.kernels.eigenstrain.rows import graded_edges
+from treadload.kernels.eigenstrain.rows import graded_edges, spread_edges
 from treadload.kernels.plasticity.state import State
 from treadload.materials import ElastoPlastic
 from treadload.pavement import Pavement
@@ -20,6 +20,8 @@ from treadload.pavement import Pavement
 # Of a pass, bytes, and of what it keeps beside the operator, in bytes for each cell and component: rounds of the
 # mixing, with their differences, and transforms.
 _MOST, _ROUNDS = 1.5e9, 900
+# Of rows of depth.
+MOST_ROWS = 64
 
 
 @dataclass(frozen=True)
@@ -106,9 +108,14 @@ class Box:
         """What a pass over these cells needs at most: its operator in single precision, and its rounds."""
         return 0.5 * self.cells.bytes + _ROUNDS * 6.0 * len(self.depths) * self.nx * self.ny
 
+    @property
+    def too_large(self) -> bool:
+        """Whether a pass over these cells would not fit into memory."""
+        return self.bytes > _MOST
+
     def check_size(self) -> None:
         """Raise InputError where a pass over these cells would not fit into memory."""
-        if self.bytes > _MOST:
+        if self.too_large:
             raise InputError(
                 f"a box of {self.nx} x {self.ny} cells in {len(self.depths)} rows of depth needs "
                 f"{self.bytes / 1e9:.1f} GB, above {_MOST / 1e9:.1f} GB; raise spacing (now {self.dx * 1e3:.3g} mm) "
@@ -116,14 +123,18 @@ class Box:
             )
 
 
-def row_edges(among: tuple[Course, ...], cell: float, depth: float, count: int) -> Array:
+def row_edges(among: tuple[Course, ...], cell: float, depth: float, count: int | None, ratio: float = 1.0) -> Array:
     """Edges (n + 1,), m, of rows from the top of the plastic courses to a depth, all interfaces between among them.
 
-    cell: thickness of the first row, m, if so many rows of that reach the depth; else they are graded.
+    cell: thickness of the first row, m. count: of the rows, graded where so many of that thickness do not reach the
+    depth; None: as many as it takes where each is thicker than the one above by a ratio > 1.
     """
     top = among[0].top
     bottom = min(max(depth, top + cell), among[-1].bottom)
-    edges = graded_edges(top, bottom, cell, count)
+    if count is None:
+        edges = spread_edges(top, bottom, cell, ratio, MOST_ROWS)
+    else:
+        edges = graded_edges(top, bottom, cell, count)
     for inside in {z for one in among for z in (one.top, one.bottom) if top < z < bottom}:
         nearest = 1 + int(np.abs(edges[1:-1] - inside).argmin())
         if abs(edges[nearest] - inside) > 0.45 * min(np.diff(edges)[nearest - 1 : nearest + 1]):

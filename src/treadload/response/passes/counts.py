@@ -14,7 +14,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.plasticity.state import deviator
 from treadload.kernels.tensors import von_mises
-from treadload.response.passes.asked import SEARCHED, Asked
+from treadload.response.passes.asked import FEW_ROWS, SEARCHED, Asked
 from treadload.response.passes.box import Box, row_edges
 from treadload.response.passes.steady import Track
 from treadload.response.passes.stepping import Record, Told
@@ -66,7 +66,7 @@ def by_power_law(question: Asked, passes: int, laws: set[type]) -> tuple[Box, li
     nx, ny = (math.ceil((high - low) / step) + 2 * more for low, high in ((low_x, high_x), (low_y, high_y)))
     left, right = -min(0, *places), max(0, *places)
     deepest = question.courses[0].top + SEARCHED * half
-    edges = row_edges(question.courses, 0.8 * step, question.depth or deepest, question.layers)
+    edges = row_edges(question.courses, 0.8 * step, question.depth or deepest, question.layers or FEW_ROWS)
     box = Box(
         nx, ny + left + right, step, step, low_x + (0.5 - more) * step, low_y + (0.5 - more - left) * step, edges
     )

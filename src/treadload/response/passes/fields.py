@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from treadload import variables
+from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS
 from treadload.response.passes.box import Box, Course
@@ -22,9 +23,17 @@ _SMALL = 0.05
 
 
 def passes_dataset(
-    road: Pavement, among: Sequence[Course], box: Box, records: Sequence[Record], attrs: dict[str, Any]
+    road: Pavement,
+    among: Sequence[Course],
+    box: Box,
+    records: Sequence[Record],
+    attrs: dict[str, Any],
+    by_pass: Mapping[str, Array] | None = None,
 ) -> xr.Dataset:
-    """The dataset of `Passes`. among: the courses that can yield. attrs: what else it says of itself."""
+    """The dataset of `Passes`.
+
+    among: the courses that can yield. attrs: what else it says of itself. by_pass: more fields, one number a pass.
+    """
     strain = np.array([one.strain for one in records])
     across = box.y0 + box.dy * np.arange(-box.ny, 2 * box.ny)
     profile = surface_profile(strain, box, road, across)
@@ -42,6 +51,7 @@ def passes_dataset(
         "plastic_increment": (("pass",), np.array([one.added for one in records])),
         "plastic_left": (("pass",), np.array([one.left for one in records])),
         "wheel_offset": (("pass",), np.array([one.offset for one in records])),
+        **{name: (("pass",), values) for name, values in (by_pass or {}).items()},
     }
     places = {"pass": np.array([float(one.number) for one in records]), "depth": box.depths, "y": box.y}
     laws = ", ".join(dict.fromkeys(f"{type(one.material.law).__name__}" for one in among))

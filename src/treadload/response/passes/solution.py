@@ -14,6 +14,7 @@ from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS
 from treadload.response.loads import PlacedLoad
+from treadload.response.passes.grid_error import relative
 from treadload.response.passes.verdict import in_words
 from treadload.tire import Tire
 
@@ -26,9 +27,12 @@ class Passes(BaseResult, group="passes"):
 
     dataset: plastic_strain_*, residual_stress_* (Pa) and equivalent_plastic_strain over (pass, depth, y), the same
     all along travel; residual_displacement_z (m, down positive) over (pass, across), wider than y; by pass rut_depth
-    and heave (m), plastic_increment and plastic_left, and wheel_offset (m). attrs: verdict and criterion;
-    elastic_load_factor, the part of the load at which the road first yields; shakedown_load_factor where it was
-    sought; falls, where the last pass adds less than the one before, by how much of it. stats: rounds, seconds, box.
+    and heave (m), plastic_increment and plastic_left, and wheel_offset (m); where laws are followed step by step
+    peak_plastic_strain, the largest mean over a square of the width averaging_width (an attribute, m, half of
+    that of the loaded patches), and peak_plastic_strain_error and rut_depth_error, as the attribute error_estimate
+    describes. attrs: verdict and criterion; elastic_load_factor, the part of the load at which the road first yields;
+    shakedown_load_factor where it was sought; falls, where the last pass adds less than the one before, by how much
+    of it. stats: rounds, seconds, box.
     warnings: sentences. loads, road, speed: the question; of a drum on its track drum and normal_load, N, in the
     place of loads, and in the dataset pressure over (pass, y, x), and by pass approach, contact_length,
     contact_width, contact_area, peak_pressure, pressure_centre_x and rolling_resistance.
@@ -44,10 +48,11 @@ class Passes(BaseResult, group="passes"):
         known="equivalent_plastic_strain residual_displacement_z rut_depth",
         numbers="yield_strain",
         texts="verdict criterion law",
-        maybe_numbers="shakedown_load_factor elastic_load_factor falls",
+        maybe_numbers="averaging_width shakedown_load_factor elastic_load_factor falls",
         sizes={"pass": (1, np.inf), "depth": (1, np.inf)},
         maybe={
             "x": "x",
+            "peak_plastic_strain rut_depth_error peak_plastic_strain_error": "pass",
             "pressure": "pass y x",
             "approach contact_length contact_width contact_area peak_pressure pressure_centre_x rolling_resistance":
                 "pass",
@@ -94,6 +99,13 @@ class Passes(BaseResult, group="passes"):
                 f"{100 * float(one['equivalent_plastic_strain'].max()):>24.3g}   "
                 f"{100 * float(one['plastic_increment']):>19.3g}"
             )
+        if {"peak_plastic_strain", "rut_depth_error", "peak_plastic_strain_error"} <= set(data):
+            lines.append(
+                f"error of the grid: rut {_part(data, 'rut_depth')}, largest plastic strain as a mean over "
+                f"{1e3 * float(attrs.get('averaging_width', np.nan)):.3g} mm, "
+                f"{100 * float(data['peak_plastic_strain'][-1]):.3g} %, "
+                f"{_part(data, 'peak_plastic_strain')}, by cells of twice the size"
+            )
         if "pressure" in data:
             lines.append("pass   sinks mm   contact long mm   wide mm   peak kPa   resists N")
             for row in shown:
@@ -113,6 +125,12 @@ class Passes(BaseResult, group="passes"):
         return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
 
     __repr__ = first_line
+
+
+def _part(data: xr.Dataset, name: str) -> str:
+    """Error of a number after the last pass that has it, as a part of the number."""
+    off = relative(data[f"{name}_error"].to_numpy(), data[name].to_numpy())
+    return f"{100 * off:.2g} %" if np.isfinite(off) else "unknown"
 
 
 def _mm(length: xr.DataArray) -> str:

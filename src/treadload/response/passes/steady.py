@@ -125,11 +125,13 @@ class Track:
 class Pass:
     """What one pass did. states: of the parts of the track after it. rounds: of the mixing. ends: largest equivalent
     plastic strain that it added behind the box, ahead of it, in the lines at its left and right, and in its last row.
+    along: likewise, in each column of cells along travel, (nx,).
     """
 
     states: tuple[State, ...]
     rounds: int
     ends: Array
+    along: Array
 
 
 def taken(change: Array) -> Array:
@@ -168,12 +170,12 @@ def roll(
         if rounds > 1:
             stress[..., 1:] += road.stress(change[..., 1:])
             stress[..., 0] += road.residual(change[..., 0])
-        after, found, ends = _march(road, stress, old[..., None] + change, before, duration, steps)
+        after, found, ends, along = _march(road, stress, old[..., None] + change, before, duration, steps)
         found -= old[..., None]
         size, moved = float(np.linalg.norm(found)), float(np.linalg.norm(found - change))
         residual = moved / size if size else 0.0
         if residual <= tolerance or np.abs(found - change).max() <= least:
-            return Pass(after, rounds, ends)
+            return Pass(after, rounds, ends, along)
         if rounds >= _PATIENCE and residual > _FAR:
             break
         change = mixing.next(change, found)
@@ -182,12 +184,13 @@ def roll(
 
 def _march(
     road: Track, stress: Array, strain: Array, before: Sequence[State], duration: float, steps: int
-) -> tuple[tuple[State, ...], Array, Array]:
-    """States behind, plastic strain everywhere (6, nz, ny, 1 + nx), and what yields at the sides, see `Pass`.
+) -> tuple[tuple[State, ...], Array, Array, Array]:
+    """States behind, plastic strain everywhere (6, nz, ny, 1 + nx), what yields at the sides and along, see `Pass`.
 
     stress, strain: of which the trial stress is made, the first column far behind; strain is the plastic one.
     """
     found, ends, columns = np.zeros_like(strain), np.zeros(5), strain.shape[-1]
+    along = np.zeros(columns)
     after = []
     for part, start in zip(road.parts, before, strict=True):
         driven = np.moveaxis(stress[:, part.rows] + part.law.elastic(strain[:, part.rows]), -1, 0).copy()
@@ -200,15 +203,15 @@ def _march(
             state = _stepped(part.law, come_from, driven[column], state, time, steps)
             come_from = driven[column]
             found[:, part.rows, :, column] = state.strain
-            if column in (0, columns - 1) and state is not last:
-                side = 0 if column == 0 else 1
-                ends[side] = max(ends[side], float((state.hardening - last.hardening).max()))
+            if state is not last:
+                along[column] = max(along[column], float((state.hardening - last.hardening).max()))
         added = state.hardening - start.hardening
         ends[2], ends[3] = max(ends[2], added[:, 0].max()), max(ends[3], added[:, -1].max())
         if part.rows.stop == found.shape[1]:
             ends[4] = float(added[-1].max())
         after.append(state)
-    return tuple(after), found, ends
+    ends[:2] = along[[0, -1]]
+    return tuple(after), found, ends, along[1:]
 
 
 def _stepped(law: ReturnMap, begin: Array, end: Array, state: State, duration: float, steps: int) -> State:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,18 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.plasticity.state import State
-from treadload.response.passes.asked import SEARCHED, Asked, probe
+from treadload.response.passes.asked import FEW_ROWS, SEARCHED, Asked, probe
 from treadload.response.passes.box import Box, over_strength, row_edges
+from treadload.response.passes.grid_error import (
+    HOW,
+    caveats,
+    change,
+    cut,
+    doubled,
+    largest_mean,
+    relative,
+    rut_depths,
+)
 from treadload.response.passes.steady import NoSteadyPassError, Pass, Track, roll
 from treadload.response.passes.verdict import at_rest, elastic_factor, judged, shakedown_factor, still_falls
 
@@ -28,7 +38,7 @@ class Record:
     """After one pass: its number, plastic strain (6, nz, ny), accumulated (nz, ny), and residual stress, Pa.
 
     added, left: largest equivalent plastic strain that it added, largest change that it left. offset: of the wheel,
-    m. rounds: of the mixing.
+    m. rounds: of the mixing. along: see `steady.Pass`, none where nothing was rolled.
     """
 
     number: float
@@ -39,15 +49,17 @@ class Record:
     left: float
     offset: float
     rounds: int
+    along: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Told:
-    """Beside the records: attributes of the dataset, entries of stats, sentences."""
+    """Beside the records: attributes of the dataset, entries of stats, sentences, and fields by pass."""
 
     attrs: dict[str, Any]
     stats: dict[str, Any]
     warnings: tuple[str, ...]
+    fields: dict[str, Array] = field(default_factory=dict)
 
 
 def by_steps(question: Asked, passes: int, tolerance: float) -> tuple[Box, list[Record], Told]:
@@ -55,15 +67,61 @@ def by_steps(question: Asked, passes: int, tolerance: float) -> tuple[Box, list[
     box = probe(question)
     if box is None:
         return _nothing(question, passes)
+    box, coarse = _coarse(question, box, passes, tolerance)
     for _ in range(GROWTHS + 1):
-        question.tell(f"operator of {box.nx} x {box.ny} cells in {len(box.depths)} rows")
-        track = Track.of(box, [question.material_at(float(z)) for z in box.depths])
-        records, ends, told = _run(question, track, passes, tolerance)
+        records, ends, told = _run(question, _track(question, box), passes, tolerance)
         if not (ends > REACHED).any():
-            return box, records, told
+            return box, records, _with_error(question, (box, records, told), coarse)
         check_depth(question, ends)
-        box = grown(question, box, ends, question.spacing)
+        box = grown(question, box, ends, question.across)
     raise too_far(box)
+
+
+def _track(question: Asked, box: Box) -> Track:
+    box.check_size()
+    question.tell(f"operator of {box.nx} x {box.ny} cells in {len(box.depths)} rows")
+    return Track.of(box, [question.material_at(float(z)) for z in box.depths])
+
+
+def _coarse(question: Asked, box: Box, passes: int, tolerance: float) -> tuple[Box, tuple[Box, list[Record], Told]]:
+    """The box, grown and cut on cells of twice the size until it just holds what yields, and the passes on these."""
+    question.tell("passes on cells of twice the size, for the error of the grid")
+    for last in range(GROWTHS + 1):
+        wide = doubled(box, question.courses)
+        if wide.too_large:
+            box.check_size()
+        records, ends, told = _run(question, _track(question, wide), passes, tolerance, seeks=False)
+        if not (ends > REACHED).any() or last == GROWTHS:
+            break
+        check_depth(question, ends)
+        box = grown(question, box, ends, question.across)
+    along = np.max([one.along for one in records if one.along is not None], axis=0, initial=0.0)
+    return cut(box, wide, records[-1].hardening, along, question.depth), (wide, records, told)
+
+
+def _with_error(
+    question: Asked, fine: tuple[Box, list[Record], Told], coarse: tuple[Box, list[Record], Told]
+) -> Told:
+    """What is told of the passes, with the error of their grid."""
+    both = [
+        (
+            rut_depths([one.strain for one in records], box, question.road),
+            np.array([largest_mean(one.hardening, box, question.mean_over) for one in records]),
+        )
+        for box, records, _ in (fine, coarse)
+    ]
+    ruts, strains = zip(*both, strict=True)
+    told = fine[2]
+    fields = {
+        "peak_plastic_strain": strains[0],
+        "rut_depth_error": change(*ruts),
+        "peak_plastic_strain_error": change(*strains),
+    }
+    off = relative(change(*ruts), ruts[0]), relative(change(*strains), strains[0])
+    verdicts = told.attrs["verdict"], coarse[2].attrs["verdict"]
+    attrs = told.attrs | {"averaging_width": question.mean_over, "error_estimate": HOW}
+    warnings = (*told.warnings, *caveats(fine[0], off, verdicts))
+    return replace(told, attrs=attrs, warnings=warnings, fields=fields)
 
 
 def check_depth(question: Asked, ends: Array) -> None:
@@ -83,6 +141,8 @@ def grown(question: Asked, box: Box, ends: Array, cell: float) -> Box:
         return box
     top = question.courses[0].top
     deeper = top + (box.edges[-1] - top) * (1 + GROWN)
+    if cell == question.across:
+        return replace(box, edges=question.row_edges(deeper))
     return replace(box, edges=row_edges(question.courses, 0.8 * cell, deeper, question.layers))
 
 
@@ -94,15 +154,20 @@ def too_far(box: Box) -> InputError:
     )
 
 
-def _run(question: Asked, track: Track, passes: int, tolerance: float) -> tuple[list[Record], Array, Told]:
-    """All passes over a track, and what of the largest strain of a pass yields at the sides of the box at most."""
+def _run(
+    question: Asked, track: Track, passes: int, tolerance: float, *, seeks: bool = True
+) -> tuple[list[Record], Array, Told]:
+    """All passes over a track, and what of the largest strain of a pass yields at the sides of the box at most.
+
+    seeks: whether to look for the load that would shake down where this one has no steady pass.
+    """
     box = track.box
     places = [round(one / box.dy) for one in question.offsets]
     left, right = -min(0, *places), max(0, *places)
     # The load moved to the right stands still in a frame that moves to the left.
     y = box.y0 + box.dy * np.arange(-right, box.ny + left)
     question.tell("stress of the elastic road")
-    wide = question.stress(box.x, y, box.depths)
+    wide = _mean_stress(question, box, y)
     duration = 0.0 if question.speed is None or not question.speed > 0 else box.dx / question.speed
 
     def one(number: int, states: Sequence[State]) -> tuple[Pass, float]:
@@ -117,7 +182,7 @@ def _run(question: Asked, track: Track, passes: int, tolerance: float) -> tuple[
     records, ends, error = follow(track, passes, one, deepest=question.courses[-1].bottom)
     attrs: dict[str, Any] = {"elastic_load_factor": elastic_factor(track, wide)}
     warnings: tuple[str, ...] = ()
-    if error is not None:
+    if error is not None and seeks:
         question.tell("the load that would shake down")
         number = int(records[-1].number) + 1
         factor = shakedown_factor(track, stress_at(places[(number - 1) % len(places)]), duration=duration)
@@ -129,6 +194,17 @@ def _run(question: Asked, track: Track, passes: int, tolerance: float) -> tuple[
         )
     told, more = verdict_of(track, records, failed=error is not None, straight=len(question.offsets) == 1)
     return records, ends, Told(attrs | told, {"memory_mb": track.bars.bytes / 1e6}, warnings + more)
+
+
+def _mean_stress(question: Asked, box: Box, y: Array) -> Array:
+    """Stress (6, nz, m, nx), Pa, on the elastic road, at places y (m,), m: means over cells across.
+
+    At their centres alone it would depend on where the edges of ribs lie in their cells.
+    """
+    halves = (y[:, None] + box.dy * np.array([-0.25, 0.25])).ravel()
+    stress = question.stress(box.x, halves, box.depths)
+    mean: Array = 0.5 * (stress[:, :, ::2] + stress[:, :, 1::2])
+    return mean
 
 
 def follow(
@@ -158,7 +234,9 @@ def follow(
         strain, hardening = track.whole(states)
         added, left_over = float((hardening - before).max()), float(np.abs(strain - old).max())
         records.append(
-            Record(number, strain, hardening, track.residual(strain), added, left_over, offset, done.rounds)
+            Record(
+                number, strain, hardening, track.residual(strain), added, left_over, offset, done.rounds, done.along
+            )
         )
         reached = np.where(done.ends > 1e-3 * track.yield_strain, done.ends, 0.0)
         reached[4] *= not closed
@@ -195,7 +273,7 @@ def _nothing(question: Asked, passes: int) -> tuple[Box, list[Record], Told]:
     nx, ny = (max(2, math.ceil((high - low) / step)) for low, high in ((low_x, high_x), (low_y, high_y)))
     top = question.courses[0].top
     deepest = top + SEARCHED * 0.5 * max(high_x - low_x, high_y - low_y)
-    edges = row_edges(question.courses, 0.8 * step, question.depth or deepest, question.layers)
+    edges = row_edges(question.courses, 0.8 * step, question.depth or deepest, question.layers or FEW_ROWS)
     box = Box(nx, ny, step, step, low_x + step / 2, low_y + step / 2, edges)
     zeros = np.zeros((6, *box.shape))
     materials = [question.material_at(float(z)) for z in box.depths]
