@@ -17,6 +17,8 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     asked = parser.parse_args()
     if asked.kind == "races":
+        for signals in kills.SIGNALS:
+            print(f"{signals} while writing:", dict(kills.stopped_while_writing(signals, asked.count, asked.seed)))
         print("replaced whole:", dict(races.read_while_replaced(asked.count, whole=True)))
         print("truncated and written:", dict(races.read_while_replaced(asked.count, whole=False)))
         races.two_writers_of_a_file(asked.count)

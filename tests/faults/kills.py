@@ -19,9 +19,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import xarray as xr
+
 import treadload as tl
 from cases import BASE_AND_SOIL, ONE_AXLE
 from faults.disks import OLD, Broken
+from treadload.files import write_all
 from treadload.study import open_sweep
 
 SIGNALS = {"kill": signal.SIGKILL, "term": signal.SIGTERM, "interrupt": signal.SIGINT}
@@ -44,11 +47,15 @@ errors = { deflection = "0.2 mm" }
 
 @dataclass(frozen=True)
 class Command:
-    """A command. line: its arguments. output: what it writes. goes_on: from where it was stopped."""
+    """A command. line: its arguments. output: what it writes. goes_on: from where it was stopped.
+
+    within: relative error of the numbers after it went on.
+    """
 
     line: str
     output: str
     goes_on: bool = False
+    within: float = 0.0
 
 
 COMMANDS = {
@@ -59,7 +66,9 @@ COMMANDS = {
         "sweep case.toml -q --vary friction=0.5:0.8:3 --vary normal_load='20 kN:22 kN:2' --field pressure "
         "-o out.zarr", "out.zarr", goes_on=True,
     ),
-    "calibrate": Command("calibrate cal.toml -q --state state.json -o out.nc", "out.nc", goes_on=True),
+    # Contacts start from the one before, which a state does not hold: cut at each of its 17 places this search gives
+    # numbers that differ by up to 1.2e-5, most in the error bars, which are of differences.
+    "calibrate": Command("calibrate cal.toml -q --state state.json -o out.nc", "out.nc", goes_on=True, within=1e-4),
     "report": Command("report result.nc -q -o out.html", "out.html"),
 }  # fmt: skip
 
@@ -147,7 +156,7 @@ def attack(
         if command.goes_on and code:
             again = start(command.line, folder)
             code = wait(again)
-            if code or not same(kept(command, folder), truth):
+            if code or not same(kept(command, folder), truth, command.within):
                 raise Broken(f"{name} did not go on: exit code {code}, {(folder / 'errors').read_text()[-800:]}")
             return "stopped"
         return "stopped" if code else "done"
@@ -180,7 +189,7 @@ def _judge(command: Command, number: int, folder: Path, code: int, truth: Any, *
     now = output.read_bytes() if output.exists() else None
     if (now is None and not old) or (now == OLD and old):
         return
-    if now is None or not same(kept(command, folder), truth):
+    if now is None or not same(kept(command, folder), truth, command.within):
         raise Broken(f"{output.name} is neither the old nor the new one, exit code {code}")
 
 
@@ -197,9 +206,16 @@ def kept(command: Command, folder: Path) -> Any:
     return re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", "", output.read_text(encoding="utf-8"))
 
 
-def same(one: Any, other: Any) -> bool:
-    """Whether two have the same numbers to the last digit; attributes say when and how long."""
-    return bool(one == other if isinstance(one, str | dict) else one.equals(other))
+def same(one: Any, other: Any, within: float = 0.0) -> bool:
+    """Whether two have the same numbers, to the last digit or within a relative error; attributes tell of times."""
+    if isinstance(one, str | dict):
+        return bool(one == other)
+    if one.equals(other) or not within:
+        return bool(one.equals(other))
+    with contextlib.suppress(AssertionError):
+        xr.testing.assert_allclose(one, other, rtol=within)
+        return True
+    return False
 
 
 def _folder(folder: Path) -> None:
@@ -231,3 +247,58 @@ def kills(count: int, names: list[str], seed: int, tell: Callable[[str], None] =
                         tell(f"{name} {signals} {index}: BROKEN {error}")
                 tell(f"{name:10} {signals:10} {dict(words)} of {count}, {seconds:.1f} s each")
     return broken
+
+
+def stopped_while_writing(signals: str, count: int, seed: int = 0) -> Counter:
+    """Stop a process that does nothing but write three files together, so often; returns how it ended.
+
+    Raises Broken for half a file, and for a temporary one after an orderly end.
+    """
+    words: Counter[str] = Counter()
+    number, draw = SIGNALS[signals], random.Random(f"writing {signals} {seed}")
+    contents = [letter * 300_000 for letter in (b"a", b"b")]
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        paths = [folder / f"{name}.bin" for name in range(3)]
+        for _ in range(count):
+            for path in paths:
+                path.unlink(missing_ok=True)
+            child = _writing(paths, contents)
+            while not all(path.exists() for path in paths):
+                time.sleep(1e-3)
+            time.sleep(draw.uniform(0, 0.1))
+            os.kill(child, number)
+            code = wait(child)
+            if code != _CODES.get(number, -number):
+                raise Broken(f"ended with {code} on {signals}")
+            if any(path.read_bytes() not in contents for path in paths):
+                raise Broken("half a file")
+            left = [path for path in folder.iterdir() if path not in paths]
+            if left and number != signal.SIGKILL:
+                raise Broken(f"left {left}")
+            words["left a temporary file" if left else "clean"] += 1
+            for path in left:
+                path.unlink()
+    return words
+
+
+def _writing(paths: list[Path], contents: list[bytes]) -> int:
+    """A fork that writes files together, again and again, as a command of ours does."""
+    child = os.fork()
+    if child:
+        return child
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+        for one in SIGNALS.values():
+            with contextlib.suppress(OSError):
+                signal.signal(one, signal.SIG_DFL)
+        from treadload.cli import ending
+
+        with ending.orderly():
+            while True:
+                for content in contents:
+                    write_all((path, content) for path in paths)
+    except SystemExit as end:
+        os._exit(int(end.code or 0))
+    finally:
+        os._exit(70)

@@ -82,3 +82,18 @@ def test_the_second_writer_of_a_store_is_refused_and_the_first_goes_on():
     assert "is being written by another study; wait for it" in two_writers_of_a_store()
     assert read_while_replaced(80, whole=True) == {"read": 80}
     assert sum(read_while_replaced(80, whole=False).values()) == 80
+
+
+@pytest.mark.parametrize("signals", ["kill", "term", "interrupt"])
+def test_a_process_stopped_while_it_writes_leaves_whole_files(signals):
+    from faults.kills import stopped_while_writing
+
+    assert stopped_while_writing(signals, 5).total() == 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("signals", ["kill", "term", "interrupt"])
+def test_a_process_stopped_while_it_writes_leaves_whole_files_often(signals):
+    from faults.kills import stopped_while_writing
+
+    stopped_while_writing(signals, 60, seed=1)

@@ -94,6 +94,22 @@ def test_an_interrupted_study_goes_on_and_recomputes_nothing(tmp_path):
     assert same(whole.dataset, tl.sweep(case, VARY, fields=FIELDS).dataset)
 
 
+def test_an_array_that_was_being_made_when_its_process_was_stopped_is_made_again(tmp_path):
+    case, path = small_case(tmp_path), tmp_path / "study.zarr"
+
+    def stop(done, total, what):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        tl.sweep(case, VARY, store=path, progress=stop)
+    # zarr writes the shape of an array first, then its dimensions, then its values.
+    (path / "status" / ".zattrs").unlink()
+    whole = tl.sweep(case, VARY, store=path)
+    assert same(whole.dataset, tl.sweep(case, VARY).dataset)
+    assert same(open_sweep(path).dataset, whole.dataset)
+
+
 def test_what_failed_is_tried_again(tmp_path, monkeypatch):
     case, path = small_case(tmp_path), tmp_path / "study.zarr"
     from treadload.study.sweeps import parts

@@ -44,6 +44,10 @@ def write_arrays(data: xr.Dataset, path: Path) -> None:
     group = library.open_group(path, mode="a", zarr_format=2)
     # Coordinates alone come with nothing to say, and would take away what is said already.
     data = data if data.attrs else data.assign_attrs(dict(group.attrs))
+    for folder in path.iterdir():
+        # An array that was being made when its process was stopped, which no reader takes.
+        if (folder / ".zarray").exists() and not _has_dimensions(folder):
+            shutil.rmtree(folder)
     for name in data.variables:
         old = group.get(str(name)) if (path / str(name)).exists() else None
         wanted = np.asarray(data[name].to_numpy())
@@ -58,6 +62,14 @@ def write_arrays(data: xr.Dataset, path: Path) -> None:
         data.to_zarr(path, mode="a", zarr_format=2, consolidated=False, encoding=fresh or None)
         # Then `xarray.open_zarr` opens it at once, and does not stumble over the journal.
         library.consolidate_metadata(path, zarr_format=2)
+
+
+def _has_dimensions(folder: Path) -> bool:
+    """Whether an array in a folder has the attribute by which xarray knows its dimensions."""
+    try:
+        return "_ARRAY_DIMENSIONS" in json.loads((folder / ".zattrs").read_text(encoding="utf-8"))
+    except (OSError, ValueError, TypeError):
+        return False
 
 
 def keep_fields(record: Record, folder: Path) -> None:
