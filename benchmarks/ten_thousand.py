@@ -52,8 +52,9 @@ from dataclasses import replace
 from treadload.case.first import first_case
 from treadload.study.sweeps.asked import kind_of
 from treadload.study.sweeps.design import product
+from treadload.study.sweeps.places import processes
 from treadload.study.sweeps.store import begun
-from treadload.study.sweeps.work import Question, Worker
+from treadload.study.sweeps.work import Question
 
 if __name__ == "__main__":
     case = tl.Case.from_text(first_case("run"))
@@ -62,7 +63,8 @@ if __name__ == "__main__":
     # As `sweep` asks, so that the same command is a resume.
     question = Question(kind_of(case), case.given(), case.folder.resolve(), ())
     if not Path("repeated.zarr").exists():
-        record = Worker(question).solve(0, design.at(0))
+        # In a process of its own: the memory is that of the study alone.
+        record = next(iter(processes(question, [(0, design.at(0))], 1)))
         with begun("repeated.zarr", case, design, question) as store:
             for number in range(design.count):
                 store.append(replace(record, number=number))
