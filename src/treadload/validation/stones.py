@@ -13,6 +13,9 @@ from treadload.kernels.eigenstrain.operator import Grid
 from treadload.validation.check import Check, relative
 
 _NU = 0.3
+# Mean strain along tensions of 1 over the modulus in x and y, and down, of spheres half a radius below the surface:
+# axisymmetric finite elements, 40 and 80 rows of elements between surface and sphere, extrapolated.
+NEAR_VOID, NEAR_SOFT = (1.5886, -1.131), (1.4062, -1.0459)
 _NORMAL = np.array([1.0, 1, 1, 0, 0, 0])
 # Of Eshelby's tensor of a sphere: change of volume, and of shape.
 _VOLUME, _SHAPE = (1 + _NU) / (3 * (1 - _NU)), 2 * (4 - 5 * _NU) / (15 * (1 - _NU))
@@ -37,6 +40,23 @@ def _tension(cells: int, contrast: float, beyond: int) -> tuple[Equivalent, Bool
     count = int(inside.sum())
     own = np.full(count, contrast * matrix[0]), np.full(count, contrast * matrix[1])
     return equivalent(apply, stress, inside, own, matrix, grid.thickness), inside, at
+
+
+def near_the_surface(contrast: float, cells: int) -> tuple[float, float]:
+    """Mean strain along and down of a sphere half a radius below the surface, under equal tensions of 1 along it."""
+    half = cells + 1
+    at = np.arange(2 * half) - half + 0.5
+    grid = Grid(2 * half, 2 * half, 1.0, 1.0, np.arange(2.5 * cells + 2.0))
+    inside = (grid.depths - 1.5 * cells)[:, None, None] ** 2 + at[:, None] ** 2 + at**2 < cells**2
+    apply = operator.cells(grid, 0.5 / (1 + _NU), _NU, averaged=True)
+    stress = np.zeros((6, *grid.shape))
+    stress[:2] = 1.0
+    count, matrix = int(inside.sum()), (1 / (1 - 2 * _NU), 1 / (1 + _NU))
+    own = np.full(count, contrast * matrix[0]), np.full(count, contrast * matrix[1])
+    found = equivalent(apply, stress, inside, own, matrix, grid.thickness)
+    total, strain = found.stress[:, inside], found.eigenstrain[:, inside]
+    mean = ((1 + _NU) * total[:3] - _NU * total[:3].sum(axis=0) + strain[:3]).mean(axis=1)
+    return float(mean[0]), float(mean[2])
 
 
 def stone_checks() -> Iterator[Check]:
@@ -65,6 +85,12 @@ def stone_checks() -> Iterator[Check]:
             group, f"sphere of {contrast:g} times the modulus, {cells} cells a radius: mean strain", strain, exact[0],
             bound, "Eshelby (1957), Proc. R. Soc. A 241, 376",
         )  # fmt: skip
+    for name, contrast, near in (("void", 0.0, NEAR_VOID), ("sphere of 0.1 times the modulus", 0.1, NEAR_SOFT)):
+        for direction, value, known in zip(("tension", "depth"), near_the_surface(contrast, 8), near, strict=True):
+            yield relative(
+                group, f"{name} half a radius below the surface, 8 cells a radius: mean strain along {direction}",
+                value, known, 3e-2, "axisymmetric finite elements, tests/axisymmetric.py",
+            )  # fmt: skip
     found, _, at = _tension(6, 0.0, 4)
     beside, r = found.stress[0][9:11, :, 9:11].mean(axis=(0, 2)), np.sqrt(at**2 + 0.5)
     exact = 1 + (4 - 5 * _NU) / (2 * (7 - 5 * _NU)) * (6 / r) ** 3 + 9 / (2 * (7 - 5 * _NU)) * (6 / r) ** 5
