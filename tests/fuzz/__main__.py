@@ -24,7 +24,7 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | fits | 2 | 0 to 1 000 | 0 |
 | laser | 3 | 0 to 20 000 | 0 |
 | fringes | 3 | 0 to 3 000 | 1: a distance of the rig whose inverse is beyond all numbers |
-| contacts | 1 | 0 to 1 500, of an older form of the attack | 59: 53 wrong gaps, approaches or small creepages, 6 that did not settle |
+| contacts | 1 | 0 to 1 500, of an older form of the attack | 53 wrong gaps or shears, 6 unsettled |
 | contacts | 6 | 0 to 1 500 | 0 |
 | results | 7 | 0 to 4 700, of an older form of the attack | 18, of which seven causes in the package |
 | results | 7 | 0 to 10 000 | 30 of 15 causes: parts that lack what a summary reads, numbers beyond all |

@@ -219,7 +219,11 @@ class _Newton:
         self.count += 1
         best = state
         for length in _LINE_SEARCH:
-            trial = self.state(state.q + length * step_q, state.xi + length * step_xi, state.slip + length * along)
+            # A singular system may lead beyond all numbers: such a trial lowers nothing.
+            with np.errstate(over="ignore", invalid="ignore"):
+                trial = self.state(
+                    state.q + length * step_q, state.xi + length * step_xi, state.slip + length * along
+                )
             if trial.merit < best.merit:
                 best = trial
             if best.merit <= (1 - 0.1 * length) * state.merit:
