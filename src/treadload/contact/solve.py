@@ -78,8 +78,9 @@ def solve_contact(
     spacing: cell size, m; 3 mm if left out. A height map keeps its own cells. offset: by which the cells are moved
     along x and y, in parts of a cell from -0.5 to 0.5, so that other cells hold the edges of ribs.
     tolerance: of the contact conditions relative to the approach, of the slip conditions relative to μp, or to a
-    hundred times the shear where that is less, and of the coupling between them. start: a contact near this one: its grid serves again where it
-    is large enough, and the search then begins at its fields. progress: called with a line of text at every stage.
+    hundred times the shear where that is less, and of the coupling between them. start: a contact near this one: its
+    grid serves again where it is large enough, and the search then begins at its fields. progress: called with a line
+    of text at every stage.
     Returns the fields on a grid that holds the whole contact patch.
     Raises InputError for forces beyond friction and for friction above a frictionless interface, GeometryError if
     the contact is larger than the surface, ConvergenceError with the residual reached.
