@@ -266,3 +266,20 @@ def test_a_crowd_of_silent_callers_does_not_keep_others_out(call):
         assert not connections.Impatient._waiting
 
     asyncio.run(tried())
+
+
+def test_a_life_that_is_cancelled_is_not_computed_on(started):
+    """It stops of itself, or its process ends."""
+
+    async def tried():
+        engine = await Engine.start()
+        waiting = asyncio.create_task(engine.last("life", run="a"))
+        await asyncio.sleep(0)
+        assert not engine.is_idle
+        assert not await engine.stop()
+        assert not engine.lives
+        with pytest.raises(EngineLost):
+            await waiting
+        assert not alive(started)
+
+    asyncio.run(tried())

@@ -80,6 +80,8 @@ class Engine:
             self._solving.add(number)
         self.used = time.monotonic()
         try:
+            if not self.lives:
+                raise EngineLost(_ENDED)
             await self._send({"id": number, "do": do, **told})
             while True:
                 answer = await queue.get()
@@ -153,7 +155,7 @@ class Engines:
 
     def warm(self) -> None:
         """Have one ready for whoever asks next."""
-        if self._spare is None:
+        if self._spare is None or (self._spare.done() and (self._spare.cancelled() or self._spare.exception())):
             self._spare = asyncio.create_task(self._start())
 
     async def _start(self) -> Engine:

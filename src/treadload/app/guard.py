@@ -84,7 +84,11 @@ class Keys:
         secret = secrets.token_urlsafe(32)
         self.sessions[secret] = secrets.token_hex(8)
         while len(self.sessions) > _MOST_SESSIONS:
-            name = self.sessions.pop(next(iter(self.sessions)))
+            # One that has a tab open goes only where all have.
+            others = list(self.sessions.items())[:-1]
+            open_tabs = set(self.owners.values())
+            gone = next((one for one, name in others if name not in open_tabs), others[0][0])
+            name = self.sessions.pop(gone)
             self.owners = {page: owner for page, owner in self.owners.items() if owner != name}
             self.evicted(name)
         return secret

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import logging
 import socket
@@ -12,8 +13,9 @@ from typing import Any
 
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
-from nicegui import app, core, ui
+from nicegui import app, background_tasks, core, ui
 from nicegui.client import templates
+from nicegui.server import Server
 
 from treadload.app.connections import Impatient
 from treadload.app.engines import EngineLost, Engines
@@ -58,8 +60,14 @@ def run(host: str, port: int, *, open_browser: bool) -> None:
     keys = Keys(host, port, links.use, sessions.end)
     prepare(keys, sessions)
 
-    def ready() -> None:
+    async def ready() -> None:
         engines.warm()
+        background_tasks.create(announce())
+
+    async def announce() -> None:
+        # It begins a moment before it answers.
+        while not Server.instance.started:
+            await asyncio.sleep(0.01)
         print(f"treadload app: {links.new()}", flush=True)
         if open_browser:
             webbrowser.open(links.for_browser())

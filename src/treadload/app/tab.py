@@ -97,17 +97,29 @@ class Tab:
 
     async def begin(self) -> None:
         """Wait for the browser, and show where its session stands."""
-        with contextlib.suppress(Exception):
-            await self.client.connected(timeout=60)
+        if not await self._is_there():
+            return
         with self.client:
             about = None
             with contextlib.suppress(TimeoutError):
                 about = await ui.run_javascript(_ABOUT, timeout=10)
+            # Nothing is begun, and no process is taken, for who has left already.
+            if about is None and not await self._is_there():
+                return
             if about:
                 self.width = max(_NARROWEST, float(about["width"]))
                 self.theme = "dark" if about["dark"] else "light"
                 self._dark.value = bool(about["dark"])
             await self.started()
+
+    async def _is_there(self) -> bool:
+        """Wait for the browser; False where it does not come, or not again."""
+        try:
+            await self.client.connected(timeout=60)
+        except Exception:
+            return False
+        # A connection that is lost for a moment comes again.
+        return not self.client.is_deleted
 
     def _other_theme(self) -> None:
         self.theme = "light" if self.theme == "dark" else "dark"

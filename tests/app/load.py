@@ -1,0 +1,260 @@
+"""The page under a load from this machine alone: sessions, silent sockets, uploads, cancelled solves.
+
+    python tests/app/load.py [--count 200] [--silent 300] [--cancels 50] [--no-wait]
+
+Prints what each cost, beside its bound. A visitor is a browser without a window: it enters by an address of its own,
+loads the page, speaks over its socket as the page does, and leaves, some of them once the first case is solved.
+--no-wait leaves out the minute after which sessions end.
+"""
+
+import argparse
+import asyncio
+import html
+import json
+import os
+import re
+import sys
+import tempfile
+import time
+import uuid
+from pathlib import Path
+
+import aiohttp
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from page_visits import serving
+from treadload.app.engines import MOST_PROCESSES
+from treadload.app.guard import MOST_UPLOADED
+from treadload.app.sessions import LINGERS
+
+# The page at once says "solving" and "ready" in what it sends.
+_STATE = re.compile(r'data-state\\?":\s*\\?"([a-z]+)')
+# Memory that is back, and how long the next user waits, s.
+MOST_GROWN, MOST_WAITED = 1.2, 1.0
+_PATIENCE = 240.0
+
+
+class Visitor:
+    """A browser on the bench, without a window."""
+
+    def __init__(self, server, begins=True):
+        self.server, self.begins, self.states, self.seen = server, begins, [], asyncio.Event()
+
+    async def __aenter__(self):
+        jar = aiohttp.CookieJar(unsafe=True)
+        self.http = aiohttp.ClientSession(cookie_jar=jar, headers={"origin": self.server.base.rstrip("/")})
+        begun = time.monotonic()
+        async with self.http.get(self.server.address()) as answer:
+            assert answer.status == 200
+        async with self.http.get(self.server.base) as answer:
+            page = await answer.text()
+        self.client = re.search(r"'client_id': '([^']+)'", page)[1]
+        self.elements = json.loads(html.unescape(re.search(r"String\.raw`(.*?)`", page, re.DOTALL)[1]))
+        about = {"client_id": self.client, "next_message_id": 0, "implicit_handshake": "true", "EIO": 4,
+                 "document_id": uuid.uuid4().hex, "tab_id": uuid.uuid4().hex, "transport": "websocket"}  # fmt: skip
+        self.socket = await self.http.ws_connect(
+            f"{self.server.base}_nicegui_ws/socket.io/", params=about, max_msg_size=0
+        )
+        self.listening = asyncio.create_task(self._listen())
+        await asyncio.wait_for(self.seen.wait(), _PATIENCE)
+        self.waited = time.monotonic() - begun
+        return self
+
+    async def __aexit__(self, *_):
+        self.listening.cancel()
+        await self.socket.close()
+        await self.http.close()
+
+    async def _listen(self):
+        async for message in self.socket:
+            told = str(message.data)
+            if told == "2":
+                await self.socket.send_str("3")
+            elif told.startswith("0"):
+                await self.socket.send_str("40")
+            elif told.startswith("42"):
+                self.seen.set()
+                self.states += _STATE.findall(told)
+                for asked in re.findall(r'"request_id":\s*"([^"]+)"', told) if self.begins else ():
+                    await self._say("javascript_response", request_id=asked, result={"width": 900, "dark": False})
+
+    async def _say(self, event, **told):
+        await self.socket.send_str("42" + json.dumps([event, {"client_id": self.client, **told}]))
+
+    def _named(self, name):
+        return next((int(key), one) for key, one in self.elements.items() if one.get("props", {}).get("id") == name)
+
+    async def click(self, name):
+        """Click the button of an id."""
+        key, one = self._named(name)
+        await self._say("event", id=key, listener_id=one["events"][0]["listener_id"], args=["{}"])
+
+    async def until(self, *states):
+        """Wait for one of some states that comes after now."""
+        known, end = len(self.states), time.monotonic() + _PATIENCE
+        while not any(one in states for one in self.states[known:]):
+            assert time.monotonic() < end, (states, self.states[known:])
+            if self.listening.done():
+                # A busy machine answered a ping too late; a browser would call again.
+                raise ConnectionError(f"lost while waiting for {states}, after {self.states[known:]}")
+            await asyncio.sleep(0.02)
+
+    async def upload(self, size):
+        """Send a file of so many bytes where results go; returns the status of the answer."""
+        key = next(key for key, one in self.elements.items() if "upload-result" in one.get("class", []))
+        form = aiohttp.FormData()
+        form.add_field("file", bytes(size), filename="a.nc")
+        async with self.http.post(
+            f"{self.server.base}_nicegui/client/{self.client}/upload/{key}", data=form
+        ) as answer:
+            return answer.status
+
+
+def memory(server):
+    """Of the server, MiB."""
+    told = Path(f"/proc/{server.process.pid}/status").read_text()
+    return int(re.search(r"VmRSS:\s+(\d+)", told)[1]) / 1024
+
+
+def processes(server):
+    """Of the server, that solve."""
+    children = Path(f"/proc/{server.process.pid}/task").glob("*/children")
+    return [int(pid) for one in children for pid in one.read_text().split()]
+
+
+def sockets(server):
+    """That the server holds open."""
+    files = Path(f"/proc/{server.process.pid}/fd").iterdir()
+    return sum(os.readlink(one).startswith("socket:") for one in files if one.is_symlink())
+
+
+async def next_user(server):
+    """How long the next user waits for the page and its socket, s."""
+    async with Visitor(server) as one:
+        return one.waited
+
+
+async def opened_and_closed(server, count, most=0):
+    """Sessions, four at a time, in each tenth a case is solved; returns the most processes there ever were."""
+    left = list(range(count))
+
+    async def visitors():
+        nonlocal most
+        while left:
+            number = left.pop()
+            async with Visitor(server, begins=number % 10 == 0) as one:
+                if one.begins:
+                    try:
+                        await one.until("ready", "done", "failed")
+                    except ConnectionError as error:
+                        print(f"visitor {number}: {error}", flush=True)
+                most = max(most, len(processes(server)))
+
+    await asyncio.gather(*(visitors() for _ in range(4)))
+    return most
+
+
+async def settled(server, wait):
+    """Wait until sessions have ended; returns how many are left."""
+    end = time.monotonic() + (LINGERS + 40 if wait else 0)
+    while time.monotonic() < end and list(server.own.glob("session-*")):
+        await asyncio.sleep(1)
+    return len(list(server.own.glob("session-*")))
+
+
+async def silent(server, count):
+    """Sockets that say nothing, or half of what they want; returns how long the next user waits, and what is left."""
+    before, host, port = sockets(server), *server.host.split(":")
+    held = [await asyncio.open_connection(host, int(port)) for _ in range(count)]
+    for number, (_, writer) in enumerate(held):
+        writer.write(b"GET / HTTP/1.1\r\nhost: " if number % 2 else b"")
+    waited = await next_user(server)
+    most = sockets(server) - before
+    await asyncio.sleep(12)
+    left = sockets(server) - before
+    for _, writer in held:
+        writer.close()
+    return waited, most, left
+
+
+async def cancelled(server, count):
+    """Solves that are cancelled; returns the memory before and after the last half of them."""
+    async with Visitor(server) as one:
+        await one.until("ready", "done", "failed")
+        for number in range(count):
+            begun = asyncio.create_task(one.until("solving"))
+            await asyncio.sleep(0)
+            await one.click("solve")
+            await begun
+            ended = asyncio.create_task(one.until("cancelled", "done"))
+            await asyncio.sleep(0)
+            await one.click("cancel")
+            await ended
+            if number == count // 2:
+                before = memory(server)
+        return before, memory(server), len(processes(server))
+
+
+async def uploaded(server):
+    """Status of a file of the largest size, and of one beyond it."""
+    async with Visitor(server) as one:
+        return await one.upload(MOST_UPLOADED - 1000), await one.upload(MOST_UPLOADED + 2**17)
+
+
+def check(what, value, bound, fine):
+    """Print a number beside its bound."""
+    print(f"{'ok ' if fine else 'BAD'} {what}: {value} (bound {bound})", flush=True)
+    return bool(fine)
+
+
+async def load(server, *, count, silents, cancels, wait):
+    """All of it; True where every bound holds."""
+    await opened_and_closed(server, 4)
+    await settled(server, wait)
+    before, fine = memory(server), []
+    begun = time.monotonic()
+    most = await opened_and_closed(server, count)
+    print(f"{count} sessions opened and closed in {time.monotonic() - begun:.0f} s")
+    fine.append(check("processes meanwhile", most, MOST_PROCESSES, most <= MOST_PROCESSES))
+    waited, held, left = await silent(server, silents)
+    fine.append(
+        check(f"next user beside {silents} silent sockets, s", f"{waited:.2f}", MOST_WAITED, waited < MOST_WAITED)
+    )
+    fine.append(check("sockets held of them at once", held, 72, held <= 72))
+    fine.append(check("sockets left after 12 s", left, 8, left <= 8))
+    told = await uploaded(server)
+    fine.append(check("uploads at the bound and beyond", told, (200, 413), told == (200, 413)))
+    half, end, running = await cancelled(server, cancels)
+    grown = f"{half:.0f} to {end:.0f} MiB"
+    fine.append(
+        check(f"memory over the last half of {cancels} cancelled solves", grown, "1.2 times", end < 1.2 * half)
+    )
+    fine.append(check("processes after them", running, MOST_PROCESSES, running <= MOST_PROCESSES))
+    if wait:
+        sessions = await settled(server, wait)
+        fine.append(check("sessions left after a minute", sessions, 0, sessions == 0))
+        left = len(processes(server))
+        fine.append(check("processes left, one of them for the next user", left, 1, left <= 1))
+        after = memory(server)
+        fine.append(check("memory", f"{before:.0f} to {after:.0f} MiB", "1.2 times", after < MOST_GROWN * before))
+    waited = await next_user(server)
+    fine.append(check("next user, s", f"{waited:.2f}", MOST_WAITED, waited < MOST_WAITED))
+    return all(fine)
+
+
+def main(argv=None):
+    """Run it against a server of its own."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--silent", type=int, default=300)
+    parser.add_argument("--cancels", type=int, default=50)
+    parser.add_argument("--no-wait", action="store_true")
+    told = parser.parse_args(argv)
+    with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as server:
+        return 0 if asyncio.run(
+            load(server, count=told.count, silents=told.silent, cancels=told.cancels, wait=not told.no_wait)
+        ) else 1  # fmt: skip
+
+
+if __name__ == "__main__":
+    sys.exit(main())
