@@ -221,6 +221,9 @@ def _stepped(law: ReturnMap, begin: Array, end: Array, state: State, duration: f
     that yield at its end are followed.
     """
     yields = law.excess(end - law.elastic(state.strain), state) > 0
+    if duration > 0:
+        # A viscous law also flows on the way back to its yield surface.
+        yields |= law.excess(begin - law.elastic(state.strain), state) > 0
     if not yields.any():
         return state
     first, last, inner = begin[:, yields], end[:, yields], state.at(yields)
