@@ -210,7 +210,8 @@ def test_wander_does_not_count_twice_for_laws_that_hold_it():
     assert wide.dataset["life_years_with_wander"].to_numpy() == pytest.approx(1 / spread, rel=1e-9)
     (said,) = [text for text in wide.warnings if "wander" in text]
     assert said.startswith("soil: its law was calibrated on roads on which wheels wander")
-    assert f"{wide.dataset['life_years_with_wander'].sel(criterion='soil').item():.3g} years" in said
+    longer = wide.dataset["life_years_with_wander"] / wide.dataset["life_years"]
+    assert f"{longer.sel(criterion='soil').item():.3g} times as long" in said
     assert said in wide.summary()
     assert not any("wander" in text for text in still.warnings)
     assert "life_years_with_wander" not in still.dataset

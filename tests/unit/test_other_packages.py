@@ -397,7 +397,7 @@ def test_a_law_of_fatigue_and_a_criterion_are_one_file_of_theirs(road_laws):
     text = DESIGN.replace(
         '"theirs"\nlaw = "doubled"\nlayer = "EB-GB3"\nepsilon_6', '"theirs"\nlaw = "track"\nlayer = 3\nepsilon_6'
     )
-    assert "'theirs': power is missing, and the layer does not give it" in said(text, LifeCase)
+    assert "'theirs': power is missing, and the layer does not provide it" in said(text, LifeCase)
 
 
 BONDED_ROAD = """

@@ -77,7 +77,7 @@ def test_a_case_refuses_what_no_material_has_in_one_sentence():
 def test_laws_that_need_one_modulus_say_that_there_is_none():
     text = ONE_AXLE.replace('pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }\n', "") + LAYERS
     law = '\n[[criteria]]\nname = "a"\nlaw = "asphalt-institute"\nlayer = "asphalt"\nplace = "bottom"\n'
-    with pytest.raises(tl.InputError, match="modulus is missing, and the layer does not give it"):
+    with pytest.raises(tl.InputError, match="modulus is missing, and the layer does not provide it"):
         tl.LifeCase.from_text(text + law + "air_voids = 0.05\nbinder_volume = 0.11\n")
 
 

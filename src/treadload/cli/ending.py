@@ -41,6 +41,9 @@ def interrupted(kept: str = "") -> tuple[str, int]:
 @contextlib.contextmanager
 def orderly() -> Iterator[None]:
     """The whole of a command: signals end it as Ctrl-C does, and what could not be printed is told at its end."""
+    # A command before it in the same process, as in tests, may have been interrupted.
+    _Signal.since, _Signal.is_answered = None, False
+    _LOST.clear()
     if threading.current_thread() is threading.main_thread():
         for number in _ASKING:
             # `nohup` and shells hand on what is to be ignored.

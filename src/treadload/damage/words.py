@@ -146,10 +146,10 @@ def cautions(
     said += [f"{one.name}: {one.quantity}: {one.quantity.doubt}" for one in criteria if one.quantity.doubt]
     said += [
         f"{one.name}: its law was calibrated on roads on which wheels wander, so that the traffic's wander is left "
-        f"out here and the life is {years_in_words(float(data['life_years'][k]))}; counted twice it would be "
-        f"{years_in_words(float(data['life_years_with_wander'][k]))}"
-        for k, one in enumerate(criteria)
-        if twice[k]
+        f"out here and the life is {years_in_words(years)}; counted twice it would be "
+        f"{data['life_years_with_wander'].item(k) / years:.3g} times as long"
+        for k, (one, years) in enumerate(zip(criteria, data["life_years"].to_numpy().tolist(), strict=True))
+        if twice[k] and math.isfinite(years)
     ]
     return tuple(dict.fromkeys(said + _flat(data, criteria)))
 
