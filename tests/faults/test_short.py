@@ -32,6 +32,8 @@ SLOW = [
     *QUICK, "points", "mesh", "svg", "pdf", "as-python", "store", "report", "linked", "schema", "taken home",
     "upload",
 ]  # fmt: skip
+# Writers whose files have room on a disk of 8 kB.
+SMALL = ("discs", "cite", "as-python")
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -49,7 +51,9 @@ def test_full_and_read_only_disks_are_sentences_and_old_files_stay(writers, name
     writer = writers[name]
     # A study writes many files, and may fit below a limit that its largest one does not.
     assert "refused" in by_limit(writer, (0.0, 0.9, 2.0), (False, True))
-    assert {"refused", "not mounted"} & set(by_size(writer, (8, 40)))
+    words = set(by_size(writer, (8, 40)))
+    assert words <= {"refused", "not mounted", "done", "too small"}
+    assert name in SMALL or words & {"refused", "not mounted"}
     by_right(writer)
 
 

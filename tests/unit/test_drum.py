@@ -88,14 +88,18 @@ def test_what_resists_is_the_work_on_plastic_strain(monkeypatch):
 @pytest.mark.slow
 def test_just_above_first_yield_the_pressure_hardly_feels_the_track():
     """There a drum is the wheel of `roll_passes`, whose pressure does not change."""
-    done = roll_drum(BALL, ROAD, 1.4 * LOAD, passes=1, **CELLS).dataset
+    cell = (2e-3, 2e-3)
+    done = roll_drum(BALL, ROAD, 1.4 * LOAD, passes=1, spacing=cell, layers=8).dataset
     road = tl.Pavement.half_space(tl.Elastic(MODULUS, 0.35))
-    grid = Grid(done.sizes["x"], done.sizes["y"], 3e-3, 4e-3, float(done.x[0]), float(done.y[0]))
-    ball = tl.Tire.from_height_map(BALL.surface.height_map(grid), (3e-3, 4e-3), material=tl.Elastic(1e15, 0.3))
+    grid = Grid(done.sizes["x"], done.sizes["y"], *cell, float(done.x[0]), float(done.y[0]))
+    ball = tl.Tire.from_height_map(BALL.surface.height_map(grid), cell, material=tl.Elastic(1e15, 0.3))
     contact = tl.solve_contact(ball, road, tl.Rolling(normal_load=1.4 * LOAD, friction=0.0))
     shifted = tl.GridLoad(grid, contact.dataset.pressure.to_numpy())
-    wheel = tl.roll_passes(shifted, ROAD, passes=1, spacing=3e-3, layers=6).dataset
-    assert float(done.rut_depth[0]) == pytest.approx(float(wheel.rut_depth[0]), rel=0.1)
+    wheel = tl.roll_passes(shifted, ROAD, passes=1, spacing=cell, layers=8)
+    # 9 % apart: a drum's stress is that at the middle of cells, a wheel's the mean across them, and two rows yield.
+    assert float(done.rut_depth[0]) == pytest.approx(float(wheel.dataset.rut_depth[0]), rel=0.12)
+    # So few cells do not show their error, which is stated.
+    assert any("2 cells deep and 5 wide, fewer than the 4" in text for text in wheel.warnings)
 
 
 @pytest.mark.slow

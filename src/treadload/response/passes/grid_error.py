@@ -23,6 +23,9 @@ from treadload.response.passes.surface import surface_profile
 
 # Of the rut and of the largest plastic strain: above it a warning tells how to lower it.
 MOST = 0.10
+# Cells across and down that yield, from which on the change from cells of twice the size is an error: below a sphere
+# at 1.4 times the load of first yield, 2 rows, the rut grew 2.5 times on cells of two thirds, while 1 % was stated.
+FEWEST = 4
 # Of the change from cells of twice the size.
 _SHARE = 2 / 3
 # What is left of the box reaches beyond cells of twice the size that take this part of the largest plastic strain, by
@@ -126,8 +129,20 @@ def relative(error: Array, value: Array) -> float:
     return float(error[known[-1]] / value[known[-1]]) if known.size else math.nan
 
 
-def caveats(box: Box, off: tuple[float, float], verdicts: tuple[str, str]) -> Iterator[str]:
-    """What to know of a grid. off: errors of rut and strain, as parts of them. verdicts: on both grids."""
+def caveats(box: Box, off: tuple[float, float], verdicts: tuple[str, str], hardening: Array) -> Iterator[str]:
+    """What to know of a grid.
+
+    off: errors of rut and strain, as parts of them. verdicts: on both grids. hardening: accumulated plastic strain of
+    the cells (nz, ny) after the last pass.
+    """
+    yields = hardening > _YIELDS * max(float(hardening.max()), np.finfo(float).tiny)
+    deep, wide = (int(np.count_nonzero(yields.any(axis=axis))) for axis in (1, 0))
+    if deep and min(deep, wide) < FEWEST:
+        yield (
+            f"what yields is {deep} cells deep and {wide} wide, fewer than the {FEWEST} from which on the error of "
+            "the grid is known: the rut may be off by as much as itself; lower spacing (now "
+            f"{1e3 * box.dy:.3g} mm)"
+        )
     if max(off) > MOST:
         yield (
             f"by cells of twice the size the error of the rut is {100 * off[0]:.0f} % and that of the largest "

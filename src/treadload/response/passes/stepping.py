@@ -120,7 +120,7 @@ def _with_error(
     off = relative(change(*ruts), ruts[0]), relative(change(*strains), strains[0])
     verdicts = told.attrs["verdict"], coarse[2].attrs["verdict"]
     attrs = told.attrs | {"averaging_width": question.mean_over, "error_estimate": HOW}
-    warnings = (*told.warnings, *caveats(fine[0], off, verdicts))
+    warnings = (*told.warnings, *caveats(fine[0], off, verdicts, fine[1][-1].hardening))
     return replace(told, attrs=attrs, warnings=warnings, fields=fields)
 
 

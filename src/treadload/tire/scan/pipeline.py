@@ -256,7 +256,8 @@ def _without_outliers(
     outliers = sticking.named(mesh, reference, groups, far, middle)
     if not outliers:
         return mesh, []
-    are_lugs = wanted == "remove" and len(outliers) > sticking.MOST and noise < LARGEST_NOISE
+    has_lugs = unrolling.shallowest_groove(seen.turn, seen.top) > unrolling.SHALLOWEST
+    are_lugs = wanted == "remove" and len(outliers) > sticking.MOST and noise < LARGEST_NOISE and has_lugs
     if wanted == "keep" or are_lugs:
         return replace(mesh, vertices=far.undone(mesh.vertices)), outliers
     if wanted == "refuse" or len(outliers) > sticking.MOST:
