@@ -25,7 +25,7 @@ HEADER = ("rolling", "half-space, s", "ν = 0.47, s", "belt, s", "belt/half-spac
 
 def rolling(spacing):
     """The example tire as three bodies; yields rows, and what was solved last on the belt."""
-    belt = tl.Belt.from_library("315/80R22.5")
+    belt = tl.tire.Belt.from_library("315/80R22.5")
     belted = tl.Tire.from_scan(tl.example_mesh(), inflation_pressure=INFLATION, belt=belt)
     solid = replace(belted, belt=None, material=tl.Elastic(3e6, 0.5))
     tires = (solid, replace(solid, material=tl.Elastic(3e6, 0.47)), belted)
@@ -44,7 +44,7 @@ def rolling(spacing):
 def kernels(spacing, shape):
     """Kernels of the belt and its tread layer on a grid, from nothing: a row each, in convolutions of that grid."""
     inflated = tl.Tire.from_profile(
-        "315/80R22.5", inflation_pressure=INFLATION, belt=tl.Belt.from_library("315/80R22.5")
+        "315/80R22.5", inflation_pressure=INFLATION, belt=tl.tire.Belt.from_library("315/80R22.5")
     ).carcass
     influence = Influence(shape, spacing, spacing, belt_surface(inflated))
     at = Offsets(*influence.padding.quadrant, spacing, spacing)

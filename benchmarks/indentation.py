@@ -49,12 +49,12 @@ def ours(multiple: float, n: int, layers: int, *, jump: bool) -> tuple[float, fl
     gap = (across[None] ** 2 + across[:, None] ** 2) / (2 * RADIUS)
     ball = tl.Tire.from_height_map(gap, dx, material=tl.Elastic(MODULUS * 1e6, 0.3))
     law = VonMises(YIELD, hardening=HARDENING)
-    road = tl.Pavement.half_space(tl.ElastoPlastic(tl.Elastic(MODULUS, POISSON), law))
+    road = tl.Pavement.half_space(tl.materials.ElastoPlastic(tl.Elastic(MODULUS, POISSON), law))
 
     taken = []
     for _ in range(4):
         began = time.process_time()
-        done = tl.solve_indentation(ball, road, [multiple * LOAD], depth=DEEP * radius, layers=layers)
+        done = tl.contact.solve_indentation(ball, road, [multiple * LOAD], depth=DEEP * radius, layers=layers)
         taken.append(time.process_time() - began)
     return min(taken[1:]), float(done.dataset.peak_pressure[0]) / YIELD
 

@@ -48,7 +48,7 @@ def solved(loads, depths, x, y, road=ROAD, accuracy=synthesis.FULL):
 FINER = synthesis.Accuracy(40.0, 1e-7, 12, 15)
 FINE = {
     (wavenumbers, "_POINTS"): 21,
-    (wavenumbers, "_FEW"): 12,
+    (wavenumbers, "_LEAST_POINTS"): 12,
     (wavenumbers, "_STEP"): 0.1,
     (synthesis, "_MORE"): 0.9,
 }

@@ -12,7 +12,7 @@ import numpy as np
 from timing import print_table
 
 import treadload as tl
-from treadload.study import solve_passages
+from treadload.life import solve_passages
 
 GOAL = 8.0
 TIRE = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
@@ -24,9 +24,9 @@ CRITERIA = (
 )
 CLIMATE = tl.damage.Climate.equal_parts([2.0, 3.0, 7.0, 11.0, 16.0, 21.0, 24.0, 23.0, 18.0, 12.0, 6.0, 3.5])
 MANEUVERS = (
-    ("straight", tl.Maneuver(), 0.90),
-    ("braking", tl.Maneuver.braking(2.0), 0.07),
-    ("turning", tl.Maneuver.turning(40.0, 8.0), 0.03),
+    ("straight", tl.contact.Maneuver(), 0.90),
+    ("braking", tl.contact.Maneuver.braking(2.0), 0.07),
+    ("turning", tl.contact.Maneuver.turning(40.0, 8.0), 0.03),
 )
 SINGLE, DUAL = ((0.0, 0.0),), ((0.0, -0.17), (0.0, 0.17))
 TANDEM = tuple((x, y) for x in (-0.655, 0.655) for _, y in DUAL)
@@ -57,13 +57,13 @@ def traffic():
 
 def check():
     """Largest error of readings and lives that the interpolation leaves, over all classes; cells of 12 mm."""
-    asked = {"spacing": 12e-3, "workers": 2}
-    exact = solve_passages(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, tolerance=0.0, **asked)
-    few = solve_passages(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, **asked)
+    asked = {"spacing": 12e-3}
+    exact = solve_passages(tl.Design(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, tolerance=0.0, **asked), workers=2)
+    few = solve_passages(tl.Design(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, **asked), workers=2)
     largest = exact.readings.max(("turn", "y"))
     apart = abs(few.readings.max(("turn", "y")) - largest) / largest
     lives = [
-        tl.study.solve_life(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, tolerance=t, **asked)
+        tl.solve_life(tl.Design(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, tolerance=t, **asked), workers=2)
         .dataset["life_years"]
         .to_numpy()
         for t in (0.0, 5e-3)
@@ -78,7 +78,7 @@ def check():
 
 def main():
     began, spent = time.perf_counter(), time.process_time()
-    life = tl.study.solve_life(TIRE, ROAD, traffic(), CLIMATE, CRITERIA, workers=2)
+    life = tl.solve_life(tl.Design(TIRE, ROAD, traffic(), CLIMATE, CRITERIA), workers=2)
     seconds, processor = time.perf_counter() - began, time.process_time() - spent
     stats = life.stats
     row = (

@@ -37,8 +37,8 @@ from timing import print_table  # noqa: E402
 
 import treadload as tl  # noqa: E402
 from treadload.kernels.layers import synthesis  # noqa: E402
+from treadload.life import contacts, passage  # noqa: E402
 from treadload.response import layered, several  # noqa: E402
-from treadload.study import contacts, passage  # noqa: E402
 
 DESIGN = Path(__file__).parents[1] / "examples" / "design_life" / "design.toml"
 STAGES = (
@@ -78,11 +78,11 @@ def main(spacing=None):
     watch = Stopwatch()
     for stage, owner, name in STAGES:
         setattr(owner, name, watch.around(stage, getattr(owner, name)))
-    case = tl.LifeCase.from_toml(DESIGN)
+    case = tl.Case.from_toml(DESIGN)
     if spacing is not None:
         case = case.model_copy(update={"spacing": spacing})
     began = time.process_time()
-    result = tl.run_life(case, workers=2)
+    result = tl.run(case, workers=2)
     whole = time.process_time() - began
     rows = [(stage, watch.calls[stage], watch.spent[stage]) for stage, _, _ in STAGES]
     rows += [("rest", "", whole - sum(watch.spent.values())), ("all", "", whole)]

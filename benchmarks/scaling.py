@@ -84,8 +84,8 @@ def life(n):
     share = sum(each.share for each in three)
     few = replace(traffic, classes=tuple(replace(each, share=each.share / share) for each in three))
     climate = tl.damage.Climate.equal_parts([3.0, 12.0, 24.0])
-    asked = {"spacing": SIDE / n, "workers": 1}
-    return lambda: tl.study.solve_life(benchmark.TIRE, benchmark.ROAD, few, climate, benchmark.CRITERIA, **asked)
+    parts = benchmark.TIRE, benchmark.ROAD, few, climate, benchmark.CRITERIA
+    return lambda: tl.solve_life(tl.Design(*parts, spacing=SIDE / n), workers=1)
 
 
 def one(what, n):

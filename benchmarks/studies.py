@@ -60,7 +60,7 @@ def small(folder, count):
     solving = study.stats["seconds"]
     size = sum(file.stat().st_size for file in (folder / "small.zarr").rglob("*")) / 1e6
     began = time.perf_counter()
-    tl.study.open_sweep(folder / "small.zarr")
+    tl.sweeps.open_sweep(folder / "small.zarr")
     opening = time.perf_counter() - began
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
     row = (study.stats["solved"], seconds, processor, 1e3 * (seconds - solving) / count, memory, size, opening)

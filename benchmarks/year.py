@@ -13,9 +13,9 @@ from pathlib import Path
 from timing import print_table
 
 import treadload as tl
-from treadload.study.contacts import Contacts
-from treadload.study.life import solve_life
-from treadload.study.sensitivity import life_sensitivity
+from treadload.life.sensitivity import life_sensitivity
+from treadload.life.solve import solve_life
+from treadload.steps.design import design_of
 
 DESIGN = Path(__file__).parents[1] / "examples" / "design_life" / "design.toml"
 GOALS = {"life": 20.0, "sensitivities": 60.0}
@@ -47,7 +47,7 @@ def case():
         'layer = "EB-BBSG3"\nplace = "top"\n'
         for number, (reads, limit) in enumerate(READS.items())
     )
-    return tl.LifeCase.from_text(DESIGN.read_text(encoding="utf-8") + more)
+    return tl.Case.from_text(DESIGN.read_text(encoding="utf-8") + more)
 
 
 def timed(solve):
@@ -57,14 +57,11 @@ def timed(solve):
 
 
 def main():
-    asked = case()
-    tire, road = asked.build_tire(), asked.build_road()
-    shared = {"spacing": asked.spacing, "workers": 2, "contacts": Contacts(tire, asked.spacing)}
-    given = asked.build_traffic(), asked.build_climate(), asked.build_criteria()
-    life, seconds, processor = timed(lambda: solve_life(tire, road, *given, tolerance=asked.tolerance, **shared))
+    design = design_of(case())
+    life, seconds, processor = timed(lambda: solve_life(design, workers=2))
     rows = [("life", life.stats["contacts"], life.stats["responses"], seconds, processor)]
     if "--sensitivities" in sys.argv:
-        _, seconds, processor = timed(lambda: life_sensitivity(tire, road, life, **shared))
+        _, seconds, processor = timed(lambda: life_sensitivity(design, life, workers=2))
         rows.append(("sensitivities", "", "", seconds, processor))
     rows = [(*row, GOALS[row[0]], "kept" if row[3] <= GOALS[row[0]] else "MISSED") for row in rows]
     header = ("what", "contacts", "responses", "seconds", "processor", "goal", "")

@@ -35,8 +35,11 @@ def main() -> None:
                 page.set_default_timeout(PATIENCE)
                 page.goto(address)
                 _solved(page, "1")
-                page.get_by_label("Road", exact=True).first.click()
-                page.get_by_role("option", name="a structure of the catalogue").click()
+                # The second is the pavement's.
+                page.get_by_label("Given by", exact=True).nth(1).click()
+                page.get_by_role("option", name="structure").click()
+                # No tooltip in the picture.
+                page.mouse.move(640, 5)
                 _solved(page, "2")
                 for name, width, height, dark in PICTURES:
                     _take(page, IMAGES / f"{name}.png", width, height, dark)

@@ -24,7 +24,7 @@ ROAD = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 LOAD, PRESSURE, FRICTION = 32.5e3, 820e3, 0.7
 # Of asphalt on asphalt once the bond is gone, assumed.
 RUBBING = 0.6
-BRAKING = tl.Maneuver.braking(4.0)
+BRAKING = tl.contact.Maneuver.braking(4.0)
 UPPER = tl.damage.InterfaceStrength.leutner_minimum("wearing")
 LOWER = tl.damage.InterfaceStrength(50e3, math.radians(35))
 FATIGUE = tl.damage.ShearFatigue(slope=-0.1)
@@ -50,7 +50,7 @@ def main(folder: Path, spacing: float = 6e-3, step: float = 9e-3) -> dict[str, f
     contact = tl.solve_contact(tire, road, BRAKING.rolling(LOAD, FRICTION), spacing=spacing)
     half = np.arange(step / 2, 0.45, step)
     points = np.concatenate([-half[::-1], half])
-    fields = tl.study.solve_interfaces(contact, road, x=points, y=points)
+    fields = tl.life.solve_interfaces(contact, road, x=points, y=points)
     verdict = tl.damage.assess_bonds(fields, (UPPER, LOWER), FATIGUE)
     print(verdict.summary())
     save(bond_utilisation(verdict, contact=contact), folder / "utilisation.png")
@@ -68,11 +68,12 @@ def main(folder: Path, spacing: float = 6e-3, step: float = 9e-3) -> dict[str, f
         extension[name] = 1e6 * float(below["in_plane_strain_1"].max())
     told = ", ".join(f"{name} {value:.0f}" for name, value in extension.items())
     print(f"\nlargest extension below the wearing course (microstrain): {told}")
-    rubs = tl.study.solve_interfaces(contact, tl.damage.delaminate(road, 0, faces["rubbing"]), x=points, y=points)
+    rubs = tl.life.solve_interfaces(contact, tl.damage.delaminate(road, 0, faces["rubbing"]), x=points, y=points)
     save(sliding(rubs, contact=contact), folder / "sliding.png")
 
-    compared = tl.study.compare_bonds(
-        tire, ROAD, TRAFFIC, tl.damage.Climate.constant(TEMPERATURE), CRITERIA, spacing=spacing, interface=0
+    compared = tl.life.compare_bonds(
+        tl.Design(tire, ROAD, TRAFFIC, tl.damage.Climate.constant(TEMPERATURE), CRITERIA, spacing=spacing),
+        interface=0,
     )
     print()
     print(compared.summary())

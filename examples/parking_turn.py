@@ -33,7 +33,7 @@ def turned(spacing: float, increments: int) -> tuple[TurnResult, TurnResult]:
     return right, turn_on_the_spot(tire, ROAD, STANDING, angles=to_and_fro, spacing=2 * spacing)
 
 
-def extension(contact: tl.Contact) -> tl.Response:
+def extension(contact: tl.contact.Contact) -> tl.response.Response:
     """Stress and strain at the surface."""
     return tl.solve_response(contact, ROAD, depths=[0.0])
 

@@ -46,19 +46,19 @@ def plate(diameter: float, cells: int) -> tl.Tire:
     return tl.Tire.from_height_map(np.where(inside, 0.0, np.nan), spacing, material=STEEL, name="plate")
 
 
-def press(diameter: float, cells: int, compliance: str) -> tl.Contact:
+def press(diameter: float, cells: int, compliance: str) -> tl.contact.Contact:
     """The plate under 0.25 MPa, without friction."""
     load = tl.Rolling(normal_load=0.25e6 * np.pi * diameter**2 / 4, friction=0.0)
     return tl.solve_contact(plate(diameter, cells), ROAD, load, road_compliance=compliance)
 
 
-def apparent_modulus(contact: tl.Contact, diameter: float) -> float:
+def apparent_modulus(contact: tl.contact.Contact, diameter: float) -> float:
     """Modulus in Pa of the half-space that settles as much; the steel's own compliance is 0.1 % of it."""
     data = contact.dataset
     return float((1 - POISSON**2) * data.normal_load / (diameter * data.approach))
 
 
-def wheel_contact(material: tl.Elastic) -> tl.Contact:
+def wheel_contact(material: tl.Elastic) -> tl.contact.Contact:
     """A ball as wide as it takes for a contact of some 100 mm under 5 kN, on the road as a half-space."""
     stone = ROAD.surface_material
     yielding = (1 - material.poisson**2) / material.modulus + (1 - stone.poisson**2) / stone.modulus

@@ -21,13 +21,13 @@ from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
 from treadload.validation.grain import axes_of, hertz_on_grain
 
 STEEL = tl.Elastic(210e9, 0.3)
-LAMINATE = tl.Orthotropic((130e9, 10e9, 10e9), (5e9, 5e9, 3.5e9), (0.3, 0.3, 0.4))
+LAMINATE = tl.materials.Orthotropic((130e9, 10e9, 10e9), (5e9, 5e9, 3.5e9), (0.3, 0.3, 0.4))
 LEAN, SHOWN = 20.0, 40.0  # degrees: fibres dive, and are turned from travel to the right in the left figure
 RADIUS, LOAD, FRICTION, DRIVE = 0.1, 3e3, 0.4, 600.0  # m, N, -, N
 TURNS = tuple(range(0, 181, 15))
 
 
-def laminate(turn: float) -> tl.Orthotropic:
+def laminate(turn: float) -> tl.materials.Orthotropic:
     """The laminate with fibres that dive forwards, and are turned from travel to the right, degrees."""
     return LAMINATE.rotated(yaw=np.radians(turn), pitch=-np.radians(LEAN))
 

@@ -34,7 +34,7 @@ DRIVING = tl.Rolling(normal_load=32.5e3, friction=0.7, creepage_x=-0.03)
 DISTANCE = 1.2
 
 
-def started(spacing: float, step: float) -> tuple[TransientResult, tl.Contact]:
+def started(spacing: float, step: float) -> tuple[TransientResult, tl.contact.Contact]:
     """The start in equal steps, m, and steady rolling of the same creepage."""
     tire = tl.Tire.from_profile("315/80R22.5", material=tl.Elastic(3e6, 0.5))
     distances = step * np.arange(1, round(DISTANCE / step) + 1)
@@ -43,7 +43,7 @@ def started(spacing: float, step: float) -> tuple[TransientResult, tl.Contact]:
 
 
 @styled
-def draw_force(start: TransientResult, steady: tl.Contact) -> Figure:
+def draw_force(start: TransientResult, steady: tl.contact.Contact) -> Figure:
     """Tractive force and share of slip against the distance."""
     figure = new_figure(6.8, 5.4)
     above, below = figure.subplots(2, 1, sharex=True)

@@ -46,15 +46,8 @@ class Elements:
         return cls(np.stack([r.ravel(), z.ravel()], axis=-1), corners.reshape(-1, 4))
 
     def __post_init__(self):
-        at = self.places[self.corners]
-        s, t = (one.ravel() for one in np.meshgrid(_GAUSS, _GAUSS))
-        sign_s, sign_t = np.array([-1, 1, 1, -1]), np.array([-1, -1, 1, 1])
-        shape = 0.25 * (1 + s[:, None] * sign_s) * (1 + t[:, None] * sign_t)
-        slope = 0.25 * np.stack([sign_s * (1 + t[:, None] * sign_t), sign_t * (1 + s[:, None] * sign_s)])
-        jacobian = np.einsum("kgn,end->egkd", slope, at)
-        local = np.linalg.solve(jacobian, np.broadcast_to(np.moveaxis(slope, 1, 0), (*jacobian.shape[:2], 2, 4)))
-        radius = np.einsum("gn,en->eg", shape, at[..., 0])
-        self.volumes = 2 * np.pi * radius * np.abs(np.linalg.det(jacobian))
+        shape, local, radius, area = at_gauss_points(self.places[self.corners])
+        self.volumes = 2 * np.pi * radius * area
         b = np.zeros((*radius.shape, 4, 8))
         b[..., 0, ::2], b[..., 1, 1::2] = local[..., 0, :], local[..., 1, :]
         b[..., 2, ::2] = shape / radius[..., None]
@@ -83,6 +76,21 @@ class Elements:
         blocks = np.einsum("egnd,egdm->enm", both, self.strains)
         size = self.places.size
         return coo_matrix((blocks.ravel(), (self.at_rows, self.at_columns)), shape=(size, size)).tocsc()
+
+
+def at_gauss_points(corners):
+    """Quadrilaterals of four nodes at their Gauss points. corners: (elements, 4, 2), r and z.
+
+    Returns the shape functions (4, nodes), their slopes (elements, 4, 2, nodes), radii and areas (elements, 4).
+    """
+    s, t = (grid.ravel() for grid in np.meshgrid(_GAUSS, _GAUSS))
+    sign_s, sign_t = np.array([-1, 1, 1, -1]), np.array([-1, -1, 1, 1])
+    shape = 0.25 * (1 + s[:, None] * sign_s) * (1 + t[:, None] * sign_t)
+    slope = 0.25 * np.stack([sign_s * (1 + t[:, None] * sign_t), sign_t * (1 + s[:, None] * sign_s)])
+    jacobian = np.einsum("kgn,end->egkd", slope, corners)
+    local = np.linalg.solve(jacobian, np.broadcast_to(np.moveaxis(slope, 1, 0), (*jacobian.shape[:2], 2, 4)))
+    radius = np.einsum("gn,en->eg", shape, corners[..., 0])
+    return shape, local, radius, np.abs(np.linalg.det(jacobian))
 
 
 def elastic(modulus, poisson):
@@ -201,54 +209,3 @@ def _shares(edges):
     area[:-1] += inner
     area[1:] += outer
     return area
-
-
-def mean_strain_of_a_sphere(depth, poisson, contrast, rows, columns, inner):
-    """Mean strain rr and zz of a sphere of radius 1 in a half-space of modulus 1 under equal tensions of 1 along it.
-
-    depth: of its centre. contrast: of its modulus, 0 of a void. Elements in bispherical coordinates, which fit plane
-    and sphere: rows between them, columns round the axis, inner ones to the sphere's centre. What the sphere changes
-    of the uniform stress is solved for; it is held 100 radii away.
-    """
-    end = np.arccosh(depth)
-    size, far = np.sinh(end), 0.02
-
-    def towards_infinity(last, count):
-        at = last * np.sinh(5.0 * np.linspace(0, 1, count + 1)) / np.sinh(5.0)
-        return np.concatenate([[0.0, far], at[at > 1.1 * far]])
-
-    eta, xi = np.meshgrid(towards_infinity(end, rows), towards_infinity(np.pi, columns), indexing="ij")
-    below = np.cosh(eta) - np.cos(xi)
-    below[0, 0] = 1.0
-    r, z = size * np.sin(xi) / below, size * np.sinh(eta) / below
-    r[:, [0, -1]] = 0.0
-    # The node at infinity makes one square element of its three neighbours, which are held.
-    r[0, 0], z[0, 0] = r[0, 1], z[1, 0]
-    shrinks = np.append(np.linspace(1, 0, inner + 1)[1:-1], 1e-3)[:, None]
-    outer = len(r) - 1
-    r, z = np.vstack([r, shrinks * r[-1]]), np.vstack([z, depth + shrinks * (z[-1] - depth)])
-    body, number = Elements.rows(r, z), np.arange(r.size).reshape(r.shape)
-    inside = np.repeat(np.arange(len(r) - 1) >= outer, r.shape[1] - 1)
-    matrix, sphere = elastic(1.0, poisson), elastic(max(contrast, 1e-9), poisson)
-    alone = np.array([1 - poisson, -2 * poisson, 1 - poisson, 0.0])
-    stress = np.where(inside[:, None], (matrix - sphere) @ alone, 0.0)
-    force = body.forces(np.repeat(stress[:, None], 4, axis=1))
-    tangent = np.where(inside[:, None, None], sphere, matrix)
-    stiff = body.stiffness(np.repeat(tangent[:, None], 4, axis=1))
-    held = np.zeros(2 * r.size, bool)
-    held[2 * number[:, [0, -1]]] = True
-    corner = number[:2, :2]
-    held[2 * corner], held[2 * corner + 1] = True, True
-    moved = np.zeros(2 * r.size)
-    moved[~held] = splu(stiff[~held][:, ~held].tocsc()).solve(force[~held])
-    # Of the sphere's face, as a void has no strain of its own: the mean of sym(u n) over it.
-    face, mean = number[outer], np.zeros(2)
-    angle = np.arctan2(r[outer], z[outer] - depth)
-    for point, weight in zip(*np.polynomial.legendre.leggauss(3), strict=True):
-        part = 0.5 * (1 + point)
-        at = angle[:-1] + part * np.diff(angle)
-        out, down = ((1 - part) * moved[2 * face + k][:-1] + part * moved[2 * face + k][1:] for k in (0, 1))
-        area = np.pi * weight * np.sin(at) * np.abs(np.diff(angle))
-        mean += [(0.5 * out * np.sin(at) * area).sum(), (down * np.cos(at) * area).sum()]
-    mean = mean / (4 / 3 * np.pi) + alone[:2]
-    return float(mean[0]), float(mean[1])

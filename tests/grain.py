@@ -5,10 +5,10 @@ import numpy as np
 import treadload as tl
 
 # Contrast 3 with no plane of symmetry left in the axes of the road.
-STRAIGHT = tl.Orthotropic((3e9, 1.5e9, 1e9), (0.6e9, 0.5e9, 0.4e9), (0.3, 0.3, 0.3))
+STRAIGHT = tl.materials.Orthotropic((3e9, 1.5e9, 1e9), (0.6e9, 0.5e9, 0.4e9), (0.3, 0.3, 0.3))
 TILTED = STRAIGHT.rotated(*np.radians([40, 34, 20]))
 # One stiff axis, leaning by 34° and turned by 40°: contrast 4.
-LEANING = tl.Orthotropic((1e9, 1e9, 4e9), (0.4e9, 0.45e9, 0.45e9), (0.25, 0.0625, 0.0625)).rotated(
+LEANING = tl.materials.Orthotropic((1e9, 1e9, 4e9), (0.4e9, 0.45e9, 0.45e9), (0.25, 0.0625, 0.0625)).rotated(
     yaw=np.radians(40), pitch=np.radians(34)
 )
 

@@ -17,9 +17,9 @@ ten left are no fault that a result could show:
     contact/solvers/tangential.py:117, strict=True of a zip of equal lengths
     contact/solvers/marching.py:212, contact/bodies/body.py:85, another start, another preconditioner: the same answer
     contact/bodies/influence.py:160, the sign of an odd kernel in the row where it is zero
-    damage/miner.py:295, study/climate.py:48, response/moving.py:266, an equality of reals
+    damage/miner.py:295, life/climate.py:48, response/moving.py:266, an equality of reals
     response/moving.py:223, the lower end of a bisection; response/material.py:30, one sample more of a cell's cover
-    study/delamination.py:170, no traffic over 1 or over 1.5
+    life/delamination.py:170, no traffic over 1 or over 1.5
 
 What the draw found: a criterion could not read the energy of a passage, a history above a frictionless interface was
 refused without friction too, and steps of splitting were counted of the last round alone.
@@ -56,7 +56,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCE = ROOT / "src" / "treadload"
-ROOMS = ("contact", "response", "damage", "study")
+ROOMS = ("contact", "response", "damage", "life")
 CACHE = Path(tempfile.gettempdir()) / "treadload-mutants"
 
 # Tests of one mutant, at most, and their time under the tracer, s: the nearest, and for what these leave the next.

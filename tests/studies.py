@@ -6,12 +6,12 @@ import numpy as np
 
 from cases import COARSE_CASE
 from treadload.case import Case
-from treadload.study.sweeps import Sweep, open_sweep
-from treadload.study.sweeps.design import product
-from treadload.study.sweeps.gathered import gathered, with_fields
-from treadload.study.sweeps.record import Record
-from treadload.study.sweeps.store import about, begun
-from treadload.study.sweeps.work import Question
+from treadload.sweeps import Sweep, open_sweep
+from treadload.sweeps.design import product
+from treadload.sweeps.gathered import gathered, with_fields
+from treadload.sweeps.record import Record
+from treadload.sweeps.store import about, begun
+from treadload.sweeps.work import Question
 
 CASE = Case.from_text(COARSE_CASE)
 FREE = Case.from_text(COARSE_CASE.replace('tractive_force = "10 kN"', ""))
@@ -52,7 +52,7 @@ def stored(path, design, solve, case=CASE):
 
 
 def question(case):
-    return Question("Case", case.given(), Path("."), ())
+    return Question(case.as_tables(), Path("."), ())
 
 
 def wheel(friction=0.7, normal_load=3e4, creepage_x=-0.01, **_):

@@ -12,6 +12,7 @@ import xarray as xr
 
 import treadload
 import treadload as tl
+from treadload.registry import STEPS
 
 ROOT = Path(treadload.__file__).parent
 
@@ -25,9 +26,11 @@ LEAVES = (
     "plausible",
     "files",
     "describing",
-    "accessors",
+    "figure_registry",
+    "citations",
     "composing",
     "registry",
+    "rows",
     "named",
     "read",
     "metrology",
@@ -46,7 +49,9 @@ ORDER = (
     ("footprint",),
     ("case",),
     ("results",),
-    ("study",),
+    ("life", "calibration"),
+    ("steps",),
+    ("sweeps",),
     ("validation",),
     ("plots",),
     ("reporting",),
@@ -62,17 +67,17 @@ LAZY = "_public.py"
 # Third-party package: the only places that may import it.
 ONLY_IN = {
     "matplotlib": ("plots", "reporting"),
-    "dask": ("study",),
-    "distributed": ("study",),
-    "zarr": ("study",),
-    "SALib": ("study",),
+    "dask": ("sweeps",),
+    "distributed": ("sweeps",),
+    "zarr": ("sweeps",),
+    "SALib": ("sweeps",),
     "pyarrow": ("results",),
     "trimesh": ("tire",),
     "embreex": ("tire",),
     "skimage": ("tire",),
     "SurfaceTopography": ("metrology",),
     "pint": ("units",),
-    "pydantic": ("read", "case"),
+    "pydantic": ("read", "case", "steps"),
     "openpyxl": ("results",),
     "typer": ("cli",),
     "rich": ("cli",),
@@ -168,7 +173,7 @@ def test_a_circle_would_be_seen():
     assert not circles({"a": {"b", "c"}, "b": {"c"}, "c": set()})
 
 
-INNER = ["kernels", "contact", "damage", "plots", "results", "catalogue", "study", "tire"]
+INNER = ["kernels", "contact", "damage", "plots", "results", "catalogue", "life", "tire"]
 
 
 @pytest.mark.parametrize("package", INNER)
@@ -232,6 +237,29 @@ def test_the_command_line_and_the_app_contain_no_mechanics(path):
     assert "kernels" not in own_imports(path)
 
 
+# Functions with more than eight parameters outside the kernels: options of commands, keys of a law in a case, readers
+# of files, and verbs. The number may fall, not rise.
+MANY_PARAMETERS, FUNCTIONS_WITH_MANY = 8, 24
+
+
+def functions_with_many_parameters():
+    functions = []
+    for path in MODULES:
+        if package_of(path) == "kernels":
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                arguments = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+                if len([one for one in arguments if one.arg not in ("self", "cls")]) > MANY_PARAMETERS:
+                    functions.append(f"{name_of(path)}:{node.name}")
+    return functions
+
+
+def test_few_functions_have_many_parameters():
+    """A function with more lacks an object that means something in the field."""
+    assert len(functions_with_many_parameters()) <= FUNCTIONS_WITH_MANY
+
+
 def loaded_after(statement):
     """Names of the top-level modules in a fresh interpreter after a statement."""
     code = f"import sys; {statement}; print(*sorted({{name.split('.')[0] for name in sys.modules}}))"
@@ -260,6 +288,47 @@ def test_no_public_name_hides_a_module():
         assert getattr(treadload, name).__name__ == f"treadload.{name}"
 
 
+# Rooms that render what steps make: none of them may list steps, except where a reason stands.
+RENDERS = ("app", "plots", "reporting", "cli", "sweeps", "results")
+LISTS_OF_STEPS = {
+    "reporting/build.py": "titles of reports of results that come without a case",
+    "reporting/inputs.py": "headings of the tables of a case in a report",
+    "reporting/reading.py": "groups of an opened file that have tables of their own in a report",
+    "reporting/tables.py": "the columns that set several cases side by side",
+    "cli/exports.py": "what a grid of VTK can hold",
+    "sweeps/work.py": "keys of a case that its contact does not depend on, by which workers share contacts",
+}
+
+
+def lists_of_steps(source, names, least=2):
+    """Lines of lists, tuples, sets and tables that hold so many names of steps."""
+    for node in ast.walk(ast.parse(source)):
+        members = node.elts if isinstance(node, ast.List | ast.Tuple | ast.Set) else getattr(node, "keys", ())
+        held = [one for one in members if isinstance(one, ast.Constant) and one.value in names]
+        if len(held) >= least:
+            yield node.lineno
+
+
+def test_no_room_that_renders_lists_the_steps():
+    """A step is registered where it is defined; a page names none, others two or more with a reason only."""
+    names = set(STEPS.built_in())
+    for path in MODULES:
+        if package_of(path) in RENDERS:
+            least = 1 if package_of(path) == "app" else 2
+            lines = list(lists_of_steps(path.read_text(encoding="utf-8"), names, least))
+            if name_of(path) in LISTS_OF_STEPS:
+                assert lines, f"{name_of(path)} lists no steps any more: take it from LISTS_OF_STEPS"
+            else:
+                assert not lines, f"{name_of(path)} lists steps on lines {lines}"
+
+
+def test_a_list_of_steps_would_be_seen():
+    names = {"contact", "damage"}
+    assert list(lists_of_steps("a = 1\nb = ['contact', 'damage']", names)) == [2]
+    assert list(lists_of_steps("b = {'contact': 1, 'damage': 2}", names)) == [1]
+    assert not list(lists_of_steps("b = ('contact', 'x')", names))
+
+
 PAGE = Path(__file__).parents[1] / "docs" / "explanation" / "architecture.md"
 
 
@@ -286,7 +355,7 @@ def rooms_of_fields(job, shape):
             return any(is_field(one) for one in value)
         if isinstance(value, np.ndarray):
             return value.shape[-2:] == shape
-        return isinstance(value, xr.Dataset | xr.DataArray | tl.Contact)
+        return isinstance(value, xr.Dataset | xr.DataArray | tl.contact.Contact)
 
     def look(frame, event, value):
         code = frame.f_code
@@ -316,3 +385,54 @@ def test_the_walk_of_a_gap_enters_ten_rooms_at_most():
     # Leaves are no rooms, those of the kernels neither: the array library transforms and carries what they hand it.
     # The closed forms of a body are of distances, which have a shape of their own.
     assert rooms - {".", "kernels"} == set(told) - {"kernels/half_space"}
+
+
+PARSING = {"split", "splitlines", "partition", "rpartition", "startswith", "endswith", "find", "index", "replace",
+           "removeprefix", "removesuffix", "match", "fullmatch", "search", "findall", "finditer", "sub"}  # fmt: skip
+
+
+def parsed_summaries(tree):
+    """Lines on which the text of a summary, or a name that holds one, is cut, searched or indexed."""
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    for scope in functions or [tree]:
+        names = set()
+        for node in ast.walk(scope):
+            if isinstance(node, ast.Assign) and is_summary(node.value, names):
+                names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
+        for node in ast.walk(scope):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in PARSING:
+                if any(is_summary(part, names) for part in (node.func.value, *node.args)):
+                    yield node.lineno
+            elif isinstance(node, ast.Subscript) and is_summary(node.value, names):
+                yield node.lineno
+
+
+def is_summary(expression, names):
+    """True where an expression makes the text of a summary, or names one."""
+    for part in ast.walk(expression):
+        if isinstance(part, ast.Call):
+            called = getattr(part.func, "attr", getattr(part.func, "id", ""))
+            if called in ("summary", "as_text"):
+                return True
+        if getattr(part, "value", None) == "summary" or getattr(part, "id", "") in names:
+            return True
+    return False
+
+
+def test_no_text_of_a_summary_is_parsed():
+    """Numbers are taken from `rows()`; a summary is printed, never read."""
+    found = [
+        f"{name_of(path)}:{line}"
+        for path in sources()
+        for line in parsed_summaries(ast.parse(path.read_text(encoding="utf-8")))
+    ]
+    assert not found, f"take the rows of the result in place of its summary: {', '.join(found)}"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["r.summary().splitlines()[4]", "re.search('x', r.summary())", "text = r.summary()\nline = text.split()",
+     "attrs.get('summary').partition(':')"],
+)  # fmt: skip
+def test_a_summary_that_is_parsed_is_seen(text):
+    assert list(parsed_summaries(ast.parse(text)))

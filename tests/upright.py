@@ -7,10 +7,10 @@ from treadload.pavement.stack import medium_of, plane_of, upright_of
 
 # Decays of the waves: a complex pair for compacted asphalt, real ones for the others, far apart and near each other.
 MATERIALS = {
-    "compacted asphalt": tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25),
-    "unbound, E_v = 2 E_h": tl.TransverselyIsotropic(150e6, 300e6, 120e6, 0.35, 0.3),
-    "weak in shear": tl.TransverselyIsotropic(9e9, 3e9, 0.4e9, 0.2, 0.1),
-    "nearly isotropic": tl.TransverselyIsotropic(5.0e9, 5.01e9, 1.853e9, 0.35, 0.349),
+    "compacted asphalt": tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25),
+    "unbound, E_v = 2 E_h": tl.materials.TransverselyIsotropic(150e6, 300e6, 120e6, 0.35, 0.3),
+    "weak in shear": tl.materials.TransverselyIsotropic(9e9, 3e9, 0.4e9, 0.2, 0.1),
+    "nearly isotropic": tl.materials.TransverselyIsotropic(5.0e9, 5.01e9, 1.853e9, 0.35, 0.349),
 }
 
 
@@ -25,7 +25,7 @@ def decays(material):
 def nearly(material, part):
     """An isotropic material whose moduli are split by a part."""
     shear = material.modulus / (2 * (1 + material.poisson))
-    return tl.TransverselyIsotropic(
+    return tl.materials.TransverselyIsotropic(
         material.modulus * (1 + part),
         material.modulus * (1 - part),
         shear * (1 + 0.5 * part),

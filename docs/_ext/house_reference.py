@@ -34,12 +34,35 @@ class Api(SphinxDirective):
         return self.parse_text_to_nodes(entries((self.arguments[0], name) for name in names))
 
 
+class RegisteredFigures(SphinxDirective):
+    """Lists the figures of every class of results: how they are drawn, and what they show."""
+
+    def run(self) -> list[nodes.Node]:
+        """A list a class."""
+        return self.parse_text_to_nodes(registered_figures())
+
+
 class Unlisted(SphinxDirective):
     """Documents what the rooms offer and no page beside this one names: what is new is in the reference."""
 
     def run(self) -> list[nodes.Node]:
         """One entry a name."""
         return self.parse_text_to_nodes(entries(unlisted(Path(self.env.doc2path(self.env.docname)).parent)))
+
+
+def registered_figures() -> str:
+    """The figures that are registered, class by class, as Markdown."""
+    registry = import_module("treadload.figure_registry")
+    classes = import_module("treadload.composing").result_classes()
+    lines: list[str] = []
+    for kind in sorted(classes):
+        figures = registry.figures_of(kind)
+        lines += ["", f"**{kind}**", ""] if figures else []
+        for one in figures:
+            options = ", ".join(list(inspect.signature(one.draw).parameters)[1:])
+            first = (inspect.getdoc(one.draw) or one.name).partition("\n")[0]
+            lines.append(f"- `.plot.{one.name}({options})`: {first}")
+    return "\n".join(lines)
 
 
 def listed(folder: Path) -> list[tuple[str, str]]:
@@ -166,6 +189,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     """What Sphinx calls."""
     app.add_directive("api", Api)
     app.add_directive("unlisted", Unlisted)
+    app.add_directive("figures", RegisteredFigures)
     app.add_directive("rest", Rest)
     app.connect("autodoc-process-docstring", as_fields)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -8,7 +8,7 @@ A structure of the catalogue under two classes of axles and the twelve months of
 import treadload as tl
 
 months = [4, 5, 9, 12, 17, 22, 25, 24, 19, 14, 8, 5]
-case = tl.LifeCase.from_text(f"""
+case = tl.Case.from_text(f"""
 spacing = "16 mm"
 tire = {{ profile = "315/80R22.5" }}
 pavement = {{ structure = "6 BBSG3 / 15 GB3 / PF3" }}
@@ -33,7 +33,7 @@ law = "french-bituminous"
 layer = "EB-GB3"
 risk = "5 %"
 """)
-result = tl.run_life(case, sensitivity=False)
+result = tl.run(case, leave_out=("sensitivity",))
 print(result.summary())
 
 figure = result.life.plot.years()

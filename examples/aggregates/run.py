@@ -24,7 +24,7 @@ def filled(case: tl.Case, loads, road: tl.Pavement, seed: int, mortar: float, sp
     asked = case.aggregates.model_copy(update={"seed": seed})
     window = asked.window
     top = tl.Layer(tl.Elastic(mortar, 0.35), road.layers[0].thickness)
-    return tl.compute_heterogeneous(
+    return tl.response.compute_heterogeneous(
         loads, tl.Pavement([top, *road.layers[1:]]), asked.build(), window=(window.length, window.width),
         depth=window.depth, at=(window.x, window.y), spacing=spacing, bond_strength=asked.bond_strength,
     )  # fmt: skip

@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 from scipy.optimize import nnls
 
 import treadload as tl
+from treadload.calibration import Calibration
 from treadload.footprint import Measured
 from treadload.plots import new_figure, save
 from treadload.plots.kit.style import CASES, open_axes, styled
@@ -28,7 +29,7 @@ DATA = Path(__file__).parent / "load_deflection_335_65R22_5_G275MSA.csv"
 PSI = 6894.757
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 # The tire's file has a free radius of 498.7 mm, the mesh 504.5: shrunk to that, it bears 0.5 % less at a deflection.
-BELTED = tl.Tire.from_scan(tl.example_mesh(), inflation_pressure=95 * PSI, belt=tl.Belt())
+BELTED = tl.Tire.from_scan(tl.example_mesh(), inflation_pressure=95 * PSI, belt=tl.tire.Belt())
 SOLID = replace(BELTED, belt=None, material=tl.Elastic(3e6, 0.5))
 LARGEST = 0.08  # m; the point beyond is not fitted
 
@@ -49,7 +50,7 @@ def load(tire: tl.Tire, approach: float, spacing: float) -> float:
 
 def belted(inflation_pressure: float, foundation: float) -> tl.Tire:
     """The tire on a belt whose sidewalls have this foundation, 1/m."""
-    return replace(BELTED, inflation_pressure=inflation_pressure, belt=replace(tl.Belt(), foundation=foundation))
+    return replace(BELTED, inflation_pressure=inflation_pressure, belt=replace(tl.tire.Belt(), foundation=foundation))
 
 
 def on_belt(rows: np.ndarray, foundation: float, spacing: float) -> np.ndarray:
@@ -62,7 +63,7 @@ def rms(found: np.ndarray, loads: np.ndarray) -> float:
     return float(np.sqrt(np.mean((found / loads - 1) ** 2)))
 
 
-def fit_belt(rows: np.ndarray, spacing: float) -> tl.study.Calibration:
+def fit_belt(rows: np.ndarray, spacing: float) -> Calibration:
     """The foundation of the sidewalls from measured deflections, with its standard deviation."""
     data = [Measured(load=force, deflection=w, inflation_pressure=p) for p, w, force in rows.tolist()]
     return tl.calibrate(BELTED, ["foundation"], data, road=ROAD, spacing=spacing, tolerance=1e-6)

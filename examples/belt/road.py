@@ -13,15 +13,15 @@ from typing import Any
 
 import treadload as tl
 from treadload.damage import AxleClass, Climate, Criterion, FrenchBituminous, FrenchSubgrade, Traffic
+from treadload.life import solve_passages
 from treadload.pavement import bituminous_thickness
 from treadload.plots import compare_strain, save
-from treadload.study import solve_passages
 
 LOAD, FORCE, FRICTION, INFLATION = 32.5e3, 10e3, 0.7, 820e3
 TIRES = {
     "half-space": tl.Tire.from_profile("315/80R22.5", material=tl.Elastic(3e6, 0.5)),
     "belt": tl.Tire.from_profile(
-        "315/80R22.5", inflation_pressure=INFLATION, belt=tl.Belt.from_library("315/80R22.5")
+        "315/80R22.5", inflation_pressure=INFLATION, belt=tl.tire.Belt.from_library("315/80R22.5")
     ),
 }
 WHEELS = {
@@ -82,7 +82,7 @@ def structure(spacing: float) -> dict[str, dict[str, tuple[float, float]]]:
     """Prints what each criterion reads under dual wheels, microstrain, and the passes it allows."""
     road = tl.Pavement.from_catalogue(STRUCTURE)
     dual = ((0.0, -DUAL / 2), (0.0, DUAL / 2))
-    climbing = tl.Maneuver("driving", tractive=FORCE / LOAD)
+    climbing = tl.contact.Maneuver("driving", tractive=FORCE / LOAD)
     rolling = {"free": tl.contact.STRAIGHT, "driving": climbing}
     classes = [
         AxleClass(f"{kind}, {name}", 0.25, LOAD, INFLATION, dual, maneuver, FRICTION, tire=tire)
@@ -91,7 +91,9 @@ def structure(spacing: float) -> dict[str, dict[str, tuple[float, float]]]:
     ]
     rows = criteria(road)
     traffic = Traffic(tuple(classes), passes_per_year=1e5, years=20)
-    found = solve_passages(TIRES["belt"], road, traffic, Climate.constant(TEMPERATURE), rows, spacing=spacing)
+    found = solve_passages(
+        tl.Design(TIRES["belt"], road, traffic, Climate.constant(TEMPERATURE), rows, spacing=spacing)
+    )
     peaks = found.readings.isel(season=0, turn=0).max("y")
     print(f"\n{STRUCTURE} at {TEMPERATURE:g} °C, dual wheels of 32.5 kN, {1e3 * DUAL:g} mm apart")
     print(f"{'microstrain, passes':20s}" + "".join(f"{one.name:>22s}" for one in classes))

@@ -17,12 +17,12 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import treadload as tl
+from treadload.footprint import tire_card
 from treadload.plots import compare_pressure, new_figure, save
 from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
-from treadload.study import tire_card
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
-BELT = tl.Belt.from_library("315/80R22.5")
+BELT = tl.tire.Belt.from_library("315/80R22.5")
 LOAD, INFLATION = 35e3, 820e3
 # The textbook set CityBus_Pac02Tire.tir at 35 kN and 800 kPa, see SOURCE.md: name in a card, words, value in a unit.
 TEXTBOOK = {
@@ -62,12 +62,12 @@ def stiffnesses(spacing: float) -> dict[str, dict[str, float]]:
     return found
 
 
-def print_of(contact: tl.Contact) -> tl.footprint.Footprint:
+def print_of(contact: tl.contact.Contact) -> tl.footprint.Footprint:
     """The computed footprint, to be measured like a recorded one."""
-    return tl.footprint.Footprint(tl.GridLoad.from_dataset(contact))
+    return tl.footprint.Footprint(tl.response.GridLoad.from_dataset(contact))
 
 
-def felt_area(contact: tl.Contact, cells: int) -> float:
+def felt_area(contact: tl.contact.Contact, cells: int) -> float:
     """Area, m², of the sensels that feel anything. cells: of the contact along a side of a sensel."""
     touched = (contact.dataset.pressure > 0).values
     rows, columns = (-size % cells for size in touched.shape)
@@ -76,7 +76,7 @@ def felt_area(contact: tl.Contact, cells: int) -> float:
     return float(blocks.any(axis=(1, 3)).sum()) * cells**2 * contact.cell_area
 
 
-def prints(contacts: dict[str, tl.Contact]) -> dict[str, dict[str, float]]:
+def prints(contacts: dict[str, tl.contact.Contact]) -> dict[str, dict[str, float]]:
     """Prints what the sensor and each tire say of the footprint."""
     print(f"{'35 kN, 820 kPa':36s}{'sensor':>9s}" + "".join(f"{name:>12s}" for name in contacts))
     measures = {name: print_of(contact).measures for name, contact in contacts.items()}
@@ -104,7 +104,7 @@ def prints(contacts: dict[str, tl.Contact]) -> dict[str, dict[str, float]]:
     return {name: {"net": m.net_area, "gross": m.gross_area, "length": m.length} for name, m in measures.items()}
 
 
-def ribs(contact: tl.Contact) -> xr.Dataset:
+def ribs(contact: tl.contact.Contact) -> xr.Dataset:
     """Forces of each rib on the road over the wheel load, and largest stresses.
 
     share, lateral, longitudinal: pressure, q_y and q_x summed over the rib. bulging: q_y summed with the sign that
@@ -127,7 +127,7 @@ def ribs(contact: tl.Contact) -> xr.Dataset:
     return xr.Dataset({n: ("rib", c) for n, c in zip(names, columns, strict=True)}, {"middle": ("rib", middle)})
 
 
-def shear(contacts: dict[str, tl.Contact]) -> dict[str, xr.Dataset]:
+def shear(contacts: dict[str, tl.contact.Contact]) -> dict[str, xr.Dataset]:
     """Prints the shear of free rolling, rib by rib, and the largest stresses in the ratio that de Beer gives."""
     print("free rolling: forces of the tire on the road, thousandths of the load, rib by rib from the left")
     print("(lateral: to the right; out of the rib: away from its own middle; along: in the direction of travel)")
@@ -145,7 +145,7 @@ def shear(contacts: dict[str, tl.Contact]) -> dict[str, xr.Dataset]:
 
 
 @styled
-def sections(contacts: dict[str, tl.Contact]) -> Figure:
+def sections(contacts: dict[str, tl.contact.Contact]) -> Figure:
     """Pressure along the middle rib, load per width across, and lateral shear across."""
     figure = new_figure(10.4, 3.4)
     along, across, sideways = figure.subplots(1, 3)

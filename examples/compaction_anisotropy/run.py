@@ -39,21 +39,21 @@ def roads(grained: tl.Pavement) -> dict[str, tl.Pavement]:
     }
 
 
-def lives(case: tl.LifeCase, variants: dict[str, tl.Pavement]) -> dict[str, tl.damage.Life]:
+def lives(case: tl.Case, variants: dict[str, tl.Pavement]) -> dict[str, tl.damage.Life]:
     """The life of each road under the same traffic; the contact feels none of it and is solved once."""
     given = case.build_tire(), case.build_traffic(), case.build_climate(), case.build_criteria()
     tire, traffic, climate, criteria = given
     return {
-        name: tl.study.solve_life(tire, road, traffic, climate, criteria, spacing=case.spacing)
+        name: tl.solve_life(tl.Design(tire, road, traffic, climate, criteria, spacing=case.spacing))
         for name, road in variants.items()
     }
 
 
-def below_a_wheel(case: tl.LifeCase, variants: dict[str, tl.Pavement]) -> dict[str, dict[str, np.ndarray]]:
+def below_a_wheel(case: tl.Case, variants: dict[str, tl.Pavement]) -> dict[str, dict[str, np.ndarray]]:
     """Strain along travel and down below the middle of one of two wheels, over depth."""
     wheel = tl.Rolling(normal_load=113e3 / 4, friction=0.7)
     contact = tl.solve_contact(case.build_tire(), variants["isotropic"], wheel, spacing=case.spacing)
-    wheels = tl.dual_wheels(contact, SPACING_OF_DUALS)
+    wheels = tl.response.dual_wheels(contact, SPACING_OF_DUALS)
     found = {}
     for name, road in variants.items():
         depths = np.sort([*DEPTHS, *road.interfaces])
@@ -69,7 +69,7 @@ def below_a_wheel(case: tl.LifeCase, variants: dict[str, tl.Pavement]) -> dict[s
 
 def main(folder: Path, spacing: float | None = None) -> dict[str, dict[str, float]]:
     folder.mkdir(parents=True, exist_ok=True)
-    case = tl.LifeCase.from_toml(CASE)
+    case = tl.Case.from_toml(CASE)
     if spacing is not None:
         case = case.model_copy(update={"spacing": spacing})
     variants = roads(case.build_road())

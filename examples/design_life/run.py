@@ -18,12 +18,12 @@ import treadload as tl
 DESIGN = Path(__file__).parent / "design.toml"
 
 
-def main(folder: Path, spacing: float | None = None, workers: int | None = None) -> tl.LifeResult:
+def main(folder: Path, spacing: float | None = None, workers: int | None = None) -> tl.steps.Result:
     folder.mkdir(parents=True, exist_ok=True)
-    case = tl.LifeCase.from_toml(DESIGN)
+    case = tl.Case.from_toml(DESIGN)
     if spacing is not None:
         case = case.model_copy(update={"spacing": spacing})
-    result = tl.run_life(case, workers=workers)
+    result = tl.run(case, workers=workers)
     print(result.summary())
     tl.save_results(result, folder / "life.nc")
     tl.report(result, folder / "life.html")
@@ -32,7 +32,7 @@ def main(folder: Path, spacing: float | None = None, workers: int | None = None)
     return result
 
 
-def check(result: tl.LifeResult) -> None:
+def check(result: tl.steps.Result) -> None:
     """What the page says must follow from the laws alone, whatever the numbers."""
     life, traffic = result.life, result.life.traffic
     data = life.dataset

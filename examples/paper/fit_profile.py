@@ -18,6 +18,7 @@ from scipy.optimize import differential_evolution
 
 import treadload as tl
 import treadload.tire
+from treadload.errors import GeometryError
 
 AREA, PEAK = 59_553e-6, 1576e3  # m², Pa: figure 5 at 35 kN and 820 kPa
 # (name, expected, spread): what such a tread is expected to measure, m.
@@ -68,7 +69,7 @@ def misfit(scaled: np.ndarray) -> float:
     parameters = [mean + spread * z for (_, mean, spread), z in zip(EXPECTED, scaled, strict=True)]
     try:
         area, peak = footprint(profile_of(*parameters))
-    except tl.GeometryError:
+    except GeometryError:
         return 1e9
     return ((area / AREA - 1) / 1e-3) ** 2 + ((peak / PEAK - 1) / 1e-3) ** 2 + float(np.sum(np.square(scaled)))
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import xarray as xr
 
 import treadload as tl
-from treadload.plots import ResponsePlots, both_sides, compare_strain, fatigue_line, save
+from treadload.plots import both_sides, compare_strain, fatigue_line, save, strain_profiles
 
 RUBBER, ASPHALT = tl.Elastic(3e6, 0.5), tl.Elastic(5.4e9, 0.35)  # table 1
 LINE = tl.FatigueLine(epsilon_6=120e-6, slope=-0.2)
@@ -26,7 +26,7 @@ TRACTIVE = tl.Rolling(normal_load=32.5e3, tractive_force=10e3, friction=0.7)
 
 def contact_of(
     rolling: tl.Rolling, rubber: tl.Elastic = RUBBER, spacing: float = 3e-3, edge_radius: float | None = None
-) -> tl.Contact:
+) -> tl.contact.Contact:
     """Contact of the fitted tread on the paper's road; edge_radius of its grooves, m, where it is varied."""
     profile = tl.catalogue.tires["315/80R22.5"]
     if edge_radius is not None:
@@ -35,12 +35,12 @@ def contact_of(
     return tl.solve_contact(tire, tl.Pavement.half_space(ASPHALT), rolling, spacing=spacing)
 
 
-def response_of(contact: tl.Contact, depth: float = 0.0) -> tl.Response:
+def response_of(contact: tl.contact.Contact, depth: float = 0.0) -> tl.response.Response:
     """Stress and strain of the paper's road at a depth, m."""
     return tl.solve_response(contact, tl.Pavement.half_space(ASPHALT), depths=[depth])
 
 
-def layered_response(contact: tl.Contact) -> xr.Dataset:
+def layered_response(contact: tl.contact.Contact) -> xr.Dataset:
     """Strain in layers, in a section across the wheel, for figure 7; the paper gives no layers, these are ours."""
     road = tl.Pavement.from_catalogue(STRUCTURE, temperature=15)
     depths = [
@@ -56,7 +56,7 @@ def layered_response(contact: tl.Contact) -> xr.Dataset:
     )
 
 
-def extensions(response: tl.Response) -> tuple[float, float]:
+def extensions(response: tl.response.Response) -> tuple[float, float]:
     """Largest extension, three-dimensional and in the horizontal plane, microstrain."""
     data = response.dataset
     return float(data.principal_strain_1.max()) * 1e6, float(data.in_plane_strain_1.max()) * 1e6
@@ -120,8 +120,7 @@ def main(folder: Path) -> dict[str, float]:
         print(f"{name:34s} {values[0]:9.1f} {values[1]:9.1f} {values[2]:11.1f} {values[3]:9.1f}")
     save(static.plot.pressure(), folder / "figure_5.png")
     save(tractive.plot.shear(), folder / "figure_6.png")
-    layers = ResponsePlots(layered_response(free))
-    save(layers.strain_profiles(epsilon_6=LINE.epsilon_6), folder / "figure_7_layers.png")
+    save(strain_profiles(layered_response(free), epsilon_6=LINE.epsilon_6), folder / "figure_7_layers.png")
     # The paper's admissible strain, 90 microstrain, against ε₆.
     verdicts = [tl.assess(response, LINE) for response in responses.values()]
     line = fatigue_line(verdicts, list(responses), design_passes=float(LINE.allowable_passes(90e-6)))

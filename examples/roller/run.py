@@ -34,7 +34,7 @@ def drum() -> tl.Tire:
 
 def road(cohesion: float = COHESION) -> tl.Pavement:
     """The fill on its base; von Mises stress at yield is twice the undrained strength."""
-    fill = tl.ElastoPlastic(tl.Elastic(15e6, 0.45), VonMises(2 * cohesion, hardening=2e6))
+    fill = tl.materials.ElastoPlastic(tl.Elastic(15e6, 0.45), VonMises(2 * cohesion, hardening=2e6))
     return tl.Pavement([tl.Layer(fill, 0.15, name="fill"), tl.Layer(tl.Elastic(100e6, 0.35), name="base")])
 
 

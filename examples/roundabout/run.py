@@ -38,11 +38,11 @@ ROADS = {
 }
 MANEUVERS = {
     "straight": tl.contact.STRAIGHT,
-    "uphill 6 %": tl.Maneuver.uphill(0.06, 0.25),
-    "braking 3 m/s²": tl.Maneuver.braking(3.0),
-    "locked": tl.Maneuver.braking(),
-    "roundabout": tl.Maneuver.turning(RADIUS, SPEED),
-    "outer wheel": tl.Maneuver.turning(RADIUS, SPEED, track=2.0, centre_of_gravity=1.6),
+    "uphill 6 %": tl.contact.Maneuver.uphill(0.06, 0.25),
+    "braking 3 m/s²": tl.contact.Maneuver.braking(3.0),
+    "locked": tl.contact.Maneuver.braking(),
+    "roundabout": tl.contact.Maneuver.turning(RADIUS, SPEED),
+    "outer wheel": tl.contact.Maneuver.turning(RADIUS, SPEED, track=2.0, centre_of_gravity=1.6),
 }
 PARKING = "parking turn"
 DEEP = 0.01
@@ -52,7 +52,7 @@ DEEP = 0.01
 THRESHOLD = 24e-6
 
 
-def contacts(spacing: float) -> dict[str, tl.Contact]:
+def contacts(spacing: float) -> dict[str, tl.contact.Contact]:
     """The wheel in every maneuver. What the road is made of matters to none: it gives 0.6 % of the compliance."""
     road = ROADS["the paper's asphalt"][0]
     found = {
@@ -67,7 +67,7 @@ def contacts(spacing: float) -> dict[str, tl.Contact]:
     return {**found, PARKING: turned.contact}
 
 
-def rose_of(name: str, response: tl.Response, line: tl.FatigueLine) -> xr.Dataset:
+def rose_of(name: str, response: tl.response.Response, line: tl.FatigueLine) -> xr.Dataset:
     """How the cracks run at the surface, each point at its worst instant.
 
     A road point sees the whole passage of a rolling wheel. Under a wheel that is turned it sees one place only.
@@ -79,7 +79,9 @@ def rose_of(name: str, response: tl.Response, line: tl.FatigueLine) -> xr.Datase
     return crack_rose(cracks, threshold=THRESHOLD, classes=18)
 
 
-def table(wheels: dict[str, tl.Contact], responses: dict[str, tl.Response], line: tl.FatigueLine) -> xr.Dataset:
+def table(
+    wheels: dict[str, tl.contact.Contact], responses: dict[str, tl.response.Response], line: tl.FatigueLine
+) -> xr.Dataset:
     """Prints a line for each maneuver; returns largest extensions, passes and shares."""
     print(
         f"{'':15s} {'load':>5s} {'Q/P':>5s} {'slip':>5s} | {'read':>6s} {'in plane':>9s} {'10 mm deep':>11s} | "
@@ -114,7 +116,7 @@ def table(wheels: dict[str, tl.Contact], responses: dict[str, tl.Response], line
     return both.assign({key: ("maneuver", column) for key, column in numbers.items()})
 
 
-def edges(contact: tl.Contact) -> tuple[float, float]:
+def edges(contact: tl.contact.Contact) -> tuple[float, float]:
     """The most work of sliding on a strip of road over the median strip's, and its distance to a rib's edge, m."""
     data = contact.dataset
     touches = (data.pressure > 0).any("x").values
@@ -127,8 +129,8 @@ def edges(contact: tl.Contact) -> tuple[float, float]:
 
 def draw(
     folder: Path,
-    wheels: dict[str, tl.Contact],
-    responses: dict[str, dict[str, tl.Response]],
+    wheels: dict[str, tl.contact.Contact],
+    responses: dict[str, dict[str, tl.response.Response]],
     tables: list[xr.Dataset],
 ) -> None:
     """Tearing, strain maps, roses and bars."""
@@ -153,7 +155,7 @@ def draw(
         save(orientation_shares(roses, names, notes=notes, title=title), folder / f"orientation_{name}.png")
 
 
-def check(wheels: dict[str, tl.Contact], tables: list[xr.Dataset]) -> None:
+def check(wheels: dict[str, tl.contact.Contact], tables: list[xr.Dataset]) -> None:
     """What must hold, whatever the cells."""
     turn, outer = (wheels[name].dataset for name in ("roundabout", "outer wheel"))
     # Statics: V²/(gR) of the load to the side, and 2 h/t of that more load on the outer wheel.

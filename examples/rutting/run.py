@@ -28,7 +28,7 @@ def road(law: object) -> tl.Pavement:
     """The stop's road, its asphalt yielding by a law."""
     return tl.Pavement(
         [
-            tl.Layer(tl.ElastoPlastic(HOT, law), 0.12, name="asphalt at 50 °C"),
+            tl.Layer(tl.materials.ElastoPlastic(HOT, law), 0.12, name="asphalt at 50 °C"),
             tl.Layer(tl.Elastic(10e9, 0.25), 0.25, name="base bound by cement"),
             tl.Layer(tl.Elastic(80e6, 0.35), name="soil"),
         ]
@@ -43,13 +43,13 @@ def main(folder: Path, spacing: float = 9e-3, layers: int = 8) -> dict[str, floa
     contact = tl.solve_contact(tire, road(SOFTENED), wheel, spacing=spacing)
     box = {"spacing": 0.012, "layers": layers}
 
-    rest = tl.roll_passes(contact, road(SOFTENED), passes=6, **box)
+    rest = tl.response.roll_passes(contact, road(SOFTENED), passes=6, **box)
     print(rest.summary(), end="\n\n")
     passing, standing = (
-        tl.roll_passes(contact, road(VISCOUS), passes=5, speed=speed, **box) for speed in (PASSING, STANDING)
+        tl.response.roll_passes(contact, road(VISCOUS), passes=5, speed=speed, **box) for speed in (PASSING, STANDING)
     )
     print(passing.summary(), standing.summary(), sep="\n\n", end="\n\n")
-    counted = tl.roll_passes(contact, road(PassesPowerLaw.asphalt(50.0)), passes=3000, **box)
+    counted = tl.response.roll_passes(contact, road(PassesPowerLaw.asphalt(50.0)), passes=3000, **box)
     print(counted.summary())
 
     save(rut_profile(standing), folder / "rut_standing.png")
@@ -59,7 +59,7 @@ def main(folder: Path, spacing: float = 9e-3, layers: int = 8) -> dict[str, floa
     save(growth({"30 km/h": passing, "standing": standing, "no time": rest}), folder / "growth.png")
 
     patch = tl.UniformRectangle(0.2, 0.25, 0.65e6)
-    limits = tl.study.shakedown_map(patch, road(SOFTENED), (0.0, 0.2, 0.4), spacing=0.03, layers=5)
+    limits = tl.life.shakedown_map(patch, road(SOFTENED), (0.0, 0.2, 0.4), spacing=0.03, layers=5)
     save(shakedown_map(limits), folder / "shakedown.png")
     return {
         "rest": float(rest.dataset.rut_depth[-1]),

@@ -31,8 +31,7 @@ from sklearn.model_selection import KFold
 import treadload as tl
 from treadload.plots import new_figure
 from treadload.plots.kit.style import styled
-from treadload.study import sampled
-from treadload.study.sweeps import table_of
+from treadload.sweeps import sampled, table_of
 
 CASE = Path(__file__).parent / "study.toml"
 RANGES = {
@@ -93,7 +92,7 @@ class Surrogate:
         return float(np.exp(mean[0])), float(np.exp(mean[0]) * deviation[0]), known
 
 
-def solve(folder: Path, count: int, spacing: str, jobs: int) -> tl.study.Sweep:
+def solve(folder: Path, count: int, spacing: str, jobs: int) -> tl.sweeps.Sweep:
     """The study in its store, solved where it is not."""
     case = tl.Case.from_toml(CASE, changes=[f'spacing="{spacing}"'])
     design = sampled(case, RANGES, count, method="latin", seed=1)
@@ -105,7 +104,7 @@ def tell(done: int, total: int, what: str) -> None:
         print(f"{done} of {total} {what}s", flush=True)
 
 
-def data_of(study: tl.study.Sweep) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+def data_of(study: tl.sweeps.Sweep) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Inputs (n, 5) and readings of the cases that were solved."""
     data = study.dataset
     good = data["status"].to_numpy() == 1
@@ -126,7 +125,7 @@ def process(scale: np.ndarray | None = None) -> GaussianProcessRegressor:
     return GaussianProcessRegressor(kernel, normalize_y=True, random_state=0)
 
 
-def fit(study: tl.study.Sweep) -> tuple[Surrogate, dict[str, np.ndarray], dict[str, np.ndarray], np.ndarray]:
+def fit(study: tl.sweeps.Sweep) -> tuple[Surrogate, dict[str, np.ndarray], dict[str, np.ndarray], np.ndarray]:
     """The surrogate; readings as solved and as predicted by those who did not see them; the friction that is used."""
     inputs, readings = data_of(study)
     ends = [design.labels for design in study.design.inputs]
@@ -157,7 +156,7 @@ def fit(study: tl.study.Sweep) -> tuple[Surrogate, dict[str, np.ndarray], dict[s
     return surrogate, readings, unseen, used
 
 
-def save(surrogate: Surrogate, study: tl.study.Sweep, folder: Path) -> None:
+def save(surrogate: Surrogate, study: tl.sweeps.Sweep, folder: Path) -> None:
     """The surrogate as a pickle, which only those open who trust who wrote it, and what it is as JSON."""
     # Plain members: a class of a script is found by no other script.
     (folder / "surrogate.pickle").write_bytes(pickle.dumps(vars(surrogate)))

@@ -27,21 +27,21 @@ TIRES = {"half-space": {}, "belt": {"belt": "315/80R22.5"}}
 DEEP = 0.04
 
 
-def case_of(place: str, tire: str, spacing: float | None = None) -> tl.LifeCase:
+def case_of(place: str, tire: str, spacing: float | None = None) -> tl.Case:
     """The design case of a place, on one of the two tires."""
-    case = tl.LifeCase.from_toml(HERE / f"{place}.toml")
+    case = tl.Case.from_toml(HERE / f"{place}.toml")
     part = case.tire.model_copy(update=TIRES[tire])
     return case.model_copy(update={"tire": part, "spacing": spacing or case.spacing})
 
 
 def main(
     folder: Path, spacing: float | None = None, workers: int | None = None, places: Sequence[str] = tuple(PLACES)
-) -> dict[tuple[str, str], tl.LifeResult]:
+) -> dict[tuple[str, str], tl.steps.Result]:
     folder.mkdir(parents=True, exist_ok=True)
     results = {}
     for place in places:
         for tire in TIRES:
-            result = tl.run_life(case_of(place, tire, spacing), workers=workers)
+            result = tl.run(case_of(place, tire, spacing), workers=workers)
             results[place, tire] = result
             tl.save_results(result, folder / f"{place}_{tire}.nc")
             tl.report(result, folder / f"{place}_{tire}.html")
@@ -52,7 +52,7 @@ def main(
     return results
 
 
-def tell(results: dict[tuple[str, str], tl.LifeResult]) -> None:
+def tell(results: dict[tuple[str, str], tl.steps.Result]) -> None:
     """The table: what governs, and the years of the crack from the surface at 5, 50 and 95 % of roads."""
     print(f"{'':26s}{'governs first':24s}{'years':>7s}   surface crack, years at 5 / 50 / 95 % of roads")
     print(f"{'':57s}   {'started':24s}{'40 mm deep':24s}")
@@ -73,7 +73,7 @@ def _years(years: float) -> str:
     return "never" if np.isinf(years) else f"{years:.3g}" if years < 1000 else "> 1000"
 
 
-def check(results: dict[tuple[str, str], tl.LifeResult]) -> None:
+def check(results: dict[tuple[str, str], tl.steps.Result]) -> None:
     """What must hold whatever the numbers."""
     for result in results.values():
         growth = result.growth
@@ -86,7 +86,7 @@ def check(results: dict[tuple[str, str], tl.LifeResult]) -> None:
 
 
 @styled
-def depths(results: dict[tuple[str, str], tl.LifeResult]) -> Figure:
+def depths(results: dict[tuple[str, str], tl.steps.Result]) -> Figure:
     """Depth of the crack against years: half of the roads, between 5 and 95 % of them."""
     figure = new_figure(10.5, 4.2)
     places = list(dict.fromkeys(place for place, _ in results))

@@ -1,7 +1,7 @@
 """treadload: what a tire does to a road.
 
 The public names are those of `__init__.pyi`, each loaded when it is first used, so that importing the package stays
-quick. The rooms hold the rest: `materials`, `friction`, `damage`, `catalogue`, `plots`, ...
+quick. The subpackages hold the rest: `materials`, `damage`, `life`, `catalogue`, `plots`, ...
 """
 
 from treadload import _public

@@ -1,13 +1,13 @@
 """What all results have in common, so that every verb takes what every verb gives.
 
-A result carries its fields in `.dataset`, sums itself up in `.summary()` and tells the user in `.warnings` what to
-know, how it was solved in `.stats`, and draws itself by `.plot`. Its class names the group that it takes in a tree of
-results; whoever defines a class of results has it written, read back and reported.
+A result carries its fields in `.dataset` and its numbers in `.rows()`, which summary, notebook and report render;
+`.warnings` is what the user should know, `.stats` how it was solved, and `.plot` its figures. Its class names the
+group that it takes in a tree of results; whoever defines a class of results has it written, read back and reported.
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -15,12 +15,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
 import xarray as xr
 
-from treadload.accessors import offered, room_of
-from treadload.describing import as_html
+from treadload.describing import Described, as_html
 from treadload.errors import InputError
+from treadload.figure_registry import Plots
+from treadload.registry import RESULTS
 from treadload.variables import in_order
-
-_CLASSES: dict[str, type[BaseResult]] = {}
 
 
 @runtime_checkable
@@ -37,8 +36,8 @@ class Holds:
     """What the dataset of a class of results must hold so that its methods can read it; a file without is refused.
 
     Names are words with blanks between, and so are the dimensions behind them: "" of a single number, "..." for any
-    further ones, in any order.
-    fields: variables and coordinates of numbers → their dimensions. known: those with a number that is not NaN.
+    further ones, "@" of points of the road, "y x" or "point", in any order.
+    fields: variables and coordinates of numbers → their dimensions. not_nan: those with a number that is not NaN.
     maybe: as fields, of what may be missing. labels: coordinates of texts → their dimensions. values: coordinate →
     all the names that it has. each: dimension → field of the class with one entry for each of its places; where the
     entries have names, the coordinate has the same. sizes: dimension → fewest and most places.
@@ -46,14 +45,19 @@ class Holds:
     maybe_numbers: numbers of which some may be missing. together: attributes of which the first needs the others.
     reads: called with the dataset and the other fields of the class where they are known, to try what else is read
     of it; what it raises refuses the file.
-    positive: fields and numbers that are above zero. asked: field of the class → what of `maybe` is there unless the
-    field is None. stats: entries of `stats` of which the first needs the others, all numbers.
+    positive: fields and numbers that are above zero. above_zero: fields that are where they are not NaN. finite:
+    fields without NaN and infinity. bounded: fields with a number somewhere and infinity nowhere. largest: field →
+    largest size. codes: field → how many whole numbers from 0 it holds. with_it: variable → what it is read with.
+    json: attributes that hold a list or a table as JSON, where they are there. tree: variables without which a part
+    of a file says nothing; a file is checked part by part as it is opened where the class gives some. agree: called
+    with a dataset that is checked so far; what it raises refuses it. with_field: field of the class → what of `maybe`
+    is there unless the field is None. stats: entries of `stats` of which the first needs the others, all numbers.
     """
 
     fields: Mapping[str, str] = field(default_factory=dict)
-    known: str = ""
+    not_nan: str = ""
     maybe: Mapping[str, str] = field(default_factory=dict)
-    asked: Mapping[str, str] = field(default_factory=dict)
+    with_field: Mapping[str, str] = field(default_factory=dict)
     labels: Mapping[str, str] = field(default_factory=dict)
     values: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     each: Mapping[str, str] = field(default_factory=dict)
@@ -65,14 +69,24 @@ class Holds:
     together: tuple[str, ...] = ()
     stats: tuple[str, ...] = ()
     positive: str = ""
+    above_zero: str = ""
+    finite: str = ""
+    bounded: str = ""
+    largest: Mapping[str, float] = field(default_factory=dict)
+    codes: Mapping[str, int] = field(default_factory=dict)
+    with_it: Mapping[str, str] = field(default_factory=dict)
+    json: Mapping[str, type] = field(default_factory=dict)
+    tree: str = ""
+    agree: Callable[[xr.Dataset], object] | None = None
     sizes: Mapping[str, tuple[int, float]] = field(default_factory=dict)
     reads: Callable[[xr.Dataset, Mapping[str, Any]], object] | None = None
 
 
-class BaseResult(ABC):
-    """Base of all results: one question, one dataset, one summary.
+class BaseResult(Described):
+    """Base of all results: one question, one dataset, its numbers row by row.
 
-    group: of the class, its name in a tree of results; `group_name` may tell results of one class apart.
+    title: of the class, what it is in words. group: of the class, its name in a tree of results; `group_name` may
+    tell results of one class apart.
     holds: what a dataset from a file must have before it becomes an object of the class.
     """
 
@@ -90,49 +104,33 @@ class BaseResult(ABC):
         def stats(self) -> Mapping[str, Any]:
             """How it was solved: iterations, residuals, seconds."""
             return MappingProxyType({})
-
-        @property
-        def warnings(self) -> tuple[str, ...]:
-            """Sentences for the user."""
-            return ()
     else:
         stats = MappingProxyType({})
-        warnings = ()
 
     def __init_subclass__(cls, *, group: str | None = None, **more: Any) -> None:
         super().__init_subclass__(**more)
         if group is not None:
             cls.group = group
-            before = _CLASSES.get(cls.__name__)
-            # A notebook cell that is run again defines the same class again.
-            if before is not None and (before.__module__, before.__qualname__) != (cls.__module__, cls.__qualname__):
-                raise InputError(
-                    f"the class of results {cls.__name__!r} is {before.__module__}.{before.__qualname__} already, so "
-                    f"that {cls.__module__}.{cls.__qualname__} cannot be: files name results by their class; give it "
-                    "another name"
-                )
-            _CLASSES[cls.__name__] = cls
+            # Files name results by their class: two of one name are refused.
+            RESULTS.register(cls.__name__)(cls)
 
     @property
     def group_name(self) -> str:
         """Name of this result in a tree, if it is not given another."""
         return self.group
 
+    def cites(self) -> tuple[str, ...]:
+        """Methods behind the result: keys of `treadload.citations.CITATIONS`, or whole references."""
+        return ()
+
     @property
-    def plot(self) -> Any:
+    def plot(self) -> Plots:
         """Figures of this result, see `treadload.plots`."""
-        return offered("plot", self)
-
-    @abstractmethod
-    def summary(self) -> str:
-        """The result in a screenful."""
-
-    def __str__(self) -> str:
-        return self.summary()
+        return Plots(self)
 
     def _repr_html_(self) -> str:
         """What a notebook shows."""
-        return as_html(type(self).__name__, self.summary(), self.warnings, self.dataset, small_picture(self))
+        return as_html(self.title, [self], self.warnings, self.dataset, small_picture(self))
 
 
 Source = xr.Dataset | HasDataset
@@ -161,7 +159,14 @@ def small_picture(result: BaseResult) -> bytes | None:
     return image
 
 
+def result_class(name: str) -> type[BaseResult] | None:
+    """The class of results of this name, ours or another package's; None where no package here brings it.
+
+    Raises InputError for a package that cannot be loaded.
+    """
+    return RESULTS.find(name).target if name in RESULTS.names() else None  # type: ignore[return-value]
+
+
 def result_classes() -> dict[str, type[BaseResult]]:
-    """All classes of results by name, those of every room."""
-    room_of("result")
-    return dict(_CLASSES)
+    """All classes of results by name, ours and those that the session defined."""
+    return {name: RESULTS.find(name).target for name in RESULTS.built_in()}  # type: ignore[misc]

@@ -7,14 +7,15 @@ import dataclasses
 import html
 import math
 import re
+import textwrap
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
-# A line of a summary that gives a key its value: after a colon, after blanks, or in a column of 14 letters.
-_KEY = re.compile(r"(?P<key>[^\W\d][^:]{0,44}?(?=:|\s{2,})|[^\W\d]\S* \S+(?<=^.{13})(?= ))(?::|\s)\s*(?P<value>\S.*)")
-# Wide blanks that make a line one of a table, and the rows that stand in a page before it is unfolded.
-_BLANKS, _TABLE = re.compile(r"\S\s{2,}(?=\S)"), 3
-_ROWS = 12
+from treadload.rows import Row, as_text, blocks_of, notes_of, table_of
+
+# Lines of the table of a result in a notebook that stand unfolded.
+_ROWS = 14
 # Colours of whatever stands around it: a notebook may be light or dark.
 _STYLE = (
     ".tl-result{font-family:system-ui,sans-serif;font-size:13px;line-height:1.45;color:inherit;max-width:60em}"
@@ -30,18 +31,71 @@ _STYLE = (
     ".tl-result .tl-warning{border-left:3px solid #d55e00;background:rgba(213,94,0,.12);padding:2px 8px;"
     "margin:3px 0}"
     ".tl-result details{margin:2px 0}.tl-result summary{cursor:pointer;opacity:.8}"
-    ".tl-result pre.tl-text{font-size:12px;white-space:pre-wrap;color:inherit;background:transparent;"
-    "margin:4px 0 4px 1em}"
 )
 # Letters of a line and of a text, members of a list and numbers of a table that are written out.
 _LINE, _TEXT, _MEMBERS, _NUMBERS = 100, 60, 8, 6
 
 
-class HasSummary(Protocol):
-    """A result that can be summed up."""
+class Described(ABC):
+    """Whatever states numbers about itself by `rows`: summary, notebook and `repr` render them.
+
+    title: of the class, what it is in words; left out, the name of the class with blanks between its words.
+    """
+
+    if TYPE_CHECKING:
+
+        @property
+        def title(self) -> str:
+            """Name in words."""
+            return ""
+
+        @property
+        def warnings(self) -> tuple[str, ...]:
+            """Sentences for the user."""
+            return ()
+    else:
+        title = ""
+        warnings = ()
+
+    def __init_subclass__(cls, **more: Any) -> None:
+        super().__init_subclass__(**more)
+        if not cls.__dict__.get("title"):
+            cls.title = class_in_words(cls.__name__)  # type: ignore[assignment, method-assign]
+        # A dataclass would write another.
+        if "__repr__" not in cls.__dict__:
+            cls.__repr__ = first_line  # type: ignore[assignment, method-assign]
+
+    @property
+    def heading(self) -> str:
+        """The question in a line at most, behind the title; may be empty."""
+        return ""
+
+    @abstractmethod
+    def rows(self) -> tuple[Row, ...]:
+        """What it states, row by row, see `treadload.rows`; a row "verdict" with its sentence is the last."""
 
     def summary(self) -> str:
-        """A screenful."""
+        """The result in a screenful: its title and question, its rows, its warnings."""
+        text = as_text(self.rows(), self.warnings)
+        return "\n".join(part for part in (title_of(self), text) if part)
+
+    def __str__(self) -> str:
+        return self.summary()
+
+
+def class_in_words(name: str) -> str:
+    """Name of a class with blanks between its words."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).capitalize()
+
+
+def title_of(result: Described) -> str:
+    """Title and question of a result in a line."""
+    return f"{result.title}: {result.heading}" if result.heading else result.title
+
+
+def verdict_of(result: Described) -> str:
+    """The sentence that answers, of the row "verdict"; empty without one."""
+    return next((str(row.value) for row in result.rows() if row.key == "verdict"), "")
 
 
 def as_call(thing: Any) -> str:
@@ -49,61 +103,86 @@ def as_call(thing: Any) -> str:
 
     Numbers to twelve digits, long texts cut, arrays and tables of numbers by their size, the first of many members.
     """
-    told = []
+    arguments = []
     for field in dataclasses.fields(thing):
         value = getattr(thing, field.name)
         if field.repr and not _is_default(field, value):
-            told.append(f"{field.name}={_written(value)}")
-    return _joined(told, f"{type(thing).__name__}(", ")")
+            arguments.append(f"{field.name}={_written(value)}")
+    return _joined(arguments, f"{type(thing).__name__}(", ")")
 
 
-def first_line(result: HasSummary) -> str:
-    """A result in a line: its kind and its verdict, or the first line of its summary. Serves as `__repr__`."""
-    kind = type(result).__name__
-    lines = [line.strip() for line in result.summary().splitlines() if line.strip()] or [""]
-    said = next((line.removeprefix("Verdict: ") for line in lines if line.startswith("Verdict: ")), lines[0])
-    return f"<{kind}: {_cut(said, 2 * _LINE)}>"
+def first_line(result: Described) -> str:
+    """A result in a line: its kind, and its verdict, else its question, else its first row. Serves as `__repr__`."""
+    text = verdict_of(result) or result.heading
+    if not text:
+        text = next((f"{row.label} {row.sentence}".strip() for row in result.rows()), result.title)
+    return f"<{type(result).__name__}: {_cut(text, 2 * _LINE)}>"
 
 
 def as_html(
-    kind: str, summary: str, warnings: Sequence[str], dataset: Any = None, picture: bytes | None = None
+    title: str,
+    results: Sequence[Described],
+    warnings: Sequence[str] = (),
+    dataset: Any = None,
+    picture: bytes | None = None,
 ) -> str:
-    """A result as a notebook shows it: its main numbers, a picture, warnings; folded, the summary and the dataset.
+    """Results as a notebook shows them: rows, a picture, warnings; folded, all after the first, and the dataset.
 
-    kind: of the result. dataset: with a `_repr_html_` of its own, None for none. picture: a PNG. All texts are
-    escaped.
+    title: of all. dataset: with a `_repr_html_` of its own, None for none. picture: a PNG. All texts are escaped.
     """
-    lines = [line.strip() for line in summary.splitlines() if line.strip() and not line.startswith("warning: ")]
-    said = next((line.removeprefix("Verdict: ") for line in lines if line.startswith("Verdict: ")), "")
-    told = [line for line in lines if not line.startswith("Verdict: ") and len(_BLANKS.findall(line)) < _TABLE]
-    matches = [_KEY.fullmatch(line) for line in told]
-    rows = [("" if one is None else one["key"].strip(), line if one is None else one["value"].strip())
-            for line, one in zip(told, matches, strict=True)]  # fmt: skip
-    if not any(key for key, _ in rows):
-        said, rows = said or (told[0] if told else ""), []
-    escape = html.escape
+    first = results[0] if len(results) == 1 else None
+    answer = (verdict_of(first) or first.heading) if first is not None else ""
     page = [f"<style>{_STYLE}</style>", '<div class="tl-result">']
-    page.append(
-        f'<div class="tl-title">{escape(kind)}<span class="tl-said">{escape(_cut(said, 3 * _LINE))}</span></div>'
-    )
-    if rows:
-        cells = [
-            f"<tr><th>{escape(key)}</th><td>{escape(_cut(value, 3 * _LINE))}</td></tr>"
-            if key
-            else f'<tr><td colspan="2">{escape(_cut(value, 3 * _LINE))}</td></tr>'
-            for key, value in rows
-        ]
-        page.append(
-            f'<div class="tl-main"><table class="tl-rows"><tbody>{"".join(cells[:_ROWS])}</tbody></table>'
-            f"{_image(kind, picture)}</div>"
-        )
+    page.append(f'<div class="tl-title">{_text(title)}<span class="tl-said">{_text(answer)}</span></div>')
+    page.append('<div class="tl-main">')
+    if first is not None:
+        page.append(_shown(first))
     else:
-        page.append(_image(kind, picture))
-    page += [f'<div class="tl-warning">Warning: {escape(text)}</div>' for text in warnings]
-    page.append(f'<details><summary>Summary</summary><pre class="tl-text">{escape(summary)}</pre></details>')
+        page.append('<div class="tl-rows">')
+        for number, result in enumerate(results):
+            page.append(
+                f"<details{'' if number else ' open'}><summary>{_text(title_of(result))}</summary>"
+                f"{_shown(result, folded=True)}</details>"
+            )
+        page.append("</div>")
+    page.append(f"{_image(title, picture)}</div>")
+    page += [f'<div class="tl-warning">Warning: {html.escape(text)}</div>' for text in warnings]
     if dataset is not None:
         page.append(f"<details><summary>Dataset</summary>{dataset._repr_html_()}</details>")
     return "".join([*page, "</div>"])
+
+
+def _shown(result: Described, *, folded: bool = False) -> str:
+    """The rows of a result. folded: the verdict too, which stands in the title otherwise."""
+    return _rows_as_html([row for row in result.rows() if row.key != "verdict" or folded])
+
+
+def _rows_as_html(rows: Sequence[Row]) -> str:
+    """A table of label and value, a table of its own for groups with the same rows; what is long, folded."""
+    lines: list[str] = []
+    for block in blocks_of(rows):
+        if len(block) > 1:
+            heads, *cells = table_of(block)
+            inner = f"<tr>{_cells('th', heads)}</tr>"
+            inner += "".join(f"<tr>{_cells('th', line[:1])}{_cells('td', line[1:])}</tr>" for line in cells)
+            lines.append(f'<tr><td colspan="2"><table class="tl-rows">{inner}</table></td></tr>')
+            lines += [f'<tr><td colspan="2">{_text(note)}</td></tr>' for note in notes_of(block)]
+            continue
+        if block[0][0].group:
+            lines.append(f'<tr><th colspan="2">{_text(block[0][0].group)}</th></tr>')
+        lines += [f"<tr><th>{_text(row.label)}</th><td>{_text(row.sentence)}</td></tr>" for row in block[0]]
+    shown, folded = lines[:_ROWS], lines[_ROWS:]
+    table = '<table class="tl-rows"><tbody>{}</tbody></table>'
+    more = f"<details><summary>More</summary>{table.format(''.join(folded))}</details>" if folded else ""
+    return f"<div>{table.format(''.join(shown))}{more}</div>"
+
+
+def _cells(tag: str, texts: Sequence[str]) -> str:
+    return "".join(f"<{tag}>{_text(text)}</{tag}>" for text in texts)
+
+
+def _text(text: str) -> str:
+    return html.escape(_cut(text, 3 * _LINE))
 
 
 def _image(kind: str, picture: bytes | None) -> str:
@@ -129,22 +208,22 @@ def _written(value: Any) -> str:
     if hasattr(value, "shape"):
         return f"<{type(value).__name__} of {' x '.join(map(str, value.shape)) or 'one'}>"
     if isinstance(value, Mapping):
-        return _members([f"{key!r}: {_written(one)}" for key, one in value.items()], "{", "}")
+        return _members([f"{key!r}: {_written(item)}" for key, item in value.items()], "{", "}")
     if isinstance(value, tuple | list):
-        if len(value) * max((len(one) for one in value if isinstance(one, tuple | list)), default=1) > _NUMBERS:
+        if len(value) * max((len(item) for item in value if isinstance(item, tuple | list)), default=1) > _NUMBERS:
             size = _size_of_numbers(value)
             if size:
                 return f"<{size} numbers>"
         brackets = ("(", ",)" if len(value) == 1 else ")") if isinstance(value, tuple) else ("[", "]")
-        return _members([_written(one) for one in value], *brackets)
+        return _members([_written(item) for item in value], *brackets)
     return repr(value)
 
 
 def _size_of_numbers(value: Any) -> str:
     """Size of a list or a table of numbers alone, as "3 x 6"; empty for anything else."""
-    if all(isinstance(one, int | float) for one in value):
+    if all(isinstance(item, int | float) for item in value):
         return str(len(value))
-    sizes = {_size_of_numbers(one) if isinstance(one, tuple | list) else "" for one in value}
+    sizes = {_size_of_numbers(item) if isinstance(item, tuple | list) else "" for item in value}
     inner = sizes.pop() if len(sizes) == 1 else ""
     return f"{len(value)} x {inner}" if inner else ""
 
@@ -161,17 +240,13 @@ def _joined(members: list[str], opening: str, closing: str) -> str:
     if "\n" not in line and len(opening) + len(line) + len(closing) <= _LINE:
         return opening + line + closing
     lines: list[str] = []
-    for one in members:
-        whole = "\n" not in one
-        if whole and lines and "\n" not in lines[-1] and len(lines[-1]) + len(one) + 2 <= _LINE - 4:
-            lines[-1] += f", {one}"
+    for member in members:
+        whole = "\n" not in member
+        if whole and lines and "\n" not in lines[-1] and len(lines[-1]) + len(member) + 2 <= _LINE - 4:
+            lines[-1] += f", {member}"
         else:
-            lines.append(one)
-    return "\n".join([opening, *(f"{_indented(one)}," for one in lines), closing.lstrip(",")])
-
-
-def _indented(text: str) -> str:
-    return "\n".join(f"    {line}" for line in text.splitlines())
+            lines.append(member)
+    return "\n".join([opening, *(f"{textwrap.indent(line, '    ')}," for line in lines), closing.lstrip(",")])
 
 
 def _number(value: float) -> str:

@@ -41,6 +41,10 @@ class GeometryError(TreadloadError, ValueError):
     """A mesh, cloud or height map does not describe a usable tire surface."""
 
 
+class WorkersLost(TreadloadError, RuntimeError):
+    """The processes of a study cannot start; what was solved is kept."""
+
+
 class ConvergenceError(TreadloadError, RuntimeError):
     """A solver stopped before it reached its tolerance; carries the residual reached."""
 
@@ -58,11 +62,11 @@ def positive(name: str, value: float | str, unit: str = "", remedy: str = "") ->
     try:
         if not isinstance(value, bool | str) and math.isfinite(value) and value > 0:
             return
-        said = repr(value) if isinstance(value, bool | str) else f"{value:g}"
+        shown = repr(value) if isinstance(value, bool | str) else f"{value:g}"
     except (TypeError, ValueError, OverflowError):
-        said = repr(value)
+        shown = repr(value)
     of, end = f" of {unit}" if unit else "", f"; {remedy}" if remedy else ""
-    raise InputError(f"{name} must be a positive number{of}, got {said}{end}")
+    raise InputError(f"{name} must be a positive number{of}, got {shown}{end}")
 
 
 def within(name: str, value: float, low: float, high: float, unit: str = "", remedy: str = "") -> None:
@@ -73,7 +77,7 @@ def within(name: str, value: float, low: float, high: float, unit: str = "", rem
     raise InputError(f"{name} must lie between {low:g} and {high:g}{of}, got {value:g}{of}{end}")
 
 
-def said(error: BaseException) -> str:
+def error_line(error: BaseException) -> str:
     """An error of another library in one short line."""
     words = " ".join(str(error).split())
     return f"{type(error).__name__}: {words if len(words) < 120 else words[:117] + '...'}"
@@ -95,7 +99,7 @@ def reading(file: str, kind: str, remedy: str = "it may be truncated, export or 
             raise
         if isinstance(error, AttributeError | ImportError | NameError):
             remedy = "this points at the library that reads it, not at the file: install another version of it"
-        raise InputError(f"{file} could not be read as {kind} ({said(error)}); {remedy}") from error
+        raise InputError(f"{file} could not be read as {kind} ({error_line(error)}); {remedy}") from error
 
 
 def how_to_install(extra: str) -> str:
@@ -103,18 +107,18 @@ def how_to_install(extra: str) -> str:
     return f"in the folder of the clone, run  pip install '.[{extra}]'"
 
 
-def meant(asked: object, known: Iterable[str], cutoff: float = 0.6) -> str | None:
+def meant(wanted: object, names: Iterable[str], cutoff: float = 0.6) -> str | None:
     """The known name that an unknown one is most likely to mean, whatever its capitals; None where none is like it.
 
     cutoff: least likeness, from 0 to 1.
     """
-    by_letters = {name.casefold(): name for name in reversed(list(known))}
-    near = difflib.get_close_matches(str(asked).casefold(), by_letters, n=1, cutoff=cutoff)
+    by_letters = {name.casefold(): name for name in reversed(list(names))}
+    near = difflib.get_close_matches(str(wanted).casefold(), by_letters, n=1, cutoff=cutoff)
     return by_letters[near[0]] if near else None
 
 
-def nearest(asked: object, known: Iterable[str], otherwise: str = "known are") -> str:
+def nearest(name: object, candidates: Iterable[str], otherwise: str = "known are") -> str:
     """What to say of an unknown name: "did you mean 'x'?", or all that are known. otherwise: words before these."""
-    names = list(known)
-    one = meant(asked, names)
-    return f"{otherwise} {', '.join(names)}" if one is None else f"did you mean {one!r}?"
+    names = list(candidates)
+    near = meant(name, names)
+    return f"{otherwise} {', '.join(names)}" if near is None else f"did you mean {near!r}?"

@@ -38,19 +38,19 @@ PARQUET = {".parquet": "Parquet"}
 HTML = {".html": "a page", ".htm": "a page"}
 
 
-def check_suffix(path: str | os.PathLike[str], known: Mapping[str, str], what: str) -> str:
+def check_suffix(path: str | os.PathLike[str], suffixes: Mapping[str, str], what: str) -> str:
     """The suffix of a path in small letters, if it is a known one, so that a file holds what its name says.
 
-    known: suffixes and what they mean. what: is to be written, for the error. Raises InputError.
+    suffixes: suffixes and what they mean. what: is to be written, for the error. Raises InputError.
     """
     _check_no_folder(Path(path))
     suffix = Path(path).suffix.lower()
-    if suffix not in known:
-        means = {meaning: [one for one in known if known[one] == meaning] for meaning in known.values()}
+    if suffix not in suffixes:
+        means = {meaning: [name for name in suffixes if suffixes[name] == meaning] for meaning in suffixes.values()}
         listed = ", ".join(f"{' or '.join(names)} ({meaning})" for meaning, names in means.items())
-        said = f"the suffix {suffix} is not known" if suffix else "its name has no suffix"
+        problem = f"the suffix {suffix} is not known" if suffix else "its name has no suffix"
         pdf = "; for a PDF print the page of `treadload report` from a browser" if suffix == ".pdf" else ""
-        raise InputError(f"cannot write {what} to {os.fspath(path)}: {said}, use {listed}{pdf}")
+        raise InputError(f"cannot write {what} to {os.fspath(path)}: {problem}, use {listed}{pdf}")
     return suffix
 
 
@@ -120,7 +120,7 @@ def parse_toml(text: str, name: str) -> dict[str, Any]:
         raise InputError(f"{name} holds lists or tables too deep in each other to be read") from error
     layer: list[Any] = [table]
     for _ in range(_DEEPEST):
-        inner = [one.values() if isinstance(one, dict) else one for one in layer]
+        inner = [item.values() if isinstance(item, dict) else item for item in layer]
         layer = [value for values in inner for value in values if isinstance(value, dict | list)]
     # Dotted keys go as deep as they are long, and what copies or writes tables calls itself once a level.
     if layer:
@@ -146,6 +146,8 @@ def read_tree(path: Path, kind: str) -> xr.DataTree:
         why = one_line(getattr(error, "strerror", None) or str(error))
         if why.startswith(_TWICE):
             why = "a variable has the same dimension twice; give the second another name"
+        if isinstance(error, UnicodeDecodeError):
+            why = f"the name or label {error.object!r} is not UTF-8; write it anew"
         raise InputError(f"cannot read {path} as {kind}: {why}") from error
 
 
@@ -166,7 +168,20 @@ def _tree(path: Path) -> xr.DataTree:
     # A variable whose dimensions were lost shows when its group is put together.
     for node in loaded.subtree:
         node.to_dataset()
+        _replace_texts(node)
     return loaded
+
+
+def _replace_texts(node: xr.DataTree) -> None:
+    """Replace what is not UTF-8 in the attributes of a group and its variables by "?"; readers refuse other texts."""
+    holders: list[Any] = [node, *node.variables.values()]
+    for holder in holders:
+        holder.attrs = {_valid(str(name)): _valid(value) for name, value in holder.attrs.items()}
+
+
+def _valid(value: Any) -> Any:
+    """A text without what stands for bytes that are not UTF-8, which no file takes; anything else as it is."""
+    return value.encode("utf-8", "replace").decode("utf-8") if isinstance(value, str) else value
 
 
 def _state(stream: BinaryIO) -> tuple[int, int]:

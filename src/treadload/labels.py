@@ -43,16 +43,16 @@ def _positive(value: float) -> float:
     return value
 
 
-def factor_of(name: str, named: object, si: str, given: Mapping[str, str], *, where: str, bare: str | None) -> float:
+def factor_of(name: str, named: object, si: str, units: Mapping[str, str], *, where: str, bare: str | None) -> float:
     """What the values of a variable are multiplied by to be SI.
 
     name: of the variable. named: the unit that the file names, None if it names none. si: the unit wanted, "m" or
-    "Pa". given: name → unit from the caller, where the file names none that can be read. where: the file, for errors.
+    "Pa". units: name → unit from the caller, where the file names none that can be read. where: the file, for errors.
     bare: the unit of numbers for which neither names one; None: refuse them.
     Raises InputError with the remedy.
     """
     example = f'units={{"{name}": "{_EXAMPLE[si]}"}}'
-    wanted = factor_asked(name, given[name], si) if name in given else None
+    wanted = factor_asked(name, units[name], si) if name in units else None
     if named is None or (isinstance(named, str) and not named.strip()):
         if wanted is not None:
             return wanted
@@ -62,17 +62,17 @@ def factor_of(name: str, named: object, si: str, given: Mapping[str, str], *, wh
             f"{where}: {name} names no unit; write its attribute units ({_SUCH_AS[si]}), or give {example}"
         )
     try:
-        own = factor(named, si) if isinstance(named, str) else None
+        stated = factor(named, si) if isinstance(named, str) else None
     except InputError:
-        own = None
-    if own is None and wanted is None:
+        stated = None
+    if stated is None and wanted is None:
         raise InputError(
             f"{where}: {name} is in {named!r}, which is not a unit of {_KIND[si]} such as {_SUCH_AS[si]}; correct "
             f"its attribute units, or give {example}"
         )
-    if own is not None and wanted is not None and abs(wanted - own) > _ROUND_OFF * own:
+    if stated is not None and wanted is not None and abs(wanted - stated) > _ROUND_OFF * stated:
         raise InputError(f"{where}: {name} names a unit of its own, {named!r}; leave it out of units")
-    return own if own is not None else wanted or 1.0
+    return stated if stated is not None else wanted or 1.0
 
 
 def factor_asked(name: str, unit: object, si: str) -> float:
@@ -85,8 +85,8 @@ def factor_asked(name: str, unit: object, si: str) -> float:
     raise InputError(f"units has {unit!r} for {name}, which is not a unit of {_KIND[si]} such as {_SUCH_AS[si]}")
 
 
-def check_names(units: Mapping[str, str], known: Collection[str], what: str) -> None:
+def check_names(units: Mapping[str, str], names: Collection[str], what: str) -> None:
     """Refuse a unit for a name that is not there. what: the known names are, for the error."""
-    stray = [name for name in units if name not in known]
+    stray = [name for name in units if name not in names]
     if stray:
-        raise InputError(f"units names {stray[0]!r}; {what} are {', '.join(known)}")
+        raise InputError(f"units names {stray[0]!r}; {what} are {', '.join(names)}")

@@ -72,12 +72,12 @@ class Catalogue(Mapping[str, Item]):
         if not isinstance(name, str):
             raise UnknownName(f"the name of a {self.noun} must be text, got {name!r}")
         # Ours first: a broken package of others stops no one.
-        item = self._among(self._own, name) or self._among(self._all(), name)
+        item = self._among(self._built_in, name) or self._among(self._all(), name)
         if item is None:
-            short = [known.removeprefix(self._prefix) for known in self]
+            short = [name.removeprefix(self._prefix) for name in self]
             near = meant(name, [*self, *short], cutoff=0.5)
-            said = f"known are {', '.join(self)}" if near is None else f"did you mean {near!r}?"
-            raise UnknownName(f"no {self.noun} {name!r}; {said}")
+            hint = f"known are {', '.join(self)}" if near is None else f"did you mean {near!r}?"
+            raise UnknownName(f"no {self.noun} {name!r}; {hint}")
         return item
 
     def __iter__(self) -> Iterator[str]:
@@ -110,7 +110,7 @@ class Catalogue(Mapping[str, Item]):
     def _repr_html_(self) -> str:
         def row(cells: Iterable[str], cell: str = "td") -> str:
             left = f"<{cell} style='text-align: left'>"
-            return f"<tr>{''.join(f'{left}{one}</{cell}>' for one in cells)}</tr>"
+            return f"<tr>{''.join(f'{left}{text}</{cell}>' for text in cells)}</tr>"
 
         body = "".join(
             row(html.escape(text) for text in (name, words, item.source, " ".join(item.doubts)))
@@ -120,17 +120,17 @@ class Catalogue(Mapping[str, Item]):
         return f"<table><caption>{html.escape(self.use)}</caption><thead>{head}</thead><tbody>{body}</tbody></table>"
 
     def _among(self, items: Mapping[str, Item], name: str) -> Item | None:
-        by_key = {_key(known): item for known, item in items.items()}
+        by_key = {_key(name): item for name, item in items.items()}
         return by_key.get(_key(name)) or by_key.get(_key(self._prefix + name))
 
     @cached_property
-    def _own(self) -> dict[str, Item]:
+    def _built_in(self) -> dict[str, Item]:
         files = sorted((_DATA / self._folder).glob("*.toml"))
         return {item.name: item for file in files for item in self._read(file)}
 
     def _all(self) -> dict[str, Item]:
         """All by name. Raises InputError for an entry point that cannot be loaded, or a name that stands twice."""
-        entries = dict(self._own)
+        entries = dict(self._built_in)
         taken = {_key(name): "treadload" for name in entries}
         for point in sorted(metadata.entry_points(group=self.group), key=lambda point: point.name):
             for item in self._loaded(point):

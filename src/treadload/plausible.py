@@ -132,7 +132,7 @@ def doubt(kind: str, value: float, where: str = "", scale: float = 1.0) -> tuple
     usual = (row.usual[0] * scale, row.usual[1] * scale)
     name, worth = row.units[0]
     fast = f", {value * 3.6:g} km/h" if row.unit == "m/s" else ""
-    text = f"the {row.noun or kind}{f' of {where}' if where else ''} is {_said(value, row.unit)}{fast}; "
+    text = f"the {row.noun or kind}{f' of {where}' if where else ''} is {_written(value, row.unit)}{fast}; "
     text += f"{row.owner} {_short(usual[0] / worth)} to {_short(usual[1] / worth)} {name}".rstrip()
     meant = _meant(value, row, usual)
     if meant:
@@ -151,13 +151,15 @@ def load_doubt(load: float, width: float, where: str = "") -> tuple[str, ...]:
 
 def _meant(value: float, row: Range, usual: Sequence[float]) -> list[str]:
     """Values that a person may have meant: the same digits in another unit, or without the one that came too much."""
-    others = [(name, worth) for name, worth in row.units if worth != 1]
-    lost = [f'"{value:g} {name}"' for name, worth in others if usual[0] <= value * worth <= usual[1]]
-    surplus = [f'"{_said(value / worth, row.unit)}"' for _, worth in others if usual[0] <= value / worth <= usual[1]]
+    units_beside = [(name, worth) for name, worth in row.units if worth != 1]
+    lost = [f'"{value:g} {name}"' for name, worth in units_beside if usual[0] <= value * worth <= usual[1]]
+    surplus = [
+        f'"{_written(value / worth, row.unit)}"' for _, worth in units_beside if usual[0] <= value / worth <= usual[1]
+    ]
     return lost or surplus
 
 
-def _said(value: float, unit: str) -> str:
+def _written(value: float, unit: str) -> str:
     return f"{value:g} {unit}".rstrip()
 
 

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from importlib import metadata
 from typing import Any, TypeVar
 
+from treadload import _public
 from treadload.errors import InputError, nearest
 
 Target = TypeVar("Target", bound=Callable[..., Any])
@@ -57,7 +58,17 @@ class Registry:
         self.noun, self.group, self.key = noun, group, key
         self.default, self.number, self.words, self.example = default, number, words, example
         self.faces: tuple[Any, ...] = ()
-        self._own: dict[str, Entry] = {}
+        self._built_in: dict[str, Entry] = {}
+        self._fill: Callable[[], object] | None = None
+
+    def filled_by(self, fill: Callable[[], object]) -> None:
+        """Say what imports the modules that register ours; it is called once, when a name is first needed."""
+        self._fill = fill
+
+    def _filled(self) -> None:
+        fill, self._fill = self._fill, None
+        if fill is not None:
+            fill()
 
     def makes(self, *faces: Any) -> None:
         """Say what its makers return: types by which `treadload.read` finds the registry."""
@@ -71,59 +82,74 @@ class Registry:
 
         def keep(target: Target) -> Target:
             for name in names:
-                before = self._own.get(name)
+                before = self._built_in.get(name)
                 # A notebook cell that is run again defines the same thing again.
                 if before is not None and _place(before.target) != _place(target):
                     raise InputError(
                         f"the {self.noun} {name!r} is {_place(before.target)} already, so that {_place(target)} "
                         "cannot be; give it another name"
                     )
-                self._own[name] = Entry(name, target)
+                self._built_in[name] = Entry(name, target)
             return target
 
         return keep
 
-    def own(self) -> tuple[str, ...]:
+    def built_in(self) -> tuple[str, ...]:
         """Names of what this program brings or the session registered."""
-        return tuple(self._own)
+        self._filled()
+        return tuple(self._built_in)
 
     def names(self) -> tuple[str, ...]:
-        """All names, ours first; nothing is loaded. Raises InputError for a name that two have."""
-        return (*self._own, *sorted(self._points()))
+        """All names, ours first; no package is loaded. Raises InputError for a name that two have."""
+        points = self._points()
+        return (*self._built_in, *sorted(points))
 
     def packages(self) -> dict[str, str]:
         """All names and the packages that bring them, "" for ours; nothing is loaded. Raises InputError."""
-        return {**dict.fromkeys(self._own, ""), **{name: package_of(one) for name, one in self._points().items()}}
+        self._filled()
+        return {
+            **dict.fromkeys(self._built_in, ""),
+            **{name: package_of(point) for name, point in self._points().items()},
+        }
 
     def find(self, name: str) -> Entry:
         """What has this name. Raises InputError: unknown, brought twice, or its package cannot be loaded."""
         points = self._points()
-        if name in self._own:
-            return self._own[name]
+        if name in self._built_in:
+            return self._built_in[name]
         if name not in points:
             raise InputError(self.unknown(name, self.names()))
         return _loaded(points[name], self)
 
-    def unknown(self, name: object, known: Iterable[str]) -> str:
+    def unknown(self, name: object, names: Iterable[str]) -> str:
         """What to say of a name that is not one of those known."""
         what = self.key if self.key != "kind" else self.noun if self.words else f"{self.noun} of the kind"
         what = what or self.noun
         # The order in which rooms were loaded is nobody's business.
-        return f"no {what} {name!r}; {nearest(name, sorted(known))}"
+        return f"no {what} {name!r}; {nearest(name, sorted(names))}"
 
     def __iter__(self) -> Iterator[Entry]:
         return (self.find(name) for name in self.names())
 
     def _points(self) -> dict[str, metadata.EntryPoint]:
+        self._filled()
         points: dict[str, metadata.EntryPoint] = {}
         for point in _declared(self.group, tuple(sys.path)):
-            other = (
-                OURS if point.name in self._own else package_of(points[point.name]) if point.name in points else ""
+            ours = self._built_in.get(point.name)
+            # What registers itself as its module is loaded, and is an entry point as well.
+            if ours is not None and _place(ours.target) == point.value.replace(":", "."):
+                continue
+            rival = (
+                OURS
+                if point.name in self._built_in
+                else package_of(points[point.name])
+                if point.name in points
+                else ""
             )
             # The same distribution may lie on the path twice.
-            if other and not (point.name in points and points[point.name].value == point.value):
+            if rival and not (point.name in points and points[point.name].value == point.value):
                 raise InputError(
-                    f"the {self.noun} {point.name!r} comes from {other} and from {package_of(point)}; rename one of "
+                    f"the {self.noun} {point.name!r} comes from {rival} and from {package_of(point)}; rename one of "
                     "them, or remove a package"
                 )
             points[point.name] = point
@@ -183,4 +209,15 @@ QUANTITIES = Registry(
 )  # fmt: skip
 READERS = Registry("reader of meshes", "treadload.readers", key="")
 FOOTPRINTS = Registry("reader of footprints", "treadload.footprints", key="format")
+STEPS = Registry("step", "treadload.steps", key="")
+RESULTS = Registry("class of results", "treadload.results", key="")
+FIGURES = Registry("figure", "treadload.figures", key="")
+COMPARISONS = Registry("comparison", "treadload.comparisons", key="")
+COLOUR_MAPS = Registry("source of colour maps", "treadload.colour_maps", key="")
+PAGES = Registry("page", "treadload.pages", key="")
 ALL = (MATERIALS, SHIFTS, PLASTICITY, BONDS, FRICTION, MANEUVERS, CRITERIA, GROWTH, QUANTITIES, READERS, FOOTPRINTS)
+# Leaves know no room; the public names do.
+RESULTS.filled_by(lambda: _public.named("sweeps"))
+STEPS.filled_by(lambda: _public.named("steps"))
+for _drawn in (FIGURES, COMPARISONS, COLOUR_MAPS):
+    _drawn.filled_by(lambda: _public.named("plots"))

@@ -328,7 +328,7 @@ def real_array(values: object, what: str) -> NDArray[np.float64]:
     try:
         array = np.ma.filled(np.ma.asarray(values, dtype=float), np.nan) if np.ma.isMA(values) else np.asarray(values)
         if array.dtype.kind in "iuf" or (
-            array.dtype.kind == "O" and all(isinstance(one, int | float | np.number) for one in array.flat)
+            array.dtype.kind == "O" and all(isinstance(item, int | float | np.number) for item in array.flat)
         ):
             return np.array(array, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
@@ -344,9 +344,9 @@ def finite_list(values: object, what: str, unit: str = "") -> NDArray[np.float64
     import numpy as np
 
     array = np.atleast_1d(real_array(values, what))
-    asked = f"{what} must be a list of finite numbers{f' in {unit}' if unit else ''}, at least one"
+    expected = f"{what} must be a list of finite numbers{f' in {unit}' if unit else ''}, at least one"
     if array.ndim != 1 or array.size == 0:
-        raise InputError(f"{asked}, got shape {array.shape}")
+        raise InputError(f"{expected}, got shape {array.shape}")
     if not np.isfinite(array).all():
-        raise InputError(f"{asked}, got {array[~np.isfinite(array)][0]}")
+        raise InputError(f"{expected}, got {array[~np.isfinite(array)][0]}")
     return array

@@ -30,6 +30,8 @@ _TIMES = str.maketrans({"·": "*", "⋅": "*", "\u00a0": " ", "\u2009": " ", "\u
 
 PSI = 6894.757293168361
 """A pound-force per square inch, Pa: of laws that are published in it."""
+# Years and load repetitions beyond which no road is known and no number of a law is meant; files keep the number.
+LASTS, COUNTLESS = 1000.0, 1e10
 
 _EXAMPLES = {
     "m": '"3 mm"',
@@ -83,8 +85,8 @@ def quantity(value: object, unit: str) -> float:
     except OverflowError:
         number = math.inf
     if not math.isfinite(number):
-        said = value if isinstance(value, str | float) else "an integer of more than 308 digits"
-        raise InputError(f"expected a finite number{f' of {unit}' if unit else ''}, got {said}")
+        shown = value if isinstance(value, str | float) else "an integer of more than 308 digits"
+        raise InputError(f"expected a finite number{f' of {unit}' if unit else ''}, got {shown}")
     return number
 
 
@@ -140,8 +142,10 @@ def _parse(text: str, unit: str) -> float:
     try:
         number, written = leading_number(text)
     except InputError as error:
-        said = str(error)
-        raise InputError(said if "write" in said or "groups" in said else f"{said}; {how}") from error
+        complaint = str(error)
+        raise InputError(
+            complaint if "write" in complaint or "groups" in complaint else f"{complaint}; {how}"
+        ) from error
     if not written and unit and unit != "degC" and number == 0:
         return 0.0
     try:
@@ -150,7 +154,7 @@ def _parse(text: str, unit: str) -> float:
         raise
     except Exception as error:
         kind = unit or "pure numbers"
-        near = next((f'"{one}"' for one in _USUAL if one.casefold() == written.casefold() != one), "")
+        near = next((f'"{unit}"' for unit in _USUAL if unit.casefold() == written.casefold() != unit), "")
         why = "it has no unit" if not written else f"{written!r} is not a unit of this kind"
         hint = f"did you mean {near}?" if near else how
         raise InputError(f"cannot read {text!r} as a quantity in {kind}: {why}; {hint}") from error
@@ -163,8 +167,8 @@ def _factor(written: str, unit: str) -> float:
     """What a number in a unit, as written, is multiplied by. Raises whatever pint does for another kind of unit."""
     registry = _registry()
     units = _units(written)
-    wanted = [registry.parse_units(one) for one in (unit, *([_ALSO[unit]] if unit in _ALSO else []))]
-    if not any(_roots(units) == _roots(one) for one in wanted):
+    wanted = [registry.parse_units(dimension) for dimension in (unit, *([_ALSO[unit]] if unit in _ALSO else []))]
+    if not any(_roots(units) == _roots(dimension) for dimension in wanted):
         raise ValueError("another kind of unit")
     if registry.Quantity(0.0, units).to(unit).magnitude != 0:
         raise ValueError("a scale with a zero of its own is not a multiple of a unit")
@@ -235,8 +239,9 @@ class Unit:
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         """A number in SI units, or text with its unit."""
         bare = "°C" if self.si == "degC" else self.si
-        told = f"A number in {bare}, or text such as {self.example}." if bare else f"A number, {self.example}."
-        return {"type": ["number", "string"], "description": told}
+        words = f"A number in {bare}, or text such as {self.example}." if bare else f"A number, {self.example}."
+        kind = {"x-kind": self.kind} if self.kind else {}
+        return {"type": ["number", "string"], "description": words, "x-unit": self.si, **kind}
 
 
 _OF_KINDS = {
@@ -287,8 +292,31 @@ PerYear = Annotated[float, Unit("", "1/year")]
 """Numbers of descriptions with their units, for annotations: a type checker sees a float."""
 
 
+def years_in_words(years: float) -> str:
+    """Years with three digits, that they are more than roads last, or that they never end; "–" where not known."""
+    if math.isnan(years):
+        return "–"
+    if math.isinf(years):
+        return "never"
+    return f"{years:.3g} years" if years <= LASTS else f"more than {LASTS:g} years"
+
+
+def repetitions_in_words(repetitions: float) -> str:
+    """Load repetitions with three digits; that they are more than any road sees; "–" where not known."""
+    if math.isnan(repetitions):
+        return "–"
+    if math.isinf(repetitions):
+        return "unlimited"
+    return f"{repetitions:.3g}" if repetitions < COUNTLESS else f"{repetitions:.2g} (over 10¹⁰)"
+
+
 def stress_in_words(value: float) -> str:
-    """A stress, Pa, as a reader needs it: whole kPa of a tire, three digits of MPa or GPa from 10 MPa on."""
+    """A stress, Pa, as a reader needs it: whole kPa of a tire, three digits of MPa or GPa from 10 MPa on.
+
+    Below 10 kPa it has two digits; below 1 Pa it is none.
+    """
+    if abs(value) < 9.95e3:
+        return f"{value / 1e3:.2g} kPa" if abs(value) >= 1.0 else "0 kPa"
     for size, unit in ((1e9, "GPa"), (1e6, "MPa")):
         if abs(value) >= 10e6 and abs(value) >= 0.9995 * size:
             return f"{value / size:.3g} {unit}"

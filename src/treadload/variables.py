@@ -6,11 +6,15 @@ x: direction of travel. y: to the right. z: depth, positive down. Tension positi
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
+
+from treadload.units import repetitions_in_words, stress_in_words, years_in_words
 
 _COORDINATES = {
     "x": ("m", "position along the direction of travel"),
@@ -63,6 +67,15 @@ _CONTACT = {
     "material_loss": ("N", "energy lost in the materials per length travelled, J/m"),
     "material_power": ("W", "power lost in the materials"),
     "flash_temperature": ("K", "rise of the interface's temperature by sliding above that of the bodies"),
+    "road_share": ("1", "share of the compliance that the road contributes"),
+    "layer_share": ("1", "change of the compliance by the layers of the road"),
+    "peak_before": ("Pa", "largest contact pressure before it was enveloped"),
+    "tractive_force_ratio": ("1", "tractive force over friction times load"),
+    "lateral_force_ratio": ("1", "lateral force over friction times load"),
+    "mean_tread_wear": ("m", "mean of the median tread wear across the ribs"),
+    "largest_tread_wear": ("m", "largest median tread wear across the ribs"),
+    "wear_range": ("m", "median tread wear that 95 % of the places stay below less that of 5 %"),
+    "datum": ("m", "by which the radii of an earlier scan were lowered so that the grooves agree"),
 }
 
 _FRINGES = {
@@ -74,6 +87,12 @@ _FRINGES = {
     "fringe_brightness": ("1", "mean of a pixel under the finest fringes, grey levels"),
     "fringe_height": ("m", "height towards the camera, of the pixels that are kept"),
     "fringe_deviation": ("m", "standard deviation of a pixel's height by noise of the pictures"),
+    "kept_pixels": ("1", "share of the pixels that have a height"),
+    "pixels_without_steps": ("1", "share of the pixels that were kept without their saturated steps"),
+    "grey_noise": ("1", "standard deviation of a grey level by noise"),
+    "gamma": ("1", "gamma of camera and projector, found in the fringes"),
+    "plane_residual": ("m", "root mean square of the planes of the calibration about it"),
+    "deepest_cell": ("m", "largest depth of a cell of a piece of tread below its tops"),
 }
 
 _TEXTURE = {
@@ -88,6 +107,8 @@ _TEXTURE = {
     "area_share_above": ("1", "share of the area that is under pressures above a local one"),
     "reference_pressure": ("Pa", "mean pressure of the fields on the texture"),
     "real_area": ("m^2", "area of the wheel's contact that really touches the texture"),
+    "rms_height": ("m", "root mean square of the height of a texture"),
+    "rms_slope": ("1", "root mean square of the slope of a texture"),
 }
 
 _CROSSING = {
@@ -117,6 +138,7 @@ _HISTORY = {
     "friction_energy": ("J", "energy lost by sliding over the step"),
     "steering_torque": ("N m", "torque about z that turns the wheel against friction"),
     "sliding_torque": ("N m", "torque about z at which the whole contact slides"),
+    "turning_stiffness": ("N m/rad", "torque over angle of the first increment of a turn on the spot"),
     "pole_x": ("m", "point along travel about which the step turned the tire"),
     "pole_y": ("m", "point to the right of travel about which the step turned the tire"),
 }
@@ -126,6 +148,8 @@ _TENSOR = ("xx", "yy", "zz", "xy", "xz", "yz")
 _RESPONSE = {
     **{f"stress_{c}": ("Pa", f"stress component {c}, tension positive") for c in _TENSOR},
     **{f"strain_{c}": ("1", f"strain component {c}, extension positive, tensor shear") for c in _TENSOR},
+    "largest_principal_strain": ("1", "largest principal strain (largest extension) of a plane, three-dimensional"),
+    "largest_in_plane_strain": ("1", "largest principal strain of a plane in the horizontal plane"),
     "principal_strain_1": ("1", "largest principal strain (largest extension), three-dimensional"),
     "principal_strain_2": ("1", "middle principal strain, three-dimensional"),
     "principal_strain_3": ("1", "smallest principal strain, three-dimensional"),
@@ -162,6 +186,8 @@ _DAMAGE = {
     "worst_y": ("m", "position to the right of travel of the largest extension"),
     "worst_depth": ("m", "depth of the largest extension"),
     "worst_strain": ("1", "largest extension strain that is read"),
+    "strain_ratio": ("1", "largest extension strain that is read, over that allowed a million times"),
+    "coarse_strain": ("1", "largest extension strain that is read on coarser cells"),
     "worst_passes": ("1", "passes that the fatigue line allows at the largest extension"),
     "worst_crack_angle": ("rad", "crack_angle at the largest extension"),
     "worst_crack_dip": ("rad", "crack_dip at the largest extension"),
@@ -208,6 +234,12 @@ _PASSES = {
     "largest_plastic_strain": ("1", "largest accumulated equivalent plastic strain"),
     "shakedown_load": ("1", "largest load that shakes down, over that at first yield without shear"),
     "elastic_limit_load": ("1", "largest load that yields nowhere, over that at first yield without shear"),
+    "disc_radius": ("m", "radius of a uniform disc that stands for a contact"),
+    "spread_ratio_x": ("1", "spread of the load of discs along travel, over that of the contact"),
+    "spread_ratio_y": ("1", "spread of the load of discs across travel, over that of the contact"),
+    "disc_overlap": ("1", "largest share of its radius by which a disc reaches over another"),
+    "elastic_load_factor": ("1", "part of a load at which a road first yields"),
+    "shakedown_load_factor": ("1", "largest part of a load at which a road shakes down"),
 }
 
 _UNIFORM = {
@@ -265,6 +297,9 @@ _CALIBRATION = {
     "standard_deviation": ("1", "standard deviation of a fitted number, in its SI unit"),
     "lower_bound": ("1", "lower bound of a number, in its SI unit"),
     "upper_bound": ("1", "upper bound of a number, in its SI unit"),
+    "interval_low": ("1", "lower end of the 95 % interval of a fitted number, in its SI unit"),
+    "interval_high": ("1", "upper end of the 95 % interval of a fitted number, in its SI unit"),
+    "worst_residual": ("1", "residual that is largest in size"),
     "at_bound": ("1", "-1 at the lower bound, 1 at the upper one, else 0"),
     "number_correlation": ("1", "correlation of two fitted numbers"),
     "singular_value": ("1", "change of the readings over their errors, per relative change of the numbers"),
@@ -404,6 +439,8 @@ _SCREENING = {
     "reading_low": ("1", "reading with an input at its low end, in the unit of the reading"),
     "reading_high": ("1", "reading with an input at its high end, in the unit of the reading"),
     "reading_base": ("1", "reading of the base case, in the unit of the reading"),
+    "reading_mean": ("1", "mean of the reading over its inputs, in the unit of the reading"),
+    "reading_deviation": ("1", "standard deviation of the reading over its inputs, in the unit of the reading"),
     "swing": ("1", "range of the reading as an input goes from end to end, in the unit of the reading"),
     "first_order": ("1", "share of the variance that an input has alone"),
     "first_order_interval": ("1", "half width of the 95 % interval of first_order"),
@@ -465,6 +502,10 @@ _HETEROGENEOUS = {
         "largest pressure",
     ),
     "stone_fraction": ("1", "share of the window that its cells of stones fill"),
+    "soft_strain_error": (
+        "1",
+        "error of the mean strain of soft stones and voids by their cells, the largest, over its largest component",
+    ),
     "stone_over_mastic": ("1", "mean vertical stress of the stones over that of the mastic"),
 }
 
@@ -495,6 +536,324 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_TIRE_CARD,
     **_HETEROGENEOUS,
 }
+
+SCALES: Mapping[str, float] = {
+    "": 1.0, "m": 1.0, "mm": 1e3, "µm": 1e6, "mm²": 1e6, "N": 1.0, "kN": 1e-3, "Pa": 1.0, "kPa": 1e-3, "MPa": 1e-6,
+    "GPa": 1e-9, "N m": 1.0, "kN m": 1e-3, "microstrain": 1e6, "%": 1e2, "°": math.degrees(1.0), "rad/m": 1.0,
+    "J/m": 1.0, "J/m²": 1.0, "kJ/m²": 1e-3, "J/m³": 1.0, "J": 1.0, "W": 1.0, "K": 1.0, "°C": 1.0, "s": 1.0,
+    "years": 1.0, "N/mm": 1e-3, "kN/rad": 1e-3, "kN/°": 1e-3 / math.degrees(1.0), "N m/°": 1 / math.degrees(1.0),
+    "MPa√m": 1e-6, "N/kN": 1e3, "cm²": 1e4, "km/h": 3.6, "kW/m²": 1e-3, "MPa/m": 1e-6,
+}  # fmt: skip
+"""Units that numbers are shown in, and the factor from the SI unit to each."""
+
+
+@dataclass(frozen=True)
+class Display:
+    """How a number is shown. label: for people. unit: a key of `SCALES`. form: of the number in that unit.
+
+    form: a format, or a function of the SI value that returns the text with its unit.
+    """
+
+    label: str
+    unit: str = ""
+    form: str | Callable[[float], str] = ".4g"
+
+
+_STRESS = stress_in_words
+
+# Rows of text have a label alone.
+_DISPLAYS_DAMAGE = {
+    "law": Display("fatigue law"),
+    "evaluation": Display("evaluated"),
+    "largest_principal_strain": Display("tensile strain, three-dimensional", "microstrain", ".1f"),
+    "largest_in_plane_strain": Display("tensile strain, horizontal plane", "microstrain", ".1f"),
+    "worst_strain": Display("evaluated tensile strain", "microstrain", ".1f"),
+    "strain_ratio": Display("over the strain at a million", "", ".2f"),
+    "coarse_strain": Display("error estimate: on coarser cells", "microstrain", ".1f"),
+    "worst_passes": Display("allowable load repetitions", "", repetitions_in_words),
+    "worst_crack_orientation": Display("first crack"),
+    "worst_crack_angle": Display("crack trace from travel", "°", "z.0f"),
+    "worst_crack_dip": Display("dip of its plane", "°", ".0f"),
+    "contacts_evaluated": Display("evaluated under"),
+    "verdict": Display("Verdict"),
+    "interface": Display("interface"),
+    "bond_strength": Display("bond strength"),
+    "largest_utilisation": Display("utilisation of the bond", "", ".3g"),
+    "interface_shear": Display("shear stress", "MPa", ".3f"),
+    "interface_pressure": Display("normal stress, compression positive", "MPa", ".3f"),
+    "parting_passes": Display("debonds after load repetitions", "", repetitions_in_words),
+    "parting_years": Display("debonds after", "", years_in_words),
+}
+
+_DISPLAYS_LIFE = {
+    "life_years": Display("service life", "", years_in_words),
+    "life_passes": Display("load repetitions", "", repetitions_in_words),
+    "largest_reading": Display("largest evaluated value"),
+    "read_depth": Display("depth", "mm", "g"),
+    "worst_y": Display("y", "mm", "z.0f"),
+    "design_utilisation": Display("utilisation", "", ".2g"),
+    "design_damage": Display("damage", "", ".2g"),
+    "damage_by": Display("most damage by"),
+    "first_crack": Display("first crack"),
+    "end_of_life": Display("damage 1 means"),
+    "quantity": Display("evaluated"),
+    "group_factor": Display("axle groups"),
+    "rut_depth": Display("rut depth", "mm", ".3g"),
+    "rut_years": Display("rut reaches its limit after", "", years_in_words),
+    "governing": Display("governing criterion"),
+    "governing_years": Display("service life of the road", "", years_in_words),
+    "solved": Display("solved"),
+    "elasticity": Display("change of the service life", "", lambda change: f"{change:+z.2g} %"),
+    "growth_starts": Display("crack starts"),
+    "crack_depth": Display("crack depth", "mm", ".1f"),
+    "reach_years": Display("reached after", "", years_in_words),
+    "risk_years": Display("reached after, at a risk", "", years_in_words),
+    "stress_intensity_range": Display("stress intensity range", "MPa√m", ".3g"),
+    "reach_chance": Display("roads cracked through in the design life", "%", ".0f"),
+    "years_at_risk": Display("service life, by draws", "", years_in_words),
+    "years_at_risk_first_order": Display("service life, first order", "", years_in_words),
+    "road_years_at_risk": Display("first criterion to fail", "", years_in_words),
+    "road_failure_probability": Display("failure probability in the design life", "%", ".2g"),
+    "thickness_slope": Display("decades of strain per cm of thickness", "", lambda slope: f"{slope / 100:.3g}"),
+    "importance": Display("scatter by"),
+    "law_risk_factor": Display("k_r in the law, removed here", "", ".3f"),
+    "law_years": Display("service life by the law with k_r", "", years_in_words),
+    "exact_thickness": Display("required thickness", "mm", ".1f"),
+    "design_thickness": Display("thickness, rounded up", "mm", ".0f"),
+    "trial_thickness": Display("thickness", "mm", ".0f"),
+    "trial_years": Display("service life at it", "", years_in_words),
+    "asked_years": Display("design life", "", years_in_words),
+}
+
+_DISPLAYS_STUDIES = {
+    "standard_axles": Display("standard axles"),
+    "equivalent_temperature": Display("equivalent temperature", "°C", ".1f"),
+    "equivalent_reading": Display("value at that temperature"),
+    "years_at_equivalent": Display("service life at that temperature", "", years_in_words),
+    "french_axles": Display("(P/130 kN)⁵ K"),
+    "single_axle_loads": Display("(P/80 kN)⁴"),
+    "axle_load": Display("axle load", "kN", ".1f"),
+    "inflation_pressure": Display("inflation pressure", "kPa", ".0f"),
+    "wheel_load": Display("wheel load", "kN", ".1f"),
+    "effective_radius_ratio": Display("Re/R", "", ".4f"),
+    "print_length": Display("footprint length", "mm", ".0f"),
+    "mean_over_inflation": Display("mean/p", "", ".3f"),
+    "shoulder_over_centre": Display("outer/mid", "", ".3f"),
+    "longitudinal_stiffness": Display("longitudinal stiffness", "kN", ".1f"),
+    "cornering_stiffness": Display("cornering stiffness", "kN/rad", ".1f"),
+    "pneumatic_trail": Display("pneumatic trail", "mm", ".1f"),
+    "lateral_stiffness": Display("lateral stiffness", "N/mm", ".0f"),
+    "relaxation_length": Display("relaxation length", "m", ".3f"),
+    "longitudinal_stiffness_over_load": Display("longitudinal stiffness/load", "", ".2f"),
+    "cornering_stiffness_over_load": Display("cornering stiffness/load, 1/rad", "", ".2f"),
+    "absolute_effect": Display("mean size of the effect", "", ".3g"),
+    "absolute_effect_interval": Display("± mean size (95 %)", "", ".2g"),
+    "mean_effect": Display("mean effect", "", ".3g"),
+    "effect_deviation": Display("deviation σ", "", ".2g"),
+    "effect_direction": Display("direction"),
+    "reading_base": Display("base case", "", ".4g"),
+    "input_low": Display("low end"),
+    "input_high": Display("high end"),
+    "reading_low": Display("at the low end", "", ".4g"),
+    "reading_high": Display("at the high end", "", ".4g"),
+    "reading_mean": Display("mean", "", ".4g"),
+    "reading_deviation": Display("standard deviation", "", ".2g"),
+    "first_order": Display("first order", "", ".3f"),
+    "first_order_interval": Display("± first order (95 %)", "", ".3f"),
+    "total_order": Display("total", "", ".3f"),
+    "total_order_interval": Display("± total (95 %)", "", ".3f"),
+    "second_order": Display("second order", "", ".3f"),
+    "fitted_value": Display("fitted"),
+    "standard_deviation": Display("± standard deviation"),
+    "interval_low": Display("95 % from"),
+    "interval_high": Display("to"),
+    "start_value": Display("before"),
+    "residual": Display("residuals, rms", "", ".2f"),
+    "residual_before": Display("residuals before, rms", "", ".2f"),
+    "worst_residual": Display("worst residual", "", "+.1f"),
+    "reading_error": Display("errors of the readings"),
+    "number_correlation": Display("correlation", "", "+.2f"),
+    "undecided": Display("undecided"),
+    "skipped": Display("not changed"),
+    "varied": Display("varied"),
+    "results": Display("further results"),
+    "largest_extension": Display("largest tensile strain", "microstrain", ".1f"),
+    "largest_in_plane_extension": Display("in the horizontal plane", "microstrain", ".1f"),
+    "largest_vertical_shear": Display("vertical shear", "microstrain", ".1f"),
+}
+
+_DISPLAYS_CONTACT = {
+    "grid": Display("grid"),
+    "tread": Display("tread"),
+    "road_height": Display("road surface"),
+    "position": Display("axle positions"),
+    "mortar": Display("mortar"),
+    "aggregates": Display("aggregates"),
+    "registration": Display("registration"),
+    "rib_share": Display("load by rib"),
+    "threshold": Display("sensor threshold"),
+    "saturation": Display("sensor saturation"),
+    "missing": Display("missing"),
+    "source": Display("read from"),
+    "road_share": Display("compliance by the road", "%", ".3g"),
+    "layer_share": Display(
+        "change of compliance by layers", "", lambda part: f"{100 * part:{'+.2g' if abs(part) < 0.1 else '+.0f'}} %"
+    ),
+    "friction_work_total": Display("frictional energy loss per metre", "J/m", "z.3f"),
+    "friction_power_total": Display("frictional power", "W", ".1f"),
+    "flash_temperature": Display("peak flash temperature rise", "K", ".1f"),
+    "edge_pressure": Display("peak pressure at an edge", "", _STRESS),
+    "plain_pressure": Display("peak pressure without obstacle", "", _STRESS),
+    "peak_before": Display("peak pressure before enveloping", "", _STRESS),
+    "closing_work": Display("peak closing work", "kJ/m²", ".3g"),
+    "edge_work": Display("peak closing work at an edge", "kJ/m²", ".3g"),
+    "plain_work": Display("closing work without obstacle", "kJ/m²", ".3g"),
+    "friction_work_density": Display("frictional energy loss per area", "J/m²", ".2f"),
+    "largest_plastic_strain": Display("peak plastic strain", "%", ".3g"),
+    "residual_displacement_z": Display("dent depth", "µm", ".4g"),
+    "peak_pressure_error": Display("error of the peak pressure"),
+    "largest_plastic_strain_error": Display("error of the peak plastic strain"),
+    "rms_height": Display("rms height", "mm", ".3g"),
+    "rms_slope": Display("rms slope", "", ".3g"),
+    "real_area_ratio": Display("real contact area ratio", "%", ".3g"),
+    "persson_area_ratio": Display("ratio after Persson", "%", ".3g"),
+    "mean_gap": Display("mean gap", "mm", ".3g"),
+    "real_area": Display("real contact area", "mm²", ".0f"),
+    "tractive_force_ratio": Display("tractive force/μP", "", "z.4f"),
+    "lateral_force_ratio": Display("lateral force/μP", "", "z.4f"),
+    "sliding_torque": Display("torque of full sliding", "N m", ".1f"),
+    "turning_stiffness": Display("turning stiffness", "N m/°", ".1f"),
+    "friction_energy": Display("frictional energy loss", "J", ".3f"),
+    "turn_angle": Display("turn angle", "°", ".2f"),
+    "steering_torque": Display("steering torque", "N m", ".1f"),
+    "distance": Display("distance", "mm", ".1f"),
+    "rolling_resistance": Display("rolling resistance", "N", ".4g"),
+    "rolling_resistance_coefficient": Display("rolling resistance over load", "N/kN", ".3g"),
+    "rolling_resistance_moment": Display("rolling resistance moment", "N m", ".4g"),
+    "pressure_centre_x": Display("centre of pressure ahead of axle", "mm", ".3g"),
+    "material_loss": Display("energy loss in the materials", "J/m", ".4g"),
+    "material_power": Display("power loss in the materials", "W", ".4g"),
+    "gross_area": Display("gross contact area", "mm²", ".0f"),
+    "print_width": Display("footprint width", "mm", ".0f"),
+    "overlap_of_pressure": Display("overlap of the pressure", "%", ".1f"),
+    "overlap_of_area": Display("overlap of the area", "%", ".1f"),
+    "rms_difference": Display("rms difference of pressure", "", _STRESS),
+    "correlation": Display("correlation of pressure", "", ".3f"),
+    "mean_tread_wear": Display("mean tread wear", "mm", ".2f"),
+    "largest_tread_wear": Display("peak tread wear", "mm", ".2f"),
+    "wear_range": Display("range of tread wear across", "mm", ".2f"),
+    "datum": Display("radius shift for equal grooves", "mm", "+.2f"),
+    "pixels": Display("pixels"),
+    "kept_pixels": Display("pixels with a height", "%", ".1f"),
+    "pixels_without_steps": Display("pixels kept without saturated steps", "%", ".1f"),
+    "fringe_modulation": Display("modulation, grey levels", "", ".3g"),
+    "grey_noise": Display("noise, grey levels", "", ".2g"),
+    "gamma": Display("gamma", "", ".2f"),
+    "fringe_deviation": Display("deviation of heights by noise", "mm", ".3f"),
+    "plane_residual": Display("rms residual of the planes", "mm", ".3f"),
+    "laser_lines": Display("lines of the laser"),
+    "levelling": Display("levelled on its tops"),
+    "deepest_cell": Display("deepest cell", "mm", ".1f"),
+    "groove_depth": Display("groove depth", "mm", ".1f"),
+    "earlier_groove_depth": Display("groove depth before", "mm", ".1f"),
+}
+
+_DISPLAYS_RESPONSE = {
+    "print_centre_x": Display("centre of pressure, x", "mm", ".1f"),
+    "print_centre_y": Display("centre of pressure, y", "mm", ".1f"),
+    "disc_radius": Display("radius", "mm", ".2f"),
+    "uniform_pressure": Display("uniform pressure", "MPa", ".4f"),
+    "spread_ratio_x": Display("spread along travel over contact's", "", ".3f"),
+    "spread_ratio_y": Display("spread across travel over contact's", "", ".3f"),
+    "neglected_shear": Display("neglected shear"),
+    "disc_overlap": Display("overlap of discs over radius", "%", ".0f"),
+    "stone_fraction": Display("share of aggregates", "%", ".1f"),
+    "mastic_tension": Display("peak tension in the mastic", "MPa", ".3g"),
+    "homogeneous_tension": Display("peak tension, mortar alone", "MPa", ".3g"),
+    "mastic_extension": Display("tensile strain in the mastic", "microstrain", ".4g"),
+    "peak_over_mean": Display("mastic over mean tensile strain", "", ".3g"),
+    "soft_strain_error": Display("strain error, soft stones", "%", ".2g"),
+    "stone_over_mastic": Display("aggregate over mastic stress", "", ".3g"),
+    "bond_tension_high": Display("bond tension, 95 % of faces below", "MPa", ".3g"),
+    "bond_shear_high": Display("bond shear, 95 % of faces below", "MPa", ".3g"),
+    "ravelling_index": Display("ravelling index", "", ".3g"),
+    "elastic_load_factor": Display("load at first yield over load", "%", ".3g"),
+    "shakedown_load_factor": Display("shakedown load over load", "%", ".3g"),
+    "heave": Display("heave", "mm", ".3g"),
+    "plastic_increment": Display("plastic strain added", "%", ".3g"),
+    "peak_plastic_strain": Display("peak mean plastic strain", "%", ".3g"),
+    "peak_plastic_strain_error": Display("error of the mean plastic strain"),
+    "rut_depth_error": Display("error of the rut depth"),
+    "contact_length": Display("contact length", "mm", ".3g"),
+    "contact_width": Display("contact width", "mm", ".3g"),
+}
+
+# Variables that are shown as single numbers; all other variables are shown by their name, in SI.
+_DISPLAYS: Mapping[str, Display] = {
+    "normal_load": Display("normal load", "kN", ".3f"),
+    "tractive_force": Display("tractive force", "N", "z.1f"),
+    "lateral_force": Display("lateral force", "N", "z.1f"),
+    "aligning_moment": Display("aligning moment", "N m", "z.1f"),
+    "approach": Display("approach", "mm", ".2f"),
+    "net_area": Display("net contact area", "mm²", ".0f"),
+    "mean_pressure": Display("mean pressure", "", _STRESS),
+    "largest_pressure": Display("peak pressure", "", _STRESS),
+    "largest_traction": Display("peak shear", "", _STRESS),
+    "creepage_x": Display("longitudinal creepage", "", "z.5f"),
+    "creepage_y": Display("lateral creepage", "", "z.5f"),
+    "spin": Display("spin", "rad/m", "z.4g"),
+    "slip_fraction": Display("slip share of the contact", "%", ".1f"),
+    **_DISPLAYS_DAMAGE,
+    **_DISPLAYS_LIFE,
+    **_DISPLAYS_STUDIES,
+    **_DISPLAYS_CONTACT,
+    **_DISPLAYS_RESPONSE,
+}
+
+
+def display_of(name: str) -> Display:
+    """How the numbers of a variable are shown. Raises KeyError for a name that is not a variable's."""
+    if name in _DISPLAYS:
+        return _DISPLAYS[name]
+    unit, _ = VARIABLES[name]
+    return Display(name.replace("_", " "), unit if unit in SCALES else "")
+
+
+def axis_display_of(name: str, unit: str, largest: float = 0.0) -> Display:
+    """How a variable is shown on an axis, where all numbers share a unit; also of a name that is not a variable's.
+
+    unit: SI, of the numbers. largest: of them, which a unit of its size is chosen for where the variable states none.
+    """
+    stated = _DISPLAYS.get(name)
+    label = stated.label if stated is not None else name.replace("_", " ").replace("in plane", "in-plane")
+    if stated is not None and stated.unit:
+        return Display(label, stated.unit)
+    if unit not in ("1", ""):
+        return Display(label, [shown for least, shown in _AXIS_UNITS.get(unit, ((0, unit),)) if largest >= least][-1])
+    if stated is not None:
+        return Display(label, "years" if stated.form is years_in_words else "")
+    strains, shares = ("strain", "extension", "compression", "epsilon"), ("fraction", "share", "coverage")
+    if any(part in name for part in strains) and "damage" not in name:
+        return Display(label, "microstrain")
+    return Display(label, "%" if any(part in name for part in shares) else "")
+
+
+# SI unit → units of axes, each with the least number, SI, that it is for.
+_AXIS_UNITS: Mapping[str, tuple[tuple[float, str], ...]] = {
+    "Pa": ((0, "kPa"), (2e6, "MPa")), "N": ((0, "N"), (1e3, "kN")), "m": ((0, "mm"), (5.0, "m")),
+    "m^2": ((0, "cm²"),), "m/s": ((0, "km/h"),), "rad": ((0, "°"),), "degC": ((0, "°C"),), "J/m^3": ((0, "J/m³"),),
+    "W/m^2": ((0, "kW/m²"),), "Pa/m": ((0, "MPa/m"),),
+}  # fmt: skip
+
+
+SAMPLE: Mapping[str, Display] = {
+    "normal_load": Display("normal load", "N", ".4g"),
+    "approach": Display("approach", "µm", ".4g"),
+    "largest_pressure": Display("peak pressure", "MPa", ".4g"),
+    "net_area": Display("net contact area", "mm²", ".4g"),
+}
+"""The same variables of small bodies and patches of texture, whose numbers are smaller than those of wheels."""
+
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
@@ -536,8 +895,8 @@ def dataset(
     fields: name → (dimensions, array). coordinates: name → 1-D array (or list of labels), or (dimension, array).
     """
     coords = {}
-    for name, given in coordinates.items():
-        dimension, values = given if isinstance(given, tuple) else (name, given)
+    for name, coordinate in coordinates.items():
+        dimension, values = coordinate if isinstance(coordinate, tuple) else (name, coordinate)
         coords[name] = (dimension, np.asarray(values), attributes(name) if name in VARIABLES else {})
     variables = {name: (dims, np.asarray(data), attributes(name)) for name, (dims, data) in fields.items()}
     return xr.Dataset(variables, coords, dict(attrs))

@@ -21,7 +21,7 @@ async def asking(engine):
     begun = asyncio.Event()
 
     async def listen():
-        async for _ in engine.ask("solve", run="a", table=fine(), theme="light", view={}):
+        async for _ in engine.ask("run", run="a", table=fine(), theme="light", view={}):
             begun.set()
 
     task = asyncio.create_task(listen())

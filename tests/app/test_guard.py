@@ -125,6 +125,19 @@ def test_the_session_that_was_not_seen_for_longest_goes_for_another(keys, monkey
     assert browsers[0].get("/").status_code == 200
 
 
+def test_who_has_just_come_is_not_evicted_for_pages_that_were_left(keys, monkeypatch):
+    """A page is owned until its browser has been gone for 10 s; two who come at once meet a full server."""
+    gone, connected = [], {"page-0"}
+    monkeypatch.setattr(guard, "_MOST_SESSIONS", 3)
+    keys.evicted, keys.connected = gone.append, connected.__contains__
+    browsers = [entered(keys) for _ in range(3)]
+    names = [one.get("/").text.split()[0] for one in browsers]
+    keys.owners |= {f"page-{number}": name for number, name in enumerate(names)}
+    first, second = entered(keys), entered(keys)
+    assert gone == names[1:]
+    assert [one.get("/").status_code for one in (browsers[0], first, second)] == [200, 200, 200]
+
+
 @pytest.mark.parametrize(
     "path", ["/", "/take/abc/nc", "/_nicegui/x/static/nicegui.js", "/look/bench.js", "/?token=", "/?token=x"]
 )

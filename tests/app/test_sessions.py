@@ -167,6 +167,60 @@ def test_who_leaves_while_a_process_starts_leaves_no_process_behind(started, tmp
     asyncio.run(tried())
 
 
+def test_who_asks_a_process_that_ended_by_itself_is_told_at_once(started):
+    """Between the end of its output and that of the process nobody reads any more."""
+
+    async def tried():
+        engine = await Engine.start()
+        process = started[0]
+        never = asyncio.Event()
+
+        async def wait():
+            await never.wait()
+            return process.returncode
+
+        process.wait, process.kill = wait, lambda: None
+        process.lines.put_nowait(b"")
+        await asyncio.sleep(0.01)
+        assert not engine.lives
+        with pytest.raises(EngineLost, match="has ended"):
+            await asyncio.wait_for(engine.last("maps", run="a"), 1)
+        never.set()
+
+    asyncio.run(tried())
+
+
+def test_who_waits_for_a_process_that_is_killed_does_not_wait_for_its_output_to_close(started):
+    """What a process has started may hold its output open."""
+
+    async def tried():
+        engine = await Engine.start()
+        started[0].kill = lambda: None
+        waiting = asyncio.create_task(engine.last("maps", run="a"))
+        await asyncio.sleep(0)
+        engine.kill()
+        with pytest.raises(EngineLost, match="has ended"):
+            await asyncio.wait_for(waiting, 1)
+
+    asyncio.run(tried())
+
+
+def test_who_leaves_while_a_process_learns_its_folder_leaves_none_without_a_session(started, tmp_path, monkeypatch):
+    async def tried():
+        held = Engines()
+        monkeypatch.setattr(Process, "hear", lambda process, line: None)
+        taking = asyncio.create_task(held.take(tmp_path))
+        while not started or len(held._all) < 1 or not held._all[0]._waiting.keys() - {0}:
+            await asyncio.sleep(0)
+        taking.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await taking
+        assert not alive(started)
+        held.close()
+
+    asyncio.run(tried())
+
+
 class Transport(asyncio.Transport):
     """A connection as a protocol sees it."""
 
@@ -264,6 +318,51 @@ def test_a_crowd_of_silent_callers_does_not_keep_others_out(call):
             if not one.gone:
                 one.abort()
         assert not connections.Impatient._waiting
+
+    asyncio.run(tried())
+
+
+UPGRADE = (
+    b"GET / HTTP/1.1\r\nhost: a\r\nconnection: Upgrade\r\nupgrade: websocket\r\nsec-websocket-version: 13\r\n"
+    b"sec-websocket-key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n"
+)
+
+
+def test_a_socket_that_comes_on_the_last_bytes_of_an_answer_stays_open(call):
+    """The server takes the answer for complete a moment after its caller, and then waits 5 s for another request."""
+    import uvicorn
+    from uvicorn.server import ServerState
+
+    class Socket(asyncio.Protocol):
+        def __init__(self, **_):
+            pass
+
+    async def tried():
+        complete = asyncio.Event()
+
+        async def answer(scope, receive, send):
+            await send({"type": "http.response.start", "status": 200, "headers": [(b"content-length", b"1")]})
+            await send({"type": "http.response.body", "body": b"x", "more_body": True})
+            await complete.wait()
+            await send({"type": "http.response.body", "body": b""})
+
+        config = uvicorn.Config(
+            answer, http=connections.Impatient, ws=Socket, log_level="critical", timeout_keep_alive=0.05
+        )
+        config.load()
+        transport = Transport()
+        transport.set_protocol = lambda protocol: setattr(transport, "protocol", protocol)
+        protocol = connections.Impatient(config=config, server_state=ServerState(), app_state={})
+        transport.protocol = protocol
+        protocol.connection_made(transport)
+        protocol.data_received(REQUEST)
+        await asyncio.sleep(0.01)
+        assert transport.written.endswith(b"x")
+        protocol.data_received(UPGRADE)
+        assert isinstance(transport.protocol, Socket)
+        complete.set()
+        await asyncio.sleep(0.2)
+        assert not transport.gone
 
     asyncio.run(tried())
 

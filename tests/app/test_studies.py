@@ -11,12 +11,12 @@ from treadload.app.engine import Engine
 from treadload.app.engines import Engines
 from treadload.app.form import Form
 from treadload.app.session import STUDIES, Session
-from treadload.app.studies import about_study, point_of, point_rows
+from treadload.app.study_points import about_study, point_of, point_rows
 from treadload.case import Case
 from treadload.errors import InputError
 from treadload.plots.kit.shown import shown
 from treadload.results import save_results
-from treadload.study import sweep
+from treadload.sweeps import sweep
 
 
 @pytest.fixture(scope="module")
@@ -54,16 +54,16 @@ def test_a_point_shows_what_the_dataset_holds(study):
     assert told["solved:largest_pressure"].startswith(f"{line[1] / 1e3:.4g}"[:4])
     # What has a value for each depth says which depth it is of; and round-off is nothing.
     words = {row["key"]: row["label"] for row in point_rows(study, at)}
-    assert words["solved:largest_extension"] == "largest extension, depth 20 mm"
+    assert words["solved:largest_extension"] == "largest tensile strain, depth 20 mm"
     titled = point_of(study, at, "largest_extension", "rolling.normal_load", "", "light", 900.0)["curve"]
-    assert titled.layout.title.text == "<b>Largest extension</b>, depth 20 mm"
+    assert titled.layout.title.text == "<b>Largest tensile strain</b>, depth 20 mm"
     assert shown(xr.DataArray(4e-16, attrs={"units": "m"}), "worst_y").number(4e-16) == "0 mm"
 
 
 def test_a_failed_case_says_why(study):
     rows = point_rows(study, {"rolling.friction": 0, "rolling.normal_load": 0})
-    assert rows[-1]["value"] == "failed"
-    assert rows[-1]["note"] == dict(study.failures)[0]
+    assert rows[-2]["value"] == "failed"
+    assert rows[-1]["value"] == dict(study.failures)[0]
     curve = point_of(study, {}, "largest_pressure", "rolling.friction", "", "dark", 900.0)["curve"]
     assert np.isnan(curve.data[0].y[0])
     assert list(curve.data[2].x) == [0.2]

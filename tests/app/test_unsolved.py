@@ -1,20 +1,12 @@
 """What a case asks for and the page does not solve is named, whatever the case may learn besides."""
 
 import pytest
+import tomli_w
 
-from treadload.app import unsolved as module
 from treadload.app.form import Form
-from treadload.app.life_form import LifeForm
-from treadload.app.unsolved import said_of, unsolved
+from treadload.app.unsolved import left_out, unsolved, unsolved_sentence
 from treadload.case import Case
-from treadload.case.crossing import CrossingPart
-from treadload.case.model import DamagePart
-from treadload.case.passes import PassesPart
-from treadload.case.response import ResponsePart
-from treadload.case.texture import TexturePart
-
-# Tables of a case whose results the page shows.
-SOLVED = {"tire", "pavement", "rolling", "footprint", "response", "damage"}
+from treadload.steps.crossing import CrossingStep
 
 
 def case_with(**tables):
@@ -23,33 +15,34 @@ def case_with(**tables):
 
 def test_the_first_case_is_solved_whole():
     assert unsolved(Case.from_dict(dict(Form.first().table))) == []
-    assert said_of(LifeForm.first().check(".").case) == ""
-    assert said_of(None) == ""
+    assert unsolved_sentence(Form.first("life").check(".").case) == ""
+    assert unsolved_sentence(None) == ""
 
 
-@pytest.mark.parametrize("name", sorted(set(Case.own_tables) - SOLVED))
-def test_every_table_of_the_schema_that_the_page_does_not_solve_is_named(name):
-    case = Case.model_construct(
-        {name}, **{name: PassesPart() if name != "texture" else TexturePart.model_construct()}
-    )
-    assert unsolved(case) == [f"[{name}]"]
+def test_every_step_is_solved_at_once_or_named():
+    """Whatever a case learns: no table is dropped in silence."""
+    wheel = {"fatigue": {"epsilon_6": 1e-4, "slope": -0.2}}
+    tables = {
+        "passes": {}, "crossing": {"step": {"rise": "2 mm"}}, "response": {"depths": [0.0]}, "damage": wheel,
+        "aggregates": {
+            "material": {"kind": "elastic", "modulus": "60 GPa", "poisson": 0.2}, "fraction": 0.2,
+            "radii": ["4 mm"], "window": {"length": "24 mm", "width": "24 mm", "depth": "12 mm"},
+        },
+    }  # fmt: skip
+    layers = [{**layer} for layer in Form.first().table["pavement"]["layers"]]
+    layers[1] = {**layers[1], "plasticity": {"kind": "mohr-coulomb", "cohesion": "1 MPa", "friction_angle": "35 deg"}}
+    layers[1]["material"] = {"kind": "elastic", "modulus": "500 MPa", "poisson": 0.35}
+    layers[1].pop("mix", None)
+    case = case_with(pavement={"layers": layers}, **tables)
+    assert unsolved(case) == ["[passes]", "[aggregates]", "[crossing]"]
+    assert left_out(case) == ("bowl", "slices", "passes", "aggregates", "crossing")
+    kinds = {type(step).name for step in case.steps}
+    assert kinds == {"contact", "response", "damage", *left_out(case)}
 
 
-def test_a_key_that_the_schema_gets_is_named_until_the_page_solves_it():
-    """Of both tables that are solved in part, all keys are either solved or named."""
-    for name, part in (("response", ResponsePart), ("damage", DamagePart)):
-        table = part.model_construct(set(part.model_fields), **dict.fromkeys(part.model_fields, True))
-        case = Case.model_construct({name}, **{name: table})
-        told = {one.removeprefix(f"{name}.") for one in unsolved(case)}
-        assert told | module._KEYS[name] == set(part.model_fields)
-        assert not told & module._KEYS[name]
-    assert set(Case.model_fields) >= module._WHOLE
-
-
-def test_an_error_estimate_is_named_and_its_absence_is_not():
+def test_an_error_estimate_is_solved():
     damage = dict(Form.first().table["damage"])
-    assert unsolved(case_with(damage={**damage, "error_estimate": True})) == ["damage.error_estimate"]
-    assert unsolved(case_with(damage={**damage, "error_estimate": False})) == []
+    assert unsolved(case_with(damage={**damage, "error_estimate": True})) == []
 
 
 def test_a_texture_under_the_tire_is_solved_and_a_patch_is_not():
@@ -62,11 +55,22 @@ def test_a_texture_under_the_tire_is_solved_and_a_patch_is_not():
 
 def test_the_sentence_names_the_tables_and_the_command():
     case = case_with(crossing={"step": {"rise": "10 mm"}})
-    assert isinstance(case.crossing, CrossingPart)
-    said = said_of(case)
+    assert isinstance(case.crossing, CrossingStep)
+    said = unsolved_sentence(case)
     assert "[crossing]" in said
     assert "`treadload run case.toml`" in said
     damage = {**Form.first().table["damage"], "error_estimate": True}
-    assert "damage.error_estimate and [crossing]" in said_of(
-        case_with(crossing={"step": {"rise": "10 mm"}}, damage=damage)
+    assert "[crossing]" in unsolved_sentence(case_with(crossing={"step": {"rise": "10 mm"}}, damage=damage))
+
+
+@pytest.mark.browser
+def test_what_is_not_solved_stands_above_the_numbers(visit):
+    """Below all of them it lay outside of a window of usual height."""
+    crossing = tomli_w.dumps(
+        {**Form.first().table, "spacing": "24 mm", "crossing": {"joint": {"width": "18 mm", "depth": "30 mm"}}}
     )
+    visit.chosen("open a TOML …", {"name": "a.toml", "mimeType": "text/plain", "buffer": crossing.encode()})
+    note = visit.page.locator("#verdict > #unsolved:first-child")
+    note.wait_for()
+    assert note.inner_text().startswith("This page did not solve [crossing]. Take the TOML home and run `treadload")
+    assert note.bounding_box()["y"] < visit.page.locator("[data-row=normal_load]").bounding_box()["y"]

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from treadload.cli import app, ending
 from treadload.cli.shell import _Screen
 from treadload.errors import WriteError
-from treadload.study.threads import pool_of
+from treadload.life.threads import pool_of
 
 posix = pytest.mark.skipif(os.name == "nt", reason="signals and pipes as on POSIX")
 
@@ -136,7 +136,7 @@ def test_an_interrupted_calibration_says_what_is_kept(monkeypatch, tmp_path, opt
     def stopped(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("treadload.study.run_calibration", stopped)
+    monkeypatch.setattr("treadload.steps.run", stopped)
     monkeypatch.chdir(tmp_path)
     run = CliRunner()
     assert run.invoke(app, ["init", "calibrate", "-o", "c.toml"]).exit_code == 0
@@ -156,7 +156,7 @@ def test_a_disk_that_refuses_the_result_comes_after_its_summary_and_is_no_wrong_
     def full(tree, path):
         raise WriteError(f"cannot write {path}: No space left on device (458 kB needed, 12 kB free)")
 
-    monkeypatch.setattr("treadload.study.run_case", lambda case, progress: Solved())
+    monkeypatch.setattr("treadload.steps.run", lambda case, **_: Solved())
     monkeypatch.setattr("treadload.results.exports.write", full)
     monkeypatch.chdir(tmp_path)
     run = CliRunner()

@@ -31,7 +31,8 @@ def test_a_result_is_exported_by_the_suffix(result, tmp_path, name):
 def test_discs_are_printed_and_written(result, tmp_path):
     done = call("export", result, "-o", tmp_path / "discs.csv", "--discs", 3)
     assert done.exit_code == 0, done.output
-    assert "what is lost" in done.output
+    assert "Uniform discs: 3" in done.output
+    assert "discs over radius" in done.output
     assert len((tmp_path / "discs.csv").read_text().splitlines()) == 4
 
 

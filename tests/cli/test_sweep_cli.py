@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 import treadload as tl
 from sweeps import small_case
 from treadload.cli import app
-from treadload.study import open_sweep
+from treadload.sweeps import open_sweep
 
 pytest.importorskip("zarr")
 
@@ -27,7 +27,7 @@ def test_a_product_with_fields_and_units(case):
     done = run("sweep", case, "--vary", "modulus=1 GPa:4 GPa:2", "--vary", "poisson=[0.3, 0.4]", "--field",
                "max(stress_xx)", "--quiet")  # fmt: skip
     assert done.exit_code == 0, done.output
-    assert "varied    pavement.layers.0.material.modulus: 1e+09 to 4e+09 Pa, 2 values" in done.output
+    assert "pavement.layers.0.material.modulus: 1e+09 to 4e+09 Pa, 2 values" in done.output
     assert f"written: {case.with_suffix('.zarr')}" in done.output
     study = open_sweep(case.with_suffix(".zarr"))
     assert study.dataset.sizes["modulus"] == study.dataset.sizes["poisson"] == 2
@@ -81,16 +81,16 @@ def test_wrong_use_is_one_sentence(case, options, said):
 
 
 def test_a_study_of_which_all_failed_ends_with_one(case, monkeypatch):
-    from treadload.study.sweeps import parts
+    from treadload.steps import scene
 
-    monkeypatch.setattr(parts, "load_case", lambda *args, **more: 1 / 0)
+    monkeypatch.setattr(scene, "load_case", lambda *args, **more: 1 / 0)
     done = run("sweep", case, "--vary", "poisson=[0.3, 0.4]")
     assert done.exit_code == 1
     assert "2 cases failed" in done.output
 
 
 def test_an_interruption_says_how_to_go_on(case, monkeypatch):
-    from treadload.study.sweeps import store
+    from treadload.sweeps import store
 
     append, calls = store.Store.append, []
 
@@ -116,4 +116,4 @@ def test_a_design_case_is_varied_too(tmp_path):
     done = run("sweep", design, "--vary", "passes_per_year=1e5:1e6:2", "--dry-run")
     assert done.exit_code == 0, done.output
     assert "traffic.passes_per_year: 100000 to 1e+06" in done.output
-    assert json.dumps(tl.LifeCase.from_toml(design).given())
+    assert json.dumps(tl.Case.from_toml(design).as_tables())

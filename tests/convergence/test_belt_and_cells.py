@@ -9,7 +9,7 @@ ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 
 @pytest.mark.slow
 def test_deflection_and_area_hardly_move_with_the_cells():
-    belt = tl.Belt.from_library("315/80R22.5")
+    belt = tl.tire.Belt.from_library("315/80R22.5")
     tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=800e3, belt=belt)
     wheel = tl.Rolling(normal_load=35e3, friction=0.0)
     found = {cell: tl.solve_contact(tire, ROAD, wheel, spacing=cell) for cell in (8e-3, 4e-3, 2e-3)}

@@ -1,7 +1,9 @@
-"""CONTRIBUTING shows the package of `examples/plugin`; here each of its six things does its work."""
+"""CONTRIBUTING shows the package of `examples/plugin`; here each of its seven things does its work."""
 
 import json
+import os
 import re
+import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -11,9 +13,11 @@ import pytest
 
 import treadload as tl
 from cases import COARSE_CASE, ONE_AXLE
-from packages import build
+from packages import build, forget
 from tire_meshes import tire_mesh
-from treadload.case import Case, LifeCase
+from treadload.app.result_rows import rows_of
+from treadload.app.unsolved import unsolved
+from treadload.case import Case
 
 CLONE = Path(__file__).parents[2]
 PLUGIN = CLONE / "examples" / "plugin"
@@ -31,13 +35,12 @@ def road_laws(tmp_path, monkeypatch):
     build(tmp_path / "site", "road_laws", declared, version="1.0", **MODULES)
     monkeypatch.syspath_prepend(str(tmp_path / "site"))
     yield
-    for name in [name for name in sys.modules if name.split(".")[0] == "road_laws"]:
-        del sys.modules[name]
+    forget("road_laws")
 
 
 def test_the_page_shows_the_package_as_it_is():
     shown = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
-    assert set(MODULES) == {"material", "layer", "friction", "criterion", "reader", "body"}
+    assert set(MODULES) == {"material", "layer", "friction", "criterion", "reader", "body", "step"}
     assert all(text in shown for text in MODULES.values())
     assert (PLUGIN / "pyproject.toml").read_text("utf-8") in re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
 
@@ -73,7 +76,7 @@ def test_a_material_and_a_layer_law_of_a_package(road_laws):
 
 def test_a_friction_law_of_a_package(road_laws):
     law = 'friction = { law = "rubber-power", coefficient_there = 0.7, pressure = "600 kPa" }'
-    result = tl.run_case(Case.from_text(swapped(("friction       = 0.7", law))))
+    result = tl.run(Case.from_text(swapped(("friction       = 0.7", law))))
     data = result.contact.dataset
     pressure = data.pressure.to_numpy()
     touching = pressure > 0
@@ -89,7 +92,7 @@ def test_a_criterion_of_a_package(road_laws):
         + table.format("ours", "fatigue-line", "slope = -0.2")
         + table.format("theirs", "test-track", "power = 5\nshift = 2")
     )
-    result = tl.run_life(LifeCase.from_text(text), sensitivity=False)
+    result = tl.run(Case.from_text(text), leave_out=("sensitivity",))
     ours, theirs = result.life.dataset.life_years.to_numpy()
     assert theirs == pytest.approx(2 * ours, rel=1e-9)
     assert "test track, power 5" in result.summary() + str(result.to_tree()["life"].attrs)
@@ -123,3 +126,65 @@ def test_a_reader_of_a_package(road_laws, tmp_path):
     (tmp_path / "torn.jmesh").write_text("?")
     with pytest.raises(tl.InputError, match=r"could not be read by the reader 'jmesh' of the package road-laws 1\.0"):
         tl.Tire.from_scan(tmp_path / "torn.jmesh")
+
+
+STEP = swapped(("[response]", "[carrying]\nshare = 0.6\n[response]"))
+
+
+def test_a_step_of_a_package_is_run_planned_and_summed_up(road_laws, tmp_path):
+    case = Case.from_text(STEP)
+    assert Case.from_text(case.to_toml()) == case
+    result = tl.run(case)
+    pressure = result.contact.dataset["pressure"].sum("y").to_numpy()
+    count = round(float(result.carrying.dataset["carrying_length"]) / float(result.contact.dataset.attrs["dx"]))
+    carried = np.sort(pressure)[::-1].cumsum() / pressure.sum()
+    assert carried[count - 1] >= 0.6 > carried[count - 2]
+    assert "carrying length" in result.summary()
+    assert "60 % of the load" in result.summary()
+    assert tl.plan(case)
+    with pytest.raises(tl.InputError, match=r"share must lie in \(0, 1\), got 1.2"):
+        Case.from_text(STEP.replace("share = 0.6", "share = 1.2"))
+    with pytest.raises(tl.InputError, match=r"unknown key 'carrying\.shar'; did you mean 'share'"):
+        Case.from_text(STEP.replace("share = 0.6", "shar = 0.6"))
+
+
+def test_a_step_of_a_package_is_swept(road_laws):
+    study = tl.sweep(Case.from_text(STEP), {"carrying.share": [0.3, 0.6]})
+    short, long = study.dataset["carrying_length"].to_numpy()
+    assert 0 < short < long
+
+
+def test_a_step_of_a_package_is_run_by_the_command_opened_in_a_fresh_process_and_reported(road_laws, tmp_path):
+    (tmp_path / "case.toml").write_text(STEP, encoding="utf-8")
+    source = str(Path(tl.__file__).parents[1])
+    path = os.pathsep.join([str(tmp_path / "site"), source])
+    environment = {**os.environ, "PYTHONPATH": path}
+    command = [sys.executable, "-m", "treadload"]
+    for words in (["run", "case.toml"], ["report", "case.nc", "-o", "report.html"]):
+        done = subprocess.run(
+            [*command, *words], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stderr
+    opened = "import treadload as tl; print(tl.open_results('case.nc').carrying.rows()[0].text)"
+    done = subprocess.run(
+        [sys.executable, "-c", opened], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
+    assert re.fullmatch(r"\d+ mm\n", done.stdout), done.stderr
+    page = (tmp_path / "report.html").read_text("utf-8")
+    assert "Carrying length" in page
+    assert "Load along travel" in page
+    # Without the package the file opens; its part is named.
+    bare = {**environment, "PYTHONPATH": source}
+    done = subprocess.run(
+        [sys.executable, "-c", opened.replace("rows()[0].text", "warnings")],
+        cwd=tmp_path, env=bare, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert "no installed package has the class 'CarryingLength'" in done.stdout
+
+
+def test_a_step_of_a_package_is_on_the_page(road_laws):
+    case = Case.from_text(STEP)
+    assert unsolved(case) == []
+    parts = tl.run(case).parts
+    labels = [row["label"] for row in rows_of(parts)]
+    assert "carrying length" in [label.lower() for label in labels]

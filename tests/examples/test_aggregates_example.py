@@ -29,7 +29,7 @@ def test_aggregates(tmp_path, capsys):
 def test_the_case_with_stones_runs_is_written_and_reported(tmp_path):
     text = (EXAMPLE / "aggregates.toml").read_text().replace('spacing = "3 mm"', 'spacing = "8 mm"')
     case = tl.Case.from_text(text.replace('"1 mm"', '"2 mm"'))
-    result = tl.run_case(case)
+    result = tl.run(case)
     assert result.heterogeneous is not None
     assert "ravelling index" in result.summary()
     tl.save_results(result, tmp_path / "case.nc")

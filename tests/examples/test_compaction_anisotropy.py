@@ -30,8 +30,8 @@ def test_compaction_anisotropy(tmp_path, capsys):
 
 @pytest.mark.slow
 def test_its_life_runs_as_a_case_with_what_it_depends_on():
-    case = tl.LifeCase.from_toml(EXAMPLE / "compaction.toml").model_copy(update={"spacing": 24e-3})
-    result = tl.run_life(case)
+    case = tl.Case.from_toml(EXAMPLE / "compaction.toml").model_copy(update={"spacing": 24e-3})
+    result = tl.run(case)
     found = result.sensitivity.dataset["elasticity"]
     # A layer whose three moduli grow alike lasts longer; the contact feels none of it.
     assert float(found.sel(input="modulus of asphalt")) > 1
@@ -39,7 +39,7 @@ def test_its_life_runs_as_a_case_with_what_it_depends_on():
 
 
 def test_the_case_has_its_grain():
-    case = tl.LifeCase.from_toml(EXAMPLE / "compaction.toml")
+    case = tl.Case.from_toml(EXAMPLE / "compaction.toml")
     asphalt, stone, soil = (layer.material for layer in case.build_road().layers)
     assert asphalt.horizontal > asphalt.vertical
     assert stone.vertical == 2 * stone.horizontal
@@ -49,5 +49,5 @@ def test_the_case_has_its_grain():
         tl.Elastic(5.4e9, 0.35),
         tl.Elastic(300e6, 0.35),
     ]
-    again = tl.LifeCase.from_text(case.to_toml())
+    again = tl.Case.from_text(case.to_toml())
     assert again.build_road() == case.build_road()

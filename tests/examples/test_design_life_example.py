@@ -1,14 +1,15 @@
 """The example of a design ends in a page whose numbers hold together; on coarser cells and fewer months."""
 
 import runpy
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.study.contacts import Contacts
-from treadload.study.life import solve_life
+from treadload.life.solve import solve_life
+from treadload.steps.design import design_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "design_life"
 
@@ -35,20 +36,15 @@ def test_design_life(tmp_path, capsys):
 @pytest.mark.slow
 def test_lives_of_the_design_are_those_of_all_seasons_solved():
     """On the cells of the case: few seasons stand for all, within 1e-3 of the years of every criterion."""
-    case = tl.LifeCase.from_toml(EXAMPLE / "design.toml")
-    tire, road = case.build_tire(), case.build_road()
-    contacts = Contacts(tire, case.spacing)
-    given = case.build_traffic(), case.build_climate(), case.build_criteria()
-    few, all_of_them = (
-        solve_life(tire, road, *given, spacing=case.spacing, tolerance=one, contacts=contacts)
-        for one in (case.tolerance, 0.0)
-    )
+    case = tl.Case.from_toml(EXAMPLE / "design.toml")
+    design = design_of(case)
+    few, all_of_them = (solve_life(replace(design, tolerance=one)) for one in (design.tolerance, 0.0))
     assert few.stats["responses"] < all_of_them.stats["responses"]
     np.testing.assert_allclose(few.dataset["life_years"], all_of_them.dataset["life_years"], rtol=1e-3)
 
 
 def test_the_design_is_a_valid_case():
-    case = tl.LifeCase.from_toml(EXAMPLE / "design.toml")
+    case = tl.Case.from_toml(EXAMPLE / "design.toml")
     assert len(case.build_traffic().classes) == 9
     assert len(case.build_climate().seasons) == 12
     assert [row.name for row in case.build_road().layers] == ["EB-BBSG3", "EB-GB3", "PF3"]

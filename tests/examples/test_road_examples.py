@@ -28,10 +28,10 @@ def test_examples_are_valid_and_written_back(name):
 
 @pytest.mark.slow
 def test_dual_wheels_of_tires_strain_the_base_as_the_standard_discs_do(tmp_path):
-    result = tl.run_case(example("dual_wheel"))
+    result = tl.run(example("dual_wheel"))
     # The French method's load on the French structure: 100.0 microstrain at the base, between the wheels, where
     # every program of that method has it.
-    discs = tl.dual_wheels(tl.UniformDisc(0.125, 0.662e6), 0.375)
+    discs = tl.response.dual_wheels(tl.UniformDisc(0.125, 0.662e6), 0.375)
     standard = tl.solve_response(discs, result.road, depths=[0.21], x=[0.0], y=[0.0]).dataset
     assert standard.principal_strain_1.item() == pytest.approx(100.0e-6, abs=0.1e-6)
     # 21 cm below, it hardly matters that tires press on ribs and over a longer patch.
@@ -55,12 +55,12 @@ def test_dual_wheels_of_tires_strain_the_base_as_the_standard_discs_do(tmp_path)
 @pytest.mark.slow
 def test_a_delaminated_wearing_course_extends_at_its_underside():
     case = example("delaminated")
-    result = tl.run_case(case)
+    result = tl.run(case)
     layers = result.road.layers
     bonded, slides = (
         tl.Pavement([replace(layers[0], bond=bond), *layers[1:]]) for bond in (tl.BONDED, tl.FRICTIONLESS)
     )
-    discs = tl.dual_wheels(tl.UniformDisc(0.125, 0.662e6), 0.375)
+    discs = tl.response.dual_wheels(tl.UniformDisc(0.125, 0.662e6), 0.375)
     under = {"depths": [0.06], "x": [0.0], "y": [0.1875]}
     # On the axis of one of the standard discs the underside is known to the digits printed: it extends by 101
     # microstrain where it slides, and shortens by 18.7 at least where it is bonded.
@@ -89,7 +89,7 @@ def test_a_delaminated_wearing_course_extends_at_its_underside():
 @pytest.mark.slow
 def test_on_a_hot_day_strain_lies_between_the_elastic_limits_and_lags(tmp_path):
     case = example("hot_day", '"15 mm"')
-    result = tl.run_case(case)
+    result = tl.run(case)
     assert case.pavement.layer_temperatures() == pytest.approx([40, 33.5, None])
     data = result.response.dataset
     assert data.attrs["speed"] == pytest.approx(70 / 3.6)

@@ -14,7 +14,7 @@ def test_rough_road(tmp_path, capsys):
     assert 0.2 < found["touches"] < 0.9
     assert found["deep"] == pytest.approx(1, abs=0.03)
     said = capsys.readouterr().out
-    assert "mm² touch" in said
+    assert "of the wheel's contact" in said
     assert "MPD" in said
     for name in ("rough_road.png", "chip_seal.png", "enveloped.png", "rough_road.nc"):
         assert (tmp_path / name).stat().st_size > 10_000

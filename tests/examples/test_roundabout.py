@@ -41,7 +41,7 @@ def test_roundabout(tmp_path, capsys):
 
 def test_the_case_file_is_the_maneuver():
     case = tl.Case.from_toml(FOLDER / "roundabout.toml")
-    turn = tl.Maneuver.turning(12.0, 20 / 3.6).rolling(32.5e3, 0.7)
+    turn = tl.contact.Maneuver.turning(12.0, 20 / 3.6).rolling(32.5e3, 0.7)
     written = case.rolling.build()
     # Four digits are written in the file.
     assert written.forces == pytest.approx(turn.forces, rel=1e-4)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from studies import study_of
-from treadload.study.sweeps import open_sweep
-from treadload.study.sweeps.design import Design
+from treadload.sweeps import open_sweep
+from treadload.sweeps.design import Design
 
 pytest.importorskip("sklearn")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "study" / "run.py"

@@ -27,8 +27,8 @@ def test_top_down(tmp_path, capsys):
 @pytest.mark.slow
 def test_a_kinked_crack_below_twelve_profiles_starts_in_the_nearest_season_solved():
     changes = ["spacing=0.024", "climate.parts_of_day=1", 'growth.path="kinked"', "growth.steps=3"]
-    case = tl.LifeCase.from_toml(EXAMPLE / "bus_stop.toml", changes=changes)
-    result = tl.run_life(case, workers=1)
+    case = tl.Case.from_toml(EXAMPLE / "bus_stop.toml", changes=changes)
+    result = tl.run(case, workers=1)
     assert len(result.life.climate.seasons) == 12
     # Eight of them are solved for each of four classes.
     assert result.growth.stats["responses"] == 32
@@ -40,5 +40,5 @@ def test_a_kinked_crack_below_twelve_profiles_starts_in_the_nearest_season_solve
 
 @pytest.mark.parametrize("place", ["motorway", "exit_curve", "bus_stop"])
 def test_its_cases_can_be_read(place):
-    case = tl.LifeCase.from_toml(EXAMPLE / f"{place}.toml")
+    case = tl.Case.from_toml(EXAMPLE / f"{place}.toml")
     assert {row.speed for row in case.build_traffic().classes} != {None}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from faults import kills, places, races
+from faults import kills, pages, places, races
 
 
 def main() -> int:
@@ -26,7 +26,12 @@ def main() -> int:
         return 0
     if asked.kind == "disks":
         return places.main(asked.only)
-    return 1 if kills.kills(asked.count, [asked.only] if asked.only else list(kills.COMMANDS), asked.seed) else 0
+    broken = 0
+    if asked.only != "app":
+        broken += kills.kills(asked.count, [asked.only] if asked.only else list(kills.COMMANDS), asked.seed)
+    if asked.only in (None, "app"):
+        broken += pages.stopped_pages(asked.count, asked.seed)
+    return 1 if broken else 0
 
 
 if __name__ == "__main__":

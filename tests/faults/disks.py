@@ -18,7 +18,7 @@ from typing import Any
 
 from faults.writers import DESIGN, Writer, store
 from treadload.errors import InputError
-from treadload.study import open_sweep
+from treadload.sweeps import open_sweep
 
 OLD = b"what was there before\n" * 40
 # Shares of the largest file that a limit leaves, and sizes of a file system, kB; each the ten of the harness.

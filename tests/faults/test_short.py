@@ -66,6 +66,16 @@ def test_a_command_stopped_at_any_moment_leaves_what_is_whole_and_goes_on(name):
     assert kills(2, [name], seed=1, tell=told.append) == 0, "\n".join(told)
 
 
+@pytest.mark.slow
+def test_a_page_stopped_at_any_moment_leaves_no_process_and_starts_again():
+    pytest.importorskip("nicegui")
+    pytest.importorskip("aiohttp")
+    from faults.pages import stopped_pages
+
+    told = []
+    assert stopped_pages(2, seed=1, tell=told.append) == 0, "\n".join(told)
+
+
 def test_a_file_is_read_whole_or_refused_while_it_changes():
     from faults.races import read_while_replaced
 

@@ -14,8 +14,8 @@ import numpy as np
 
 import treadload as tl
 from studies import FREE, question, records_of, wheel
-from treadload.study.sweeps.design import product
-from treadload.study.sweeps.store import begun
+from treadload.sweeps.design import product
+from treadload.sweeps.store import begun
 
 
 @dataclass(frozen=True)
@@ -49,13 +49,13 @@ def store(path: Path, count: int = DESIGN.count) -> None:
 
 def writers() -> dict[str, Writer]:
     """All of them by name, over the contact and the response of a small tread."""
+    from treadload.calibration.evaluations import Evaluations
     from treadload.cli.cases import init, schema
     from treadload.cli.exports import as_python, cite
     from treadload.results.discs import equivalent_discs
     from treadload.results.exports import write_csv, write_excel, write_parquet
     from treadload.results.tractions import write_tractions
     from treadload.results.vtk import write_vtk
-    from treadload.study.calibration.evaluations import Evaluations
 
     x = 5e-3 * (np.arange(24) - 11.5)
     tire = tl.Tire.from_height_map((x[None, :] ** 2 + x[:, None] ** 2) / 0.8, 5e-3, material=tl.Elastic(3e6, 0.5))
@@ -66,7 +66,7 @@ def writers() -> dict[str, Writer]:
     figure = contact.plot.pressure()
     discs = equivalent_discs(contact, 3)
     known = {((float(number),), 0): np.arange(9.0) for number in range(300)}
-    solved = SimpleNamespace(known=known, problem=SimpleNamespace(fingerprint="a"))
+    solved = SimpleNamespace(readings_by_task=known, problem=SimpleNamespace(fingerprint="a"))
 
     def shown(command: Callable[..., Any], *arguments: Any) -> None:
         with contextlib.redirect_stdout(io.StringIO()):
@@ -108,7 +108,7 @@ def _case() -> Path:
 
 def _take(parts: Any, path: Path) -> None:
     """The tables of a run as the page hands them over."""
-    from treadload.app.takehome import write_export
+    from treadload.app.export_files import write_export
 
     write_export(parts, lambda: None, "csv", path.parent, "a", {})
 

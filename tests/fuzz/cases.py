@@ -16,7 +16,7 @@ import tomli_w
 
 from fuzz.corpus import QUESTIONS, TABLES
 from fuzz.runner import REFUSED, TAKEN, Refusal, WrongAnswer, ask
-from treadload.case import Case, LifeCase
+from treadload.case import Case
 
 NUMBERS: tuple[Any, ...] = (
     0, 1, -1, 2, 7, 1000, 2**63, -(10**30), 10**400, True, False,
@@ -73,11 +73,11 @@ def _read_back(case: Any, folder: Path) -> None:
         raise WrongAnswer(f"written back, {', '.join(told)} differs: {text}")
 
 
-def _build(case: Case | LifeCase) -> None:
+def _build(case: Case | Case) -> None:
     """Everything of a case that takes no solve. A scan takes seconds and has attacks of its own."""
     if case.tire is not None and case.tire.scan is None:
         case.build_tire()
-    if isinstance(case, LifeCase):
+    if isinstance(case, Case):
         case.build_road()
         case.build_traffic()
         case.build_climate()
@@ -92,8 +92,8 @@ def _build(case: Case | LifeCase) -> None:
 
 
 @functools.cache
-def _corpus() -> list[tuple[type[Case] | type[LifeCase], str]]:
-    return [(LifeCase if "[[criteria]]" in text else Case, text) for text in QUESTIONS]
+def _corpus() -> list[tuple[type[Case], str]]:
+    return [(Case, text) for text in QUESTIONS]
 
 
 @functools.cache
@@ -112,7 +112,6 @@ def _keys() -> list[str]:
             visit(part)
 
     visit(Case)
-    visit(LifeCase)
     return sorted(keys)
 
 

@@ -22,7 +22,7 @@ from treadload.contact.bodies.influence import Influence
 from treadload.contact.friction import Anisotropic, Exponential, PressureDependent
 from treadload.contact.friction.laws import Coulomb, FrictionLaw, Interface
 from treadload.contact.rolling_state import Rolling
-from treadload.contact.solvers.coupling import solve_coupled
+from treadload.contact.solvers.coupling import Surfaces, solve_coupled
 from treadload.contact.solvers.marching import Stage, march
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.errors import ConvergenceError
@@ -151,7 +151,7 @@ def _roll(rng: random.Random, scene: Scene) -> str:
     try:
         solved = ask(
             lambda: solve_coupled(
-                scene.influence, grid, scene.gap, rolling, check=lambda p: None, tolerance=TOLERANCE
+                scene.influence, Surfaces(grid, scene.gap), rolling, check=lambda p: None, tolerance=TOLERANCE
             )
         )
     except ConvergenceError as error:

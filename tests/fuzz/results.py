@@ -20,17 +20,14 @@ import numpy as np
 import xarray as xr
 from PIL import Image
 
-import treadload.reporting.figures
-import treadload.reporting.life
-import treadload.reporting.others
 import treadload.reporting.pictures
 from cases import BASE_AND_SOIL
 from fuzz.corpus import TABLES
 from fuzz.runner import REFUSED, TAKEN, Refusal, WrongAnswer, ask
-from treadload.case import Case, LifeCase
+from treadload.case import Case
 from treadload.reporting import write_report
 from treadload.results import open_results, save_results
-from treadload.study import run_case, run_life
+from treadload.steps import run
 
 # One in so many is a file, has figures, has them drawn: a drawing takes a second, the rest of a report a twentieth.
 FILES, FIGURES, DRAWN = 12, 10, 60
@@ -70,8 +67,8 @@ def _report(rng: random.Random, tree: xr.DataTree, folder: Path) -> None:
     path = folder / "report.html"
     with contextlib.ExitStack() as stack:
         if rng.randrange(FIGURES):
-            for module in (treadload.reporting.figures, treadload.reporting.life, treadload.reporting.others):
-                stack.enter_context(mock.patch.object(module, "picture", mock.Mock(return_value=[])))
+            nothing = mock.Mock(return_value=[])
+            stack.enter_context(mock.patch.object(treadload.reporting.pictures, "picture", nothing))
         elif rng.randrange(DRAWN // FIGURES):
             blank = mock.Mock(return_value=_blank())
             stack.enter_context(mock.patch.object(treadload.reporting.pictures, "png", blank))
@@ -165,9 +162,9 @@ def _bases() -> list[xr.DataTree]:
         footprint = '[footprint]\nfile = "footprint.csv"\nspacing = "40 mm"\nmissing = "zero"\nnoise = 10'
         slow = _SMALL.format(spacing="", tire="", load=footprint)
         return [
-            _small(run_case(Case.from_text(_COARSE)).to_tree()),
-            _rolled(_small(run_case(Case.from_text(slow, folder=folder)).to_tree())),
-            _small(run_life(LifeCase.from_text(_LIFE)).to_tree()),
+            _small(run(Case.from_text(_COARSE)).to_tree()),
+            _rolled(_small(run(Case.from_text(slow, folder=folder)).to_tree())),
+            _small(run(Case.from_text(_LIFE)).to_tree()),
         ]
 
 

@@ -16,7 +16,7 @@ import tomli_w
 import treadload as tl
 from fuzz.runner import REFUSED, TAKEN, Refusal, WrongAnswer, ask
 from fuzz.solved import SOLVED
-from treadload.case import LifeCase
+from treadload.case import Case
 from treadload.errors import ConvergenceError
 
 Table = dict[str, Any]
@@ -124,17 +124,17 @@ def attack(rng: random.Random, folder: Path) -> str:
 def _case(table: Table, folder: Path) -> Any:
     path = folder / "case.toml"
     path.write_text(tomli_w.dumps(table), encoding="utf-8")
-    return ask(lambda: LifeCase.from_toml(path))
+    return ask(lambda: Case.from_toml(path))
 
 
-def _solved(case: LifeCase) -> Any:
+def _solved(case: Case) -> Any:
     try:
-        return tl.run_life(case, sensitivity=False, workers=1)
+        return tl.run(case, leave_out=("sensitivity",), workers=1)
     except ConvergenceError as error:
         raise WrongAnswer(f"did not converge: {str(error)[:200]}") from error
 
 
-def judge(case: LifeCase, table: Table, result: Any, folder: Path) -> None:
+def judge(case: Case, table: Table, result: Any, folder: Path) -> None:
     """What must hold of the life, its standard axles and its reliability."""
     life = result.life
     data = life.dataset

@@ -18,7 +18,7 @@ RATIO = st.floats(-0.25, 0.25)
 def solids(draw):
     """Orthotropic solids of contrast up to ten, turned and tilted."""
     three = [tuple(draw(one) for _ in range(3)) for one in (MODULUS, st.floats(0.15e9, 1.2e9), RATIO)]
-    return tl.Orthotropic(*three).rotated(*(draw(ANGLE) for _ in range(3)))
+    return tl.materials.Orthotropic(*three).rotated(*(draw(ANGLE) for _ in range(3)))
 
 
 @settings(max_examples=8, deadline=None, derandomize=True)
@@ -52,7 +52,9 @@ def test_loads_on_two_cells_work_on_each_other_alike(solid, is_tire):
 @given(solid=solids(), depth=st.floats(0.05, 0.4))
 def test_a_plane_below_carries_the_load_of_the_cell(solid, depth):
     """∫ σ_zz and ∫ σ_xz over a wide plane: what lies beyond falls with the square of its width."""
-    cell = tl.GridLoad(tl.Grid(1, 1, 0.2, 0.2, 0.0, 0.0), *(part * np.ones((1, 1)) for part in (8e5, 1e5, -2e5)))
+    cell = tl.response.GridLoad(
+        tl.response.Grid(1, 1, 0.2, 0.2, 0.0, 0.0), *(part * np.ones((1, 1)) for part in (8e5, 1e5, -2e5))
+    )
     force = np.array([8e5, 1e5, -2e5]) * 0.04
     carried = []
     for reach in (4.0, 8.0):

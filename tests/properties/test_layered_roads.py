@@ -56,7 +56,11 @@ def test_both_ways_meet_where_one_takes_over():
 
 
 def test_loads_add_up_in_one_pass():
-    parts = [load(), tl.UniformDisc(0.1, 6e5, x=0.2), tl.UniformRectangle(0.2, 0.1, 5e5, y=-0.3, traction_x=1e5)]
+    parts = [
+        load(),
+        tl.UniformDisc(0.1, 6e5, x=0.2),
+        tl.UniformRectangle(0.2, 0.1, 5e5, y=-0.3, traction_x=1e5),
+    ]
     points = {"depths": [0.0, 0.1], "x": [0.0, 0.2], "y": [-0.25, 0.0]}
     together = tl.solve_response(parts, road(), **points).dataset
     apart = [tl.solve_response(part, road(), **points).dataset for part in parts]

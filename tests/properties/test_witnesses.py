@@ -10,12 +10,12 @@ from treadload.damage.climate import Climate
 from treadload.damage.fields import tension_behind
 from treadload.damage.quantity import STRESS
 from treadload.damage.traffic import AxleClass, Traffic, Wander
+from treadload.damage.uniform import RECTANGLE, compare_uniform
+from treadload.life import wheels
+from treadload.life.peaks import peaks_and_valleys
+from treadload.life.solve import solve_life
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
-from treadload.study import wheels
-from treadload.study.life import solve_life
-from treadload.study.peaks import peaks_and_valleys
-from treadload.study.uniform import RECTANGLE, compare_uniform
 from treadload.tire import Tire
 
 SPACING, MU = 0.012, 0.6
@@ -38,7 +38,7 @@ def steady():
 
 def history():
     rolling = wheel(creepage_x=-0.03, creepage_y=0.04)
-    return tl.solve_transient(paraboloid(), ROAD, rolling, distances=SPACING * np.arange(1, 7)).contact
+    return tl.contact.solve_transient(paraboloid(), ROAD, rolling, distances=SPACING * np.arange(1, 7)).contact
 
 
 @pytest.mark.parametrize("make", [steady, history])
@@ -129,7 +129,9 @@ def test_a_life_does_not_know_how_far_beside_the_wheels_readings_end(monkeypatch
     base = (Criterion("base", FatigueLine(90e-6, -0.2), 0),)
 
     def years():
-        return solve_life(tire, road, traffic, Climate.constant(15.0), base, spacing=0.012, workers=1).years("base")
+        return solve_life(
+            tl.Design(tire, road, traffic, Climate.constant(15.0), base, spacing=0.012), workers=1
+        ).years("base")
 
     own = years()
     monkeypatch.setattr(wheels, "MARGIN", 1.2)
@@ -190,7 +192,7 @@ def test_the_bowl_goes_through_the_middle_of_a_wheel_wherever_it_stands(tmp_path
         '[response]\ndepths = ["2 cm"]\n',
         folder=tmp_path,
     )
-    bowl = tl.run_case(case).bowl
+    bowl = tl.run(case).bowl
     assert bowl.dataset.attrs["load_x"] == pytest.approx(at[0], abs=1e-12)
     assert float(bowl.dataset.y[0]) == pytest.approx(at[1], abs=1e-12)
     sunk = bowl.dataset.displacement_z.isel(depth=0, y=0)

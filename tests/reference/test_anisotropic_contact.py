@@ -6,7 +6,7 @@ from tests.grain import LEANING, STRAIGHT, TILTED
 
 import treadload as tl
 from treadload.contact.bodies import Influence, Sum, surface_of
-from treadload.contact.solvers.coupling import solve_coupled
+from treadload.contact.solvers.coupling import Surfaces, solve_coupled
 from treadload.contact.solvers.shift import solve_shift
 from treadload.grid import Grid
 from treadload.validation.closed_forms import hertz
@@ -38,7 +38,7 @@ def test_hertz_on_tilted_axes_and_its_rate(material, curvature):
 
 
 def test_the_witness_is_hertz_of_equal_moduli_and_fits_the_coefficients():
-    same = tl.Orthotropic([1e9] * 3, [1e9 / 2.6] * 3, [0.3] * 3)
+    same = tl.materials.Orthotropic([1e9] * 3, [1e9 / 2.6] * 3, [0.3] * 3)
     exact, known = hertz_on_grain(same, np.diag([0.25, 1.0]), LOAD), hertz(2.0, 0.5, LOAD, 1e9 / 0.91)
     assert exact.approach == pytest.approx(known.approach, rel=1e-12)
     assert exact.axes == pytest.approx((known.a, known.b), rel=1e-12)
@@ -95,7 +95,7 @@ def test_rolling_the_other_way_round_is_rolling_on_the_solid_turned_by_180_degre
     def shear(material, **asked):
         influence = Influence(grid.shape, grid.dx, grid.dy, Sum.of(steel, surface_of(material, is_tire=False)))
         wheel = tl.Rolling(normal_load=3e3, friction=0.4, **asked)
-        return solve_coupled(influence, grid, gap, wheel, check=lambda p: None, tolerance=1e-7)
+        return solve_coupled(influence, Surfaces(grid, gap), wheel, check=lambda p: None, tolerance=1e-7)
 
     # The image in y = 0 of an axis that leans along travel is itself: sideways forces are images of each other.
     along = STRAIGHT.rotated(pitch=0.5)
@@ -123,7 +123,7 @@ def test_a_history_on_tilted_axes_ends_in_steady_rolling():
     road = tl.Pavement.half_space(TILTED)
     wheel = tl.Rolling(normal_load=1500.0, friction=0.5, tractive_force=300.0)
     steady = tl.solve_contact(tire, road, wheel, tolerance=1e-8)
-    end = tl.solve_transient(tire, road, wheel, distances=2e-3 * np.arange(1, 41), tolerance=1e-8).contact
+    end = tl.contact.solve_transient(tire, road, wheel, distances=2e-3 * np.arange(1, 41), tolerance=1e-8).contact
     assert steady.stats["dundurs"] > 0.1
     for name in ("pressure", "traction_x", "traction_y"):
         one, other = end.dataset[name], steady.dataset[name]
@@ -141,7 +141,9 @@ def test_a_tire_with_memory_rolls_on_a_tilted_road():
     gap = (x[None, :] ** 2 + x[:, None] ** 2) / 0.3
     tire = tl.Tire.from_height_map(gap, 4e-3, material=solid)
     wheel = tl.Rolling(normal_load=60.0, friction=0.5, creepage_x=2e-3, speed=5.0)
-    stiff = tl.Orthotropic([3e13, 1.5e13, 1e13], [0.6e13, 0.5e13, 0.4e13], [0.3] * 3).rotated(0.7, 0.6, 0.35)
+    stiff = tl.materials.Orthotropic([3e13, 1.5e13, 1e13], [0.6e13, 0.5e13, 0.4e13], [0.3] * 3).rotated(
+        0.7, 0.6, 0.35
+    )
     found = tl.solve_contact(tire, tl.Pavement.half_space(stiff), wheel, tolerance=1e-8).dataset
     rigid = tl.solve_contact(tire, tl.Pavement.half_space(tl.Elastic(1e17, 0.3)), wheel, tolerance=1e-8).dataset
     scale = float(rigid.pressure.max())

@@ -7,13 +7,13 @@ from tests.grain import STRAIGHT, TILTED
 import treadload as tl
 
 RNG = np.random.default_rng(7)
-GRID = tl.Grid(12, 10, 0.01, 0.012, -0.055, -0.054)
-LOAD = tl.GridLoad(GRID, 1e6 * RNG.random((10, 12)), *(1e5 * RNG.normal(size=(2, 10, 12))))
+GRID = tl.response.Grid(12, 10, 0.01, 0.012, -0.055, -0.054)
+LOAD = tl.response.GridLoad(GRID, 1e6 * RNG.random((10, 12)), *(1e5 * RNG.normal(size=(2, 10, 12))))
 DEPTHS = [0.0, 1e-4, 0.004, 0.02, 0.4]
-UPRIGHT = tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
+UPRIGHT = tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
 _ACROSS = 0.25 * 5.4 / 3.8
 # The same constants by other words, and another way to the stress: the integral over directions.
-SAME = tl.Orthotropic((5.4e9, 5.4e9, 3.8e9), (2e9, 1.6e9, 1.6e9), (0.35, _ACROSS, _ACROSS))
+SAME = tl.materials.Orthotropic((5.4e9, 5.4e9, 3.8e9), (2e9, 1.6e9, 1.6e9), (0.35, _ACROSS, _ACROSS))
 
 
 def solved(load, material, **places):
@@ -38,15 +38,15 @@ def test_a_disc_is_laid_on_cells_and_a_bilinear_load_refused():
         # 64 cells across: 4e-4 of the pressure.
         scale = 8e5 if name.startswith("stress") else float(np.abs(closed[name]).max())
         np.testing.assert_allclose(found[name], closed[name], rtol=0, atol=4e-4 * scale)
-    smooth = tl.GridLoad(GRID, LOAD.pressure, LOAD.traction_x, LOAD.traction_y, interpolation="bilinear")
+    smooth = tl.response.GridLoad(GRID, LOAD.pressure, LOAD.traction_x, LOAD.traction_y, interpolation="bilinear")
     with pytest.raises(tl.InputError, match=r'"bilinear" has no closed form on a road of general anisotropy; take'):
         solved(smooth, TILTED, x=[0.0], y=[0.0])
 
 
 def test_a_scene_turned_round_gives_the_turned_tensor():
     """By a right angle: x becomes y, y becomes -x."""
-    turned_load = tl.GridLoad(
-        tl.Grid(10, 12, 0.012, 0.01, -0.054, -0.055),
+    turned_load = tl.response.GridLoad(
+        tl.response.Grid(10, 12, 0.012, 0.01, -0.054, -0.055),
         *(np.rot90(part, -1) for part in (LOAD.pressure, -LOAD.traction_y, LOAD.traction_x)),
     )
     x, y = np.linspace(-0.07, 0.09, 5), np.linspace(-0.05, 0.06, 4)
@@ -84,7 +84,7 @@ def test_layers_and_steep_contrasts_are_refused_in_a_sentence():
     mixed = tl.Pavement([tl.Layer(creeping, 0.1), tl.Layer(STRAIGHT, name="mat")])
     with pytest.raises(tl.InputError, match=r"layer 'mat' is orthotropic, .* beside viscoelastic layers"):
         tl.solve_response(LOAD, mixed, depths=[0.02], speed=10.0)
-    steep = tl.Orthotropic((1e12, 1e9, 1e9), [0.4e9] * 3, (0.3, 0.3, 0.3)).rotated(0.5, 0.4)
+    steep = tl.materials.Orthotropic((1e12, 1e9, 1e9), [0.4e9] * 3, (0.3, 0.3, 0.3)).rotated(0.5, 0.4)
     with pytest.raises(tl.InputError, match=r"differs with direction more than the stress below can be computed for"):
         solved(LOAD, steep, x=[0.0], y=[0.0])
 
@@ -116,9 +116,9 @@ fatigue = { epsilon_6 = "120 microstrain", slope = -0.2 }
 
 @pytest.mark.slow
 def test_a_case_runs_from_its_table_to_a_file_and_back(tmp_path):
-    result = tl.run_case(tl.Case.from_text(CASE))
+    result = tl.run(tl.Case.from_text(CASE))
     material = result.contact.road.layers[0].material
-    own = tl.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (0.35, 0.3, 0.25))
+    own = tl.materials.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (0.35, 0.3, 0.25))
     turned = own.rotated(yaw=np.radians(30), pitch=np.radians(10))
     np.testing.assert_allclose(material.stiffness, turned.stiffness, rtol=0, atol=1e-14 * turned.stiffness.max())
     tl.save_results(result, tmp_path / "grain.nc")

@@ -17,15 +17,15 @@ from treadload.response.passes.steady import Track, roll
 from treadload.response.passes.verdict import judged
 
 ELASTIC, YIELD = tl.Elastic(1000.0, 0.3), 2.0
-PRAGER = tl.ElastoPlastic(ELASTIC, VonMises(YIELD, kinematic=ELASTIC.modulus / 50))
+PRAGER = tl.materials.ElastoPlastic(ELASTIC, VonMises(YIELD, kinematic=ELASTIC.modulus / 50))
 SHEAR_YIELD = YIELD / 3**0.5
 
 
 def hertz(peak, cells_across=64):
     """Pressure of a sphere of contact radius 1, rolling without friction."""
-    grid = tl.Grid.centred(2.1, 2.1, 2.1 / cells_across)
+    grid = tl.response.Grid.centred(2.1, 2.1, 2.1 / cells_across)
     radius = grid.x[None] ** 2 + grid.y[:, None] ** 2
-    return tl.GridLoad(grid, peak * np.sqrt(np.clip(1 - radius, 0, None)))
+    return tl.response.GridLoad(grid, peak * np.sqrt(np.clip(1 - radius, 0, None)))
 
 
 def box_of(n, rows, reach=1.5, depth=1.5):
@@ -50,7 +50,7 @@ def stress_of(load, box, x=None):
 def test_a_sphere_first_yields_at_1_6_times_the_yield_stress():
     # Theory: 1.61 Y at ν = 0.3, 0.48 a deep. Cells miss the peak by a little.
     box = box_of(24, 14)
-    material = tl.ElastoPlastic(ELASTIC, VonMises(YIELD))
+    material = tl.materials.ElastoPlastic(ELASTIC, VonMises(YIELD))
     factor = 1 / (1 + over_strength(material, stress_of(hertz(1.0), box)).max())
     assert 1.60 < factor / YIELD < 1.65
 
@@ -124,7 +124,7 @@ def marched(box, load, material, long, steps):
 def test_a_whole_pass_is_what_marching_leaves_at_a_twentieth_of_the_products(slope):
     # Stress is the mean over cells. Read at their centres it lets neighbours flow in turn as a march goes on: at a
     # fiftieth of the modulus both are then 21 % apart.
-    n, rows, material = 16, 6, tl.ElastoPlastic(ELASTIC, VonMises(YIELD, kinematic=ELASTIC.modulus / slope))
+    n, rows, material = 16, 6, tl.materials.ElastoPlastic(ELASTIC, VonMises(YIELD, kinematic=ELASTIC.modulus / slope))
     box = box_of(n, rows, reach=1.6, depth=1.2)
     load = hertz(4.5 * SHEAR_YIELD)
     track = Track.of(box, [material] * rows)

@@ -21,7 +21,7 @@ MODULUS, POISSON, YIELD = 1000.0, 0.3, 2.0
 PEAK, SLOPE = 5 * YIELD / 3**0.5, MODULUS / 50
 LAW = Law(MODULUS, POISSON, YIELD, prager=SLOPE)
 ELASTIC = tl.Elastic(MODULUS, POISSON)
-MATERIAL = tl.ElastoPlastic(ELASTIC, VonMises(YIELD, kinematic=SLOPE))
+MATERIAL = tl.materials.ElastoPlastic(ELASTIC, VonMises(YIELD, kinematic=SLOPE))
 ROWS = np.linspace(0, 2, 17)
 PLANE = [0, 1, 2, 4]
 
@@ -111,7 +111,7 @@ def test_a_strip_of_sixteen_halves_wide_has_a_fifth_less_residual_stress_across_
     edges = np.arange(0, 2.5, cell)
     box = Box(32, 37, cell, dy, -2 + cell / 2, -18 * dy, edges)
     x = (np.arange(64) - 31.5) / 32
-    load = tl.GridLoad(tl.Grid(64, 1, 1 / 32, wide, x[0], 0.0), PEAK * np.sqrt(1 - x**2)[None])
+    load = tl.response.GridLoad(tl.response.Grid(64, 1, 1 / 32, wide, x[0], 0.0), PEAK * np.sqrt(1 - x**2)[None])
     data = tl.solve_response(load, tl.Pavement.half_space(ELASTIC), depths=box.depths, x=box.x, y=box.y).dataset
     stress = np.stack([data[f"stress_{pair}"].to_numpy() for pair in ("xx", "yy", "zz", "xy", "xz", "yz")])
     (strip,), (line,) = passes_over(box, stress, 1), line_of(cell, edges, 1)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from treadload.contact.rough import solve_texture
-from treadload.contact.rough_theory import asperity_area, egg_box_full_pressure, persson_area, sine_area
+from treadload.contact.rough_theory import asperity_area, persson_area, sine_area
 from treadload.contact.tread_layer import TreadRubber
 from treadload.materials import Elastic
 from treadload.pavement.texture import Texture, self_affine
@@ -14,6 +14,11 @@ from treadload.pavement.texture import Texture, self_affine
 RUBBER = Elastic(6e6, 0.5)
 STAR = 6e6 / 0.75
 HEIGHT, WAVE = 1e-4, 0.02
+
+
+def egg_box_full_pressure(modulus: float, amplitude: float, wave: float) -> float:
+    """Mean pressure, Pa, at which a body fills amplitude·cos(2π x/wave)·cos(2π y/wave) wholly: √2 π E* a/λ."""
+    return math.sqrt(2) * math.pi * modulus * amplitude / wave
 
 
 def ridges(points):

@@ -15,7 +15,9 @@ def drawn(rng):
         young, ratio, part = 10 ** rng.uniform(6, 10.5), 10 ** rng.uniform(-1.5, 1.5), 10 ** rng.uniform(-2, 0.3)
         across, down = rng.uniform(-0.3, 0.6), rng.uniform(-0.2, 0.49) * min(1, np.sqrt(ratio))
         try:
-            return tl.TransverselyIsotropic(young, young * ratio, young * np.sqrt(ratio) * part / 2.6, across, down)
+            return tl.materials.TransverselyIsotropic(
+                young, young * ratio, young * np.sqrt(ratio) * part / 2.6, across, down
+            )
         except tl.InputError:
             continue
 

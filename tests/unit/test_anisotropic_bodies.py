@@ -20,7 +20,7 @@ from treadload.kernels.layers.layered import Stack
 STEEL, RUBBER = tl.Elastic(210e9, 0.3), tl.Elastic(3e9, 0.4)
 SHAPE, DX, DY = (5, 6), 0.01, 0.013
 AT = Offsets(5, 8, 0.01, 0.02, 0.003)
-EQUAL = tl.Orthotropic([2.3e9] * 3, [2.3e9 / 2.6] * 3, [0.3] * 3)
+EQUAL = tl.materials.Orthotropic([2.3e9] * 3, [2.3e9 / 2.6] * 3, [0.3] * 3)
 
 
 def pair(tire, road):

@@ -4,7 +4,7 @@ import numpy as np
 
 import treadload as tl
 from cases import COARSE_CASE, ONE_AXLE
-from treadload.study import case_as_python
+from treadload.steps import case_as_python
 
 LAYERED = """
 title = 'On "layers"'
@@ -71,7 +71,7 @@ def test_a_wheel_on_layers_reads_the_same_points():
     text = case_as_python(case)
     assert "tl.catalogue.mixes['EB-BBSG3']" in text
     assert "Case" not in text
-    whole, left = tl.run_case(case), executed(case)
+    whole, left = tl.run(case), executed(case)
     for name in ("strain_yy", "principal_strain_1"):
         np.testing.assert_array_equal(left["response"].dataset[name], whole.response.dataset[name])
     assert float(left["verdict"].dataset.worst_passes) == float(whole.verdict.dataset.worst_passes)
@@ -81,20 +81,20 @@ def test_what_has_no_words_is_told_as_a_case():
     lone = tl.Case.from_text(COARSE_CASE.replace("[response]", "[response]\nwheels = [{}, { y = '340 mm' }]"))
     text = case_as_python(lone)
     assert "tl.Case.from_dict(" in text
-    assert "tl.run_case(case)" in text
+    assert "tl.run(case)" in text
     only_read = text.split("result =")[0]
     namespace: dict = {}
     exec(only_read, namespace)
-    assert namespace["case"].given() == lone.given()
+    assert namespace["case"].as_tables() == lone.as_tables()
 
 
 def test_a_life_is_told_with_its_whole_case():
-    case = tl.LifeCase.from_text(ONE_AXLE + CRITERION)
+    case = tl.Case.from_text(ONE_AXLE + CRITERION)
     text = case_as_python(case)
-    assert "result = tl.run_life(case)" in text
+    assert "result = tl.run(case)" in text
     namespace: dict = {}
     exec(text.split("result =")[0], namespace)
-    assert namespace["case"].given() == case.given()
+    assert namespace["case"].as_tables() == case.as_tables()
 
 
 def test_a_title_cannot_leave_its_quotes():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.errors import ConvergenceError
 
 ASPHALT, SOIL = tl.Elastic(5e9, 0.35), tl.Elastic(1e8, 0.35)
 ROAD = tl.Pavement([tl.Layer(ASPHALT, 0.1), tl.Layer(SOIL)])
@@ -99,5 +100,5 @@ def test_what_is_no_number_is_never_returned(monkeypatch, value):
         yield stress, strain, stress[:3], "layered"
 
     monkeypatch.setattr("treadload.response.several.layered_responses", broken)
-    with pytest.raises(tl.ConvergenceError, match=r"strain at 0\.02 m is not a number: .* check their units"):
+    with pytest.raises(ConvergenceError, match=r"strain at 0\.02 m is not a number: .* check their units"):
         solve(depths=[0.0, 0.02])

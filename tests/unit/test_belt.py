@@ -19,7 +19,7 @@ from treadload.tire.crown import arc_radius
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 SMOOTH = TreadProfile(rolling_radius=0.5, crown_radius=0.9, width=0.24)
 LATERAL = LateralBelt(0.3e6, 0.65)
-BELT = tl.Belt(lateral=LATERAL)
+BELT = tl.tire.Belt(lateral=LATERAL)
 
 
 def inflated(belt, pressure=800e3, radius=0.5, crown=0.9):
@@ -74,7 +74,7 @@ def test_the_string_holds_a_uniform_load_by_its_foundation():
 
 @pytest.mark.parametrize(
     "belt",
-    [pytest.param(BELT, marks=pytest.mark.slow), tl.Belt(tread=tl.Elastic(5e6, 0.5), arm=0.0)],
+    [pytest.param(BELT, marks=pytest.mark.slow), tl.tire.Belt(tread=tl.Elastic(5e6, 0.5), arm=0.0)],
     ids=["whole", "no arm"],
 )
 @pytest.mark.slow
@@ -96,7 +96,7 @@ def test_the_operator_is_symmetric_and_positive(belt):
 
 def test_a_tread_layer_of_a_metre_is_a_half_space():
     tread = tl.Elastic(5e6, 0.47)
-    deep = tl.Belt(tread=tread, tread_thickness=1.0, arm=0.0, sidewall_stiffness=1e16)
+    deep = tl.tire.Belt(tread=tread, tread_thickness=1.0, arm=0.0, sidewall_stiffness=1e16)
     at = Offsets(5, 5, 4e-3, 4e-3)
     found, expected = belt_surface(inflated(deep)), HalfSpaces.of(tread, None)
     for name in ("normal", "tangential", "coupling"):
@@ -139,7 +139,7 @@ def test_a_string_on_a_foundation_under_a_cylinder():
 
 @pytest.fixture(scope="module")
 def smooth():
-    belt = tl.Belt(tread_thickness=2e-3, bending=(0.0, 0.0, 0.0), arm=0.0)
+    belt = tl.tire.Belt(tread_thickness=2e-3, bending=(0.0, 0.0, 0.0), arm=0.0)
     tire = tl.Tire(ProfileSurface(SMOOTH), inflation_pressure=800e3, belt=belt)
     return tl.solve_contact(tire, ROAD, tl.Rolling(normal_load=25e3, friction=0.0), spacing=6e-3)
 
@@ -152,18 +152,20 @@ def test_the_plateau_of_a_smooth_tread_is_the_inflation_and_its_foundation(smoot
 
 
 def test_inflation_gives_the_tensions_of_laplace():
-    carcass = inflated(tl.Belt(), 820e3, 0.54, 1.2)
+    carcass = inflated(tl.tire.Belt(), 820e3, 0.54, 1.2)
     sheet = carcass.sheet
     assert sheet.tension_y == pytest.approx(0.098 * 820e3)
     assert sheet.tension_x / 0.54 + sheet.tension_y / 1.2 == pytest.approx(820e3)
     assert sheet.foundation == pytest.approx(3.6 * 820e3)
-    assert inflated(tl.Belt(), 820e3, 0.54, math.inf).sheet.tension_x == pytest.approx(0.54 * 820e3)
-    assert inflated(tl.Belt(crown_radius=2.0), 820e3, 0.54, 1.2).crown_radius == 2.0
+    assert inflated(tl.tire.Belt(), 820e3, 0.54, math.inf).sheet.tension_x == pytest.approx(0.54 * 820e3)
+    assert inflated(tl.tire.Belt(crown_radius=2.0), 820e3, 0.54, 1.2).crown_radius == 2.0
 
 
 @pytest.fixture(scope="module")
 def ribbed():
-    return tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3, belt=tl.Belt.from_library("315/80R22.5"))
+    return tl.Tire.from_profile(
+        "315/80R22.5", inflation_pressure=820e3, belt=tl.tire.Belt.from_library("315/80R22.5")
+    )
 
 
 def shoulder_over_centre(contact):
@@ -200,7 +202,7 @@ def test_free_rolling_shears_the_road_and_carries_no_force(ribbed):
 
 def test_rows_of_smaller_radius_drag(ribbed):
     round_belt = replace(ribbed, belt=replace(ribbed.belt, belt_radius=0.8))
-    grid = tl.Grid.centred(0.1, 0.28, 0.01)
+    grid = tl.response.Grid.centred(0.1, 0.28, 0.01)
     slip = round_belt.row_slip(grid)
     assert slip.shape == (grid.ny, 1)
     assert slip[0, 0] == pytest.approx(grid.y[0] ** 2 / (2 * 0.8 * 0.538))
@@ -218,8 +220,8 @@ SOLID = tl.materials.Prony.standard_linear_solid(6e6, 4e6, 5e-3, 0.47)
 
 @pytest.mark.slow
 def test_a_tread_that_remembers_lies_between_its_limits():
-    at, carcass = Offsets(3, 8, 8e-3, 8e-3, -5 * 8e-3), inflated(tl.Belt(tread=SOLID))
-    fast, slow = (belt_surface(inflated(tl.Belt(tread=limit))) for limit in (SOLID.glassy, SOLID.rubbery))
+    at, carcass = Offsets(3, 8, 8e-3, 8e-3, -5 * 8e-3), inflated(tl.tire.Belt(tread=SOLID))
+    fast, slow = (belt_surface(inflated(tl.tire.Belt(tread=limit))) for limit in (SOLID.glassy, SOLID.rubbery))
     between = belt_surface(carcass, 10.0).normal(at)
     assert fast.normal(at)[0, 5] < between[0, 5] < slow.normal(at)[0, 5]
     # Behind the load, at x < 0, material is still giving way; ahead it has not begun.
@@ -234,24 +236,24 @@ def test_a_tread_that_remembers_lies_between_its_limits():
 
 
 def test_a_tread_that_remembers_needs_a_speed_and_steady_rolling():
-    tire = tl.Tire(ProfileSurface(SMOOTH), inflation_pressure=800e3, belt=tl.Belt(tread=SOLID))
+    tire = tl.Tire(ProfileSurface(SMOOTH), inflation_pressure=800e3, belt=tl.tire.Belt(tread=SOLID))
     wheel = tl.Rolling(normal_load=10e3, friction=0.0)
     with pytest.raises(InputError, match="give the rolling speed"):
         tl.solve_contact(tire, ROAD, wheel)
     with pytest.raises(InputError, match="elastic tires only"):
-        tl.solve_transient(tire, ROAD, wheel, distances=[0.0])
+        tl.contact.solve_transient(tire, ROAD, wheel, distances=[0.0])
 
 
 @pytest.mark.slow
 def test_a_tread_that_remembers_presses_harder_on_the_way_in():
     profile = replace(SMOOTH, width=0.12)
-    tire = tl.Tire(ProfileSurface(profile), inflation_pressure=800e3, belt=tl.Belt(tread=SOLID))
+    tire = tl.Tire(ProfileSurface(profile), inflation_pressure=800e3, belt=tl.tire.Belt(tread=SOLID))
     wheel = tl.Rolling(normal_load=10e3, friction=0.0, speed=10.0)
     found = tl.solve_contact(tire, ROAD, wheel, spacing=8e-3).dataset
     limits = [
         float(
             tl.solve_contact(
-                replace(tire, belt=tl.Belt(tread=limit)), ROAD, replace(wheel, speed=None), spacing=8e-3
+                replace(tire, belt=tl.tire.Belt(tread=limit)), ROAD, replace(wheel, speed=None), spacing=8e-3
             ).dataset.approach
         )
         for limit in (SOLID.glassy, SOLID.rubbery)
@@ -265,7 +267,9 @@ def test_a_history_ends_in_steady_rolling(ribbed):
     tire = replace(ribbed, belt=replace(ribbed.belt, belt_radius=0.8))
     wheel = tl.Rolling(normal_load=6e3, friction=0.5, tractive_force=1e3)
     steady = tl.solve_contact(tire, ROAD, wheel, spacing=8e-3, tolerance=1e-7).dataset
-    history = tl.solve_transient(tire, ROAD, wheel, distances=8e-3 * np.arange(1, 25), spacing=8e-3, tolerance=1e-7)
+    history = tl.contact.solve_transient(
+        tire, ROAD, wheel, distances=8e-3 * np.arange(1, 25), spacing=8e-3, tolerance=1e-7
+    )
     end = history.contact.dataset
     largest = float(abs(steady.traction_x).max())
     # After twice the length of contact what is left of the start fades by the solver's tolerance.
@@ -289,32 +293,32 @@ def test_a_history_ends_in_steady_rolling(ribbed):
 )
 def test_a_belt_that_cannot_be_is_refused(given, words):
     with pytest.raises(InputError, match=words):
-        tl.Belt(**given)
+        tl.tire.Belt(**given)
 
 
 def test_what_a_tire_on_a_belt_needs():
     surface = ProfileSurface(SMOOTH)
     with pytest.raises(InputError, match="either material, of a half-space, or belt"):
-        tl.Tire(surface, tl.Elastic(3e6, 0.5), 800e3, belt=tl.Belt())
+        tl.Tire(surface, tl.Elastic(3e6, 0.5), 800e3, belt=tl.tire.Belt())
     with pytest.raises(InputError, match="give inflation_pressure in Pa"):
-        tl.Tire(surface, belt=tl.Belt()).carcass  # noqa: B018
+        tl.Tire(surface, belt=tl.tire.Belt()).carcass  # noqa: B018
     with pytest.raises(InputError, match="inflation_pressure must be a positive number of Pa"):
-        tl.Tire(surface, inflation_pressure=-8e5, belt=tl.Belt())
+        tl.Tire(surface, inflation_pressure=-8e5, belt=tl.tire.Belt())
     with pytest.raises(InputError, match="belt must be a Belt"):
         tl.Tire(surface, inflation_pressure=8e5, belt="315/80R22.5")
     with pytest.raises(InputError, match="leaves none along"):
-        inflated(tl.Belt(), crown=0.09)
+        inflated(tl.tire.Belt(), crown=0.09)
     with pytest.raises(InputError, match="does not bend along travel"):
-        tl.Tire.from_height_map(np.zeros((9, 9)), 0.01, inflation_pressure=8e5, belt=tl.Belt()).carcass  # noqa: B018
+        tl.Tire.from_height_map(np.zeros((9, 9)), 0.01, inflation_pressure=8e5, belt=tl.tire.Belt()).carcass  # noqa: B018
     with pytest.raises(InputError, match="give crown_radius to Belt"):
-        tl.Belt().inflated(8e5, 0.5, None)
+        tl.tire.Belt().inflated(8e5, 0.5, None)
     with pytest.raises(InputError, match="an inflated belt is a tire"):
-        surface_of(inflated(tl.Belt()), is_tire=False)
+        surface_of(inflated(tl.tire.Belt()), is_tire=False)
 
 
 def test_the_arc_of_a_tread_is_found_between_its_grooves():
     profile = tl.catalogue.tires["315/80R22.5"]
-    grid = tl.Grid.centred(0.3, 0.3, 2e-3)
+    grid = tl.response.Grid.centred(0.3, 0.3, 2e-3)
     tire = tl.Tire.from_height_map(profile.gap(grid.x, grid.y), 2e-3)
     # A parabola for a circle: (y/2r)² = 0.5 % at the shoulders.
     assert tire.crown_arc_radius == pytest.approx(profile.crown_radius, rel=0.01)
@@ -324,9 +328,9 @@ def test_the_arc_of_a_tread_is_found_between_its_grooves():
 
 
 def test_belts_of_the_catalogue_are_those_of_the_defaults():
-    known = tl.Belt.from_library("315/80 R22.5")
+    known = tl.tire.Belt.from_library("315/80 R22.5")
     assert known is belts["315/80R22.5"]
-    assert replace(known, lateral=None, name="", source="", doubts=()) == tl.Belt()
+    assert replace(known, lateral=None, name="", source="", doubts=()) == tl.tire.Belt()
     assert known.doubts
     assert "Project Chrono" in known.source
 
@@ -349,7 +353,7 @@ def test_a_case_names_its_belt(tmp_path):
     named = tl.Case.from_text(text.format(belt='belt = "315/80R22.5"')).build_tire()
     assert named.belt == belts["315/80R22.5"]
     table = 'belt = { tread = { kind = "elastic", modulus = "4 MPa", poisson = 0.48 }, foundation = "4 1/m" }'
-    assert tl.Case.from_text(text.format(belt=table)).build_tire().belt == tl.Belt(
+    assert tl.Case.from_text(text.format(belt=table)).build_tire().belt == tl.tire.Belt(
         tread=tl.Elastic(4e6, 0.48), foundation=4.0
     )
     both = 'belt = "315/80R22.5"\nmaterial = { kind = "elastic", modulus = "3 MPa", poisson = 0.5 }'

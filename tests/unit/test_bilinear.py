@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from bilinear_loads import bilinear_on_grid
 from treadload.kernels.half_space import bilinear
-from treadload.kernels.half_space.bilinear import bilinear_on_grid, bilinear_spectrum
+from treadload.kernels.half_space.bilinear import bilinear_spectrum
 from treadload.kernels.half_space.corners import at_nodes
 from treadload.kernels.half_space.corners import fields as fields_of
 from treadload.kernels.half_space.interior import fields_on_grid

@@ -80,7 +80,7 @@ def test_a_history_on_layers_ends_in_steady_rolling_on_them():
     wheel = tl.Rolling(normal_load=200.0, friction=0.5, tractive_force=50.0)
     steady = tl.solve_contact(tire, road, wheel, road_compliance="layers", tolerance=1e-8).dataset
     way = 2e-3 * np.arange(1, 41)
-    end = tl.solve_transient(tire, road, wheel, distances=way, road_compliance="layers", tolerance=1e-8)
+    end = tl.contact.solve_transient(tire, road, wheel, distances=way, road_compliance="layers", tolerance=1e-8)
     last = end.contact.dataset
     assert float(last.creepage_x) == pytest.approx(float(steady.creepage_x), rel=1e-5)
     np.testing.assert_allclose(last.traction_x, steady.traction_x, atol=1e-5 * float(np.abs(steady.traction_x).max()))

@@ -9,9 +9,10 @@ from treadload.case.criteria import CRITERION
 from treadload.damage import AxleClass, Climate, Criterion, ShearFatigue, TimedStrength, Traffic, passage_rate
 from treadload.damage.laws.bond_by_test import LEUTNER_RATE, RECALLED_SOFTENING, utilisation_of
 from treadload.errors import InputError
+from treadload.life.design import Design
+from treadload.life.solve import solve_life
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
-from treadload.study.life import solve_life
 from treadload.tire import Tire
 
 LAW = TimedStrength(0.85e6, 0.05, 0.2, friction_angle=math.radians(30))
@@ -82,17 +83,20 @@ def test_a_life_reads_the_bond_by_season_and_speed_and_names_its_interface() -> 
     classes = tuple(
         AxleClass(name, 0.5, 32.5e3, 820e3, speed=speed) for name, speed in (("slow", 2.0), ("fast", 20.0))
     )
+    climate = Climate.equal_parts([20.0, 40.0], ("spring", "summer"))
     life = solve_life(
-        tire, Pavement(layers), Traffic(classes, 1e5), Climate.equal_parts([20.0, 40.0], ("spring", "summer")),
-        [bond],
-        spacing=12e-3, workers=1, tolerance=0.0,
-    )  # fmt: skip
+        Design(tire, Pavement(layers), Traffic(classes, 1e5), climate, [bond], spacing=12e-3, tolerance=0.0),
+        workers=1,
+    )
     read = life.dataset["class_reading"].sel(criterion="bond")
     # One elastic road: only the strength differs, by e^(0.05 · 20) and 10^0.2. A tire has no memory here.
     ratio = read.sel(season="summer") / read.sel(season="spring")
     np.testing.assert_allclose(ratio, math.e, rtol=1e-6)
     np.testing.assert_allclose(read.sel(axle_class="slow") / read.sel(axle_class="fast"), 10**0.2, rtol=1e-6)
-    assert "bond (interface 1, below wearing course): " in life.summary()
+    (largest,) = [row for row in life.rows() if row.group == "bond" and row.key == "largest_reading"]
+    assert largest.value == pytest.approx(float(life.dataset["largest_reading"].sel(criterion="bond")))
+    assert "interface 1, below wearing course" in largest.note
+    assert largest.sentence in life.summary()
 
 
 def test_fatigue_is_a_line_through_cyclic_tests() -> None:

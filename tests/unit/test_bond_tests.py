@@ -48,7 +48,7 @@ def test_a_road_takes_the_stiffness_of_its_temperature() -> None:
     assert isinstance(road.at_temperature(30.0).layers[0].bond, Bond)
     disc = tl.UniformDisc(0.12, 7e5)
     slid = [
-        tl.study.solve_interfaces(disc, road.at_temperature(warm), x=[-0.1, 0.0, 0.1], y=[0.0])["jump_x"].max().item()
+        tl.life.solve_interfaces(disc, road.at_temperature(warm), x=[-0.1, 0.0, 0.1], y=[0.0])["jump_x"].max().item()
         for warm in (0.0, 20.0, 40.0)
     ]
     assert slid[0] < slid[1] < slid[2]

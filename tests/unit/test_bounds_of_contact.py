@@ -5,12 +5,11 @@ import math
 import numpy as np
 import pytest
 
-import treadload as tl
 from treadload.contact import Rolling, solve_contact, solve_transient, turn_on_the_spot
 from treadload.contact.friction.heat import FlashHeating, Heat
 from treadload.contact.friction.laws import Anisotropic, Coulomb, Exponential
 from treadload.contact.friction.map import FrictionMap
-from treadload.errors import InputError
+from treadload.errors import InputError, TreadloadError
 from treadload.materials import Elastic
 from treadload.pavement import FRICTIONLESS, Layer, Pavement
 from treadload.tire import Tire
@@ -132,5 +131,5 @@ def test_a_height_map_keeps_its_cells_and_takes_their_size_again():
 def test_friction_that_falls_cannot_carry_what_it_carries_at_rest():
     falling = Exponential(0.6, 0.3, 0.5)
     rolling = Rolling(normal_load=LOAD, friction=falling, tractive_force=0.45 * LOAD, speed=20.0)
-    with pytest.raises(tl.TreadloadError, match=r"gross sliding|falls with slip"):
+    with pytest.raises(TreadloadError, match=r"gross sliding|falls with slip"):
         solve_contact(bowl(24, 8e-3), ROAD, rolling)

@@ -304,12 +304,9 @@ def test_an_error_estimate_names_the_fewer_passes_first(coarse):
     verdict = tl.assess(response, LINE)
     read = float(verdict.dataset["worst_strain"])
     about = {"coarse_strain": coarse * read, "spacing": 0.01, "coarse_spacing": 0.02}
-    (line,) = [
-        line
-        for line in replace(verdict, dataset=verdict.dataset.assign_attrs(about)).summary().splitlines()
-        if line.startswith("error estimate")
-    ]
-    fewest, most = (float(number) for number in line.split(", ")[-1].removesuffix(" passes").split(" to "))
+    rows = replace(verdict, dataset=verdict.dataset.assign_attrs(about)).rows()
+    (note,) = [row.note for row in rows if row.key == "coarse_strain"]
+    fewest, most = (float(number) for number in note.split("load repetitions: ")[1].split(" to "))
     assert fewest < LINE.allowable_passes(read) < most
     # Ten per cent of the strain to the fifth power, printed to two digits.
     assert fewest == pytest.approx(LINE.allowable_passes(1.1 * read), rel=0.05)

@@ -13,8 +13,8 @@ from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import GridLoad, UniformDisc
-from treadload.response.doubts import overlapping, road_doubts
 from treadload.response.fields import layer_in_words
+from treadload.response.input_caveats import overlapping, road_doubts
 from treadload.response.moving import _cells_of_disc, _hats
 from treadload.response.superposition import merged
 

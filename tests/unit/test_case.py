@@ -1,6 +1,7 @@
 import copy
 import math
 import pickle
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -107,3 +108,9 @@ def test_the_demo_cases_are_valid():
         case = Case.from_toml(folder / f"{name}.toml")
         assert case.rolling.build().forces == (force, 0.0)
         assert math.isclose(case.spacing, 3e-3)
+
+
+def test_a_step_that_is_none_is_not_asked_for():
+    table = tomllib.loads(COARSE_CASE)
+    bare = {key: value for key, value in table.items() if key != "damage"}
+    assert Case.from_dict(bare | {"damage": None, "crossing": None}) == Case.from_dict(bare)

@@ -7,12 +7,16 @@ import numpy as np
 import pytest
 from tests.cases import ONE_AXLE
 
-from treadload.case import LifeCase
+from treadload.case import Case
 from treadload.catalogue import mixes
 from treadload.damage import Climate, Criterion, FatigueLine, PowerLine, Season, VerticalShear
 from treadload.damage.climate import binning_error
 from treadload.errors import InputError
 from treadload.grid import Grid
+from treadload.life import solve_life
+from treadload.life.climate import nodes, over_the_climate, warmth_of
+from treadload.life.design import Design
+from treadload.life.seasons import beyond_data, layer_temperatures, warmed
 from treadload.materials import Aged, Elastic, GlobalAging
 from treadload.pavement import (
     Layer,
@@ -23,9 +27,6 @@ from treadload.pavement import (
     divided,
 )
 from treadload.response import GridLoad, solve_response
-from treadload.study import solve_life
-from treadload.study.climate import nodes, over_the_climate, warmth_of
-from treadload.study.seasons import beyond_data, layer_temperatures, warmed
 
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 PROFILE = TemperatureProfile((0.0, 0.06, 0.21), (38.0, 30.0, 22.0))
@@ -253,7 +254,7 @@ def test_a_search_goes_through_all_parts_of_its_course():
 
 
 def test_a_life_below_a_profile_finds_the_shear_below_the_first_part():
-    case = LifeCase.from_text(ONE_AXLE + BASE)
+    case = Case.from_text(ONE_AXLE + BASE)
     law = PowerLine(VerticalShear(), 100e-6, -0.2)
     tops = [Criterion(name, law, 0, "top", search_to=to) for name, to in (("near", 0.02), ("deep", 0.05))]
     # Of one temperature, divided or not: the same road, so the same depth and the same reading.
@@ -261,7 +262,8 @@ def test_a_life_below_a_profile_finds_the_shear_below_the_first_part():
         Climate((Season("all year", 1.0, one),)) for one in (TemperatureProfile((0.0, 0.3), (15.0, 15.0)), 15.0)
     ]
     divided_, whole = (
-        solve_life(case.build_tire(), ROAD, case.build_traffic(), one, tops, spacing=0.02).dataset for one in climates
+        solve_life(Design(case.build_tire(), ROAD, case.build_traffic(), one, tops, spacing=0.02)).dataset
+        for one in climates
     )
     assert float(divided_.read_depth[1]) > 0.02
     assert float(divided_.read_depth[1]) == float(whole.read_depth[1])
@@ -281,15 +283,15 @@ risk = 0.05
 
 
 def test_a_case_of_weather_and_age_is_built():
-    case = LifeCase.from_text(WEATHER + BASE)
+    case = Case.from_text(WEATHER + BASE)
     climate = case.build_climate()
     assert len(climate.seasons) == 48
     assert climate.seasons[0].profile.depths[0] == 0
     assert any("no wind" in text for text in climate.warnings)
-    aged = LifeCase.from_text("ageing = { age = 10 }\n" + WEATHER + BASE).build_climate()
+    aged = Case.from_text("ageing = { age = 10 }\n" + WEATHER + BASE).build_climate()
     assert aged.seasons[0].ageing.mean_air == pytest.approx(np.mean(MONTHS), abs=0.5)
     assert any("aged" in text for text in aged.about)
-    constant = LifeCase.from_text("ageing = { age = 10, mean_air = 12 }\n" + ONE_AXLE + BASE).build_climate()
+    constant = Case.from_text("ageing = { age = 10, mean_air = 12 }\n" + ONE_AXLE + BASE).build_climate()
     assert constant.seasons[0].profile is not None
 
 
@@ -307,4 +309,4 @@ def test_a_case_of_weather_and_age_is_built():
 def test_bad_climates_of_a_case_are_refused(text, said):
     criterion = BASE if "GB3" in text else '\n[[criteria]]\nname = "soil"\nlaw = "french-subgrade"\n'
     with pytest.raises(InputError, match=said):
-        LifeCase.from_text(text + criterion)
+        Case.from_text(text + criterion)

@@ -27,7 +27,7 @@ def solve(dense, precondition=None, *, rhs=RHS, other=OTHER, rtol=1e-6, most=N):
 
     given = rhs.astype(np.float32)
     kept = given.copy()
-    x, lx = conjugate_residuals.solve(given, product, inverse, others=len(other), rtol=rtol, most=most)
+    x, lx = conjugate_residuals.solve(given, product, inverse, size=len(other), rtol=rtol, most=most)
     np.testing.assert_array_equal(given, kept)
     return x, lx, len(products)
 

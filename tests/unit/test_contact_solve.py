@@ -1,6 +1,7 @@
 """solve_contact: the public door. What goes in, what comes out, and every refusal."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import xarray as xr
 
 from treadload.contact import Contact, Rolling, solve_contact, solve_transient, turn_on_the_spot
 from treadload.contact import solve as solving
+from treadload.contact.bodies.influence import forget_operators
 from treadload.contact.solvers import coupling
 from treadload.errors import ConvergenceError, GeometryError, InputError
 from treadload.grid import Grid
@@ -88,7 +90,7 @@ def test_statistics_and_summary(driving):
     assert stats["seconds"] > 0
     text = driving.summary()
     assert "3.000 kN" in text
-    assert "Qx = 500.0 N" in text
+    assert "Q_x = 0.5 kN" in text
     assert f"{driving.area * 1e6:.0f} mm²" in text
     assert "3 kN" in repr(driving)
 
@@ -421,3 +423,22 @@ def test_a_height_map_in_millimetres_taken_for_metres_is_said():
         Tire.from_height_map(1e3 * bowl(), 3e-3, material=RUBBER), spacing=None, normal_load=None, approach=1e-3
     )
     assert any('give units={"gap": "mm"}' in text for text in contact.warnings)
+
+
+def test_a_contact_on_a_grid_offset_is_located_once_and_is_the_same_in_every_digit(monkeypatch):
+    wheel = Rolling(normal_load=20e3, tractive_force=6e3, friction=0.7)
+    forget_operators()
+    alone = solve_contact(replace(TIRE, name="alone"), ROAD, wheel, spacing=SPACING, offset=(0.5, 0.5))
+    located = []
+    before = solving.check_numbers
+    monkeypatch.setattr(solving, "check_numbers", lambda *at: located.append(at) or before(*at))
+    forget_operators()
+    tire = replace(TIRE, name="both")
+    solve_contact(tire, ROAD, wheel, spacing=SPACING)
+    shifted = solve_contact(tire, ROAD, wheel, spacing=SPACING, offset=(0.5, 0.5))
+    assert len(located) == 1
+    for name in alone.dataset:
+        assert np.array_equal(shifted.dataset[name], alone.dataset[name], equal_nan=True), name
+    # Another load lies on another place.
+    solve_contact(tire, ROAD, replace(wheel, normal_load=25e3), spacing=SPACING)
+    assert len(located) == 2

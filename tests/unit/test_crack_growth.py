@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.case import LifeCase
+from treadload.case import Case
 from treadload.damage.growth.advance import chances, drawn, grown, risk_quantiles
-from treadload.damage.growth.asked import CrackGrowth
 from treadload.damage.growth.intensity import (
     Crossing,
     Way,
@@ -26,15 +25,16 @@ from treadload.damage.growth.intensity import (
     tractions,
 )
 from treadload.damage.growth.laws import FromStrength, ParisLaw, law_of_mix
+from treadload.damage.growth.options import CrackGrowth
 from treadload.damage.traffic import Traffic, Wander
 from treadload.errors import InputError
 from treadload.kernels.fracture.dislocations import Section
 from treadload.kernels.fracture.layers import Strip
-from treadload.study import crossings
-from treadload.study.contacts import Contacts
-from treadload.study.crossings import distances_to
-from treadload.study.growth import grow_cracks
-from treadload.study.life import solve_life
+from treadload.life import crossings
+from treadload.life.crossings import distances_to
+from treadload.life.growth import grow_cracks
+from treadload.life.solve import solve_life
+from treadload.steps.design import design_of
 
 CASE = """
 spacing = "8 mm"
@@ -76,24 +76,18 @@ PARIS = 'law = { law = "paris", rate = "0.5 mm", exponent = 4 }\n'
 
 
 def case(table):
-    return LifeCase.from_text(CASE + "[growth]\n" + PARIS + table, name="case")
+    return Case.from_text(CASE + "[growth]\n" + PARIS + table, name="case")
 
 
 @cache
 def solved():
-    one = LifeCase.from_text(CASE, name="case")
-    tire, road = one.build_tire(), one.build_road()
-    contacts = Contacts(tire, one.spacing)
-    life = solve_life(
-        tire, road, one.build_traffic(), one.build_climate(), one.build_criteria(), spacing=0.008, contacts=contacts
-    )
-    return tire, road, life, contacts
+    design = design_of(Case.from_text(CASE, name="case"))
+    return design, solve_life(design)
 
 
 def grow(**asked):
-    tire, road, life, contacts = solved()
     told = {"criterion": "surface", "law": ParisLaw(5e-4, 4.0, 0.2), "steps": 4} | asked
-    return grow_cracks(tire, road, life, CrackGrowth(**told), contacts=contacts)
+    return grow_cracks(*solved(), CrackGrowth(**told))
 
 
 def test_growth_at_a_constant_range_is_the_closed_form():
@@ -124,15 +118,20 @@ def test_a_crack_that_stops_never_comes_further():
     assert math.isinf(found[2, 0])
 
 
+def in_millimetres(law):
+    """A, mm per passage at ΔK = 1 N/mm^1.5, of which 31.62 are 1 MPa √m."""
+    return 1e3 * law.rate / 1000 ** (law.exponent / 2)
+
+
 def test_units_of_paris_law():
     # A = 1e-7 mm by N/mm^1.5 and n = 4: at 1 MPa √m, 31.62 N/mm^1.5, 1e-7 x 1e6 = 0.1 mm.
     law = ParisLaw.from_millimetres(1e-7, 4.0)
     assert law.rate == pytest.approx(1e-4, rel=1e-12)
-    assert law.in_millimetres == pytest.approx(1e-7, rel=1e-12)
+    assert in_millimetres(law) == pytest.approx(1e-7, rel=1e-12)
     assert float(law.growth(np.array(2e6))) == pytest.approx(16e-4)
     # log A = 4.389 - 2.52 log(5000 x 4 x 4).
     own = FromStrength(4.0, 4e6).at(5e9)
-    assert own.in_millimetres == pytest.approx(10 ** (4.389 - 2.52 * math.log10(80_000)), rel=1e-12)
+    assert in_millimetres(own) == pytest.approx(10 ** (4.389 - 2.52 * math.log10(80_000)), rel=1e-12)
     assert "memory" in own.doubt
 
 
@@ -277,7 +276,7 @@ def test_a_crack_through_the_wearing_course():
     assert growth.depths[0] == pytest.approx(0.01)
     assert growth.depths[-1] == pytest.approx(0.06)
     assert (np.diff(years) > 0).all()
-    _, _, life, _ = solved()
+    _, life = solved()
     assert years[0] == pytest.approx(life.years("surface"), rel=1e-6)
     assert (np.diff(data["risk_years"].to_numpy(), axis=0) > 0).all()
     assert growth.years_to(0.04) == pytest.approx(float(np.interp(0.04, growth.depths, years)))
@@ -373,26 +372,21 @@ def test_a_case_with_a_crack():
 
 @pytest.mark.slow
 def test_run_life_grows_the_crack(tmp_path):
-    result = tl.study.run_life(case("steps = 3\n"), sensitivity=False)
+    result = tl.run(case("steps = 3\n"), leave_out=("sensitivity",))
     assert result.growth is not None
     path = tl.save_results(result, tmp_path / "life.nc")
     back = tl.open_results(path)["growth"]
     assert back.summary() == result.growth.summary()
     assert back.asked == result.growth.asked
-    assert "crack growth down through asphalt" in result.summary()
+    assert "Crack growth: down through asphalt" in result.summary()
 
 
 @pytest.mark.slow
 def test_wander_spreads_growth_and_few_tracks_do_not():
-    tire, road, life, contacts = solved()
+    design, life = solved()
     narrow = Traffic(life.traffic.classes, 1e5, wander=Wander.none())
-    still = grow_cracks(
-        tire,
-        road,
-        replace(life, traffic=narrow),
-        CrackGrowth("surface", law=ParisLaw(5e-4, 4.0), steps=3),
-        contacts=contacts,
-    )
+    asked = CrackGrowth("surface", law=ParisLaw(5e-4, 4.0), steps=3)
+    still = grow_cracks(design, replace(life, traffic=narrow), asked)
     wandering = grow(steps=3)
     assert float(still.dataset["growth_rate"].max()) > float(wandering.dataset["growth_rate"].max())
 
@@ -403,15 +397,12 @@ def test_few_seasons_stand_for_many(monkeypatch):
     text = head + 'structure = "6 BBSG3 / 12 GB3 / PF3"\n' + tail[tail.index("[climate]") :]
     text = text.replace("temperature = 15", "months = [4, 5, 9, 12, 17, 22, 25, 24, 19, 14, 8, 5]")
     text = text.replace('layer = "asphalt"', 'layer = "EB-BBSG3"').replace('layer = "base"', 'layer = "EB-GB3"')
-    one = LifeCase.from_text(text, name="case")
-    tire, road = one.build_tire(), one.build_road()
-    contacts = Contacts(tire, one.spacing)
-    traffic, climate, criteria = one.build_traffic(), one.build_climate(), one.build_criteria()
-    life = solve_life(tire, road, traffic, climate, criteria, spacing=one.spacing, contacts=contacts)
+    design = design_of(Case.from_text(text, name="case"))
+    life = solve_life(design)
     asked = CrackGrowth("base", steps=4)
-    few = grow_cracks(tire, road, life, asked, contacts=contacts).dataset["growth_rate"].max("y")
+    few = grow_cracks(design, life, asked).dataset["growth_rate"].max("y")
     monkeypatch.setattr(crossings, "_SEASONS", 99)
-    every = grow_cracks(tire, road, life, asked, contacts=contacts)
+    every = grow_cracks(design, life, asked)
     assert every.stats["responses"] > 9
     # The rate goes with the fifth power of what is interpolated: 2 % of it are 0.4 % of that.
     np.testing.assert_allclose(few, every.dataset["growth_rate"].max("y"), rtol=0.02)
@@ -421,15 +412,12 @@ def test_few_seasons_stand_for_many(monkeypatch):
 def test_a_crack_goes_through_the_parts_of_a_course_under_a_profile():
     # A profile of one temperature divides the road and changes nothing else.
     road = tl.Pavement.from_catalogue("6 BBSG3 / 12 GB3 / PF3")
-    one = LifeCase.from_text(CASE, name="case")
-    tire, contacts = one.build_tire(), Contacts(one.build_tire(), one.spacing)
+    case = design_of(Case.from_text(CASE, name="case"))
     profile = tl.pavement.TemperatureProfile([0.0, 0.3], [15.0, 15.0])
     criteria = (tl.damage.Criterion("top", tl.FatigueLine(6e-6, -0.2), 0, "top"),)
     found = []
     for season in (tl.damage.Season("a", 1.0, 15.0), tl.damage.Season("a", 1.0, profile)):
-        life = solve_life(
-            tire, road, one.build_traffic(), tl.damage.Climate((season,)), criteria, spacing=0.008, contacts=contacts
-        )
-        growth = grow_cracks(tire, road, life, CrackGrowth("top", steps=3), contacts=contacts)
+        design = replace(case, road=road, climate=tl.damage.Climate((season,)), criteria=criteria)
+        growth = grow_cracks(design, solve_life(design), CrackGrowth("top", steps=3))
         found.append(growth.dataset["growth_rate"].max("y").to_numpy())
     np.testing.assert_allclose(found[1], found[0], rtol=0.01)

@@ -40,7 +40,7 @@ def test_it_rises_to_gross_sliding_and_is_odd(curve):
 
 
 def test_the_summary_has_a_line_a_creepage(curve):
-    assert len(curve.summary().splitlines()) == 1 + len(CREEPAGES)
+    assert len(curve.summary().splitlines()) == 2 + len(CREEPAGES)
     assert "-0.05000" in str(curve)
 
 

@@ -145,7 +145,7 @@ def test_sliding_at_the_edge_costs_work_where_it_happens():
     along = data.friction_work_density.max("y").values
     near = np.abs(data.road_x.values) < 0.05
     assert along[near].max() == along.max()
-    assert "sliding work" in found.summary()
+    assert "frictional energy loss per area" in found.summary()
     # Pressing lays work on all that is touched; more at the edge than on the plane before it.
     closed = data.closing_work.max("y").values
     assert closed[near].max() > closed[data.road_x.values < -0.06].max()

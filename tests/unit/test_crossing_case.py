@@ -56,9 +56,18 @@ def test_the_history_of_a_case_is_that_of_its_objects(ran):
     assert edge > 1.2 * float(data.plain_pressure)
     assert float(data.edge_work) > 1.2 * float(data.plain_work)
     times = peak / float(data.plain_pressure)
-    assert f"{peak / 1e3:.0f} kPa, {times:.3g} times the {float(data.plain_pressure) / 1e3:.0f} kPa" in printed
-    assert "crossing      joint, 24 mm wide, 30 mm deep, chamfer of 12 mm" in printed
-    assert f"{float(data.edge_work) / 1e3:.3g} at an edge, {float(data.plain_work) / 1e3:.3g} on the plane" in printed
+    rows = {row.key: row for row in crossing.rows()}
+    for key, value, text in (
+        ("largest_pressure", peak, f"{peak / 1e3:.0f} kPa"),
+        ("plain_pressure", float(data.plain_pressure), f"{float(data.plain_pressure) / 1e3:.0f} kPa"),
+        ("edge_work", float(data.edge_work), f"{float(data.edge_work) / 1e3:.3g} kJ/m²"),
+        ("plain_work", float(data.plain_work), f"{float(data.plain_work) / 1e3:.3g} kJ/m²"),
+    ):
+        assert rows[key].value == value
+        assert rows[key].text == text
+        assert f"{rows[key].label:<30}  {rows[key].sentence}" in printed
+    assert rows["largest_pressure"].note.endswith(f", {times:.3g} times that without the obstacle")
+    assert "joint, 24 mm wide, 30 mm deep, chamfer of 12 mm" in printed
 
 
 def test_its_figures_mark_the_obstacle_where_it_is(ran):
@@ -79,9 +88,9 @@ def test_its_figures_mark_the_obstacle_where_it_is(ran):
 def test_a_report_shows_it(ran):
     folder, _ = ran
     page = tl.report(tl.open_results(folder / "r.nc"), folder / "r.html").read_text(encoding="utf-8")
-    assert "A wheel over an obstacle" in page
+    assert "Crossing of an obstacle" in page
     assert "Along the way" in page
-    assert "times the" in page
+    assert "times that without the obstacle" in page
     assert "could not be drawn" not in page
 
 
@@ -129,11 +138,11 @@ def test_obstacles_by_name_and_the_schema_knows_them():
 
 def test_a_dry_run_tells_the_way_and_python_keeps_it():
     case = tl.Case.from_text(SHORT)
-    assert "crossing  joint, 24 mm wide, 30 mm deep, chamfer of 12 mm; 1 positions" in tl.study.plan_case(case)
+    assert "crossing  joint, 24 mm wide, 30 mm deep, chamfer of 12 mm; 1 positions" in tl.plan(case)
     without = tl.Case.from_text(SHORT.replace('positions = ["0 mm"]', ""))
-    assert "; about " in tl.study.plan_case(without)
-    assert "tl.run_case(case)" in tl.study.case_as_python(case)
-    assert "crossing" in tl.study.case_as_python(case)
+    assert "; about " in tl.plan(without)
+    assert "tl.run(case)" in tl.steps.case_as_python(case)
+    assert "crossing" in tl.steps.case_as_python(case)
 
 
 @pytest.mark.parametrize(
@@ -186,7 +195,7 @@ def test_a_study_reads_a_crossing():
     """Numbers of /crossing stand beside those of the contact, and its fields can be asked for."""
     case = tl.Case.from_text(CASE)
     swept = tl.sweep(case, {"normal_load": ["20 kN", "32.5 kN"]}, fields=["max(crossing.closing_work)"]).dataset
-    heavy, alone = swept.isel(normal_load=1), tl.run_case(case).crossing.dataset
+    heavy, alone = swept.isel(normal_load=1), tl.run(case).crossing.dataset
     for name in ("plain_pressure", "plain_work", "edge_work"):
         assert float(heavy[name]) == pytest.approx(float(alone[name]), rel=1e-6)
     for name in ("largest_pressure", "edge_pressure"):

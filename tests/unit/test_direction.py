@@ -176,7 +176,9 @@ def test_a_verdict_has_its_rose():
     road = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
     at = np.linspace(-0.2, 0.2, 10)
     verdict = assess(
-        tl.solve_response(tl.UniformRectangle(0.2, 0.2, 8e5), road, depths=[0.1], x=at, y=at), LINE, depth=0.1
+        tl.solve_response(tl.UniformRectangle(0.2, 0.2, 8e5), road, depths=[0.1], x=at, y=at),
+        LINE,
+        depth=0.1,
     )
     found = crack_rose(verdict.dataset, weight="damage", law=LINE)
     assert float(found["orientation_share"].sum()) == pytest.approx(1, abs=1e-12)

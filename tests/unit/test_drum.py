@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.errors import ConvergenceError
 from treadload.grid import Grid
 from treadload.kernels.eigenstrain.surface import settlement
 from treadload.materials import MohrCoulomb, PassesPowerLaw, VonMises
@@ -20,7 +21,7 @@ from treadload.response.several import Question, answers
 from treadload.tire import TreadProfile
 
 RADIUS, MODULUS, YIELD = 1.0, 100e6, 0.4e6
-SOIL = tl.ElastoPlastic(tl.Elastic(MODULUS, 0.35), VonMises(YIELD, hardening=MODULUS / 5))
+SOIL = tl.materials.ElastoPlastic(tl.Elastic(MODULUS, 0.35), VonMises(YIELD, hardening=MODULUS / 5))
 ROAD = tl.Pavement.half_space(SOIL)
 # A rigid ball: a wheel as round across as along.
 BALL = tl.Tire.from_profile(
@@ -94,8 +95,8 @@ def test_just_above_first_yield_the_pressure_hardly_feels_the_track():
     grid = Grid(done.sizes["x"], done.sizes["y"], *cell, float(done.x[0]), float(done.y[0]))
     ball = tl.Tire.from_height_map(BALL.surface.height_map(grid), cell, material=tl.Elastic(1e15, 0.3))
     contact = tl.solve_contact(ball, road, tl.Rolling(normal_load=1.4 * LOAD, friction=0.0))
-    shifted = tl.GridLoad(grid, contact.dataset.pressure.to_numpy())
-    wheel = tl.roll_passes(shifted, ROAD, passes=1, spacing=cell, layers=8)
+    shifted = tl.response.GridLoad(grid, contact.dataset.pressure.to_numpy())
+    wheel = tl.response.roll_passes(shifted, ROAD, passes=1, spacing=cell, layers=8)
     # 9 % apart: a drum's stress is that at the middle of cells, a wheel's the mean across them, and two rows yield.
     assert float(done.rut_depth[0]) == pytest.approx(float(wheel.dataset.rut_depth[0]), rel=0.12)
     # So few cells do not show their error, which is stated.
@@ -116,7 +117,7 @@ def test_dents_of_layers_are_those_of_bettis_theorem():
     world = replace(box, nx=long + 8)
 
     def pressed(depths, x, y):
-        one = (tl.GridLoad(Grid(1, 1, box.dx, box.dy, 0.0, 0.0), np.ones((1, 1))),)
+        one = (tl.response.GridLoad(Grid(1, 1, box.dx, box.dy, 0.0, 0.0), np.ones((1, 1))),)
         view = View(x, y, components=range(6))
         (answer,) = answers([Question(one, road, depths)], view, side="below", speed=None, mean_over=None)
         return answer.fields.stress
@@ -129,7 +130,7 @@ def test_dents_of_layers_are_those_of_bettis_theorem():
 def test_a_file_holds_a_drum_and_its_figures_read_it(rolled, tmp_path):
     opened = tl.open_results(tl.save_results(rolled, tmp_path / "drum.nc")).passes
     assert opened.summary() == rolled.summary()
-    assert "sinks mm" in opened.summary()
+    assert "rolling resistance, N" in opened.summary()
     assert opened.normal_load == 6 * LOAD
     assert opened.drum == BALL
     assert len(opened.plot.drum().axes) == 2
@@ -145,7 +146,11 @@ def test_a_file_holds_a_drum_and_its_figures_read_it(rolled, tmp_path):
         ({"spacing": (0.01, -1.0)}, "spacing across travel must be a positive number"),
         ({"road": tl.Pavement.half_space(tl.Elastic(1e8, 0.3))}, "no layer of this road can yield"),
         (
-            {"road": tl.Pavement.half_space(tl.ElastoPlastic(tl.Elastic(1e8, 0.3), PassesPowerLaw(1, 0.5)))},
+            {
+                "road": tl.Pavement.half_space(
+                    tl.materials.ElastoPlastic(tl.Elastic(1e8, 0.3), PassesPowerLaw(1, 0.5))
+                )
+            },
             "a PassesPowerLaw has no flow that the drum could feel",
         ),
         ({"depth": 0.006}, "the plastic zone reaches the depth of the box, 0.006 m"),
@@ -161,6 +166,6 @@ def test_what_cannot_be_rolled_is_refused_in_a_sentence(change, words):
 @pytest.mark.slow
 def test_a_soft_road_under_a_drum_says_that_it_has_no_steady_pass():
     """Without hardening and far above its strength; the sentence has the residual and what to do."""
-    weak = tl.Pavement.half_space(tl.ElastoPlastic(tl.Elastic(MODULUS, 0.35), MohrCoulomb(2e3, 0.2)))
-    with pytest.raises((tl.InputError, tl.ConvergenceError), match=r"no steady pass|far above what the road bears"):
+    weak = tl.Pavement.half_space(tl.materials.ElastoPlastic(tl.Elastic(MODULUS, 0.35), MohrCoulomb(2e3, 0.2)))
+    with pytest.raises((tl.InputError, ConvergenceError), match=r"no steady pass|far above what the road bears"):
         roll_drum(BALL, weak, 6 * LOAD, passes=1, spacing=(8e-3, 8e-3), layers=3)

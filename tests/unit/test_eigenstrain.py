@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from cuboids import Cuboid, cuboid_stress, cuboid_surface_displacement
 from treadload.kernels.eigenstrain import operator
-from treadload.kernels.eigenstrain.cuboid import Cuboid, cuboid_stress, cuboid_surface_displacement
 from treadload.kernels.eigenstrain.operator import Grid
 from treadload.kernels.eigenstrain.surface import settlement
 from treadload.kernels.half_space.interior import fields_on_grid
@@ -222,7 +222,7 @@ def test_the_surface_sinks_by_betti_as_it_does_in_closed_form_and_on_layers_that
     def layers(thickness, moduli):
         stack = [tl.Layer(tl.Elastic(modulus, _NU), part) for modulus, part in zip(moduli, thickness, strict=True)]
         road = tl.Pavement((*stack, tl.Layer(tl.Elastic(moduli[-1], _NU))))
-        load = tl.GridLoad(tl.Grid(1, 1, 1.0, 1.3, 0.0, 0.0), np.ones((1, 1)))
+        load = tl.response.GridLoad(tl.response.Grid(1, 1, 1.0, 1.3, 0.0, 0.0), np.ones((1, 1)))
         return lambda depths, x, y: layered_response([load], road, depths, x, y, below=True)[0]
 
     one = settlement(strain, grid, layers([1.7, 6.0], [2.6, 2.6 * (1 + 1e-12)]))

@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 import treadload as tl
 from cases import ONE_AXLE
-from treadload.case import LifeCase
+from treadload.case import Case
 from treadload.cli import app
 from treadload.damage import (
     Criterion,
@@ -69,9 +69,9 @@ def life():
         for law in ("power-law", "limit")
         for number, (reads, bound) in enumerate(READS.items())
     )
-    case = LifeCase.from_text(ONE_AXLE + text)
-    assert LifeCase.from_text(case.to_toml()).build_criteria() == case.build_criteria()
-    return tl.study.run_life(case, sensitivity=False).life
+    case = Case.from_text(ONE_AXLE + text)
+    assert Case.from_text(case.to_toml()).build_criteria() == case.build_criteria()
+    return tl.run(case, leave_out=("sensitivity",)).life
 
 
 def test_every_quantity_runs_from_a_case_by_a_power_law_and_by_a_limit(life, tmp_path):
@@ -116,7 +116,7 @@ def test_every_quantity_runs_from_a_case_by_a_power_law_and_by_a_limit(life, tmp
 )
 def test_what_cannot_be_read_is_refused_in_a_sentence(reads, words):
     with pytest.raises(InputError, match=words) as caught:
-        LifeCase.from_text(ONE_AXLE + criterion("a", "limit", reads, "1"))
+        Case.from_text(ONE_AXLE + criterion("a", "limit", reads, "1"))
     assert len(str(caught.value).splitlines()) == 1
 
 
@@ -144,7 +144,7 @@ def test_what_cannot_be_read_is_refused_in_a_sentence(reads, words):
 )
 def test_a_layer_without_the_data_of_a_law_is_refused_in_a_sentence(law, more, words):
     with pytest.raises(InputError, match=words) as caught:
-        LifeCase.from_text(f'{ONE_AXLE}[[criteria]]\nname = "a"\nlaw = "{law}"\n{more}\n')
+        Case.from_text(f'{ONE_AXLE}[[criteria]]\nname = "a"\nlaw = "{law}"\n{more}\n')
     assert len(str(caught.value).splitlines()) == 1
 
 
@@ -204,7 +204,7 @@ def test_all_that_a_criterion_can_name_is_listed_with_its_source():
 def test_the_command_lists_them():
     ran = CliRunner().invoke(app, ["criteria"], env={"COLUMNS": "160"})
     assert ran.exit_code == 0, ran.output
-    assert all(name in ran.stdout for name in (*QUANTITIES.own(), *CRITERIA.own()))
+    assert all(name in ran.stdout for name in (*QUANTITIES.built_in(), *CRITERIA.built_in()))
     one = CliRunner().invoke(app, ["criteria", "energy_ratio"])
     assert "Roque et al. (2004)" in one.stdout
     wrong = CliRunner().invoke(app, ["criteria", "energy"])

@@ -9,7 +9,7 @@ import treadload as tl
 from treadload.catalogue import tires
 from treadload.contact.cautions import of_tire
 from treadload.contact.friction import Anisotropic, Exponential, PressureDependent
-from treadload.errors import InputError
+from treadload.errors import ConvergenceError, InputError, TreadloadError
 
 X = np.linspace(-0.05, 0.05, 16)
 GAP = (X[None, :] ** 2 + X[:, None] ** 2) / 0.6
@@ -25,7 +25,7 @@ def solve(*, modulus=3e6, road=5.4e9, spacing=X[1] - X[0], height=1.0, distance=
     return tl.solve_contact(tire, half_space, tl.Rolling(**wheel))
 
 
-ASKED = {
+QUESTIONS = {
     "normal_load": lambda v: solve(normal_load=v),
     "approach": lambda v: solve(approach=v),
     "friction": lambda v: solve(friction=v, creepage_x=0.01),
@@ -51,18 +51,18 @@ ASKED = {
 NOTHING = {"tractive_force", "lateral_force", "spin"}
 
 
-@pytest.mark.parametrize("name", ASKED)
+@pytest.mark.parametrize("name", QUESTIONS)
 @pytest.mark.parametrize("value", EXTREMES)
 def test_extremes_are_refused_in_a_sentence(name, value):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         if value < 1 and name in NOTHING:
-            ASKED[name](value)
+            QUESTIONS[name](value)
             return
-        with pytest.raises((InputError, tl.TreadloadError)) as caught:
-            ASKED[name](value)
+        with pytest.raises((InputError, TreadloadError)) as caught:
+            QUESTIONS[name](value)
     assert len(str(caught.value)) < 600
-    assert not isinstance(caught.value, tl.ConvergenceError)
+    assert not isinstance(caught.value, ConvergenceError)
 
 
 def test_the_sentence_has_the_number_the_bound_and_the_remedy():
@@ -85,8 +85,8 @@ def test_friction_of_three_is_solved_with_a_warning(solved):
 
 
 def test_a_truck_belt_on_an_aircraft_tire_is_said():
-    belt = tl.Belt.from_library("315/80R22.5")
-    fitted = tl.Belt(foundation=5.0, meridional=0.08, bending=(40.0, 60.0, 50.0))
+    belt = tl.tire.Belt.from_library("315/80R22.5")
+    fitted = tl.tire.Belt(foundation=5.0, meridional=0.08, bending=(40.0, 60.0, 50.0))
 
     def told(pressure, belt):
         tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=pressure, belt=belt)

@@ -9,7 +9,7 @@ from fuzz.direct_sums import DirectSums
 from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.rolling_state import Rolling
-from treadload.contact.solvers.coupling import Start, solve_coupled
+from treadload.contact.solvers.coupling import Start, Surfaces, solve_coupled
 from treadload.contact.solvers.marching import Stage, roll_transient
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.solvers.rolling import solve_rolling
@@ -105,7 +105,7 @@ def test_a_start_with_shear_leaves_none_where_there_is_no_friction_now():
 
     def solve(friction, start=None):
         rolling = Rolling(normal_load=1.0, friction=friction, creepage_x=0.01)
-        return solve_coupled(influence(12), grid, gap, rolling, check=lambda p: None, start=start)
+        return solve_coupled(influence(12), Surfaces(grid, gap), rolling, check=lambda p: None, start=start)
 
     rubbed = solve(0.8)
     start = Start(rubbed.normal.pressure, rubbed.slipping.tangential)

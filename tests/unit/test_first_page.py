@@ -22,12 +22,15 @@ from treadload.damage import (
 from treadload.damage.cracks import ORIENTATIONS, first_to_expect, in_a_cell, opens_down
 from treadload.damage.quantity import IN_THE_PLANE, STRESS, in_tension
 from treadload.damage.traffic import AxleClass, Traffic
-from treadload.plots import VerdictPlots, first_places
+from treadload.plots import cracks, first_places
 from treadload.plots.first import failing_order
 from treadload.reporting import write_report
-from treadload.reporting.first import first_of_life, first_of_response, reading_in_words
+from treadload.reporting.first import first_of_life, first_of_response
 from treadload.reporting.reading import ReportCase
+from treadload.reporting.typesetting import typeset
 from treadload.results import to_tree
+from treadload.rows import row
+from treadload.variables import Display
 
 LINE = FatigueLine(120e-6, -0.2)
 Y = np.linspace(-0.2, 0.2, 21)
@@ -59,29 +62,39 @@ def a_life(dips=(90.0, 90.0, np.nan, np.nan), years=20.0):
 
 def test_a_small_reading_is_told_by_a_power_of_ten():
     mean, extension = (tl.damage.known_quantities()[name] for name in ("mean_stress", "extension_strain"))
-    assert reading_in_words(mean, 16.9) == "1.7×10⁻⁵ MPa"
-    assert reading_in_words(mean, 0.782e6) == mean.in_words(0.782e6) == "0.782 MPa"
-    assert reading_in_words(extension, 223e-6) == "223 microstrain"
+    for quantity, value, text in (
+        (mean, 16.9, "1.7×10⁻⁵ MPa"),
+        (mean, 0.782e6, "0.782 MPa"),
+        (extension, 223e-6, "223 microstrain"),
+    ):
+        assert typeset(row("largest_reading", value, display=Display("", "", quantity.in_words))) == text
 
 
 def test_all_criteria_stand_side_by_side_in_the_order_in_which_they_fail():
     life = a_life()
     page = first_of_life(to_tree(life)["life"].to_dataset())
-    years = [life.years(row[0]) for row in page.rows]
+    years = [life.years(line[0]) for line in page.rows]
     assert years == sorted(years)
-    by_name = {row[0]: row for row in page.rows}
+    by_name = {line[0]: dict(zip(page.columns, line, strict=True)) for line in page.rows}
     assert page.rows[0][0] in page.sentence
     # Who, what, where, which way, by which class in which season, how much of what is allowed, after how long.
     top = by_name["top-down"]
-    assert top[1:4] == ("Materials 2021, 14, 2117", "100 microstrain", "surface, y = 0 mm")
-    assert top[4].startswith("longitudinal (100 % of the damage)")
-    assert top[5] == "heavy, all year"
+    assert top["by whom"] == "Materials 2021, 14, 2117"
+    assert top["largest evaluated value"] == "100 microstrain"
+    assert (top["depth, mm"], top["y, mm"]) == ("0", "0")
+    assert top["first crack"].startswith("longitudinal (100 % of the damage)")
+    assert top["most damage by"] == "heavy, all year (93 %)"
     allowed = LINE.allowable_strain(1e5 * 20.0)
-    assert float(top[6]) == pytest.approx(100e-6 / allowed, rel=0.05)  # two digits
-    assert by_name["by Mazars"][1] == "Mazars (1986)"
-    assert by_name["soil"][1] == "NF P98-086 (2019)"
-    assert by_name["soil"][3:5] == ("210 mm deep, on top of a layer, y = 0 mm", "ruts, no crack")
-    assert by_name["shoving"][4:] == ("no damage", "–", "0.6", "0 in 20 years", "never")
+    assert float(top["utilisation in 20 years"]) == pytest.approx(100e-6 / allowed, rel=0.05)  # two digits
+    assert by_name["by Mazars"]["by whom"] == "Mazars (1986)"
+    assert by_name["soil"]["by whom"] == "NF P98-086 (2019)"
+    assert by_name["soil"]["depth, mm"] == "210, top of a layer"
+    assert by_name["soil"]["first crack"] == "ruts, no crack"
+    shoving = by_name["shoving"]
+    assert (shoving["most damage by"], shoving["damage in 20 years"], shoving["service life"]) == (
+        "no damage", "0", "never",
+    )  # fmt: skip
+    assert shoving["utilisation in 20 years"] == "0.6"
     figure = first_places(life)
     bars = sorted((bar for bar in figure.axes[1].patches), key=lambda bar: -bar.get_y())
     used = life.dataset.design_utilisation.to_numpy()
@@ -144,11 +157,12 @@ def test_every_sentence_of_a_verdict_keeps_to_it(verdict, word):
     """Summary, sentence and table of the report, title and note of the figure."""
     assert verdict.orientation == word
     case = ReportCase.of("a", to_tree(verdict))
-    figure = VerdictPlots(verdict).cracks()
+    figure = cracks(verdict)
     drawn = [text.get_text() for ax in figure.axes for text in ax.texts] + [figure.axes[0].get_title(loc="left")]
     legend = figure.axes[0].get_legend()
     drawn += [text.get_text() for text in legend.get_texts()] if legend else []
-    said = [verdict.summary(), case.verdict, case.first_crack, *drawn]
+    shown = " ".join(row.sentence for row in case.rows("damage") if row.key != "law")
+    said = [verdict.summary(), case.verdict, shown, *drawn]
     if word == "transverse":
         assert all("transverse" in text for text in said[:3])
         return

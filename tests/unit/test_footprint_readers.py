@@ -354,7 +354,7 @@ def test_measures_of_a_print():
     assert shares.sum() == pytest.approx(1)
     assert shares[0] == pytest.approx(weights[load.grid.y < ribs[1]].sum())
     np.testing.assert_allclose(found.rib_shares([-1, 0, 1]).sum(), 1)
-    for text in ("ribs carry", "net area", "length"):
+    for text in ("load by rib", "net contact area", "footprint length"):
         assert text in found.summary()
 
 
@@ -442,7 +442,7 @@ def test_a_case_reads_the_export_of_a_sensor(tmp_path):
     written(tmp_path, tekscan([values, 0.5 * values], pitch="10 mm"))
     case = tl.Case.from_text(CASE.format(keys='travel = "up"\nload = "5 kN"'), folder=tmp_path)
     assert tl.Case.from_text(case.to_toml(), folder=tmp_path) == case
-    result = tl.run_case(case)
+    result = tl.run(case)
     wanted = values[::-1].T
     np.testing.assert_allclose(result.footprint.pressure, wanted * 5e3 / (wanted.sum() * 1e-4))
     # What is doubtful about it is told with the result, and in its file.
@@ -456,9 +456,9 @@ def test_a_case_reads_the_export_of_a_sensor(tmp_path):
         ('calibration = "3 kPa"', "calibration= is for counts"),
     ):
         with pytest.raises(tl.InputError, match=words):
-            tl.run_case(tl.Case.from_text(CASE.format(keys=keys), folder=tmp_path))
+            tl.run(tl.Case.from_text(CASE.format(keys=keys), folder=tmp_path))
     (tmp_path / "print.asf").write_text("100,200.5\n300,400\n")
     with pytest.raises(
         tl.InputError, match=r"footprint\.travel does not go with its file: .* is a table or a matrix"
     ):
-        tl.run_case(tl.Case.from_text(CASE.format(keys='travel = "up"\nspacing = 0.01'), folder=tmp_path))
+        tl.run(tl.Case.from_text(CASE.format(keys='travel = "up"\nspacing = 0.01'), folder=tmp_path))

@@ -8,23 +8,25 @@ from treadload.response.heterogeneous.bonds import faces
 
 MORTAR, STONE = tl.Elastic(3e9, 0.35), tl.Elastic(60e9, 0.2)
 PLACE = {"window": (14e-3, 12e-3), "depth": 12e-3, "spacing": 1e-3}
-EDGE = tl.GridLoad(
-    tl.Grid(30, 12, 1e-3, 1e-3, -14.5e-3, -11.5e-3), np.full((12, 30), 0.8e6), np.full((12, 30), 0.4e6)
+EDGE = tl.response.GridLoad(
+    tl.response.Grid(30, 12, 1e-3, 1e-3, -14.5e-3, -11.5e-3), np.full((12, 30), 0.8e6), np.full((12, 30), 0.4e6)
 )
-ONE = tl.Aggregates.from_centres(0.0, 0.0, 5.5e-3, 4e-3, STONE)
+ONE = tl.materials.Aggregates.from_centres(0.0, 0.0, 5.5e-3, 4e-3, STONE)
 
 
 @pytest.fixture(scope="module")
 def one():
-    return tl.compute_heterogeneous(EDGE, MORTAR, ONE, **PLACE)
+    return tl.response.compute_heterogeneous(EDGE, MORTAR, ONE, **PLACE)
 
 
 def test_stones_of_mortar_change_nothing_and_soft_ones_carry_less(one):
     data = one.dataset
-    same = tl.compute_heterogeneous(EDGE, MORTAR, tl.Aggregates.from_centres(0, 0, 5.5e-3, 4e-3, MORTAR), **PLACE)
+    same = tl.response.compute_heterogeneous(
+        EDGE, MORTAR, tl.materials.Aggregates.from_centres(0, 0, 5.5e-3, 4e-3, MORTAR), **PLACE
+    )
     np.testing.assert_allclose(same.dataset.tension_without_stones, same.dataset.principal_stress_1, atol=1e-3)
-    soft = tl.compute_heterogeneous(
-        EDGE, MORTAR, tl.Aggregates.from_centres(0, 0, 5.5e-3, 4e-3, tl.Elastic(0.3e9, 0.35)), **PLACE
+    soft = tl.response.compute_heterogeneous(
+        EDGE, MORTAR, tl.materials.Aggregates.from_centres(0, 0, 5.5e-3, 4e-3, tl.Elastic(0.3e9, 0.35)), **PLACE
     )
     assert float(data.stone_over_mastic) > 1.3 > 0.7 > float(soft.dataset.stone_over_mastic) > 0
     assert float(data.stone_fraction) == pytest.approx(4 / 3 * np.pi * 4**3 / (14 * 12 * 12), rel=0.05)
@@ -47,9 +49,9 @@ def test_every_cell_keeps_the_law_of_its_material(one):
 
 
 def test_borders_by_share_keep_volumes_and_laws():
-    soft = tl.Aggregates.from_centres(-4e-3, -3e-3, 3e-3, 2e-3, tl.Elastic(0.5e9, 0.35))
-    stones = [tl.Aggregates.from_centres(3e-3, 1e-3, 5.5e-3, 3.5e-3, STONE), soft]
-    data = tl.compute_heterogeneous(EDGE, MORTAR, stones, **PLACE, borders="shares").dataset
+    soft = tl.materials.Aggregates.from_centres(-4e-3, -3e-3, 3e-3, 2e-3, tl.Elastic(0.5e9, 0.35))
+    stones = [tl.materials.Aggregates.from_centres(3e-3, 1e-3, 5.5e-3, 3.5e-3, STONE), soft]
+    data = tl.response.compute_heterogeneous(EDGE, MORTAR, stones, **PLACE, borders="shares").dataset
     for number, (radius, material) in enumerate(((3.5, STONE), (2.0, tl.Elastic(0.5e9, 0.35))), start=1):
         cells = data.stone.to_numpy() == number
         assert abs(cells.sum() - 4 / 3 * np.pi * radius**3) <= 0.5
@@ -62,16 +64,18 @@ def test_borders_by_share_keep_volumes_and_laws():
     expected = data.stress_xz.to_numpy()[mastic] * 1.35 / MORTAR.modulus
     np.testing.assert_allclose(data.strain_xz.to_numpy()[mastic], expected, atol=1e-5 * np.abs(data.strain_xz).max())
     with pytest.raises(tl.InputError, match='borders must be "steps" or "shares", got \'half\''):
-        tl.compute_heterogeneous(EDGE, MORTAR, stones, **PLACE, borders="half")
+        tl.response.compute_heterogeneous(EDGE, MORTAR, stones, **PLACE, borders="half")
 
 
 @pytest.mark.slow
 def test_borders_by_share_need_fewer_cells(one):
-    stiff = tl.Aggregates.from_centres(0.0, 0.0, 6e-3, 4e-3, tl.Elastic(36e9, 0.35))
+    stiff = tl.materials.Aggregates.from_centres(0.0, 0.0, 6e-3, 4e-3, tl.Elastic(36e9, 0.35))
     place = {"window": (12e-3, 12e-3), "depth": 12e-3}
 
     def carried(spacing, borders):
-        data = tl.compute_heterogeneous(EDGE, MORTAR, stiff, **place, spacing=spacing, borders=borders).dataset
+        data = tl.response.compute_heterogeneous(
+            EDGE, MORTAR, stiff, **place, spacing=spacing, borders=borders
+        ).dataset
         return float(np.mean(data.stress_zz.to_numpy()[data.phase.to_numpy() == 1]))
 
     fine = carried(0.5e-3, "shares")
@@ -93,7 +97,7 @@ def test_readings_are_those_of_the_fields(one):
     with pytest.raises(tl.InputError, match="percentile must be one of 50, 90, 95, 99, 100, got 42"):
         one.factor(42)
     assert "ravelling index" in one.summary()
-    strong = tl.compute_heterogeneous(EDGE, MORTAR, ONE, **PLACE, bond_strength=2e6)
+    strong = tl.response.compute_heterogeneous(EDGE, MORTAR, ONE, **PLACE, bond_strength=2e6)
     assert float(strong.dataset.ravelling_index) == pytest.approx(float(data.ravelling_index) * 0.8 / 2, rel=1e-9)
 
 
@@ -118,12 +122,12 @@ def test_bonds_of_a_sphere_have_its_area_and_the_stress_across_its_surface():
 @pytest.mark.slow
 def test_a_scan_is_as_good_as_centres_and_voids_stand_beside_stones(one):
     numbers = one.dataset.stone.to_numpy()
-    scan = tl.compute_heterogeneous(EDGE, MORTAR, tl.Aggregates.from_voxels(numbers, 1e-3, STONE))
+    scan = tl.response.compute_heterogeneous(EDGE, MORTAR, tl.materials.Aggregates.from_voxels(numbers, 1e-3, STONE))
     for name in ("stress_xx", "strain_xz"):
         size = np.abs(one.dataset[name]).max()
         assert np.abs(scan.dataset[name].to_numpy() - one.dataset[name].to_numpy()).max() < 1e-5 * size
-    void = tl.Aggregates.from_centres(4.6e-3, 3.5e-3, 3e-3, 1.6e-3, None)
-    both = tl.compute_heterogeneous(EDGE, MORTAR, [ONE, void], **PLACE)
+    void = tl.materials.Aggregates.from_centres(4.6e-3, 3.5e-3, 3e-3, 1.6e-3, None)
+    both = tl.response.compute_heterogeneous(EDGE, MORTAR, [ONE, void], **PLACE)
     assert both.stats["method"] == "MINRES"
     assert set(np.unique(both.dataset.phase)) == {0, 1, 2}
     empty = both.dataset.phase.to_numpy() == 2
@@ -138,7 +142,7 @@ def test_a_scan_is_as_good_as_centres_and_voids_stand_beside_stones(one):
 def test_layers_that_are_one_are_the_half_space(one):
     base = tl.Elastic(3e9 * (1 + 1e-9), 0.35)
     road = tl.Pavement((tl.Layer(MORTAR, 30e-3), tl.Layer(base)))
-    found = tl.compute_heterogeneous(EDGE, road, ONE, **PLACE)
+    found = tl.response.compute_heterogeneous(EDGE, road, ONE, **PLACE)
     size = float(np.abs(one.dataset.stress_xx).max())
     assert np.abs(found.dataset.stress_xx - one.dataset.stress_xx).max() < 1e-5 * size
 
@@ -150,7 +154,7 @@ def test_a_window_is_written_and_opened_again(one, tmp_path):
     assert back.summary() == one.summary()
     assert back.stones[0].material == STONE
     np.testing.assert_array_equal(back.stones[0].packing.radius, ONE.packing.radius)
-    again = tl.compute_heterogeneous(back.loads, back.road, back.stones, **PLACE)
+    again = tl.response.compute_heterogeneous(back.loads, back.road, back.stones, **PLACE)
     np.testing.assert_allclose(again.dataset.stress_zz, one.dataset.stress_zz)
 
 
@@ -170,18 +174,21 @@ def test_a_window_is_written_and_opened_again(one, tmp_path):
         ({"spacing": 0.1e-3}, "memory goes with the square of the layers"),
         ({"at": (0.0, float("nan"))}, "middle must be finite numbers of metres, got y"),
         ({"bond_strength": -1.0}, "bond_strength must be a positive number"),
-        ({"stones": tl.Aggregates.from_voxels(np.ones((2, 2, 2)), 1e-3, STONE)}, "brings its window"),
+        ({"stones": tl.materials.Aggregates.from_voxels(np.ones((2, 2, 2)), 1e-3, STONE)}, "brings its window"),
         (
-            {"stones": [ONE, tl.Aggregates.from_centres(4e-3, 0, 5.5e-3, 2e-3, None)]},
+            {"stones": [ONE, tl.materials.Aggregates.from_centres(4e-3, 0, 5.5e-3, 2e-3, None)]},
             "stones 1 and 2 by 2 mm",
         ),
-        ({"stones": tl.Aggregates.from_centres(0, 0, 5e-3, 0.2e-3, STONE)}, "none of the 1 stones holds the centre"),
+        (
+            {"stones": tl.materials.Aggregates.from_centres(0, 0, 5e-3, 0.2e-3, STONE)},
+            "none of the 1 stones holds the centre",
+        ),
     ],
 )
 def test_what_cannot_be_is_refused_in_a_sentence(change, words):
     asked = {"mortar": MORTAR, "stones": ONE, **PLACE, **change}
     with pytest.raises(tl.InputError) as refused:
-        tl.compute_heterogeneous(EDGE, **asked)
+        tl.response.compute_heterogeneous(EDGE, **asked)
     assert words in str(refused.value)
 
 

@@ -36,7 +36,7 @@ STACKS = {
 @pytest.mark.parametrize("depth", [0.03, 0.5, 20.0])
 def test_rectangle_integrals_are_closed(depth):
     n, c, t, d = 1.1, 0.6, 0.7, -0.4
-    images = Images(*(np.array([value]) for value in (depth, n, c, t, d)), held=True, residual=0.0)
+    images = Images(*(np.array([value]) for value in (depth, n, c, t, d)), bonded=True, residual=0.0)
     dx, dy, shape = 0.013, 0.021, (4, 5)
     found = coefficients(images, *shape, dx, dy)
     nodes, weights = np.polynomial.legendre.leggauss(24)
@@ -69,7 +69,7 @@ def test_the_fit_holds_at_other_wavenumbers(name):
     # Below 0.1 % of the top layer's compliance, 1 % on rock, an error counts against that.
     floor = 1e-2 if layers.rigid else 1e-3
     assert (error[:2] / np.maximum(np.abs(whole[0]), floor * top[0])).max() < 2e-6
-    if images.held:
+    if images.bonded:
         assert (error[2:] / np.maximum(np.abs(whole[2]), floor * top[2])).max() < 2e-6
     else:
         assert np.isnan(images.at(k)[2:]).all()

@@ -8,6 +8,7 @@ import pytest
 import treadload as tl
 from axisymmetric import Plastic, press
 from treadload.contact import indentation, load_steps, yielding
+from treadload.errors import ConvergenceError
 from treadload.materials import MohrCoulomb, Perzyna, VonMises
 
 MODULUS, YIELD, POISSON, RADIUS = 1000.0, 2.0, 0.3, 100.0
@@ -16,8 +17,8 @@ PEAK = (0.454 + 0.41 * POISSON) * 2.8 * YIELD
 DEPTH = (math.pi * PEAK / (2 * MODULUS / (1 - POISSON**2))) ** 2 * RADIUS
 LOAD = 2 / 3 * PEAK * math.pi * DEPTH * RADIUS
 SOFT = tl.Elastic(MODULUS, POISSON)
-ROAD = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, VonMises(YIELD, hardening=MODULUS / 1000)))
-VISCOUS = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, Perzyna(MohrCoulomb(1, 0.5), 1.0)))
+ROAD = tl.Pavement.half_space(tl.materials.ElastoPlastic(SOFT, VonMises(YIELD, hardening=MODULUS / 1000)))
+VISCOUS = tl.Pavement.half_space(tl.materials.ElastoPlastic(SOFT, Perzyna(MohrCoulomb(1, 0.5), 1.0)))
 
 
 def pressed(multiples, n=32, layers=14, reach=1.35, road=ROAD, **more):
@@ -28,7 +29,7 @@ def pressed(multiples, n=32, layers=14, reach=1.35, road=ROAD, **more):
     gap = (across[None] ** 2 + across[:, None] ** 2) / (2 * RADIUS)
     ball = tl.Tire.from_height_map(gap, dx, material=tl.Elastic(MODULUS * 1e6, 0.3))
     more = {"depth": 2.0 * radius, "layers": layers} | more
-    return tl.solve_indentation(ball, road, [one * LOAD for one in multiples], **more)
+    return tl.contact.solve_indentation(ball, road, [one * LOAD for one in multiples], **more)
 
 
 def kogut_etsion(depth):
@@ -79,7 +80,7 @@ def first_yield(ratio, poisson, hardening):
     peak = (0.454 + 0.41 * poisson) * 2.8
     depth = (math.pi * peak * (1 - poisson**2) / (2 * ratio)) ** 2 * RADIUS
     law = VonMises(1.0, hardening=hardening * ratio)
-    road = tl.Pavement.half_space(tl.ElastoPlastic(tl.Elastic(ratio, poisson), law))
+    road = tl.Pavement.half_space(tl.materials.ElastoPlastic(tl.Elastic(ratio, poisson), law))
     return road, 2 / 3 * peak * math.pi * depth * RADIUS, math.sqrt(depth * RADIUS)
 
 
@@ -101,7 +102,7 @@ def beside_elements(multiple, material, n, layers):
     across = (np.arange(n) - (n - 1) / 2) * dx
     gap = (across[None] ** 2 + across[:, None] ** 2) / (2 * RADIUS)
     ball = tl.Tire.from_height_map(gap, dx, material=tl.Elastic(material[0] * 1e6, 0.3))
-    return tl.solve_indentation(ball, road, [multiple * load, 0.0], layers=layers)
+    return tl.contact.solve_indentation(ball, road, [multiple * load, 0.0], layers=layers)
 
 
 def test_the_peak_pressure_of_one_load_needs_no_steps():
@@ -115,7 +116,7 @@ def test_the_peak_pressure_of_one_load_needs_no_steps():
     assert error[1] == 0
     assert done.dataset.largest_plastic_strain_error.to_numpy().max() < 0.015 * 0.0088
     assert not done.warnings
-    assert f"by {100 * error[0]:.1f} %" in done.summary()
+    assert f"{100 * error[0]:.1f} % at most" in done.summary()
 
 
 @pytest.mark.slow
@@ -156,7 +157,7 @@ def test_a_step_that_does_not_settle_is_halved(monkeypatch):
 
     def restless(pressing, load, begin, count, name):
         if count < 4:
-            raise tl.ConvergenceError("it did not settle", 1.0)
+            raise ConvergenceError("it did not settle", 1.0)
         return reach(pressing, load, begin, count, name)
 
     monkeypatch.setattr(load_steps.Pressing, "_reach", restless)
@@ -167,7 +168,7 @@ def test_a_step_that_does_not_settle_is_halved(monkeypatch):
     assert float(halved.dataset.approach[0]) == pytest.approx(float(whole.dataset.approach[0]), rel=2e-3)
     assert halved.dataset.normal_load.to_numpy() == pytest.approx([3.0 * LOAD])
     monkeypatch.setattr(load_steps, "_MOST_ROUNDS", 1)
-    with pytest.raises(tl.ConvergenceError, match=r"step 1 did not settle at \S+ N in 1 rounds: .*give loads"):
+    with pytest.raises(ConvergenceError, match=r"step 1 did not settle at \S+ N in 1 rounds: .*give loads"):
         pressed([3.0], n=16, layers=6)
 
 
@@ -188,7 +189,7 @@ def test_steps_that_stay_too_long_are_a_warning_with_the_number(monkeypatch):
     ids=["von Mises", "Mohr-Coulomb"],
 )
 def test_what_is_known_of_the_zone_that_yields_does_not_change_what_yields(monkeypatch, law, loads):
-    road = tl.Pavement.half_space(tl.ElastoPlastic(SOFT, law))
+    road = tl.Pavement.half_space(tl.materials.ElastoPlastic(SOFT, law))
 
     def solved(zone):
         monkeypatch.setattr(yielding.Ground, "zone", zone)
@@ -232,7 +233,7 @@ def test_what_cannot_be_pressed_is_refused_in_a_sentence(change, words):
     if max(asked["multiples"]) <= 0:
         ball = tl.Tire.from_height_map(np.ones((9, 9)), 1.0, material=tl.Elastic(1e9, 0.3))
         with pytest.raises(tl.InputError, match=words):
-            tl.solve_indentation(ball, ROAD, asked["multiples"])
+            tl.contact.solve_indentation(ball, ROAD, asked["multiples"])
         return
     with pytest.raises(tl.InputError, match=words) as caught:
         pressed(**asked)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from treadload.contact.bodies.half_space import HalfSpaces
-from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.influence import Influence, forget_operators, operators
 from treadload.kernels.gridding.convolution import Convolution
 from treadload.kernels.half_space import rectangle
 from treadload.kernels.half_space.rectangle import CombinedElasticity
@@ -107,3 +107,31 @@ def test_the_stiffness_symbol_inverts_the_compliance_of_a_wave():
     k = 2 * np.pi * 5 / (n * dx)
     assert symbol[0, 5] == pytest.approx(k * 3.0 / 2)
     assert symbol.min() > 0
+
+
+def test_operators_on_few_cells_are_computed_once(monkeypatch):
+    forget_operators()
+    asked = []
+    monkeypatch.setattr(rectangle, "coupling", lambda *at: asked.append(at) or np.ones((2, *at[:2])))
+    pair = HalfSpaces(BODIES)
+    for _ in range(2):
+        both = operators(SHAPE, DX, DY, pair)
+        both.gap_by_shear(shears())
+        both.slip_by_pressure(shears()[0])
+        both.gap_by_shear(shears())
+    # Once in either padded space.
+    assert len(asked) == 2
+    assert operators(SHAPE, DX, 2 * DY, pair) is not both
+    assert operators(SHAPE, DX, DY, HalfSpaces(CombinedElasticity(2.0, 0.3, 0.08))) is not both
+    assert operators((500, 600), DX, DY, pair) is not operators((500, 600), DX, DY, pair)
+    forget_operators()
+    assert operators(SHAPE, DX, DY, pair) is not both
+    forget_operators()
+
+
+def test_a_body_that_cannot_be_told_from_others_has_operators_of_its_own():
+    class Unhashable(HalfSpaces):
+        __hash__ = None
+
+    pair = Unhashable(BODIES)
+    assert operators(SHAPE, DX, DY, pair) is not operators(SHAPE, DX, DY, pair)

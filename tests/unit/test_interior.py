@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from half_space import stress_at_points, stress_by_unit_loads, stress_on_cells, stress_on_grid
+from treadload.kernels.gridding import lattice
+from treadload.kernels.gridding.precorrected import Keeper
 from treadload.kernels.half_space import interior
 
 DX, DY = 0.003, 0.004
@@ -177,3 +179,25 @@ def test_points_far_from_a_load_in_single_numbers_are_those_of_double_ones(monke
         # A sixth each way, and four corners of its own for each.
         assert (sum(offsets[3:]) < 0.35 * sum(offsets[:3])) == coarse
         offsets.clear()
+
+
+def test_lattices_are_counted_as_they_are_formed():
+    several = np.random.default_rng(8)
+    for x in (np.arange(9.0), several.normal(0, 30, 25), np.append(np.arange(5) / 3, [80.0, 80.5])):
+        for cells in (1, 12, 60):
+            formed = lattice.as_lattices(x, 1.0, cells)
+            assert lattice.padded_cells(x, 1.0, cells) == sum(cells + count for _, count, _, _ in formed)
+
+
+def test_loads_of_nearly_the_same_shape_share_the_spectra_of_their_kernels():
+    several, kept = np.random.default_rng(9), Keeper()
+    x = y = 0.1 * np.arange(40.0)
+    for shape in ((29, 33), (28, 30), (27, 40)):
+        load = several.normal(size=(3, *shape))
+        given = (load, 1.0, 1.0, np.array([0.7]), np.eye(1), 0.3, x, y, "precorrected")
+        shared, _ = interior.sums_on_grid(*given, kept=kept)
+        alone, _ = interior.sums_on_grid(*given)
+        assert np.abs(shared - alone).max() < 1e-12 * np.abs(alone).max()
+    (known,) = kept.by_kernel.values()
+    # As many as the nodes of a cell; the third load is wider than the first.
+    assert len(known.spectra) == 2 * len({key[1:3] for key in known.spectra})

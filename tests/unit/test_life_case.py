@@ -3,7 +3,7 @@
 import pytest
 
 import treadload as tl
-from treadload.case import LifeCase
+from treadload.case import Case
 from treadload.catalogue import mixes
 from treadload.contact.maneuver import Maneuver
 from treadload.errors import InputError
@@ -65,7 +65,7 @@ binder_volume = 0.11
 
 
 def test_classes_and_maneuvers_become_rows():
-    case = LifeCase.from_text(DESIGN)
+    case = Case.from_text(DESIGN)
     traffic = case.build_traffic()
     assert [row.name for row in traffic.classes] == ["front", "driven, straight", "driven, bend"]
     assert [row.share for row in traffic.classes] == pytest.approx([0.6, 0.36, 0.04])
@@ -80,19 +80,19 @@ def test_classes_and_maneuvers_become_rows():
 
 def test_a_class_may_bring_its_tire_and_pairs_are_mounted_back_to_back():
     text = DESIGN.replace('gear = "tandem-dual"', 'gear = "tandem-dual"\ntire = { profile = "315/80R22.5" }')
-    case = LifeCase.from_text(text)
+    case = Case.from_text(text)
     front, driven, _ = case.build_traffic().classes
     assert (front.tire, front.mirrored) == (None, ())
     assert driven.tire == tl.Tire.from_profile("315/80R22.5")
     assert [driven.wheels[number][1] for number in driven.mirrored] == pytest.approx([-0.17, -0.17])
-    assert LifeCase.from_text(case.to_toml()).build_traffic() == case.build_traffic()
+    assert Case.from_text(case.to_toml()).build_traffic() == case.build_traffic()
     with pytest.raises(InputError, match=r"did you mean '315/80R22\.5'"):
-        LifeCase.from_text(text.replace('315/80R22.5" }', '315/80" }'))
+        Case.from_text(text.replace('315/80R22.5" }', '315/80" }'))
 
 
 def test_a_mix_gives_its_law():
     """The numbers of the catalogue, at the temperature of the layer, and k_s of what lies below."""
-    base, surface, soil, mepdg = LifeCase.from_text(DESIGN).build_criteria()
+    base, surface, soil, mepdg = Case.from_text(DESIGN).build_criteria()
     mix = mixes["EB-GB3"]
     for temperature in (5.0, 15.0, 30.0):
         asked = tl.damage.FrenchBituminous.of(
@@ -109,7 +109,7 @@ def test_a_mix_gives_its_law():
 
 def test_a_number_given_stands_before_the_mixs():
     text = DESIGN.replace("risk = 0.05", 'risk = 0.05\nepsilon_6 = "80 microstrain"\nthickness_scatter = "20 mm"')
-    law = LifeCase.from_text(text).build_criteria()[0].law_at(10.0)
+    law = Case.from_text(text).build_criteria()[0].law_at(10.0)
     assert (law.epsilon_6, law.spread, law.slope) == (80e-6, 0.02, mixes["EB-GB3"].slope)
     assert law.verified
 
@@ -117,9 +117,9 @@ def test_a_number_given_stands_before_the_mixs():
 def test_laws_take_all_the_asphalt_where_no_thickness_is_given():
     """The wearing course alone makes top-down cracking of the MEPDG 1048 times too slow."""
     text = DESIGN.replace('law = "mepdg-bottom-up"\nlayer = 2', 'law = "mepdg-top-down"')
-    law = LifeCase.from_text(text).build_criteria()[3].law_at(15.0)
+    law = Case.from_text(text).build_criteria()[3].law_at(15.0)
     assert law.thickness == pytest.approx(0.21, rel=1e-12)
-    own = LifeCase.from_text(text + 'thickness = "6 cm"\n').build_criteria()[3].law_at(15.0)
+    own = Case.from_text(text + 'thickness = "6 cm"\n').build_criteria()[3].law_at(15.0)
     assert own.thickness == 0.06
     assert own.allowable_passes(1e-4) / law.allowable_passes(1e-4) == pytest.approx(1048, rel=1e-3)
 
@@ -144,12 +144,12 @@ mix = "PF3"
 def test_lifts_of_one_mix_have_the_law_of_their_sum():
     text = DESIGN[: DESIGN.index("[[criteria]]")].replace('pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }\n', "")
     base = '[[criteria]]\nname = "base"\nlaw = "french-bituminous"\nrisk = 0.05\nlayer = "lower"\n'
-    two = LifeCase.from_text(text + LIFTS + base).build_criteria()[0].law_at(15.0)
+    two = Case.from_text(text + LIFTS + base).build_criteria()[0].law_at(15.0)
     whole = LIFTS[: LIFTS.index('[[pavement.layers]]\nname = "lower"')] + '[[pavement.layers]]\nmix = "PF3"\n'
     whole = whole.replace(
         '"upper"\nmix = "EB-GB3"\nthickness = "4 cm"', '"lower"\nmix = "EB-GB3"\nthickness = "8 cm"'
     )
-    one = LifeCase.from_text(text + whole + base).build_criteria()[0].law_at(15.0)
+    one = Case.from_text(text + whole + base).build_criteria()[0].law_at(15.0)
     assert one == two
     # 4 + 4 + 4 cm: on the slope of the rule, 10 mm and three tenths of 2 cm.
     assert two.spread == pytest.approx(0.016, rel=1e-12)
@@ -162,17 +162,17 @@ def test_asphalt_that_is_not_known_is_asked_for():
     )
     base = '[[criteria]]\nname = "base"\nlaw = "french-bituminous"\nrisk = 0.05\nlayer = "upper"\n'
     with pytest.raises(InputError, match=r"'base': layer 3 'lower' .* may be asphalt or bound by cement") as refused:
-        LifeCase.from_text(text + stiff + base)
+        Case.from_text(text + stiff + base)
     assert "\n" not in str(refused.value)
-    law = LifeCase.from_text(text + stiff + base + 'thickness = "12 cm"\n').build_criteria()[0].law_at(15.0)
+    law = Case.from_text(text + stiff + base + 'thickness = "12 cm"\n').build_criteria()[0].law_at(15.0)
     assert law.thickness == pytest.approx(0.12)
-    told = LifeCase.from_text(text + stiff + base + 'thickness_scatter = "2 cm"\n').build_criteria()[0].law_at(15.0)
+    told = Case.from_text(text + stiff + base + 'thickness_scatter = "2 cm"\n').build_criteria()[0].law_at(15.0)
     assert told.spread == 0.02
 
 
 def test_the_text_of_a_case_reads_back():
-    case = LifeCase.from_text(DESIGN)
-    again = LifeCase.from_text(case.to_toml())
+    case = Case.from_text(DESIGN)
+    again = Case.from_text(case.to_toml())
     assert again.build_traffic() == case.build_traffic()
     assert again.build_climate() == case.build_climate()
     assert again.build_road() == case.build_road()
@@ -191,12 +191,12 @@ material = { modulus = "60 MPa", poisson = 0.35 }
     text = DESIGN[: DESIGN.index("[[criteria]]")].replace('pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }\n', "")
     text = text.replace("months = [4, 5, 9, 12, 17, 22, 25, 24, 19, 14, 8, 5]", "temperature = 15") + layers
     criteria = '[[criteria]]\nname = "shell"\nlaw = "shell"\nlayer = "Asphalt"\n'
-    criterion = LifeCase.from_text(text + criteria).build_criteria()[0]
+    criterion = Case.from_text(text + criteria).build_criteria()[0]
     assert criterion.law_at(15.0) == tl.damage.ShellFatigue(7e9)
     with pytest.raises(InputError, match=r"epsilon_6 and slope are missing"):
-        LifeCase.from_text(text + criteria.replace('"shell"\nlayer', '"fatigue-line"\nlayer'))
+        Case.from_text(text + criteria.replace('"shell"\nlayer', '"fatigue-line"\nlayer'))
     with pytest.raises(InputError, match=r"no layer has moduli"):
-        LifeCase.from_text((text + criteria).replace("temperature = 15", f"months = {list(range(12))}"))
+        Case.from_text((text + criteria).replace("temperature = 15", f"months = {list(range(12))}"))
 
 
 @pytest.mark.parametrize(
@@ -236,9 +236,9 @@ material = { modulus = "60 MPa", poisson = 0.35 }
 def test_wrong_tables_are_named(old, new, words):
     assert old in DESIGN
     if not words:
-        assert LifeCase.from_text(DESIGN.replace(old, new, 1)).build_traffic().classes[1].name == "front, straight"
+        assert Case.from_text(DESIGN.replace(old, new, 1)).build_traffic().classes[1].name == "front, straight"
         return
     with pytest.raises(InputError) as refused:
-        LifeCase.from_text(DESIGN.replace(old, new, 1))
+        Case.from_text(DESIGN.replace(old, new, 1))
     assert words in str(refused.value)
     assert "\n" not in str(refused.value)

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from tests.cases import ONE_AXLE
 
-from treadload.case import LifeCase
+from treadload.case import Case
 from treadload.catalogue import mixes
 from treadload.damage import AxleClass, Season
 from treadload.damage.frequency import LoadingFrequency, contact_radius
 from treadload.errors import InputError
+from treadload.life.seasons import frequencies, laws_of, layer_temperatures, roads_of, warmed
 from treadload.materials import GlobalAging
 from treadload.pavement import Pavement, TemperatureProfile
-from treadload.study.seasons import frequencies, laws_of, layer_temperatures, roads_of, warmed
 
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 
@@ -74,7 +74,7 @@ def test_slow_classes_read_softer_roads_in_parts_that_age():
 def test_bad_frequencies_of_a_case_are_refused(old, new, said):
     text = ONE_AXLE.replace(old, new) + '\n[[criteria]]\nname = "soil"\nlaw = "french-subgrade"\n'
     with pytest.raises(InputError, match=said):
-        LifeCase.from_text(text)
+        Case.from_text(text)
 
 
 def test_a_mix_of_one_frequency_is_refused():
@@ -85,14 +85,14 @@ def test_a_mix_of_one_frequency_is_refused():
 
 @pytest.mark.slow
 def test_the_life_says_what_its_frequencies_change():
-    from treadload.study.run_life import run_life
+    from treadload.steps import run
 
     text = ONE_AXLE.replace("passes_per_year = 1e5", 'passes_per_year = 1e5\nfrequency = "mepdg"').replace(
         'name = "axle"', 'name = "axle"\nspeed = "10 km/h"'
     )
     criteria = '\n[[criteria]]\nname = "base"\nlaw = "french-bituminous"\nlayer = "EB-GB3"\nrisk = 0.05\n'
-    own = run_life(LifeCase.from_text(text + criteria), sensitivity=False).life
-    plain = run_life(LifeCase.from_text(ONE_AXLE + criteria), sensitivity=False).life
+    own = run(Case.from_text(text + criteria), leave_out=("sensitivity",)).life
+    plain = run(Case.from_text(ONE_AXLE + criteria), leave_out=("sensitivity",)).life
     # Slow traffic on a softer road.
     assert own.years("base") < plain.years("base")
     assert f"{own.years('base'):.3g} years with these frequencies, {plain.years('base'):.3g} without" in own.summary()
@@ -104,7 +104,7 @@ INSTITUTE = '\n[[criteria]]\nname = "base"\nlaw = "asphalt-institute"\nlayer = "
 
 def test_a_law_by_modulus_reads_the_modulus_that_is_solved():
     """Of the part of an old course at its depth's temperature, at the frequency of the class."""
-    (criterion,) = LifeCase.from_text(ONE_AXLE + INSTITUTE).build_criteria()
+    (criterion,) = Case.from_text(ONE_AXLE + INSTITUTE).build_criteria()
     season = Season("noon", 1.0, TemperatureProfile((0.0, 0.2), (30.0, 25.0)), ageing=GlobalAging(8.0, 12.0))
     fast = AxleClass("a", 1.0, 40e3, 8e5, speed=25.0, frequency=LoadingFrequency())
     classes = (fast, replace(fast, speed=2.0), replace(fast, frequency=None))
@@ -120,12 +120,12 @@ def test_a_law_by_modulus_reads_the_modulus_that_is_solved():
 
 @pytest.mark.slow
 def test_a_slow_class_is_judged_by_the_law_of_its_soft_mix():
-    from treadload.study.run_life import run_life
+    from treadload.steps import run
 
     text = ONE_AXLE.replace("passes_per_year = 1e5", 'passes_per_year = 1e5\nfrequency = "mepdg"').replace(
         'name = "axle"', 'name = "axle"\nspeed = "10 km/h"'
     )
-    life = run_life(LifeCase.from_text(text + INSTITUTE), sensitivity=False).life
+    life = run(Case.from_text(text + INSTITUTE), leave_out=("sensitivity",)).life
     ((law,),) = life.class_laws[0]
     given = life.criteria[0].law_at(15.0)
     assert law.modulus < 0.8 * given.modulus

@@ -42,7 +42,9 @@ def balance(pull, crossfall, height, track):
 def test_leaning_is_the_balance_of_a_rigid_vehicle(radius, pull, crossfall, height, track):
     speed = math.sqrt(pull * GRAVITY * radius)
     outer, inner = (
-        tl.Maneuver.turning(-radius, speed, crossfall=crossfall, track=track, centre_of_gravity=height, wheel=wheel)
+        tl.contact.Maneuver.turning(
+            -radius, speed, crossfall=crossfall, track=track, centre_of_gravity=height, wheel=wheel
+        )
         for wheel in ("outer", "inner")
     )
     on_outer, on_inner, side = balance(pull, crossfall, height, track)
@@ -56,7 +58,7 @@ def test_leaning_is_the_balance_of_a_rigid_vehicle(radius, pull, crossfall, heig
 
 def test_the_outer_wheel_by_hand():
     # A fifth of g, h/t = 0.9: 2 x 0.2 x 0.9 = 0.36 of the load changes sides.
-    turn = tl.Maneuver.turning(20.0, math.sqrt(0.2 * GRAVITY * 20), track=2.0, centre_of_gravity=1.8)
+    turn = tl.contact.Maneuver.turning(20.0, math.sqrt(0.2 * GRAVITY * 20), track=2.0, centre_of_gravity=1.8)
     state = turn.rolling(25e3, MU)
     assert state.normal_load == pytest.approx(1.36 * 25e3, rel=1e-12)
     assert state.forces == pytest.approx((0.0, 0.2 * 1.36 * 25e3), rel=1e-12)
@@ -65,7 +67,7 @@ def test_the_outer_wheel_by_hand():
 
 
 def test_without_a_vehicle_the_load_stays():
-    assert tl.Maneuver.turning(12.0, 6.0, crossfall=0.025).rolling(25e3, MU).normal_load == 25e3
+    assert tl.contact.Maneuver.turning(12.0, 6.0, crossfall=0.025).rolling(25e3, MU).normal_load == 25e3
     assert tl.contact.STRAIGHT.rolling(25e3, MU) == tl.Rolling(
         normal_load=25e3, friction=MU, tractive_force=0.0, lateral_force=0.0
     )
@@ -75,22 +77,24 @@ def test_without_a_vehicle_the_load_stays():
 def test_friction_carries_a_turn_up_to_its_speed(radius, friction, crossfall):
     # V² = g R (μ + c) / (1 - μ c): the side force then reaches μ times the load.
     fastest = math.sqrt(GRAVITY * radius * (friction + crossfall) / (1 - friction * crossfall))
-    assert tl.Maneuver.turning(radius, 0.999 * fastest, crossfall=crossfall).rolling(LOAD, friction)
+    assert tl.contact.Maneuver.turning(radius, 0.999 * fastest, crossfall=crossfall).rolling(LOAD, friction)
     with pytest.raises(tl.InputError, match=r"turning, R = .*lower the speed, or take a wider circle"):
-        tl.Maneuver.turning(radius, 1.001 * fastest, crossfall=crossfall).rolling(LOAD, friction)
+        tl.contact.Maneuver.turning(radius, 1.001 * fastest, crossfall=crossfall).rolling(LOAD, friction)
 
 
 def test_friction_of_the_direction_decides():
     # 0.4 along travel and 0.8 across it carry a side force of 0.6.
-    turn = tl.Maneuver("turn", lateral=0.6)
+    turn = tl.contact.Maneuver("turn", lateral=0.6)
     assert turn.rolling(LOAD, Anisotropic(0.4, 0.8))
     with pytest.raises(tl.InputError, match="lower the speed"):
         turn.rolling(LOAD, Anisotropic(0.8, 0.4))
 
 
 def test_a_braked_wheel_up_to_a_locked_one(tire):
-    firm = tl.Maneuver.braking(0.8 * MU * GRAVITY)
-    braked, locked = (tl.solve_contact(tire, ROAD, m.rolling(LOAD, MU)) for m in (firm, tl.Maneuver.braking()))
+    firm = tl.contact.Maneuver.braking(0.8 * MU * GRAVITY)
+    braked, locked = (
+        tl.solve_contact(tire, ROAD, m.rolling(LOAD, MU)) for m in (firm, tl.contact.Maneuver.braking())
+    )
     # The tolerance of the solver.
     assert float(braked.dataset.tractive_force) == pytest.approx(-0.8 * MU * LOAD, rel=1e-5)
     assert 0 < float(braked.dataset.creepage_x) < 1
@@ -103,7 +107,7 @@ def test_a_braked_wheel_up_to_a_locked_one(tire):
 
 
 def test_the_contact_of_a_turn_carries_its_forces(tire):
-    turn = tl.Maneuver.turning(12.0, 6.0, track=2.0, centre_of_gravity=1.8)
+    turn = tl.contact.Maneuver.turning(12.0, 6.0, track=2.0, centre_of_gravity=1.8)
     data = tl.solve_contact(tire, ROAD, turn.rolling(LOAD, MU)).dataset
     load = LOAD * (1 + 2 * 0.9 * 36 / (12 * GRAVITY))
     # The tolerance of the solver.
@@ -127,23 +131,26 @@ def test_a_parking_turn_twists_the_road(tire):
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: tl.Maneuver.turning(12, 5, track=2.0), "give centre_of_gravity too"),
-        (lambda: tl.Maneuver.turning(12, 5, centre_of_gravity=2.0), "give track too"),
+        (lambda: tl.contact.Maneuver.turning(12, 5, track=2.0), "give centre_of_gravity too"),
+        (lambda: tl.contact.Maneuver.turning(12, 5, centre_of_gravity=2.0), "give track too"),
         (
-            lambda: tl.Maneuver.turning(12, 5, track=-2.0, centre_of_gravity=2.0),
+            lambda: tl.contact.Maneuver.turning(12, 5, track=-2.0, centre_of_gravity=2.0),
             "track must be a positive number of metres, got -2",
         ),
         (
-            lambda: tl.Maneuver.turning(12, 5, track=2.0, centre_of_gravity=0.0),
+            lambda: tl.contact.Maneuver.turning(12, 5, track=2.0, centre_of_gravity=0.0),
             "centre_of_gravity must be a positive",
         ),
-        (lambda: tl.Maneuver.turning(12, 10, track=2.0, centre_of_gravity=2.0), "tips: a side force of 0.849"),
-        (lambda: tl.Maneuver.turning(12, 5, wheel="left"), '"outer" or "inner"'),
-        (lambda: tl.Maneuver.turning(12, -5), "speed must be >= 0"),
-        (lambda: tl.Maneuver.turning(12, 5, crossfall=2.5), "2.5 % is 0.025"),
-        (lambda: tl.Maneuver("x", load_ratio=0), "load_ratio of the maneuver 'x' must be a positive number"),
-        (lambda: tl.Maneuver.braking(8.0).rolling(LOAD, MU), r"braking at 8 m/s².*lock the wheel"),
-        (lambda: tl.Maneuver.uphill(0.2, 0.25).rolling(LOAD, MU), "more of the weight on driven axles"),
+        (
+            lambda: tl.contact.Maneuver.turning(12, 10, track=2.0, centre_of_gravity=2.0),
+            "tips: a side force of 0.849",
+        ),
+        (lambda: tl.contact.Maneuver.turning(12, 5, wheel="left"), '"outer" or "inner"'),
+        (lambda: tl.contact.Maneuver.turning(12, -5), "speed must be >= 0"),
+        (lambda: tl.contact.Maneuver.turning(12, 5, crossfall=2.5), "2.5 % is 0.025"),
+        (lambda: tl.contact.Maneuver("x", load_ratio=0), "load_ratio of the maneuver 'x' must be a positive number"),
+        (lambda: tl.contact.Maneuver.braking(8.0).rolling(LOAD, MU), r"braking at 8 m/s².*lock the wheel"),
+        (lambda: tl.contact.Maneuver.uphill(0.2, 0.25).rolling(LOAD, MU), "more of the weight on driven axles"),
     ],
 )
 def test_bad_input_is_named(make, words):
@@ -162,4 +169,4 @@ def test_bad_input_is_named(make, words):
 )
 def test_a_turn_beyond_all_roads_is_refused(radius, speed, crossfall, words):
     with pytest.raises(tl.InputError, match=words):
-        tl.Maneuver.turning(radius, speed, crossfall=crossfall)
+        tl.contact.Maneuver.turning(radius, speed, crossfall=crossfall)

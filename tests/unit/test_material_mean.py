@@ -1,6 +1,7 @@
 """Means over a cube of road, and verdicts that read them."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -197,27 +198,38 @@ def test_a_response_without_its_road_needs_a_depth(response):
 
 @pytest.mark.slow
 def test_two_grids_tell_the_error(driving):
-    verdict = tl.study.assess_on_two_grids(driving.tire, HALF, driving.rolling, LINE, spacing=3e-3)
+    contact = tl.solve_contact(driving.tire, HALF, driving.rolling, spacing=3e-3)
+    response = solve_response(contact, HALF, depths=[0.0])
+    verdict = assess(response, LINE, error_estimate=True)
     text = next(line for line in verdict.summary().splitlines() if line.startswith("error estimate"))
-    assert "on cells of 6 mm" in text
+    assert "cells of 6 mm" in text
     read, coarse = float(verdict.dataset.worst_strain), float(verdict.dataset.attrs["coarse_strain"])
-    assert f"differ by {100 * abs(coarse - read) / read:.2g} %" in text
+    assert f"a difference of {100 * abs(coarse - read) / read:.2g} %" in text
     finer = assess(
         solve_response(tl.solve_contact(driving.tire, HALF, driving.rolling, spacing=1.5e-3), HALF, depths=[0.0]),
         LINE,
     )
     # The estimate holds the distance to a grid twice as fine.
     assert abs(float(finer.dataset.worst_strain) - read) <= abs(coarse - read)
-    flat = tl.Tire.from_height_map(np.zeros((20, 20)), 5e-3)
-    with pytest.raises(InputError, match="a height map has one; leave it out"):
-        tl.study.assess_on_two_grids(flat, HALF, driving.rolling, LINE)
+    # Of its own shifted contact as of one that is given.
+    shifted = tl.solve_contact(driving.tire, HALF, driving.rolling, spacing=3e-3, offset=(0.5, 0.5))
+    own, given = (assess(response, LINE, shifted=one).dataset for one in (True, shifted))
+    assert float(own.worst_strain) == float(given.worst_strain) != read
+    fixed = replace(contact, tire=tl.Tire.from_height_map(np.zeros((20, 20)), 5e-3, material=tl.Elastic(3e6, 0.5)))
+    for second in ({"error_estimate": True}, {"shifted": True}):
+        with pytest.raises(InputError, match="a height map has one"):
+            assess(solve_response(fixed, HALF, depths=[0.0]), LINE, **second)
+        with pytest.raises(InputError, match="solve that of a contact"):
+            assess(
+                solve_response(tl.UniformDisc(0.1, 7e5), HALF, depths=[0.0], x=[0, 0.1], y=[0, 0.1]), LINE, **second
+            )
 
 
 def test_a_case_asks_for_the_error():
     from cases import COARSE_CASE
 
     text = COARSE_CASE.replace("slope = -0.2 }", "slope = -0.2 }\nerror_estimate = true")
-    result = tl.run_case(tl.Case.from_text(text.replace('"12 mm"', '"8 mm"')))
+    result = tl.run(tl.Case.from_text(text.replace('"12 mm"', '"8 mm"')))
     assert "error estimate" in result.summary()
     assert result.to_tree()["damage"].attrs["coarse_strain"] > 0
 
@@ -231,7 +243,9 @@ def test_a_life_says_that_it_reads_planes_parallel_to_the_surface():
         tl.damage.Criterion(strain, FatigueLine(100e-6, -0.2), 0, "top", strain)
         for strain in ("principal", "in-plane")
     )
-    life = tl.study.solve_life(tire, road, traffic, tl.damage.Climate.constant(15.0), (upright, plane), spacing=12e-3)
+    life = tl.solve_life(
+        tl.Design(tire, road, traffic, tl.damage.Climate.constant(15.0), (upright, plane), spacing=12e-3)
+    )
     flat = life.dataset.orientation_damage.sel(orientation="horizontal")
     assert float(flat.sel(criterion="principal")) > 0.5
     assert float(flat.sel(criterion="in-plane")) == 0
@@ -260,3 +274,13 @@ def test_the_reading_is_the_largest_between_the_points_of_the_map():
     # Lines of steps of 1/16 mm, along which the reading changes by 1 % a millimetre and more.
     assert float(data.worst_strain) == pytest.approx(largest, rel=3e-3)
     assert largest > 1.02 * float(data.extension_by_depth.max())
+
+
+def test_a_coarser_grid_that_is_too_coarse_is_named():
+    from cases import COARSE_CASE
+
+    text = COARSE_CASE.replace("slope = -0.2 }", "slope = -0.2 }\nerror_estimate = true").replace("12 mm", "24 mm")
+    with pytest.raises(
+        InputError, match=r"on cells of 48 mm as well, twice the spacing of 24 mm: .*error_estimate out"
+    ):
+        tl.run(tl.Case.from_text(text))

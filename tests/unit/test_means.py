@@ -1,5 +1,7 @@
 """Means that are read again and again are those of `solve_response`."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.response import GridLoad, Response, solve_response
 from treadload.response.means import Means
+from treadload.response.superposition import mean_loads
 
 ASPHALT = tl.Elastic(5.4e9, 0.35)
 ROADS = {
@@ -56,3 +59,32 @@ def test_a_response_without_its_road_has_no_means():
     response = solve_response(two_lattices(0.003)[:1], ROADS["half-space"], depths=[0.0])
     with pytest.raises(InputError, match="without it"):
         Means.of(Response(response.dataset), 0.010)
+
+
+@pytest.mark.parametrize("road", ROADS)
+def test_the_fields_of_a_response_serve_where_its_points_stand_for_themselves(road):
+    own, shifted = two_lattices(0.003)
+    places = {"x": 0.003 * np.arange(-4, 5), "y": 0.003 * np.arange(-3, 4)}
+    depths = np.array([0.0, 0.025, 0.05])
+    solved = solve_response(own, ROADS[road], depths=depths, **places)
+    both = replace(solved, loads=tuple(mean_loads([[own], [shifted]])))
+    for response in (solved, both):
+        means = Means.of(response, 0.010)
+        again, served = means.at(depths, **places), means.at_points_of(solved, depths)
+        for name in again:
+            # Round-off, of synthesis from waves in layers.
+            assert np.abs(served[name] - again[name]).max() <= 1e-10 * np.abs(again[name]).max()
+    # They are read, not solved: at twice the fields the response itself has them, at the surface it is solved again.
+    doubled = replace(solved, dataset=solved.dataset * 2)
+    served = Means.of(solved, 0.010).at_points_of(doubled, depths)["stress_xx"]
+    assert np.array_equal(served[1:], doubled.dataset["stress_xx"][1:])
+    assert np.allclose(served[0], Means.of(solved, 0.010).at(depths[:1], **places)["stress_xx"][0])
+
+
+def test_fields_with_a_stress_that_was_added_are_solved_again():
+    (own, _), depths = two_lattices(0.003), np.array([0.025])
+    solved = solve_response(own, ROADS["layers"], depths=depths, x=[0.0, 0.003], y=[0.0])
+    added = replace(solved, dataset=solved.dataset + 1.0, restrained=(1.0,))
+    means = Means.of(solved, 0.010)
+    again = means.at(depths, added.dataset["x"].to_numpy(), added.dataset["y"].to_numpy())
+    assert np.array_equal(means.at_points_of(added, depths)["stress_xx"], again["stress_xx"])

@@ -15,7 +15,8 @@ from PIL import Image
 
 import treadload as tl
 import treadload.plots
-from treadload.describing import as_call, first_line
+from treadload.describing import Described, as_call, as_html
+from treadload.rows import row
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 # A screen of a notebook.
@@ -23,14 +24,14 @@ LINES, LETTERS = 40, 220
 
 
 @pytest.fixture(scope="module")
-def contact() -> tl.Contact:
+def contact() -> tl.contact.Contact:
     x = 5e-3 * (np.arange(24) - 11.5)
     tire = tl.Tire.from_height_map((x[None, :] ** 2 + x[:, None] ** 2) / 0.8, 5e-3, material=tl.Elastic(3e6, 0.5))
     return tl.solve_contact(tire, ROAD, tl.Rolling(normal_load=400.0, friction=0.7, tractive_force=100.0))
 
 
 @pytest.fixture(scope="module")
-def response(contact) -> tl.Response:
+def response(contact) -> tl.response.Response:
     return tl.solve_response(contact, ROAD, depths=[0.0, 0.01])
 
 
@@ -83,7 +84,7 @@ def test_a_figure_that_fails_leaves_the_numbers(contact, monkeypatch):
     def broken(*_, **__):
         raise RuntimeError("the pen is dry")
 
-    monkeypatch.setattr("treadload.plots.contact.pressure", broken)
+    monkeypatch.setattr("treadload.plots.contact.figure_and_axes", broken)
     page = contact._repr_html_()
     assert "<img" not in page
     assert "peak pressure" in page
@@ -109,7 +110,7 @@ def test_descriptions_and_results_stand_on_one_screen(contact, response):
         assert len(lines) <= LINES, thing
         assert max(map(len, lines)) <= LETTERS, thing
     # Results in a line, without the table of their dataset.
-    assert repr(response).startswith("<Response: response of a road, one material")
+    assert repr(response).startswith("<Response: one material")
     assert repr(verdict).startswith("<Verdict: ")
     assert "Dataset" not in repr(response) + repr(verdict)
 
@@ -136,7 +137,7 @@ def test_long_members_are_told_by_their_size():
     mix = repr(tl.catalogue.mixes["EB-GB3"])
     assert "moduli=<3 x 6 numbers>" in mix
     assert "temperatures=(-10.0, 0.0, 10.0, 20.0, 30.0, 40.0)" in mix
-    load = tl.GridLoad(tl.Grid.centred(0.03, 0.02, 1e-3), np.ones((20, 30)))
+    load = tl.response.GridLoad(tl.response.Grid.centred(0.03, 0.02, 1e-3), np.ones((20, 30)))
     assert "20 x 30" in repr(load)
     assert len(repr(load)) < 300
     axles = tuple(tl.damage.AxleClass(f"axle {k}", 0.05, 4e4, 8e5) for k in range(20))
@@ -145,12 +146,44 @@ def test_long_members_are_told_by_their_size():
     assert "axle 19" not in said
 
 
-def test_a_result_of_many_lines_is_told_in_one():
-    class Verdict:
-        def summary(self) -> str:
-            return "the worst point\nVerdict: no crack."
+class Cracked(Described):
+    """A result of a few rows, with two steps and a verdict."""
 
-    assert first_line(Verdict()) == "<Verdict: no crack.>"
+    title = "Cracked road"
+    heading = "after <5> years"
+    warnings = ("the spacing is 9 mm",)
+
+    def rows(self):
+        steps = [(("normal_load", 1e3), ("largest_pressure", 2e6)), (("normal_load", 2e3), ("largest_pressure", 3e6))]
+        table = [row(key, value, group=f"step {k}") for k, step in enumerate(steps) for key, value in step]
+        return (row("net_area", 0.05), *table, row("verdict", "no crack <yet>.", label="Verdict"))
+
+
+def test_a_result_of_many_rows_is_told_in_one_line():
+    assert repr(Cracked()) == "<Cracked: no crack <yet>.>"
+
+
+def test_a_summary_is_title_rows_and_warnings():
+    lines = Cracked().summary().splitlines()
+    assert lines[0] == "Cracked road: after <5> years"
+    assert lines[-2:] == ["Verdict           no crack <yet>.", "warning: the spacing is 9 mm"]
+
+
+def test_a_notebook_shows_rows_and_tables_of_groups():
+    page = as_html(Cracked.title, [Cracked()], Cracked.warnings)
+    assert "Cracked road" in page
+    assert "no crack &lt;yet&gt;." in page
+    assert "<tr><th>net contact area</th><td>50000 mm²</td></tr>" in page
+    # Groups of the same rows are a table with a head.
+    assert "<tr><th></th><th>normal load, kN</th><th>peak pressure</th></tr>" in page
+    assert "<tr><th>step 1</th><td>2.000</td><td>3000 kPa</td></tr>" in page
+    assert "Warning: the spacing is 9 mm" in page
+
+
+def test_several_results_are_folded_after_the_first():
+    page = as_html("Both", [Cracked(), Cracked()])
+    assert page.count("<details open>") == 1
+    assert page.count("<summary>Cracked road: after &lt;5&gt; years</summary>") == 2
 
 
 def test_a_case_says_what_was_given():

@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections import defaultdict
 from dataclasses import fields, replace
 from functools import cache
 
@@ -19,17 +20,17 @@ from treadload.damage.climate import TypicalDays
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
 from treadload.damage.scatter import Scatter
+from treadload.damage.verdict import with_error
+from treadload.life.layered_climate import climate_fields
+from treadload.life.reliability.inputs import inputs_of
+from treadload.life.reliability.propagation import Quadratic
+from treadload.life.reliability.solve import Fit, reliability_dataset
 from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
-from treadload.study.layered_climate import climate_fields
-from treadload.study.reliability.inputs import inputs_of
-from treadload.study.reliability.propagation import Quadratic
-from treadload.study.reliability.solve import told
-from treadload.study.screening import asked
-from treadload.study.sweeps.design import product
-from treadload.study.two_grids import with_error
-from treadload.variables import dataset, in_order
+from treadload.sweeps.design import product
+from treadload.sweeps.screening import answers
+from treadload.variables import VARIABLES, dataset, display_of, in_order
 
 RUBBER = tl.Elastic(3e6, 0.5)
 ROAD = tl.Pavement([tl.Layer(tl.Elastic(5.4e9, 0.35), 0.08, name="asphalt"), tl.Layer(tl.Elastic(2e8, 0.35))])
@@ -61,7 +62,7 @@ def on_texture():
 
 def bonds():
     strength = tl.damage.InterfaceStrength(cohesion=3e5, friction_angle=0.6, doubt="made up")
-    fields = tl.study.solve_interfaces(contact(), ROAD, x=AT, y=AT)
+    fields = tl.life.solve_interfaces(contact(), ROAD, x=AT, y=AT)
     return tl.damage.assess_bonds(fields, strength, tl.damage.ShearFatigue(slope=-0.2))
 
 
@@ -91,7 +92,7 @@ def bond_comparison():
         {"state": ["bonded", "parted", "bonded, then parted"], "criterion": ["top", "base"]},
         {"interface": 0, "between": "asphalt / base", "bond": "frictionless", "parts": "none"},
     )  # fmt: skip
-    return tl.study.BondComparison(data, before, life(), 0, tl.FRICTIONLESS, "top")
+    return tl.life.BondComparison(data, before, life(), 0, tl.FRICTIONLESS, "top")
 
 
 def sensitivity():
@@ -100,17 +101,19 @@ def sensitivity():
         {"input": ["thickness of base", "temperature (per °C)"]},
         {"criterion": "top", "coverage": 0.9, "contacts": 3, "responses": 4},
     )
-    return tl.study.Sensitivity(data, "top", 0.9, 3, 4, ("friction: it has none",))
+    return tl.life.Sensitivity(data, "top", 0.9, 3, 4, ("friction: it has none",))
 
 
 def reliability():
     inputs = inputs_of(ROAD, Scatter(thickness=5e-3, traffic=0.15))[0]
     flat = Quadratic(np.log(0.02), np.array([0.8, 0.15, 0.7, 0.1]), np.zeros((4, 4)))
     scatter = Scatter(thickness=5e-3, traffic=0.15)
-    data = told(life(), [0], inputs, scatter, [0.3], [flat], np.array([5.0]), (0.05, 0.5), 1000, 1)
+    data = reliability_dataset(
+        life(), inputs, scatter, [Fit(0, 0.3, flat, 5.0)], (0.05, 0.5), tl.life.MonteCarlo(1000, 1)
+    )
     data = data.assign(surface_error=("criterion", [0.01]), coverage=("criterion", [0.6]))
     stats = {"contacts": 0, "responses": 5, "points": 5, "draws": 1000, "seed": 1, "seconds": 0.1}
-    return tl.study.Reliability(data, scatter, stats, ("base: its law has no SN",))
+    return tl.life.Reliability(data, scatter, stats, ("base: its law has no SN",))
 
 
 def thickness_design():
@@ -124,7 +127,7 @@ def thickness_design():
         {"layer": "asphalt", "step": 0.01, "lower_bound": 0.04, "at_risk": 0.05},
     )  # fmt: skip
     stats = {"lives": 3, "contacts": 1, "responses": 6}
-    return tl.study.ThicknessDesign(data, ROAD, life(), "asphalt", 0.01, 0.05, stats, ("base: its law has no risk",))
+    return tl.life.ThicknessDesign(data, ROAD, life(), "asphalt", 0.01, 0.05, stats, ("base: its law has no risk",))
 
 
 def growth():
@@ -172,17 +175,17 @@ def equivalents():
             "standard_axle_load": 80e3,
         },
     )  # fmt: skip
-    return tl.study.Equivalents(data)
+    return tl.life.Equivalents(data)
 
 
 def footprint():
     pressure = np.zeros((4, 5))
     pressure[1:3, 1:4] = 7e5
-    return Footprint(tl.GridLoad.from_arrays(pressure, 0.1 * pressure, spacing=0.02), ROAD)
+    return Footprint(tl.response.GridLoad.from_arrays(pressure, 0.1 * pressure, spacing=0.02), ROAD)
 
 
 def footprint_comparison():
-    small = tl.GridLoad.from_arrays(np.outer([0, 2, 3, 2, 0], [0, 5e5, 7e5, 0, 0]), spacing=0.02)
+    small = tl.response.GridLoad.from_arrays(np.outer([0, 2, 3, 2, 0], [0, 5e5, 7e5, 0, 0]), spacing=0.02)
     return tl.compare(small, Footprint(small, threshold=1e3, saturation=2e6), registration="shift")
 
 
@@ -196,8 +199,8 @@ def viscoelastic_tire():
 
 
 def heterogeneous():
-    stones = tl.Aggregates.from_centres(0, 0, 3e-3, 2e-3, tl.Elastic(60e9, 0.2))
-    return tl.compute_heterogeneous(
+    stones = tl.materials.Aggregates.from_centres(0, 0, 3e-3, 2e-3, tl.Elastic(60e9, 0.2))
+    return tl.response.compute_heterogeneous(
         contact(), tl.Elastic(3e9, 0.35), stones, window=(8e-3, 7e-3), depth=6e-3, spacing=1e-3
     )
 
@@ -212,21 +215,21 @@ def dented():
     ball = tl.Tire.from_height_map(
         (across[None] ** 2 + across[:, None] ** 2) / 0.2, 1e-3, material=tl.Elastic(2e14, 0.3), name="a ball"
     )
-    soft = tl.ElastoPlastic(tl.Elastic(1e9, 0.3), tl.materials.VonMises(1e7, hardening=1e7))
-    return tl.solve_indentation(ball, tl.Pavement.half_space(soft), [60.0, 0.0], layers=5)
+    soft = tl.materials.ElastoPlastic(tl.Elastic(1e9, 0.3), tl.materials.VonMises(1e7, hardening=1e7))
+    return tl.contact.solve_indentation(ball, tl.Pavement.half_space(soft), [60.0, 0.0], layers=5)
 
 
 def passes():
-    soft = tl.ElastoPlastic(tl.Elastic(6e8, 0.35), tl.materials.VonMises(4e5, kinematic=6e7))
+    soft = tl.materials.ElastoPlastic(tl.Elastic(6e8, 0.35), tl.materials.VonMises(4e5, kinematic=6e7))
     disc = tl.UniformDisc(0.1, 8e5)
-    return tl.roll_passes(disc, tl.Pavement.half_space(soft), passes=2, spacing=0.04, layers=4)
+    return tl.response.roll_passes(disc, tl.Pavement.half_space(soft), passes=2, spacing=0.04, layers=4)
 
 
 def screened(verb, **more):
     """What matters, of a function in the place of the solver."""
     with pytest.MonkeyPatch.context() as patch:
         solve = lambda friction, normal_load: {"worst_strain": friction + normal_load / 3e4}  # noqa: E731
-        patch.setattr(asked, "sweep", lambda case, design, **_: study_of(design, solve, case))
+        patch.setattr(answers, "sweep", lambda case, design, **_: study_of(design, solve, case))
         return verb(CASE, {"friction": (0.3, 0.9), "normal_load": (2e4, 4e4)}, "worst_strain", **more)
 
 
@@ -253,7 +256,7 @@ MADE = {
     "Verdict": lambda: with_error(tl.assess(response(), LINE), tl.assess(response(), LINE), CELL),
     "BondVerdict": bonds,
     "Life": life,
-    "TransientResult": lambda: tl.solve_transient(
+    "TransientResult": lambda: tl.contact.solve_transient(
         TIRE,
         ROAD,
         tl.Rolling(normal_load=300, creepage_x=-0.01, friction=0.7),
@@ -279,16 +282,16 @@ MADE = {
     "Equivalents": equivalents,
     "ThicknessDesign": thickness_design,
     "Growth": growth,
-    "UniformComparison": lambda: tl.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
+    "UniformComparison": lambda: tl.damage.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
     "RollingResistance": viscoelastic_tire,
     "Footprint": footprint,
     "FootprintComparison": footprint_comparison,
-    "TireCard": lambda: tl.study.tire_card(TIRE, ROAD, [200, 300], stiffness=False),
+    "TireCard": lambda: tl.footprint.tire_card(TIRE, ROAD, [200, 300], stiffness=False),
     "Calibration": calibration,
     "Sweep": lambda: study_of(product(CASE, {"friction": [0.4, 0.6]}), lambda friction: {"worst_strain": friction}),
-    "Tornado": lambda: screened(tl.study.tornado),
-    "Sobol": lambda: screened(tl.study.sobol, blocks=4, second_order=True),
-    "Morris": lambda: screened(tl.study.morris, trajectories=3),
+    "Tornado": lambda: screened(tl.sweeps.screening.tornado),
+    "Sobol": lambda: screened(tl.sweeps.screening.sobol, blocks=4, second_order=True),
+    "Morris": lambda: screened(tl.sweeps.screening.morris, trajectories=3),
     "Passes": passes,
     "Indentation": dented,
     "Heterogeneous": heterogeneous,
@@ -314,7 +317,7 @@ FIGURES = {
 @pytest.fixture
 def without_figures(monkeypatch):
     """Pages of cases without their figures, which other tests draw: seconds each."""
-    monkeypatch.setattr("treadload.reporting.figures.picture", lambda *_, **__: [])
+    monkeypatch.setattr("treadload.reporting.pictures.picture", lambda *_, **__: [])
 
 
 @pytest.fixture(scope="module", params=sorted(MADE))
@@ -329,9 +332,9 @@ def test_no_class_of_results_is_missing_here():
     assert set(known) == set(MADE) == set(FIGURES)
 
     def below(kind):
-        return {one for each in kind.__subclasses__() for one in (each, *below(each))}
+        return {one for each in kind.__subclasses__() for one in below(each) or {each}}
 
-    # Whatever says that it is a result has a name in a tree.
+    # Whatever says that it is a result, and is no base of others, has a name in a tree.
     assert {one.__name__ for one in below(BaseResult) if one.__module__.startswith("treadload")} == set(known)
 
 
@@ -365,8 +368,31 @@ def test_every_result_shows_itself_in_a_notebook(saved, monkeypatch):
     monkeypatch.setattr("treadload.composing.small_picture", lambda _: None)
     result, _ = saved
     page = result._repr_html_()
-    assert page.count("<details>") >= 2
-    assert type(result).__name__ in page
+    assert "<details><summary>Dataset</summary>" in page
+    assert result.title in page
+
+
+# Numbers over a further dimension, whose label is the place there: a criterion, an input, a risk, a mode.
+BY_PLACE = {"standard_axles", "elasticity", "risk_years", "stress_intensity_range"}
+
+
+def test_a_number_has_one_name_in_all_results():
+    """A key has one label, a label one key; both stand in variables.py, but for the fields of any result."""
+    labels = defaultdict(set)
+    for name, make in sorted(MADE.items()):
+        rows = make().rows()
+        assert rows, name
+        assert all(one.key != "verdict" for one in rows[:-1]), name
+        for one in rows:
+            if not isinstance(one.value, str):
+                assert one.key in VARIABLES, (name, one)
+            if one.key in BY_PLACE or name == "Fields":
+                continue
+            label = display_of(one.key).label
+            # A qualifier may follow, such as a risk.
+            assert one.label == label or one.label.startswith(f"{label} "), (name, one)
+            labels[label].add(one.key)
+    assert {label: found for label, found in labels.items() if len(found) > 1} == {}
 
 
 def backwards(data):
@@ -389,7 +415,7 @@ def test_dimensions_in_another_order_are_put_back(saved, tmp_path):
     xr.testing.assert_identical(back.dataset, data)
     assert back.summary() == result.summary()
     (case, *_) = ReportCase.all_of("x", opened.tree)
-    (shown, *_) = [*case.groups.values(), *(other.dataset for other in case.others)]
+    (shown, *_) = [*case.groups.values(), *(other.dataset for other in case.extras)]
     for name, field in shown.variables.items():
         assert field.dims == data[name].dims, name
 
@@ -567,70 +593,26 @@ def without_questions(tree):
     return xr.DataTree.from_dict({"/": xr.Dataset(attrs=attrs), **groups})
 
 
-def test_a_file_of_the_format_before_is_rebuilt_from_its_case(coarse_result, tmp_path, without_figures):
+def test_a_part_whose_inputs_are_not_in_the_file_is_refused_and_its_fields_stay(coarse_result, tmp_path):
     old = without_questions(coarse_result.to_tree())
     opened = tl.open_results(tl.save_results(old, tmp_path / "old.nc"))
-    assert opened.contact.rolling == coarse_result.contact.rolling
-    assert opened.contact.road == coarse_result.contact.road
-    assert opened.verdict.summary() == coarse_result.verdict.summary()
-    assert opened.response.summary() == coarse_result.response.summary()
-    again = tl.assess(opened.response, LINE, depth=0.0)
-    assert again.summary() == tl.assess(coarse_result.response, LINE, depth=0.0).summary()
-    assert tl.report(opened, tmp_path / "r.html").exists()
-
-
-def test_a_file_of_the_format_before_without_a_case_is_refused_part_by_part(tmp_path):
-    old = without_questions(tl.results.to_tree([contact()]))
-    opened = tl.open_results(tl.save_results(old, tmp_path / "old.nc"))
-    with pytest.raises(
-        tl.InputError, match=rf"written by treadload {tl.__version__}.*has no case.*\.tree\['contact'\]"
-    ):
-        opened.contact.summary()
-    assert opened.tree["contact"].pressure.size
-
-
-OLD_BREAKS = {
-    "without an approach": ("contact", lambda d: d.drop_vars("approach"), "lacks 'approach'"),
-    "without cells": (
-        "contact",
-        lambda d: d.drop_attrs(deep=False).assign_attrs({k: v for k, v in d.attrs.items() if k != "dx"}),
-        "lacks the attribute 'dx'",
-    ),
-    "without a strain": ("response", lambda d: d.drop_vars("in_plane_strain_1"), "lacks 'in_plane_strain_1'"),
-    "without a dip": ("damage", lambda d: d.drop_vars("worst_crack_dip"), "lacks 'worst_crack_dip'"),
-    "with a list of strains": (
-        "damage",
-        lambda d: d.assign_attrs(largest_principal_strain=np.array([1.0, 2.0])),
-        "largest_principal_strain must be a finite number",
-    ),
-    "with torn warnings": ("damage", lambda d: d.assign_attrs(warnings="["), "warnings must be texts as JSON"),
-    "with another strain": ("damage", lambda d: d.assign_attrs(strain="odd"), 'must be "principal" or "in-plane"'),
-}
-
-
-@pytest.mark.parametrize("name", OLD_BREAKS)
-def test_a_part_of_the_format_before_that_lacks_something_is_refused_alone(coarse_result, tmp_path, name):
-    part, change, words = OLD_BREAKS[name]
-    old = without_questions(coarse_result.to_tree())
-    old[part] = xr.DataTree(change(old[part].to_dataset()))
-    opened = tl.open_results(tl.save_results(old, tmp_path / "old.nc"))
-    with pytest.raises(tl.InputError) as caught:
-        getattr(opened, part).summary()
-    assert f"old.nc: the part {part!r}" in str(caught.value)
-    assert words in str(caught.value)
-    assert len(str(caught.value).splitlines()) == 1
-    other = "response" if part != "response" else "contact"
-    assert getattr(opened, other).summary() == getattr(coarse_result, other).summary()
+    for name in ("contact", "response"):
+        words = rf"written by treadload {tl.__version__}, without the inputs of its part '{name}'"
+        with pytest.raises(tl.InputError, match=rf"{words}; .* \.tree\['{name}'\]"):
+            opened[name]
+    kept = opened.tree["contact"].pressure.to_numpy()
+    np.testing.assert_array_equal(kept, coarse_result.contact.dataset.pressure)
 
 
 def test_what_presses_nowhere_and_what_is_nowhere_known_says_so():
     data = contact().dataset
-    assert "mean pressure nan" in replace(contact(), dataset=data.assign(pressure=0 * data.pressure)).summary()
+    empty = replace(contact(), dataset=data.assign(pressure=0 * data.pressure))
+    assert "mean pressure                     –" in empty.summary()
     deep = response().dataset.copy(deep=True)
     deep["principal_strain_1"][1] = np.nan
     lines = replace(response(), dataset=deep).summary().splitlines()
     assert lines[:4] == response().summary().splitlines()[:4]
-    assert lines[5] == "  unknown: it is NaN everywhere"
+    assert lines[5].endswith("–, unknown: it is NaN everywhere")
 
 
 def test_a_file_of_a_later_format_is_refused(tmp_path):
@@ -661,7 +643,7 @@ def into(questions, value, *keys):
     [
         ([], (), "cannot be read"),
         (3, ("contact",), "cannot be read"),
-        ("Path", ("contact", "is"), "cannot be read"),
+        (3, ("contact", "is"), "cannot be read"),
         ({"is": "Popen", "with": {}}, ("contact", "with", "road"), "unknown to this treadload"),
         ({"is": "os:system", "with": {}}, ("contact", "with", "road"), "unknown to this treadload"),
         ({"is": "Elastic", "with": {"modulus": -1, "poisson": 0.3}}, ("contact", "with", "road"), "modulus must be"),
@@ -694,7 +676,7 @@ def test_a_figure_that_fails_leaves_its_reason(coarse_result, tmp_path, monkeypa
     def broken(*_, **__):
         raise RuntimeError("the pen\nis dry")
 
-    monkeypatch.setattr("treadload.plots.contact.pressure", broken)
+    monkeypatch.setattr("treadload.plots.contact.figure_and_axes", broken)
     page = tl.report(coarse_result.contact, tmp_path / "r.html").read_text()
     assert "This figure could not be drawn: RuntimeError, the pen is dry." in page
     whole = tl.report(coarse_result.verdict, tmp_path / "s.html").read_text()

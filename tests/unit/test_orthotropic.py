@@ -5,11 +5,11 @@ import pytest
 from tests.grain import STRAIGHT, TILTED, isotropic
 
 import treadload as tl
+from treadload.life.variants import stiffer
 from treadload.materials.kinds import upright
 from treadload.materials.orthotropic import rotation
-from treadload.study.altered import stiffer
 
-MIX = tl.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (0.35, 0.3, 0.25))
+MIX = tl.materials.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (0.35, 0.3, 0.25))
 
 
 def test_pulling_along_an_axis_gives_its_modulus_and_its_ratios():
@@ -27,11 +27,11 @@ def test_pulling_along_an_axis_gives_its_modulus_and_its_ratios():
 
 
 def test_equal_moduli_are_elastic_and_two_equal_axes_transversely_isotropic():
-    same = tl.Orthotropic([5e9] * 3, [5e9 / 2.6] * 3, [0.3] * 3)
+    same = tl.materials.Orthotropic([5e9] * 3, [5e9 / 2.6] * 3, [0.3] * 3)
     np.testing.assert_allclose(same.stiffness, isotropic(5e9, 0.3), rtol=1e-13, atol=1e-3)
-    upright_axis = tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
+    upright_axis = tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
     ratio = 0.25 * 5.4 / 3.8
-    found = tl.Orthotropic((5.4e9, 5.4e9, 3.8e9), (2e9, 1.6e9, 1.6e9), (0.35, ratio, ratio))
+    found = tl.materials.Orthotropic((5.4e9, 5.4e9, 3.8e9), (2e9, 1.6e9, 1.6e9), (0.35, ratio, ratio))
     np.testing.assert_allclose(found.stiffness, upright_axis.stiffness, rtol=1e-13, atol=1e-3)
     np.testing.assert_allclose(found.rotated(yaw=0.7).stiffness, found.stiffness, rtol=1e-12, atol=1e-3)
 
@@ -72,11 +72,11 @@ def test_an_elasticity_that_would_give_energy_is_refused_with_its_eigenvalue():
     compliance[0, 1] = compliance[1, 0] = -1.3 / 5e9
     eigenvalue = np.linalg.eigvalsh(compliance[:3, :3]).min()
     with pytest.raises(tl.InputError, match=r"^this elasticity is not positive definite: the smallest eigen") as told:
-        tl.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (1.3, 0.3, 0.25))
+        tl.materials.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (1.3, 0.3, 0.25))
     assert f"is {eigenvalue:.3g} 1/Pa" in str(told.value)
     assert "root of E_i/E_j, ν_12 = 1.118, ν_13 = 1.291, ν_23 = 1.155" in str(told.value)
     # Each of them alone may come as near as that.
-    tl.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (1.117, 0.0, 0.0))
+    tl.materials.Orthotropic((5e9, 4e9, 3e9), (1.9e9, 1.6e9, 1.5e9), (1.117, 0.0, 0.0))
 
 
 @pytest.mark.parametrize(
@@ -96,17 +96,17 @@ def test_an_elasticity_that_would_give_energy_is_refused_with_its_eigenvalue():
 )
 def test_bad_numbers_are_told_in_one_sentence(given, said):
     with pytest.raises(tl.InputError, match=said):
-        tl.Orthotropic(*given)
+        tl.materials.Orthotropic(*given)
 
 
 def test_it_says_what_it_is():
     assert str(STRAIGHT).startswith("orthotropic, E_1 = 3000 MPa, E_2 = 1500 MPa")
     assert str(TILTED).endswith("turned by yaw 40°, pitch 34°, roll 20°")
-    assert eval(repr(STRAIGHT), {"Orthotropic": tl.Orthotropic}) == STRAIGHT
+    assert eval(repr(STRAIGHT), {"Orthotropic": tl.materials.Orthotropic}) == STRAIGHT
 
 
 def test_a_stiffer_one_keeps_its_shape():
-    for material in (TILTED, tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)):
+    for material in (TILTED, tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)):
         np.testing.assert_allclose(material.stiffer(1.1).stiffness, 1.1 * material.stiffness, rtol=1e-12, atol=1e-3)
         assert type(material.stiffer(1.1)) is type(material)
     # A sensitivity multiplies the moduli of such layers, too, and does not take them for viscoelastic.

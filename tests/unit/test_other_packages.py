@@ -3,6 +3,7 @@
 The package is a real one on the path, with the metadata that an installer would write.
 """
 
+import ast
 import json
 import re
 import subprocess
@@ -15,12 +16,12 @@ import pytest
 
 import treadload as tl
 from cases import COARSE_CASE, ONE_AXLE
-from packages import build
+from packages import build, forget
 from tire_meshes import tire_mesh, write
-from treadload.case import Case, LifeCase
+from treadload.case import Case
 from treadload.case.schema import json_schema
 from treadload.errors import InputError
-from treadload.registry import ALL, BONDS, CRITERIA, FRICTION, MATERIALS, PLASTICITY, READERS
+from treadload.registry import ALL, BONDS, COMPARISONS, CRITERIA, FRICTION, MATERIALS, PLASTICITY, READERS
 from treadload.reporting.words import entries
 
 FRICTION_LAW = '''
@@ -257,8 +258,7 @@ def road_laws(tmp_path, monkeypatch):
     )
     monkeypatch.syspath_prepend(str(folder))
     yield folder
-    for name in [name for name in sys.modules if name.split(".")[0] == "road_laws"]:
-        del sys.modules[name]
+    forget("road_laws")
 
 
 def case_of(old, new):
@@ -290,7 +290,7 @@ def test_a_friction_law_is_one_file_of_theirs(road_laws):
     assert str(law) == "1.2 falling to nothing at 2000 kPa"
     # The same from Python: what the registry finds is the class.
     assert law == FRICTION.find("yielding").target(1.2, 2e6)
-    result = tl.run_case(case)
+    result = tl.run(case)
     data = result.contact.dataset
     touching = data.pressure.to_numpy() > 0
     expected = 1.2 * np.maximum(1 - data.pressure.to_numpy() / 2e6, 0.1)
@@ -379,25 +379,25 @@ epsilon_6 = "100 microstrain"
 
 
 def test_a_law_of_fatigue_and_a_criterion_are_one_file_of_theirs(road_laws):
-    case = LifeCase.from_text(DESIGN)
-    assert LifeCase.from_text(case.to_toml()) == case
+    case = Case.from_text(DESIGN)
+    assert Case.from_text(case.to_toml()) == case
     # What the table leaves out the layer gives, as for our laws.
-    own = LifeCase.from_text(DESIGN.replace('epsilon_6 = "100 microstrain"\npower', "power")).build_criteria()[1]
+    own = Case.from_text(DESIGN.replace('epsilon_6 = "100 microstrain"\npower', "power")).build_criteria()[1]
     assert own.law_at(15.0) == CRITERIA.find("track").target(tl.catalogue.mixes["EB-GB3"].epsilon_6, 5.0)
-    result = tl.run_life(case, sensitivity=False)
+    result = tl.run(case, leave_out=("sensitivity",))
     years = result.life.dataset.life_years.to_numpy()
     assert years[1] == pytest.approx(years[0], rel=1e-12)
     # Twice the strain in a power of five.
     assert years[0] / years[2] == pytest.approx(2**5, rel=1e-9)
     assert "test track, power 5" in result.summary() + str(result.to_tree()["life"].attrs)
     text = DESIGN.replace('layer = "EB-GB3"\nepsilon_6 = "100 microstrain"\npower = 5', 'layer = "EB-GB3"\npowr = 5')
-    assert "unknown key 'criteria.1.powr'; did you mean 'power'?" in said(text, LifeCase)
+    assert "unknown key 'criteria.1.powr'; did you mean 'power'?" in said(text, Case)
     text = DESIGN.replace("power = 5", "risk = 5")
-    assert "risk is not a key of the fatigue law 'track'" in said(text, LifeCase)
+    assert "risk is not a key of the fatigue law 'track'" in said(text, Case)
     text = DESIGN.replace(
         '"theirs"\nlaw = "doubled"\nlayer = "EB-GB3"\nepsilon_6', '"theirs"\nlaw = "track"\nlayer = 3\nepsilon_6'
     )
-    assert "'theirs': power is missing, and the layer does not provide it" in said(text, LifeCase)
+    assert "'theirs': power is missing, and the layer does not provide it" in said(text, Case)
 
 
 BONDED_ROAD = """
@@ -438,7 +438,7 @@ def test_a_reader_of_meshes_is_one_file_of_theirs(road_laws, tmp_path):
         np.savez(stream, points=points, triangles=triangles)
     tire = tl.Tire.from_scan(tmp_path / "wheel.lab", units="m", inflation_pressure=8e5)
     ours = tl.Tire.from_scan(write(tmp_path / "wheel.obj", points, triangles), units="m", inflation_pressure=8e5)
-    grid = tl.Grid.centred(0.2, 0.2, 0.01)
+    grid = tl.response.Grid.centred(0.2, 0.2, 0.01)
     # OBJ keeps eight decimals.
     np.testing.assert_allclose(tire.surface.height_map(grid), ours.surface.height_map(grid), atol=1e-7)
     text = case_of('profile = "315/80R22.5"', 'scan = "wheel.lab"\nunits = "m"')
@@ -468,7 +468,7 @@ def test_the_schema_knows_their_things(road_laws):
 
 
 def test_a_broken_package_stops_no_one_else_and_is_named(road_laws):
-    assert Case.from_text(COARSE_CASE).build_rolling().law == tl.friction.Coulomb(0.7)
+    assert Case.from_text(COARSE_CASE).build_rolling().law == tl.contact.friction.Coulomb(0.7)
     torn = said(case_of("friction       = 0.7", 'friction = { law = "torn" }'))
     assert torn.startswith(
         "case: rolling.friction: the package road-laws 1.2 brings 'torn' for treadload.friction, but "
@@ -504,7 +504,7 @@ def test_a_name_that_two_bring_is_refused(tmp_path, monkeypatch):
 
 def test_the_page_on_laws_of_ones_own_does_what_it_says(tmp_path, monkeypatch):
     page = (Path(__file__).parents[2] / "docs/howto/law_of_your_own.md").read_text(encoding="utf-8")
-    (law, notebook), (project, rolling, first_line) = (
+    (law, notebook, drawn), (project, rolling, first_line) = (
         re.findall(rf"```{language}\n(.*?)```", page, re.DOTALL) for language in ("python", "toml")
     )
     points = tomllib.loads(project)["project"]["entry-points"]["treadload.friction"]
@@ -517,31 +517,33 @@ def test_the_page_on_laws_of_ones_own_does_what_it_says(tmp_path, monkeypatch):
     with pytest.raises(InputError, match=r"rolling\.friction: unloaded must be > 0, got 0; a dry road is near 0\.7"):
         Case.from_text(text.replace("[rolling]\n", rolling.replace("1.2", "0")))
     groups = set(re.findall(r"^\| .* \| `(treadload\.[a-z]+)` \|", page, re.MULTILINE))
-    assert groups == {registry.group for registry in ALL}
-    monkeypatch.setattr(FRICTION, "_own", dict(FRICTION._own))
+    assert groups == {registry.group for registry in (*ALL, COMPARISONS)}
+    monkeypatch.setattr(FRICTION, "_built_in", dict(FRICTION._built_in))
     # A class of a notebook stands in the same module as before, under a new name here.
     cell = notebook.replace('"yielding"', '"of the page"')
     exec(compile(cell, "page", "exec"), {"Yielding": type(case.build_rolling().law)})
-    assert "of the page" in FRICTION.own()
+    assert "of the page" in FRICTION.built_in()
+    # Read, not run: running it would register the figure for all tests that follow.
+    assert {node.id for node in ast.walk(ast.parse(drawn)) if isinstance(node, ast.Name)} >= {"figure"}
     del sys.modules["road_laws"], sys.modules["road_laws.friction"]
 
 
 def test_a_session_may_register_its_own():
-    before = dict(FRICTION._own)
+    before = dict(FRICTION._built_in)
     try:
 
         @FRICTION.register("of a notebook")
-        def half(of: float) -> tl.friction.FrictionLaw:
+        def half(of: float) -> tl.contact.friction.FrictionLaw:
             """Half of a coefficient."""
-            return tl.friction.Coulomb(of / 2)
+            return tl.contact.friction.Coulomb(of / 2)
 
         case = Case.from_text(case_of("friction       = 0.7", 'friction = { law = "of a notebook", of = 1.4 }'))
         assert case.build_rolling().coefficient == 0.7
         with pytest.raises(InputError, match=r"'coulomb' is .*_coulomb already"):
             FRICTION.register("coulomb")(half)
     finally:
-        FRICTION._own.clear()
-        FRICTION._own.update(before)
+        FRICTION._built_in.clear()
+        FRICTION._built_in.update(before)
 
 
 def test_importing_treadload_loads_nothing_of_theirs(road_laws):

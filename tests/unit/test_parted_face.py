@@ -25,7 +25,7 @@ ROAD = tl.Pavement(
         tl.Layer(tl.Elastic(2e9, 0.35), name="rock"),
     ]
 )
-WHEEL = tl.GridLoad.from_arrays(np.full((8, 8), 7e5), np.full((8, 8), -2.8e5), None, spacing=0.025)
+WHEEL = tl.response.GridLoad.from_arrays(np.full((8, 8), 7e5), np.full((8, 8), -2.8e5), None, spacing=0.025)
 
 
 @pytest.mark.parametrize("below", [False, True])
@@ -145,7 +145,7 @@ def test_the_jump_of_a_face_is_what_both_sides_of_a_response_differ_by() -> None
     road = delaminate(ROAD, 0, Parted(0.6))
     face = solve_face((WHEEL,), road)
     near = np.flatnonzero(np.abs(face.x) < 0.3)[::4]
-    fields = tl.study.solve_interfaces(WHEEL, road, x=face.x[near], y=face.y[near])
+    fields = tl.life.solve_interfaces(WHEEL, road, x=face.x[near], y=face.y[near])
     own, largest = face.state.jump[0][np.ix_(near, near)], face.state.traction[2].max()
     # The held road's jump is round-off of displacement.
     np.testing.assert_allclose(-fields["jump_x"][0], own, atol=1e-6 * np.abs(face.state.jump).max())
@@ -163,7 +163,7 @@ def test_bad_faces_get_one_sentence() -> None:
     twice = delaminate(delaminate(ROAD, 0, Parted(0.6)), 1, Parted(0.6))
     with pytest.raises(InputError, match="interfaces 1 and 2 are both parted"):
         tl.solve_response(WHEEL, twice, depths=[0.06])
-    sheared = tl.GridLoad.from_arrays(np.full((8, 8), 7e5), np.full((8, 8), -6e5), None, spacing=0.025)
+    sheared = tl.response.GridLoad.from_arrays(np.full((8, 8), 7e5), np.full((8, 8), -6e5), None, spacing=0.025)
     with pytest.raises(InputError, match="slide off as a whole; take more friction"):
         tl.solve_response(sheared, delaminate(ROAD, 0, Parted(0.01)), depths=[0.06], x=[0], y=[0])
     with pytest.raises(InputError, match=r"holds or slides, place by place; take Pavement\.sticking"):

@@ -13,19 +13,18 @@ from treadload.damage import Criterion, FatigueLine, miner
 from treadload.damage.climate import Climate, Season
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.grid import Grid
+from treadload.life.climate import curves, nodes, over_the_climate, warmth_of
+from treadload.life.groups import _harm, _one_axle, in_words
+from treadload.life.passage import _along, _rows, _stride
+from treadload.life.peaks import Strips, onto_lines, over_strips, peaks_and_valleys
+from treadload.life.sensitivity import _growth, _without_solves
+from treadload.life.variants import most
+from treadload.life.wheels import across, wheels_of
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
-from treadload.response import GridLoad
-from treadload.response.doubts import overlapping
-from treadload.study.altered import most
-from treadload.study.climate import curves, nodes, over_the_climate, warmth_of
-from treadload.study.groups import _harm, _one_axle, in_words
-from treadload.study.loaded import map_grid
-from treadload.study.passage import _along, _rows, _stride
-from treadload.study.peaks import Strips, onto_lines, over_strips, peaks_and_valleys
-from treadload.study.run import slice_depths
-from treadload.study.sensitivity import _growth, _without_solves
-from treadload.study.wheels import across, wheels_of
+from treadload.response import GridLoad, map_grid
+from treadload.response.input_caveats import overlapping
+from treadload.steps.slices import slice_depths
 
 DX, DY = 0.01, 0.012
 PRESSURE = np.ones((9, 7)) * 7e5
@@ -372,7 +371,7 @@ def test_a_dual_wheel_is_mirrored_unless_it_leans():
     """1 % of the weight to the side is straight still."""
     for share, turned in ((0.0099, True), (0.0101, False)):
         load = GridLoad(GRID, PRESSURE, traction_y=-share * PRESSURE)
-        left, right = tl.dual_wheels(load, 0.35)
+        left, right = tl.response.dual_wheels(load, 0.35)
         assert right.lateral_force == pytest.approx(share * load.normal_load)
         assert left.lateral_force == pytest.approx((-1 if turned else 1) * share * load.normal_load)
 

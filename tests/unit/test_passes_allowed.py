@@ -10,10 +10,11 @@ from treadload.damage.climate import Climate, Season
 from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.grid import Grid
+from treadload.life import solve_passages
+from treadload.life.design import Design
 from treadload.response import GridLoad, solve_response
-from treadload.study import solve_passages
-from treadload.study.allowed import criteria_of_layers, passes_allowed
-from treadload.study.loaded import Loaded, judge, load_case
+from treadload.steps.allowed import criteria_of_layers, passes_allowed
+from treadload.steps.loaded import Loaded, judge, load_case
 
 FREE = {"normal_load": "32.5 kN", "friction": 0.7}
 TIRE = {"profile": "315/80R22.5", "inflation_pressure": "8.2 bar"}
@@ -72,7 +73,7 @@ def test_readings_are_those_of_a_life_without_wander():
     traffic = Traffic((wheel,), passes_per_year=1e5, wander=Wander.none())
     climate = Climate((Season("year", 1.0, 15.0),))
     tire = load.contact.tire
-    solved = solve_passages(tire, case.pavement.untempered(), traffic, climate, criteria, spacing=0.006)
+    solved = solve_passages(Design(tire, case.pavement.untempered(), traffic, climate, criteria, spacing=0.006))
     readings = solved.readings.to_numpy().max(axis=(1, 2, 3, 4))
     for one, reading in zip(rows, readings, strict=True):
         # The bottom of the base course in the middle of the asphalt is pressed: what is left is a thousandth.

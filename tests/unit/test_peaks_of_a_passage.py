@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from treadload.study.peaks import peaks_and_valleys
+from treadload.life.peaks import peaks_and_valleys
 
 STEP = 3e-3
 

@@ -6,7 +6,7 @@ import pytest
 
 import treadload as tl
 from cases import COARSE_CASE
-from treadload.study import plan_case, plan_life, run_case
+from treadload.steps import plan, run
 
 LAYERS = """
 [[pavement.layers]]
@@ -28,37 +28,37 @@ def on_layers():
     )
 
 
-@pytest.mark.parametrize("text", [COARSE_CASE, on_layers()], ids=["half-space", "layers"])
-def test_the_plan_is_what_is_solved(text):
-    case = tl.Case.from_text(text)
-    plan = plan_case(case)
-    result = run_case(case)
+@pytest.mark.parametrize("toml", [COARSE_CASE, on_layers()], ids=["half-space", "layers"])
+def test_the_plan_is_what_is_solved(toml):
+    case = tl.Case.from_text(toml)
+    text = plan(case)
+    result = run(case)
     contact, response = result.contact.dataset.sizes, result.response.dataset.sizes
-    assert f"contact   {contact['x']} x {contact['y']} cells of 12 x 12 mm" in plan
-    assert f"response  {response['x']} x {response['y']} points at 2 depth(s), 0, 20 mm" in plan
+    assert f"contact   {contact['x']} x {contact['y']} cells of 12 x 12 mm" in text
+    assert f"response  {response['x']} x {response['y']} points at 2 depth(s), 0, 20 mm" in text
     along, across = result.slice_along.dataset.sizes, result.slice_across.dataset.sizes
-    assert f"slices    {along['x']} and {across['y']} points at {along['depth']} depths" in plan
-    assert re.search(r"estimate  about [\d.e+]+ (s|min) on this machine", plan)
-    assert ("under 2 wheels" in plan) == ("wheels" in text)
+    assert f"slices    {along['x']} and {across['y']} points at {along['depth']} depths" in text
+    assert re.search(r"estimate  about [\d.e+]+ (s|min) on this machine", text)
+    assert ("under 2 wheels" in text) == ("wheels" in toml)
     for layer in result.road.layers:
-        assert layer.name in plan
+        assert layer.name in text
 
 
 def test_a_plan_finds_what_a_run_would_refuse():
     with pytest.raises(tl.InputError, match="gross sliding"):
-        plan_case(tl.Case.from_text(COARSE_CASE, changes=["rolling.tractive_force=30 kN"]))
+        plan(tl.Case.from_text(COARSE_CASE, changes=["rolling.tractive_force=30 kN"]))
     with pytest.raises(tl.InputError, match="fewer than 8 cells"):
-        plan_case(tl.Case.from_text(COARSE_CASE, changes=["spacing=200 mm"]))
+        plan(tl.Case.from_text(COARSE_CASE, changes=["spacing=200 mm"]))
 
 
 def test_a_plan_tells_numbers_that_no_tire_has():
-    plan = plan_case(tl.Case.from_text(COARSE_CASE, changes=["rolling.speed=90", "tire.inflation_pressure=20 kPa"]))
+    text = plan(tl.Case.from_text(COARSE_CASE, changes=["rolling.speed=90", "tire.inflation_pressure=20 kPa"]))
     assert (
         'warning: the speed is 90 m/s, 324 km/h; vehicles usually roll at 1.1 to 137 km/h: did you mean "90 km/h"?'
-        in (plan)
+        in (text)
     )
-    assert "warning: the inflation pressure is 20000 Pa" in plan
-    assert "warning" not in plan_case(tl.Case.from_text(COARSE_CASE))
+    assert "warning: the inflation pressure is 20000 Pa" in text
+    assert "warning" not in plan(tl.Case.from_text(COARSE_CASE))
 
 
 def test_the_plan_of_a_design_counts_its_solves():
@@ -72,10 +72,10 @@ traffic = { passes_per_year = 1e5, years = 20, classes = [
     { name = "rear", share = 0.5, axle_load = "70 kN", inflation_pressure = "8 bar", gear = "tandem" } ] }
 criteria = [{ name = "base", law = "french-bituminous", layer = "EB-GB3", risk = 0.05 }]
 """
-    plan = plan_life(tl.LifeCase.from_text(design))
+    text = plan(tl.Case.from_text(design))
     # Both classes press alike; May and December are as warm as February and January are not: 5 °C twice.
-    assert "contacts  1 on cells of 12 mm" in plan
-    assert "climate   12 season(s), 11 of them different" in plan
-    assert "responses 22 at most" in plan
-    assert "front 50 %, rear 50 %" in plan
-    assert "criterion base: " in plan
+    assert "contacts  1 on cells of 12 mm" in text
+    assert "climate   12 season(s), 11 of them different" in text
+    assert "responses 22 at most" in text
+    assert "front 50 %, rear 50 %" in text
+    assert "criterion base: " in text

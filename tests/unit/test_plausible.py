@@ -8,9 +8,9 @@ import pytest
 
 import treadload as tl
 from cases import COARSE_CASE
+from treadload.life.caveats import traffic_doubts
 from treadload.plausible import RANGES, doubt, load_doubt
-from treadload.study import run_case
-from treadload.study.doubts import traffic_doubts
+from treadload.steps import run
 
 TRUCK = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ASPHALT = tl.Elastic(5.4e9, 0.35)
@@ -94,24 +94,24 @@ def test_a_response_says_what_no_road_is():
 
 def test_wheels_that_reach_into_each_other_are_told():
     road, at = tl.Pavement.half_space(ASPHALT), {"depths": [0.05], "x": [0.0], "y": [0.0]}
-    near = tl.solve_response(tl.dual_wheels(DISC, 0.2), road, **at)
+    near = tl.solve_response(tl.response.dual_wheels(DISC, 0.2), road, **at)
     assert "wheels 1 and 2 overlap by 250 mm along travel and 50 mm across" in near.warnings[0]
     assert "0 and 200 mm apart" in near.warnings[0]
     # The French axle; and two parts of one load, which may lie on each other.
     assert not tl.solve_response(tl.response.axle(DISC, 1.8, 0.375), road, **at).warnings
     assert not tl.solve_response([DISC, DISC], road, **at).warnings
     # Footprints, of which empty cells count for nothing.
-    grid = tl.Grid.centred(0.4, 0.4, 0.01)
+    grid = tl.response.Grid.centred(0.4, 0.4, 0.01)
     pressed = (abs(grid.x)[None, :] < 0.1) & (abs(grid.y)[:, None] < 0.1)
-    foot = tl.GridLoad(grid, 7e5 * pressed)
-    assert not tl.solve_response(tl.dual_wheels(foot, 0.22), road, **at).warnings
+    foot = tl.response.GridLoad(grid, 7e5 * pressed)
+    assert not tl.solve_response(tl.response.dual_wheels(foot, 0.22), road, **at).warnings
     told = tl.solve_response([foot, foot.moved(x=1.0), foot.moved(x=1.0, y=0.1)], road, **at).warnings
     assert "wheels 2 and 3 overlap by 200 mm along travel and 100 mm across" in told[0]
 
 
 def test_a_case_carries_the_sentences_to_its_file():
     case = tl.Case.from_text(COARSE_CASE.replace("friction       = 0.7", "friction = 0.7\nspeed = 90"))
-    tree = run_case(case).to_tree()
+    tree = run(case).to_tree()
     said = [text for group in tree.children.values() for text in json.loads(group.attrs.get("warnings", "[]"))]
     assert any('did you mean "90 km/h"?' in text for text in said)
 
@@ -121,7 +121,7 @@ def test_a_life_says_what_no_traffic_is():
     traffic = tl.damage.Traffic((row,), 1e12, growth=2.0, years=2)
     road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
     criterion = tl.damage.Criterion("base", tl.FatigueLine(90e-6, -0.2), 1, "bottom")
-    life = tl.study.solve_life(TRUCK, road, traffic, tl.damage.Climate.constant(15.0), [criterion], spacing=4e-3)
+    life = tl.solve_life(tl.Design(TRUCK, road, traffic, tl.damage.Climate.constant(15.0), [criterion], spacing=4e-3))
     said = "\n".join(life.warnings)
     for word in (
         "number of passes per year is 1e+12",
@@ -133,7 +133,7 @@ def test_a_life_says_what_no_traffic_is():
         assert word in life.summary()
     heavy = tl.damage.AxleClass("front", 1.0, 35e3, 8e5, wheels=((0.0, 0.0), (0.0, 0.1)))
     usual = tl.damage.Traffic((heavy,), 1e5, growth=0.02, years=20)
-    life = tl.study.solve_life(TRUCK, road, usual, tl.damage.Climate.constant(15.0), [criterion], spacing=12e-3)
+    life = tl.solve_life(tl.Design(TRUCK, road, usual, tl.damage.Climate.constant(15.0), [criterion], spacing=12e-3))
     (text,) = [text for text in life.warnings if "overlap by" in text]
     assert text.startswith("front: the footprints of wheels 1 and 2")
 

@@ -21,18 +21,21 @@ from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.plots import (
-    ContactPlots,
-    ResponsePlots,
-    VerdictPlots,
     compare_pressure,
     compare_strain,
+    depth_slice,
     fatigue_line,
     png,
+    pressure,
     save,
+    stick_slip,
+    strain_directions,
 )
+from treadload.plots.contact import profile
 from treadload.plots.kit.plan import Plan, borders, contact_mask, edges, limits, round_up
 from treadload.plots.kit.strokes import choose
 from treadload.plots.kit.style import power_of_ten, signed
+from treadload.plots.verdict import passes
 from treadload.response import Response, solve_response
 from treadload.tire import Tire
 
@@ -276,14 +279,14 @@ def test_section_runs_downwards_at_true_scale(driving):
 
 def test_section_of_a_single_row_or_column(driving):
     data = driving[1].dataset
-    along = ResponsePlots(data.isel(y=[5])).depth_slice()
+    along = depth_slice(data.isel(y=[5]))
     assert along.axes[0].get_xlabel().startswith("x,")
-    across = ResponsePlots(data.isel(x=[5])).depth_slice()
+    across = depth_slice(data.isel(x=[5]))
     assert across.axes[0].get_xlabel().startswith("y,")
     with pytest.raises(InputError, match="two depths"):
-        ResponsePlots(data.isel(depth=[0])).depth_slice()
+        depth_slice(data.isel(depth=[0]))
     with pytest.raises(InputError, match='"travel" or "across"'):
-        ResponsePlots(data).depth_slice("sideways")
+        depth_slice(data, "sideways")
 
 
 def test_strain_against_depth_reads_the_worst_point(driving):
@@ -349,21 +352,21 @@ def test_cracks_lie_across_the_extension(driving):
 def test_nothing_to_see_is_said(driving):
     contact, response, verdict = (part.dataset.copy() for part in driving)
     contact["pressure"] = contact.pressure * 0
-    assert "no contact" in _texts(ContactPlots(contact).pressure())
+    assert "no contact" in _texts(pressure(contact))
     response["principal_strain_1"] = response.principal_strain_1 * 0 - 1e-6
-    assert "no extension here" in _texts(ResponsePlots(response).strain_directions())
+    assert "no extension here" in _texts(strain_directions(response))
     verdict["allowable_passes"] = verdict.allowable_passes * np.inf
-    assert "no limit" in _texts(VerdictPlots(verdict).passes())
+    assert "no limit" in _texts(passes(verdict))
     verdict["worst_strain"], verdict["worst_passes"] = -1e-6, np.inf
-    assert "no extension" in _texts(VerdictPlots(verdict).fatigue_line())
+    assert "no extension" in _texts(fatigue_line(verdict))
 
 
 def test_a_measured_footprint_needs_only_its_pressure(driving):
     data = driving[0].dataset[["pressure"]]
-    ContactPlots(data).pressure()
-    ContactPlots(data).profile()
+    pressure(data)
+    profile(data)
     with pytest.raises(InputError, match="traction_x"):
-        ContactPlots(data).stick_slip()
+        stick_slip(data)
 
 
 def test_unknown_depth_and_strain_are_refused(driving):

@@ -11,13 +11,13 @@ from treadload.damage import Climate, Criterion, FatigueLine, Season, Traffic, m
 from treadload.damage.climate import TypicalDays
 from treadload.damage.traffic import AxleClass
 from treadload.errors import InputError
+from treadload.life.layered_climate import climate_fields
+from treadload.life.seasons import warmed
 from treadload.materials import GlobalAging
 from treadload.pavement import Pavement, RoadTemperatures, TemperatureProfile, Weather
 from treadload.plots import day_temperatures, season_moduli
 from treadload.reporting.life import life_report
 from treadload.results import open_results, save_results
-from treadload.study.layered_climate import climate_fields
-from treadload.study.seasons import warmed
 
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 DEPTHS = np.array([0.0, 0.03, 0.06, 0.135, 0.21])
@@ -119,7 +119,7 @@ def test_they_are_drawn_from_a_file_and_in_the_report(climate, fields, tmp_path,
     assert len(back.plot.moduli().axes) == 2
     # Which figures its report asks for; they are drawn above.
     drawn = []
-    monkeypatch.setattr("treadload.reporting.life.picture", lambda title, *_, **__: drawn.append(title) or [])
+    monkeypatch.setattr("treadload.reporting.pictures.picture", lambda title, *_, **__: drawn.append(title) or [])
     life_report("a road", back.dataset)
     assert drawn[-2:] == ["Temperature of the road", "Modulus over depth"]
     drawn.clear()

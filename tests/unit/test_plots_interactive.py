@@ -20,7 +20,7 @@ ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 
 
 @pytest.fixture(scope="module")
-def contact() -> tl.Contact:
+def contact() -> tl.contact.Contact:
     x = 5e-3 * (np.arange(24) - 11.5)
     gap = (x[None, :] ** 2 + x[:, None] ** 2) / 0.8
     gap[10:12] += 0.02
@@ -29,7 +29,7 @@ def contact() -> tl.Contact:
 
 
 @pytest.fixture(scope="module")
-def response(contact) -> tl.Response:
+def response(contact) -> tl.response.Response:
     return tl.solve_response(contact, ROAD, depths=[0.0, 0.01, 0.03])
 
 

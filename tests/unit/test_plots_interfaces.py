@@ -12,11 +12,11 @@ from matplotlib.quiver import Quiver
 
 from treadload.damage import InterfaceStrength, ShearFatigue, assess_bonds
 from treadload.errors import InputError
+from treadload.life import solve_interfaces
 from treadload.materials import Elastic
 from treadload.pavement import BONDED, FRICTIONLESS, Bond, Layer, Pavement
 from treadload.plots import bond_utilisation, bonded_and_parted, png, sliding
 from treadload.response import UniformRectangle
-from treadload.study import solve_interfaces
 
 X = np.linspace(-0.25, 0.25, 21)
 BRAKED = UniformRectangle(0.2, 0.2, 0.8e6, traction_x=0.4e6)

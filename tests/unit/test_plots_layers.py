@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import FRICTIONLESS, Layer, Pavement
-from treadload.plots import ResponsePlots, both_sides, places_under, png
+from treadload.plots import both_sides, depth_slice, places_under, png, strain_profiles
 from treadload.plots.kit.layers import Layers, _apart
 from treadload.response import Response, UniformDisc, solve_response
 from treadload.results import open_results, save_results, to_tree
@@ -66,7 +66,7 @@ def _meshes(ax) -> list[QuadMesh]:
 def test_section_has_a_line_at_each_interface_and_the_layers_names(above, along):
     if along == "across":
         above = _slice(x=[0.0], y=X)
-    figure = ResponsePlots(above).depth_slice(along)
+    figure = depth_slice(above, along)
     ax = figure.axes[0]
     assert _interfaces(ax) == [pytest.approx(60), pytest.approx(210)]
     assert _names(ax) == ["wearing course\n60 mm", "base\n150 mm", "subgrade"]
@@ -75,7 +75,7 @@ def test_section_has_a_line_at_each_interface_and_the_layers_names(above, along)
 
 
 def test_section_shows_only_the_layers_that_it_reaches(above):
-    figure = ResponsePlots(above.sel(depth=slice(0, 0.1))).depth_slice()
+    figure = depth_slice(above.sel(depth=slice(0, 0.1)))
     assert _interfaces(figure.axes[0]) == [pytest.approx(60)]
     assert len(_names(figure.axes[0])) == 2
 
@@ -88,7 +88,7 @@ def test_half_space_has_neither_lines_nor_names():
 
 
 def test_colours_never_run_across_an_interface(above):
-    meshes = _meshes(ResponsePlots(above).depth_slice().axes[0])
+    meshes = _meshes(depth_slice(above).axes[0])
     reach = [(float(m.get_coordinates()[0, 0, 1]), float(m.get_coordinates()[-1, 0, 1])) for m in meshes]
     assert reach == [(0, pytest.approx(60)), (pytest.approx(60), pytest.approx(210)), (pytest.approx(210), 300)]
     # The base begins with its own first depth, 100 mm, not with the wearing course's last.
@@ -97,7 +97,7 @@ def test_colours_never_run_across_an_interface(above):
 
 
 def test_strokes_stay_in_their_layer(above, below):
-    figure = ResponsePlots(both_sides(above, below)).depth_slice()
+    figure = depth_slice(both_sides(above, below))
     lines = next(c for c in figure.axes[0].collections if c.get_gid() == "strokes")
     assert isinstance(lines, LineCollection)
     ends = np.array(lines.get_segments())[..., 1]
@@ -107,7 +107,7 @@ def test_strokes_stay_in_their_layer(above, below):
 
 
 def test_layer_without_a_depth_is_hatched_instead_of_painted(above):
-    figure = ResponsePlots(above.sel(depth=[0.0, 0.02, 0.3])).depth_slice()
+    figure = depth_slice(above.sel(depth=[0.0, 0.02, 0.3]))
     hatched = [p for p in figure.axes[0].patches if p.get_gid() == "unknown"]
     assert [p.get_y() for p in hatched] == [pytest.approx(60)]
     assert [p.get_height() for p in hatched] == [pytest.approx(150)]
@@ -117,7 +117,7 @@ def test_layer_without_a_depth_is_hatched_instead_of_painted(above):
 def test_section_without_an_extent_in_the_road_is_refused(above, depths):
     flat = above.isel(depth=[0, 1]).assign_coords(depth=depths)
     with pytest.raises(InputError, match=f"depths that differ and lie in the road, .* {depths[0]:g} to"):
-        ResponsePlots(flat).depth_slice()
+        depth_slice(flat)
 
 
 def test_labels_of_thin_layers_do_not_overlap():
@@ -125,7 +125,7 @@ def test_labels_of_thin_layers_do_not_overlap():
     ends = np.array([0.002, 0.004, 0.006, 0.1])
     names = ["a very long name of a thin surface dressing", "", "tack coat", "base", "soil"]
     data.attrs |= {"interfaces": ends, "layer_names": json.dumps(names)}
-    figure = ResponsePlots(data).depth_slice()
+    figure = depth_slice(data)
     # The figure's own resolution, so that the boxes measured are those drawn.
     png(figure, dpi=100)
     found = [t for t in figure.axes[0].texts if t.get_gid() == "layer"]
@@ -163,7 +163,7 @@ def test_a_lone_row_on_an_interface_is_drawn_on_the_side_it_was_solved_for(above
     assert [down[rows][0] for rows in Layers.of(below).pieces(down)] == [pytest.approx(v) for v in (0, 60, 210)]
     ends = {}
     for data in (above, below):
-        meshes = [one for one in ResponsePlots(data).depth_slice().axes[0].collections if isinstance(one, QuadMesh)]
+        meshes = [one for one in depth_slice(data).axes[0].collections if isinstance(one, QuadMesh)]
         base = meshes[1].get_array().reshape(-1, len(X))
         ends[data.attrs["side"]] = base[0], base[-1]
     strain = {side: data.principal_strain_1[:, 0].values * 1e6 for side, data in (("above", above), ("below", below))}
@@ -173,7 +173,7 @@ def test_a_lone_row_on_an_interface_is_drawn_on_the_side_it_was_solved_for(above
 
 
 def test_strain_jumps_at_a_sliding_interface(above, below):
-    figure = ResponsePlots(both_sides(above, below)).strain_profiles({"middle": (0.0, 0.0)}, strains=("xx",))
+    figure = strain_profiles(both_sides(above, below), {"middle": (0.0, 0.0)}, strains=("xx",))
     ax = figure.axes[0]
     curves = [line for line in ax.lines if line.get_gid() is None and len(line.get_xdata()) > 2]
     upper, base = curves[0], curves[1]
@@ -189,7 +189,7 @@ def test_strain_jumps_at_a_sliding_interface(above, below):
 
 def test_profiles_have_a_panel_for_each_strain_and_a_colour_for_each_place(above):
     places = {"centre": (0.0, 0.0), "edge": (0.1, 0.0)}
-    figure = ResponsePlots(above).strain_profiles(places, epsilon_6=90e-6)
+    figure = strain_profiles(above, places, epsilon_6=90e-6)
     titles = [ax.get_title(loc="left") for ax in figure.axes]
     assert titles == ["Along travel", "Across travel", "Largest extension"]
     assert {ax.get_xlabel() for ax in figure.axes} == {"microstrain"}
@@ -208,7 +208,7 @@ def test_profiles_have_a_panel_for_each_strain_and_a_colour_for_each_place(above
 
 
 def test_places_of_profiles_come_from_the_load_on_the_surface(above):
-    labels = [t.get_text() for t in ResponsePlots(above).strain_profiles().legends[0].get_texts()]
+    labels = [t.get_text() for t in strain_profiles(above).legends[0].get_texts()]
     # A disc of 100 mm touches the points up to 100 mm from its centre.
     assert labels == ["tire's centre: x = 0.0, y = 0.0 mm", "rib's edge: x = 0.0, y = 0.0 mm"]
 
@@ -240,13 +240,12 @@ def test_places_under_the_tire_are_told_by_its_pressure():
 
 
 def test_wrong_requests_are_refused(above):
-    plots = ResponsePlots(above)
     with pytest.raises(InputError, match="strains must be of xx, yy"):
-        plots.strain_profiles({"a": (0, 0)}, strains=("xy",))
+        strain_profiles(above, {"a": (0, 0)}, strains=("xy",))
     with pytest.raises(InputError, match="at least one place"):
-        plots.strain_profiles({})
+        strain_profiles(above, {})
     with pytest.raises(InputError, match="two depths"):
-        ResponsePlots(above.isel(depth=[0])).strain_profiles({"a": (0, 0)})
+        strain_profiles(above.isel(depth=[0]), {"a": (0, 0)})
 
 
 def test_figures_of_a_file_equal_those_of_the_response(above, tmp_path):
@@ -256,7 +255,7 @@ def test_figures_of_a_file_equal_those_of_the_response(above, tmp_path):
     one.attrs["layer_names"] = json.dumps(["asphalt", ""])
     save_results(to_tree([Response(one)]), tmp_path / "one.nc")
     read = open_results(tmp_path / "one.nc").slice_along.dataset
-    figure = ResponsePlots(read).depth_slice()
+    figure = depth_slice(read)
     assert isinstance(figure, Figure)
     assert _interfaces(figure.axes[0]) == [pytest.approx(60)]
     assert _names(figure.axes[0]) == ["asphalt\n60 mm", "layer 2"]

@@ -8,12 +8,12 @@ from matplotlib.text import Text
 
 from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchSubgrade, Traffic, Wander, miner
 from treadload.errors import InputError
+from treadload.life import Sensitivity
 from treadload.plots import life_damage, life_inputs, life_shares, life_works, life_years
 from treadload.reporting import write_report
-from treadload.reporting.life import exhausted, life_report, sentence
+from treadload.reporting.life import exhausted, life_report
 from treadload.reporting.reading import ReportCase
 from treadload.results import open_results, save_results, to_tree
-from treadload.study import Sensitivity
 from treadload.variables import dataset
 
 LINE = FatigueLine(100e-6, -0.2)
@@ -114,21 +114,24 @@ def test_inputs_are_changed_by_five_per_cent_and_a_degree():
 def test_the_sentence_tells_the_margin():
     life = a_life(years=20.0, passes=1e3)
     used = float(life.dataset["design_damage"].sel(criterion=life.governing))
-    assert f"uses up {100 * used:.0f} %" in sentence(life.dataset)
+    assert f"uses up {100 * used:.0f} %" in life.rows()[-1].text
     assert not exhausted(life.dataset)
     early = a_life(passes=1e7)
-    assert "before the end of its design life of 20 years" in sentence(early.dataset)
+    assert "before the end of its design life of 20 years" in early.rows()[-1].text
     assert exhausted(early.dataset)
-    assert "no criterion ever fails" in sentence(a_life(passes=0.0).dataset)
+    assert "no criterion ever fails" in a_life(passes=0.0).rows()[-1].text
 
 
 def test_the_report_holds_verdict_criteria_laws_and_solves(tmp_path):
     save_results(a_tree(), tmp_path / "life.nc")
     tree = open_results(tmp_path / "life.nc").tree
     written = life_report("a road", ReportCase.of("a road", tree).groups["life"])
-    assert [row[0] for row in written.rows] == ["top-down", "soil"]
-    assert written.rows[0][6].startswith("transverse (100 %")
-    assert written.rows[1][6] == "ruts, no crack"
+    assert written.first is not None
+    crack = written.first.columns.index("first crack")
+    cracks = {line[0]: line[crack] for line in written.first.rows}
+    assert set(cracks) == {"top-down", "soil"}
+    assert cracks["top-down"].startswith("transverse (100 %")
+    assert cracks["soil"] == "ruts, no crack"
     assert len(written.pictures) == 4
     page = write_report({"a road": tree}, tmp_path / "r.html").read_text()
     for words in (

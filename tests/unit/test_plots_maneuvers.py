@@ -19,7 +19,7 @@ ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 @pytest.fixture(scope="module")
 def turn():
     tire = tl.Tire.from_profile("315/80R22.5", material=tl.Elastic(3e6, 0.5))
-    state = tl.Maneuver.turning(12.0, 20 / 3.6).rolling(32.5e3, 0.7)
+    state = tl.contact.Maneuver.turning(12.0, 20 / 3.6).rolling(32.5e3, 0.7)
     contact = tl.solve_contact(tire, ROAD, state, spacing=0.012)
     return contact, tl.solve_response(contact, ROAD, depths=[0.0, 0.01])
 

@@ -14,7 +14,7 @@ import xarray as xr
 
 import treadload as tl
 from treadload.errors import InputError
-from treadload.plots import ResponsePlots, creep_curves, png
+from treadload.plots import creep_curves, png
 from treadload.plots.kit.style import house_style
 from treadload.plots.panels import direction_class, strain_panels
 
@@ -23,7 +23,7 @@ ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 
 
 @pytest.fixture(scope="module")
-def response() -> tl.Response:
+def response() -> tl.response.Response:
     x = 5e-3 * (np.arange(24) - 11.5)
     tire = tl.Tire.from_height_map((x[None, :] ** 2 + x[:, None] ** 2) / 0.8, 5e-3, material=tl.Elastic(3e6, 0.5))
     contact = tl.solve_contact(tire, ROAD, tl.Rolling(normal_load=400.0, friction=0.7, tractive_force=150.0))
@@ -32,7 +32,7 @@ def response() -> tl.Response:
 
 @pytest.mark.parametrize("strain", ["principal", "in-plane"])
 def test_panels_show_the_value_above_and_the_direction_below(response, strain):
-    figure = ResponsePlots(response).strain_panels(0.0, strain)
+    figure = strain_panels(response, 0.0, strain)
     upper, lower, *_ = figure.axes
     name = "principal_strain_1" if strain == "principal" else "in_plane_strain_1"
     values = response.dataset[name].sel(depth=0.0).to_numpy() * 1e6

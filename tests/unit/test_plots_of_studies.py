@@ -9,8 +9,8 @@ import treadload as tl
 from studies import CASE, product_study, study_of, wheel
 from treadload.plots.kit.shown import shown
 from treadload.plots.sweeps.reading import View
-from treadload.study import sampled
-from treadload.study.sweeps.design import listed, product
+from treadload.sweeps import sampled
+from treadload.sweeps.design import listed, product
 
 CREEPAGES = [-0.1, -0.01, 0.0, 0.01]
 
@@ -45,7 +45,7 @@ def test_a_curve_for_each_load(study):
     np.testing.assert_allclose(drawn["30 kN"][:, 1], [np.nan, 52, 58, 64])
     np.testing.assert_allclose(drawn["30 kN"][:, 0], [0.2, 0.4, 0.6, 0.8])
     assert ax.get_xlabel() == "friction (–)"
-    assert ax.get_ylabel() == "worst strain (microstrain)"
+    assert ax.get_ylabel() == "evaluated tensile strain (microstrain)"
     assert crosses(ax) == [0.2, 0.2, 0.2]
     assert "3 of 12 cases failed" in words(ax.figure)
 
@@ -105,7 +105,7 @@ def test_a_map_over_load_and_friction(study):
     assert values.mask[0].all()
     assert len(ax.patches) == 3
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("normal load (kN)", "friction (–)")
-    assert bar.get_ylabel() == "worst strain (microstrain)"
+    assert bar.get_ylabel() == "evaluated tensile strain (microstrain)"
     # The other way round it is the same, turned.
     turned = study.plot.map("worst_strain", "friction", "normal_load").axes[0].collections[0].get_array()
     np.testing.assert_allclose(turned.reshape(3, 4).filled(0), values.filled(0).T)
@@ -133,7 +133,7 @@ def test_numbers_in_cells_can_be_read(study):
 
 def test_years_of_a_study_say_what_they_are_until():
     study = study_of(product(CASE, {"friction": [0.3, 0.5]}), lambda friction: {"governing_years": 30 * friction})
-    assert study.plot.curve("governing_years").axes[0].get_ylabel() == "years to the first failure"
+    assert study.plot.curve("governing_years").axes[0].get_ylabel() == "service life of the road (years)"
 
 
 def test_sampled_cases_are_dots(spread):
@@ -219,7 +219,7 @@ def test_quantities_are_shown_in_the_units_of_people():
     assert told("pavement.layers.1.material.modulus", 9e9, "Pa") == "modulus of layer 2: 9000 MPa"
     assert told("rolling.speed", 20.0, "m/s") == "speed: 72 km/h"
     assert told("pavement.temperature", -5.0, "degC") == "temperature: \u22125 °C"
-    assert told("max_principal_strain_1", 1.2e-4, "1") == "largest principal strain: 120 microstrain"
-    assert told("slip_fraction", 0.25, "1") == "slip fraction: 25 %"
+    assert told("max_principal_strain_1", 1.2e-4, "1") == "tensile strain, three-dimensional: 120 microstrain"
+    assert told("slip_fraction", 0.25, "1") == "slip share of the contact: 25 %"
     assert told("friction", 0.7, "1") == "friction: 0.7"
     assert shown(xr.DataArray([1e6], attrs={"units": "1"}), "worst_passes").logarithmic

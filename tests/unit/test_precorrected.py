@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from bilinear_loads import bilinear_on_grid
 from treadload.kernels.gridding import gridded, precorrected
-from treadload.kernels.half_space.bilinear import bilinear_on_grid
 from treadload.kernels.half_space.interior import fields_on_grid, sums_on_grid
 
 DX = 0.003
@@ -115,6 +115,6 @@ def test_what_is_kept_serves_further_points():
             # As measured, with a margin: see `ROUGH`.
             assert apart(rougher[0], exact[0]) < 2e-6
     # One kernel, whose transforms for nine lattices of nodes serve both loads.
-    (kept,) = keeper.known.values()
+    (kept,) = keeper.by_kernel.values()
     assert len(kept.nodes) == 18
     assert len(kept.spectra) == 9

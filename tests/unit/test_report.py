@@ -16,7 +16,7 @@ from treadload.plots.kit.style import power_of_ten
 from treadload.reporting import report, write_report
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import result_table
-from treadload.study import Result, run_case
+from treadload.steps import Result, run
 
 CASE = """
 title = "{title}"
@@ -76,7 +76,7 @@ def _only(tree: xr.DataTree, *groups: str) -> xr.DataTree:
 
 
 def _run(title: str, force: float) -> Result:
-    return run_case(Case.from_text(CASE.format(title=title, force=force)))
+    return run(Case.from_text(CASE.format(title=title, force=force)))
 
 
 @pytest.fixture(scope="module")
@@ -108,8 +108,9 @@ def test_report_holds_the_numbers_of_every_case(page, results):
             f"{float(result.response.dataset.principal_strain_1.isel(depth=0).max()) * 1e6:.1f}",
             f"{float(result.response.dataset.in_plane_strain_1.isel(depth=0).max()) * 1e6:.1f}",
             f"{float(verdict.worst_strain) * 1e6:.1f} microstrain",
-            f"read in the horizontal plane, mean over 10 mm, at depth {float(verdict.worst_depth) * 1e3:g} mm, "
-            "under the mean of two contacts whose cells lie half a cell apart",
+            "in-plane strain, mean over 10 mm",
+            f"{float(verdict.worst_depth) * 1e3:g} mm deep",
+            "the mean of two contacts whose grids are offset by half a cell",
             power_of_ten(float(verdict.worst_passes)),
             result.verdict.orientation,
         ):
@@ -120,14 +121,14 @@ def test_report_holds_the_numbers_of_every_case(page, results):
 
 def test_passes_say_under_how_many_contacts_they_are_read(page, results):
     """Both cases read two; one of the same numbers under one contact says so in the row that they share."""
-    pair = "the mean of two contacts whose cells lie half a cell apart"
+    pair = "the mean of two contacts whose grids are offset by half a cell"
     assert page.words.count(f"in the horizontal plane, under {pair}. The darkest places") == 2
-    assert page.words.count(f"read under {pair} {pair}") == 1
+    assert page.words.count(f"evaluated under {pair} {pair}") == 1
     damage = results["free"].verdict.dataset
     one = damage.copy()
     del one.attrs["lattices"]
     cases = [ReportCase("two", {"damage": damage}, {}), ReportCase("one", {"damage": one}, {})]
-    (row,) = [row for section in result_table(cases) for row in section.rows if row.name == "read under"]
+    (row,) = [row for section in result_table(cases) for row in section.rows if row.name == "evaluated under"]
     assert row.values == (pair, "one contact")
 
 
@@ -151,7 +152,7 @@ def test_report_shows_inputs_statistics_citations_and_provenance(page, results):
 def test_report_tells_the_largest_strain_under_the_surface(page, results):
     data = [results["driving"].slice_along.dataset, results["driving"].slice_across.dataset]
     largest = max(float(d.principal_strain_1.max()) for d in data)
-    row = page.words.split("in the vertical sections", 1)[1][:60]
+    row = page.words.split("vertical sections", 1)[1][:60]
     assert f"{largest * 1e6:.1f}" in row
     assert "mm deep" in page.words
 
@@ -220,10 +221,11 @@ def test_measured_footprint_with_pressure_only(results, tmp_path):
 @pytest.mark.slow
 def test_verdict_without_sentence_is_composed(results, tmp_path):
     damage = results["driving"].to_tree()["damage"].to_dataset()
-    del damage.attrs["sentence"]
+    for name in ("sentence", "rows"):
+        del damage.attrs[name]
     tree = xr.DataTree.from_dict({"/damage": damage})
     page = _Page(write_report({"case": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
-    assert f"the line allows {power_of_ten(float(damage.worst_passes))} passes" in page.words
+    assert f"the fatigue law allows {power_of_ten(float(damage.worst_passes))} load repetitions" in page.words
     damage["worst_strain"], damage["worst_passes"] = -1e-6, np.inf
     tree = xr.DataTree.from_dict({"/damage": damage})
     page = _Page(write_report({"case": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
@@ -246,7 +248,7 @@ def test_a_path_that_cannot_be_written_leaves_nothing(results, tmp_path):
 def test_a_failure_keeps_the_file_from_before(results, tmp_path, monkeypatch):
     path = tmp_path / "report.html"
     path.write_text("before")
-    monkeypatch.setattr("treadload.reporting.build.case_figures", lambda *a, **k: 1 / 0)
+    monkeypatch.setattr("treadload.reporting.build.case_sections", lambda *a, **k: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report({"free": results["free"].to_tree()}, path)
     assert path.read_text() == "before"
@@ -283,7 +285,7 @@ def moving() -> Result:
     text = CASE[:start].format(title="Moving") + ROAD + CASE[end:].format(force=0)
     response = 'depths = ["40 mm", "210 mm"]\nspeed = "72 km/h"\nwheels = [{ y = 0.15 }]'
     text = text.replace('depths = ["0 mm", "20 mm"]', response).replace('"12 mm"', '"20 mm"')
-    return run_case(Case.from_text(text.replace("slope = -0.2 }", 'slope = -0.2 }\ndepth = "210 mm"')))
+    return run(Case.from_text(text.replace("slope = -0.2 }", 'slope = -0.2 }\ndepth = "210 mm"')))
 
 
 @pytest.mark.slow

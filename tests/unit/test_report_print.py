@@ -11,7 +11,7 @@ from PIL import Image
 import treadload as tl
 from cases import COARSE_CASE
 from treadload.results.bibtex import bibtex
-from treadload.study import run_case
+from treadload.steps import run
 
 
 @pytest.fixture(scope="module")
@@ -53,5 +53,5 @@ def test_the_page_is_made_for_paper(page):
 def test_a_report_of_two_cases_of_3_mm_is_under_5_mb(tmp_path):
     text = COARSE_CASE.replace('"12 mm"', '"3 mm"')
     free = tl.Case.from_text(text.replace('"10 kN"', '"0 kN"'))
-    path = tl.report({"driven": run_case(tl.Case.from_text(text)), "free": run_case(free)}, tmp_path / "two.html")
+    path = tl.report({"driven": run(tl.Case.from_text(text)), "free": run(free)}, tmp_path / "two.html")
     assert path.stat().st_size < 5e6

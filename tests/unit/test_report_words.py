@@ -19,9 +19,10 @@ from treadload.case.criteria import CRITERION
 from treadload.read import Table
 from treadload.reporting import report, write_report
 from treadload.reporting.inputs import input_lists, input_table
-from treadload.reporting.others import OtherReport
 from treadload.reporting.reading import ReportCase
+from treadload.reporting.tables import tables_of
 from treadload.reporting.words import SHOWN, entries, number, part_of, sentence, units_in, worded
+from treadload.rows import Place, Row
 from treadload.units import Unit
 
 LIFE = """
@@ -300,12 +301,15 @@ def test_paper_does_not_scroll_and_keeps_rows_whole():
     assert float(padding[1]) >= 2
 
 
-def test_a_summary_wraps_unless_it_stands_in_columns():
-    """Long sentences would be cut at the page's edge; a table of numbers would be torn apart."""
-    sentences = (
-        "reliability: years until failure\n    base: 11.4, 49.2, 122 years; failure means half the stiffness lost"
-    )
-    table = (
-        "one passage:\n                 base     platform     by load\n  front axle     0.18         0.28       0.045"
-    )
-    assert [OtherReport("x", (), text).in_columns for text in (sentences, table)] == [False, True]
+def test_rows_are_tables_with_their_remarks():
+    """Rows of several groups with the same keys: a line a group; others: a line a row; places and notes behind."""
+    groups = [
+        Row(key, label, 1e-4 * k, "microstrain", ".0f", note=f"at {k}" if key == "b" else "", group=f"step {k}")
+        for k in (1, 2)
+        for key, label in (("a", "first"), ("b", "second"))
+    ]
+    alone = [Row("c", "third", -12345.0, "N", ".0f", place=Place(-0.001, 0.0)), Row("d", "fourth", "a-b")]
+    several, single = tables_of([*groups, *alone])
+    assert several.columns == ("", "first, microstrain", "second, microstrain", "note")
+    assert several.rows == (("step 1", "100", "100", "at 1"), ("step 2", "200", "200", "at 2"))
+    assert single.rows == (("third", "\u221212345 N", "at x = \u22121.0 mm, y = 0.0 mm"), ("fourth", "a-b", ""))

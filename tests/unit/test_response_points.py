@@ -10,7 +10,7 @@ from treadload.kernels.gridding.points import Points
 from treadload.materials import Prony
 from treadload.response import GridLoad, UniformDisc, solve_response
 from treadload.results import open_results, save_results
-from treadload.study.run import _line
+from treadload.steps.slices import _line
 
 GRID = Grid(9, 7, 0.02, 0.02, -0.08, -0.06)
 SOLID = Prony(8e9, ((0.5, 0.02), (0.4, 0.3)), 0.35)

@@ -1,4 +1,5 @@
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -78,13 +79,22 @@ def test_slices_pass_through_the_worst_point(coarse_result):
 def test_citations_follow_what_was_used(coarse_result):
     from dataclasses import replace
 
+    from treadload.citations import references
     from treadload.contact.friction import Exponential
-    from treadload.results import citations
 
-    plain = " ".join(citations(coarse_result.contact, None))
+    plain = " ".join(references(coarse_result.contact.cites()))
     assert "Anderson" in plain
     assert "slip-velocity" not in plain
     contact = coarse_result.contact
     law = Exponential(static=0.9, kinetic=0.6, reference_speed=2.0)
     falling = replace(contact, rolling=replace(contact.rolling, friction=law, speed=20.0))
-    assert "slip-velocity" in " ".join(citations(falling, None))
+    assert "slip-velocity" in " ".join(references(falling.cites()))
+
+
+def test_a_package_cites_whole_references_and_a_case_what_its_steps_use():
+    from treadload.citations import CITATIONS, references
+
+    whole = "Doe, J. (2020). Roads. J. Roads 1, 1-2."
+    assert references((whole, "layers", whole)) == [CITATIONS["chain"], whole, CITATIONS["layers"]]
+    cited = tl.Case.from_toml(Path(__file__).parents[2] / "examples/rutting/rutting.toml").cites()
+    assert {"passes", "eigenstrain", "newton"} <= set(cited)

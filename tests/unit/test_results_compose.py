@@ -21,7 +21,7 @@ def response():
 
 def test_thermal_stress_gives_a_response_that_can_be_assessed(response):
     cold = tl.damage.add_thermal_stress(response, [2e6, 1e6])
-    assert isinstance(cold, tl.Response)
+    assert isinstance(cold, tl.response.Response)
     assert cold.restrained == (2e6, 1e6)
     added = cold.dataset.stress_xx - response.dataset.stress_xx
     np.testing.assert_allclose(added.mean(("y", "x")), [2e6, 1e6], rtol=1e-9)

@@ -172,10 +172,16 @@ def test_the_power_law_of_the_american_guide():
         (lambda: Perzyna(VonMises(1e8), 1.0, 0.5), r"exponent of Perzyna's law must lie in \[1, 50\], got 0.5"),
         (lambda: PassesPowerLaw(1.0, 1.5), r"exponent must lie in \(0, 1\], got 1.5"),
         (lambda: PassesPowerLaw.asphalt(323.0), r"temperature must lie in \[5, 65\] °C"),
-        (lambda: tl.ElastoPlastic(tl.materials.Prony(1e9, ((0.5, 1.0),), 0.3), VonMises(1e8)), "must be an Elastic"),
-        (lambda: tl.ElastoPlastic(tl.Elastic(1e9, 0.5), VonMises(1e8)), "give at most 0.49"),
-        (lambda: tl.ElastoPlastic(tl.Elastic(1e9, 0.3), 3), "the law must be VonMises"),
-        (lambda: tl.ElastoPlastic(ASPHALT, PassesPowerLaw(1, 0.5)).return_map(), "is not followed step by step"),
+        (
+            lambda: tl.materials.ElastoPlastic(tl.materials.Prony(1e9, ((0.5, 1.0),), 0.3), VonMises(1e8)),
+            "must be an Elastic",
+        ),
+        (lambda: tl.materials.ElastoPlastic(tl.Elastic(1e9, 0.5), VonMises(1e8)), "give at most 0.49"),
+        (lambda: tl.materials.ElastoPlastic(tl.Elastic(1e9, 0.3), 3), "the law must be VonMises"),
+        (
+            lambda: tl.materials.ElastoPlastic(ASPHALT, PassesPowerLaw(1, 0.5)).return_map(),
+            "is not followed step by step",
+        ),
     ],
 )
 def test_what_no_material_is_gets_a_sentence(make, words):
@@ -188,14 +194,14 @@ def test_contact_and_response_take_the_elastic_part():
     law = tl.materials.MohrCoulomb(6e4, 0.6)
     plain, yielding = (
         tl.Pavement([tl.Layer(one, 0.05), tl.Layer(tl.Elastic(1e8, 0.35))])
-        for one in (ASPHALT, tl.ElastoPlastic(ASPHALT, law))
+        for one in (ASPHALT, tl.materials.ElastoPlastic(ASPHALT, law))
     )
     disc = tl.UniformDisc(0.1, 7e5)
     one, other = (tl.solve_response(disc, road, depths=[0.02], x=[0.0], y=[0.0]) for road in (plain, yielding))
     assert float(one.dataset.stress_zz[0, 0, 0]) == float(other.dataset.stress_zz[0, 0, 0])
     assert "layer 1 can yield, and this is the response of its elastic part" in other.summary()
     assert "can yield" not in one.summary()
-    assert tl.Pavement([tl.Layer(tl.ElastoPlastic(ASPHALT, law), 0.05), tl.Layer(ASPHALT)]).is_homogeneous
+    assert tl.Pavement([tl.Layer(tl.materials.ElastoPlastic(ASPHALT, law), 0.05), tl.Layer(ASPHALT)]).is_homogeneous
 
 
 def test_a_case_reads_a_law_as_a_key_of_the_layer_or_with_the_material():
@@ -210,4 +216,4 @@ def test_a_case_reads_a_law_as_a_key_of_the_layer_or_with_the_material():
     made = [PavementPart.model_validate({"layers": [layer]}).build().layers[0].material for layer in told]
     assert made[0] == made[1]
     # Text becomes a number of fifteen digits.
-    assert made[0] == tl.ElastoPlastic(ASPHALT, MohrCoulomb(6e4, float(f"{math.radians(35):.15g}")))
+    assert made[0] == tl.materials.ElastoPlastic(ASPHALT, MohrCoulomb(6e4, float(f"{math.radians(35):.15g}")))

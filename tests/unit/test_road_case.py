@@ -183,7 +183,7 @@ def test_contact_on_layers_gives_way_a_little_more():
     coarse = (HEAD + STRUCTURE + TAIL).replace('"12 mm"', '"20 mm"')
     shares = []
     for word in ("layers", "half_space"):
-        result = tl.run_case(tl.Case.from_text(f'road_compliance = "{word}"\n{coarse}'))
+        result = tl.run(tl.Case.from_text(f'road_compliance = "{word}"\n{coarse}'))
         assert result.contact.stats["layers_solved"] == (word == "layers")
         shares.append(float(result.contact.dataset.approach))
     # The layers give way more than the stiff top one alone, but next to nothing beside the tire.
@@ -193,7 +193,7 @@ def test_contact_on_layers_gives_way_a_little_more():
 def test_wheels_stand_on_the_cells_of_the_first():
     wheels = 'wheels = [{ y = "-170 mm" }, { x = "4 mm", y = "170 mm", mirror = true }]\ndepths'
     case = written_back(case_of(STRUCTURE, TAIL.replace("depths", wheels)))
-    load = tl.GridLoad.from_arrays([[1.0, 2.0], [0.0, 3.0]], traction_y=np.ones((2, 2)), spacing=0.012)
+    load = tl.response.GridLoad.from_arrays([[1.0, 2.0], [0.0, 3.0]], traction_y=np.ones((2, 2)), spacing=0.012)
     left, right = case.response.place(load)
     assert left.grid.y0 == pytest.approx(load.grid.y0 - 0.17)
     apart = (right.grid.y0 - left.grid.y0) / 0.012
@@ -308,15 +308,16 @@ def footprint(tmp_path, extra=""):
 def test_a_recorded_footprint_in_place_of_a_tire(tmp_path):
     case = footprint(tmp_path)
     assert tl.Case.from_text(case.to_toml(), folder=tmp_path) == case
-    result = tl.run_case(case)
-    assert result.contact is None
+    result = tl.run(case)
+    assert result.contact is result.footprint
+    assert isinstance(result.footprint, tl.footprint.Footprint)
     assert result.footprint.normal_load == pytest.approx(5 * 700e3 * 1e-4)
     # On layers the map has a margin of 10 cells of 10 mm; the footprint lies in its middle.
     inside = result.response.dataset.isel(x=slice(10, -10), y=slice(10, -10)).strain_xx
     alone = tl.solve_response(result.footprint, result.road, depths=[0.0, 0.02]).dataset.strain_xx
     # The wavenumbers follow the extent of the points: a few digits less than the kernels' own accuracy.
     np.testing.assert_allclose(inside, alone, atol=1e-7 * float(np.abs(alone).max()))
-    assert "recorded footprint" in result.summary()
+    assert "Recorded footprint" in result.summary()
     tree = result.to_tree()
     assert float(tree["contact"].normal_load) == pytest.approx(350)
     assert "Kalker" not in tree.attrs["citations"]
@@ -324,7 +325,7 @@ def test_a_recorded_footprint_in_place_of_a_tire(tmp_path):
 
 
 def test_a_recorded_footprint_tells_what_was_read(tmp_path):
-    result = tl.run_case(footprint(tmp_path))
+    result = tl.run(footprint(tmp_path))
     told = "0.35 kN on 500 mm² (3 x 2 cells of 10 x 10 mm), peak pressure 700 kPa"
     how = "stress.csv: commas between cells, decimal points, pressure in kPa"
     assert told in result.summary()
@@ -355,7 +356,7 @@ def test_a_height_map_of_a_case_in_the_french_way(tmp_path):
     rest = COARSE_CASE[COARSE_CASE.index("[[pavement") :].replace("32.5 kN", "0.3 kN").replace("10 kN", "50 N")
     case = tl.Case.from_text(tire + material + rest, folder=tmp_path)
     assert tl.Case.from_text(case.to_toml(), folder=tmp_path) == case
-    result = tl.run_case(case)
+    result = tl.run(case)
     told = (
         "41 x 41 cells of 3 x 3 mm, gap up to 9 mm, no holes; read from map.csv: semicolons between cells, decimal "
     )
@@ -379,7 +380,7 @@ def test_a_height_map_of_a_case_in_the_french_way(tmp_path):
 
 @pytest.mark.slow
 def test_report_of_a_recorded_footprint(tmp_path):
-    tree = tl.run_case(footprint(tmp_path)).to_tree()
+    tree = tl.run(footprint(tmp_path)).to_tree()
     page = write_report({"sensor": tree}, tmp_path / "r.html").read_text(encoding="utf-8")
     for wanted in ("Recorded footprint", "stress.csv", "peak pressure", "EB-GB3", "Vertical section"):
         assert wanted in page

@@ -119,7 +119,7 @@ def test_a_wheel_tells_how_much_of_it_touches(contact):
     assert float(found.dataset.real_area) == pytest.approx(float(ratio.sum()) * contact.cell_area)
     assert float(found.dataset.contact_area) == pytest.approx(contact.area)
     assert 0 < float(found.dataset.real_area / found.dataset.contact_area) < 1
-    assert "mm² touch" in found.summary()
+    assert "real contact area" in found.summary()
 
 
 @pytest.mark.parametrize("length", [5e-3, 12e-3, 30e-3])

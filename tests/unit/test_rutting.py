@@ -7,19 +7,20 @@ import pytest
 from tests.cases import ONE_AXLE
 
 import treadload as tl
-from treadload.case import LifeCase
+from treadload.case import Case
 from treadload.damage import Climate, FrenchSubgrade, asphalt_rut
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
 from treadload.damage.rutting import Rutting
 from treadload.errors import InputError
 from treadload.grid import Grid
+from treadload.life import rutting, sensitivity
+from treadload.life.design import Design
+from treadload.life.rutting import rut_fields
+from treadload.life.wheels import Wheels
 from treadload.plots.life import life_years
 from treadload.plots.ruts import life_rut
 from treadload.response import GridLoad, solve_response
-from treadload.study import rutting, sensitivity
-from treadload.study.rutting import rut_fields
-from treadload.study.wheels import Wheels
 
 CASE = ONE_AXLE.replace("temperature = 15", "temperature = 30") + (
     '[rutting]\nlimit = "10 mm"\n[[criteria]]\nname = "soil"\nlaw = "french-subgrade"\n'
@@ -39,15 +40,20 @@ def test_the_curve_of_soil_runs_between_its_two_ratios():
 
 @pytest.fixture(scope="module")
 def asked():
-    case = LifeCase.from_text(CASE)
+    case = Case.from_text(CASE)
     grid = Grid.centred(0.2, 0.2, 0.02)
     wheels = Wheels((GridLoad(grid, np.full(grid.shape, 0.7e6)),), grid.x[None], None, "one", 0.0)
     return case.build_road(), case.build_traffic(), case.build_climate(), wheels
 
 
+def rut_of(road, traffic, climate, wheels, rutting, tolerance=5e-3):
+    soil = Criterion("soil", FrenchSubgrade(), -1)
+    return rut_fields(Design(None, road, traffic, climate, [soil], tolerance=tolerance), rutting, wheels)
+
+
 def test_the_asphalt_ruts_as_one_load_does_and_with_the_power_of_the_years(asked):
     road, traffic, climate, wheels = asked
-    data, said = rut_fields(road, traffic, climate, [wheels], Rutting())
+    data, said = rut_of(road, traffic, climate, [wheels], Rutting())
     years = data["rut_depth"].sel(year=[5.0, 20.0]).to_numpy()
     np.testing.assert_allclose(years[:2, 1] / years[:2, 0], 4**0.4791, rtol=1e-9)
     warm = road.at_temperature(30.0)
@@ -64,13 +70,13 @@ def test_what_is_divided_adds_up_to_the_whole(asked):
     road, traffic, _, wheels = asked
     half = replace(traffic.classes[0], share=0.5)
     two = replace(traffic, classes=(half, replace(half, name="other")))
-    whole, _ = rut_fields(road, traffic, Climate.equal_parts([30.0]), [wheels], Rutting())
-    parts, _ = rut_fields(road, two, Climate.equal_parts([30.0, 30.0]), [wheels, wheels], Rutting())
+    whole, _ = rut_of(road, traffic, Climate.equal_parts([30.0]), [wheels], Rutting())
+    parts, _ = rut_of(road, two, Climate.equal_parts([30.0, 30.0]), [wheels, wheels], Rutting())
     np.testing.assert_allclose(parts["rut_depth"], whole["rut_depth"], rtol=1e-12)
     # A hot summer ruts more than its mean temperature.
-    hot, _ = rut_fields(road, traffic, Climate.equal_parts([20.0, 40.0]), [wheels], Rutting())
+    hot, _ = rut_of(road, traffic, Climate.equal_parts([20.0, 40.0]), [wheels], Rutting())
     assert float(hot["rut_depth"][0, -1]) > 1.1 * float(whole["rut_depth"][0, -1])
-    cold = rut_fields(road, traffic, Climate.equal_parts([-5.0, 30.0]), [wheels], Rutting())[1]
+    cold = rut_of(road, traffic, Climate.equal_parts([-5.0, 30.0]), [wheels], Rutting())[1]
     assert any("below 5 °C counts as if at 5 °C" in text for text in cold)
 
 
@@ -87,9 +93,9 @@ def test_few_roads_of_a_climate_give_the_rut_of_all(asked, monkeypatch):
         return solve(*asked)
 
     monkeypatch.setattr(rutting, "_compression", counted)
-    all_of_them, _ = rut_fields(road, two, year, [wheels, wheels], Rutting(), tolerance=0.0)
+    all_of_them, _ = rut_of(road, two, year, [wheels, wheels], Rutting(), tolerance=0.0)
     assert len(solved) == 26
-    few, _ = rut_fields(road, two, year, [wheels, wheels], Rutting())
+    few, _ = rut_of(road, two, year, [wheels, wheels], Rutting())
     assert len(solved) - 26 <= 20
     # Measured: 0.3 %.
     total = all_of_them["rut_depth"].sum("rut_layer")
@@ -98,11 +104,11 @@ def test_few_roads_of_a_climate_give_the_rut_of_all(asked, monkeypatch):
 
 def test_the_limit_is_reached_when_the_curve_meets_it(asked):
     road, traffic, climate, wheels = asked
-    free, _ = rut_fields(road, traffic, climate, [wheels], Rutting())
+    free, _ = rut_of(road, traffic, climate, [wheels], Rutting())
     at_seven = float(free["rut_depth"].sel(year=7.0).sum())
-    data, _ = rut_fields(road, traffic, climate, [wheels], Rutting(limit=at_seven))
+    data, _ = rut_of(road, traffic, climate, [wheels], Rutting(limit=at_seven))
     assert data.attrs["rut_years"] == pytest.approx(7.0, rel=1e-5)
-    assert rut_fields(road, traffic, climate, [wheels], Rutting(limit=0.19))[0].attrs["rut_years"] > 100
+    assert rut_of(road, traffic, climate, [wheels], Rutting(limit=0.19))[0].attrs["rut_years"] > 100
     figure = life_rut(data)
     assert len(figure.axes[0].collections) == 3
     # The legend stands below, not on the line of the limit.
@@ -116,10 +122,10 @@ def test_the_limit_is_reached_when_the_curve_meets_it(asked):
 def test_a_rut_governs_a_life_as_a_criterion_does(asked, years, first):
     """What ends the road first is its answer, in what asks for it and in what cannot ask the rut."""
     road, traffic, climate, wheels = asked
-    free, _ = rut_fields(road, traffic, climate, [wheels], Rutting())
+    free, _ = rut_of(road, traffic, climate, [wheels], Rutting())
     total = free["rut_depth"].sum("rut_layer")
     limit = float(total.interp(year=12.0)) if years == 12.0 else 0.19
-    data, _ = rut_fields(road, traffic, climate, [wheels], Rutting(limit=limit))
+    data, _ = rut_of(road, traffic, climate, [wheels], Rutting(limit=limit))
     soil = Criterion("soil", FrenchSubgrade(), -1)
     at = soil.law.allowable_strain(traffic.passes(40.0))
     values = np.zeros((1, 1, 1, 3))
@@ -146,15 +152,15 @@ def test_a_rut_governs_a_life_as_a_criterion_does(asked, years, first):
 
 @pytest.mark.slow
 def test_a_case_tells_its_rut_and_a_file_keeps_it(tmp_path):
-    result = tl.run_life(LifeCase.from_text(CASE), sensitivity=False)
+    result = tl.run(Case.from_text(CASE), leave_out=("sensitivity",))
     said = result.summary()
-    assert "Verdict: the rut governs" in said
-    assert "the limit of 10 mm is reached after" in said
+    assert "the rut governs" in said
+    assert "rut of 10 mm reached after" in said
     opened = tl.open_results(tl.save_results(result, tmp_path / "r.nc"))
     assert opened.life.summary() == result.life.summary()
     page = tl.report(opened, tmp_path / "r.html").read_text()
-    assert "the limit of 10 mm is reached after" in page
-    assert "the rut governs and ends the road" in page
+    assert "rut of 10 mm reached after" in page
+    assert "the rut governs and ends the service life" in page
     assert "could not be drawn" not in page
 
 

@@ -5,7 +5,7 @@ import pytest
 
 import treadload as tl
 from cases import ONE_AXLE
-from treadload.case import LifeCase
+from treadload.case import Case
 from treadload.damage import Criterion, FatigueLine, FrenchSubgrade, MepdgTopDown, PowerLine, VonMisesStrain
 from treadload.errors import InputError
 
@@ -41,7 +41,7 @@ search_to = "1 mm"
 @pytest.mark.slow
 def test_a_life_reads_the_largest_down_to_a_depth_and_says_where():
     """Shear between the vertical and the horizontal grows with depth below a free rolling tire."""
-    life = tl.study.run_life(LifeCase.from_text(ONE_AXLE + SHEARED), sensitivity=False).life
+    life = tl.run(Case.from_text(ONE_AXLE + SHEARED), leave_out=("sensitivity",)).life
     data = life.dataset
     depth = data.read_depth.to_numpy()
     assert depth[0] == 0.0
@@ -50,7 +50,7 @@ def test_a_life_reads_the_largest_down_to_a_depth_and_says_where():
     assert deep > 1.2 * top
     # The cubes of both depths are one: from the surface down.
     assert near == pytest.approx(top, rel=1e-9)
-    assert "search_to" in LifeCase.from_text(ONE_AXLE + SHEARED).to_toml()
+    assert "search_to" in Case.from_text(ONE_AXLE + SHEARED).to_toml()
 
 
 def test_its_reading_is_that_of_a_criterion_at_the_depth_that_it_names():

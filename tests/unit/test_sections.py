@@ -8,7 +8,7 @@ import treadload as tl
 from sweeps import same, small_case
 from treadload.cli import app
 from treadload.errors import InputError
-from treadload.study.sweeps import Design, from_file, plan_sweep, table_of
+from treadload.sweeps import Design, from_file, plan_sweep, table_of
 
 SECTIONS = """Section;km;modulus [GPa];poisson
 A12;0,5;5,4;0,35

@@ -1,27 +1,29 @@
 """Elasticities of a life: those that closed forms know, and what was solved for them."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, Traffic, Wander
 from treadload.errors import InputError
+from treadload.life import life_sensitivity, solve_life
+from treadload.life.design import Design
+from treadload.life.sensitivity import TEMPERATURE
 from treadload.materials import Prony
 from treadload.pavement import Layer, Pavement
-from treadload.study import life_sensitivity, solve_life
-from treadload.study.sensitivity import TEMPERATURE
 from treadload.tire import Tire
 
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
 ROAD = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
 BASE = Criterion("base", FatigueLine(90e-6, -0.2), 1)
-COARSE = {"spacing": 12e-3, "workers": 1}
+COARSE = {"spacing": 12e-3}
 LIGHT, HEAVY = AxleClass("light", 0.6, 15e3, 700e3), AxleClass("heavy", 0.4, 32.5e3, 850e3)
 
 
 def elasticities(traffic, climate, road=ROAD, criteria=(BASE,), **asked):
-    life = solve_life(TIRE, road, traffic, climate, criteria, **COARSE)
-    found = life_sensitivity(TIRE, road, life, **COARSE, **asked)
+    design = Design(TIRE, road, traffic, climate, criteria, **COARSE)
+    found = life_sensitivity(replace(design, contacts=None), solve_life(design, workers=1), workers=1, **asked)
     return found, dict(zip(found.dataset["input"].to_numpy(), found.dataset["elasticity"].to_numpy(), strict=True))
 
 
@@ -71,8 +73,9 @@ def test_only_what_does_the_damage_is_solved_again(plain):
 def test_growth_shortens_what_an_input_gains():
     """d ln(years) / d ln(passes) = (1 - (1+t)^-n) / (n ln(1+t)) of a geometric growth t over n years."""
     traffic = Traffic((AxleClass("heavy", 1.0, 32.5e3, 850e3),), 1e5, growth=0.05, wander=Wander.normal(0.2))
-    life = solve_life(TIRE, ROAD, traffic, Climate.constant(15.0), (BASE,), **COARSE)
-    found = life_sensitivity(TIRE, ROAD, life, **COARSE).dataset["elasticity"]
+    design = Design(TIRE, ROAD, traffic, Climate.constant(15.0), (BASE,), **COARSE)
+    life = solve_life(design, workers=1)
+    found = life_sensitivity(design, life, workers=1).dataset["elasticity"]
     years = life.years("base")
     expected = (1 - 1.05**-years) / (years * math.log(1.05))
     # A central difference of 5 % errs by its square.
@@ -92,9 +95,10 @@ def test_what_cannot_be_changed_is_said():
 
 
 def test_a_life_without_end_has_no_sensitivity():
-    life = solve_life(TIRE, ROAD, Traffic((AxleClass("one", 1.0, 32.5e3, 850e3),), 0.0),
-                       Climate.constant(15.0), (BASE,), **COARSE)  # fmt: skip
+    traffic = Traffic((AxleClass("one", 1.0, 32.5e3, 850e3),), 0.0)
+    design = Design(TIRE, ROAD, traffic, Climate.constant(15.0), (BASE,), **COARSE)
+    life = solve_life(design, workers=1)
     with pytest.raises(InputError, match="ever fails"):
-        life_sensitivity(TIRE, ROAD, life, **COARSE)
+        life_sensitivity(design, life)
     with pytest.raises(InputError, match="coverage"):
-        life_sensitivity(TIRE, ROAD, life, coverage=0.0)
+        life_sensitivity(design, life, coverage=0.0)

@@ -15,17 +15,18 @@ from treadload.damage.indices import tearing_work
 from treadload.damage.quantity import STRAIN, STRESS
 from treadload.grid import Grid
 from treadload.kernels.gridding.points import Points
+from treadload.life import surface_works
+from treadload.life.contacts import Contacts, Counter
+from treadload.life.design import Design
+from treadload.life.passage import Passing, batches, passages
+from treadload.life.seasons import Warm
+from treadload.life.wheels import Wheels, state
 from treadload.materials import Elastic, Mix, Prony
 from treadload.pavement import HALF_BONDED, Layer, Pavement
 from treadload.response import GridLoad, UniformDisc, several, solve_response
 from treadload.response import layered as layered_module
 from treadload.response.layered import View
 from treadload.response.several import Question, tensors_of_many
-from treadload.study import surface_works
-from treadload.study.contacts import Contacts, Counter
-from treadload.study.passage import Passing, batches, passages
-from treadload.study.seasons import Warm
-from treadload.study.wheels import Wheels, state
 from treadload.tire import Tire, TreadProfile
 
 X, Y = np.linspace(-0.1, 0.13, 5), np.linspace(-0.09, 0.08, 3)
@@ -168,10 +169,10 @@ def test_tearing_is_worked_out_once_for_all_seasons(monkeypatch):
     mix = Mix("mix", (0.0, 30.0), (10.0,), ((9e9, 1e9),), 0.35)
     warm = Pavement([Layer(mix, 0.1), Layer(Elastic(1e8, 0.4))])
     monkeypatch.setattr(surface_works, "tearing_work", lambda *one: calls.append(1) or tearing_work(*one))
-    found = surface_works.surface_works(
-        tire, warm, Traffic((row,), 1e6), Climate.equal_parts([5.0, 25.0]),
-        SimpleNamespace(known={state(row): SimpleNamespace(dataset=contact)}),
-    )  # fmt: skip
+    year = Climate.equal_parts([5.0, 25.0])
+    design = Design(tire, warm, Traffic((row,), 1e6), year, [Criterion("soil", FrenchSubgrade(), -1)])
+    design.contacts.solved[state(row)] = SimpleNamespace(dataset=contact)
+    found = surface_works.surface_works(design)
     moduli = [warm.at_temperature(t).layers[0].resolved.shear_modulus for t in (5.0, 25.0)]
     expected = [[float(tearing_work(contact, one).max()) for one in moduli]]
     np.testing.assert_allclose(found["largest_tearing_work"][1], expected, rtol=1e-14)
@@ -224,7 +225,7 @@ def test_passages_together_are_those_alone(tasks):
 def test_what_stands_on_the_same_cells_goes_together_road_by_road(tasks, monkeypatch):
     assert batches(tasks) == [[0, 2, 1, 3], [4, 5]]
     # However much is asked, fields stay small.
-    monkeypatch.setattr("treadload.study.passage._TOGETHER", 1)
+    monkeypatch.setattr("treadload.life.passage._TOGETHER", 1)
     assert batches(tasks) == [[0], [2], [1], [3], [4], [5]]
     slow = Passing(wheels(), Warm(Pavement([Layer(Prony(9e9, [(0.3, 0.05)], 0.35))]), CRITERIA[:1]), ACROSS, 3)
     assert batches([tasks[0], slow]) == [[0], [1]]
@@ -244,12 +245,12 @@ def test_near_contacts_start_from_each_other_and_come_to_the_same():
         shared.solve([light, heavy], **asked, pool=pool, count=count)
         cold.solve([heavy], **asked, pool=pool, count=Counter(1, None))
     assert said == [(1, 2, "contact"), (2, 2, "contact")]
-    warm, alone = shared.known[heavy].dataset["pressure"], cold.known[heavy].dataset["pressure"]
-    assert shared.known[heavy].stats["normal_iterations"] <= cold.known[heavy].stats["normal_iterations"]
+    warm, alone = shared.solved[heavy].dataset["pressure"], cold.solved[heavy].dataset["pressure"]
+    assert shared.solved[heavy].stats["normal_iterations"] <= cold.solved[heavy].stats["normal_iterations"]
     # Both hold the contact conditions within 3e-5 of the approach.
     warm = warm.sel(x=alone["x"], y=alone["y"], method="nearest", tolerance=1e-6)
     np.testing.assert_allclose(warm, alone, rtol=0, atol=1e-4 * float(alone.max()))
-    assert math.isclose(float(shared.known[heavy].dataset["normal_load"]), 21e3, rel_tol=1e-9)
+    assert math.isclose(float(shared.solved[heavy].dataset["normal_load"]), 21e3, rel_tol=1e-9)
 
 
 def test_other_maneuvers_begin_at_the_pressure_under_the_same_load_and_come_to_the_same():
@@ -261,7 +262,7 @@ def test_other_maneuvers_begin_at_the_pressure_under_the_same_load_and_come_to_t
         shared, cold = Contacts(tire, 10e-3), Contacts(tire, 10e-3)
         shared.solve([straight, braked], **asked, pool=pool, count=Counter(2, None))
         cold.solve([braked], **asked, pool=pool, count=Counter(1, None))
-    warm, alone = shared.known[braked], cold.known[braked]
+    warm, alone = shared.solved[braked], cold.solved[braked]
     assert warm.stats["normal_iterations"] < alone.stats["normal_iterations"]
     # The shear begins on half the grid, not with that of a free wheel.
     assert warm.stats["newton_iterations"] <= alone.stats["newton_iterations"]

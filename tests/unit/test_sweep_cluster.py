@@ -12,8 +12,7 @@ import pytest
 import treadload as tl
 from sweeps import same, small_case
 from treadload.errors import InputError
-from treadload.study import open_sweep
-from treadload.study.sweeps import SchedulerLost
+from treadload.sweeps import SchedulerLost, open_sweep
 
 pytest.importorskip("distributed")
 pytest.importorskip("zarr")
@@ -107,7 +106,7 @@ def test_a_local_cluster_gives_the_same(tmp_path):
 
 @pytest.mark.slow
 def test_nobody_at_an_address(tmp_path, monkeypatch):
-    from treadload.study.sweeps import cluster
+    from treadload.sweeps import cluster
 
     monkeypatch.setattr(cluster, "_REACH", 2)
     with pytest.raises(InputError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
@@ -137,7 +136,6 @@ if __name__ == "__main__":
     # That of shells, 128 and the number of the signal.
     assert done.returncode == 130
     # Where the machine is slow progress is told before it.
-    assert [line for line in done.stderr.splitlines() if " s  " not in line] == [
-        "error: interrupted; 0 of 5 cases are kept in case.zarr; the same command goes on from there"
-    ]
-    assert tl.study.open_sweep(tmp_path / "case.zarr").stats["unsolved"] == 5
+    ours = [line for line in done.stderr.splitlines() if " s  " not in line]
+    assert ours == ["error: interrupted; 0 of 5 cases are kept in case.zarr; the same command goes on from there"]
+    assert tl.sweeps.open_sweep(tmp_path / "case.zarr").stats["unsolved"] == 5

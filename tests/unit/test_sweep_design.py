@@ -10,8 +10,8 @@ from sweeps import small_case
 from treadload.case.first import first_case
 from treadload.case.keys import find_key, keys_of
 from treadload.errors import InputError
-from treadload.study.sweeps import Design, bounds_of, from_file, from_texts, sampled
-from treadload.study.sweeps.design import from_dataset, listed, product
+from treadload.sweeps import Design, bounds_of, from_file, from_texts, sampled
+from treadload.sweeps.design import from_dataset, listed, product
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,7 @@ def case():
 
 @pytest.fixture(scope="module")
 def design_case():
-    return tl.LifeCase.from_text(first_case("life"))
+    return tl.Case.from_text(first_case("life"))
 
 
 def test_a_name_means_the_one_key_that_ends_in_it(case, design_case):
@@ -54,7 +54,7 @@ def test_a_product_in_si_units_however_they_are_spelt(case):
     assert friction.is_number
     # The last dimension runs fastest.
     assert spelt.at(1) == {"rolling.normal_load": 20e3, "rolling.friction": 0.5}
-    assert spelt.said(5) == "normal_load 40000 N, friction 0.5"
+    assert spelt.words_of(5) == "normal_load 40000 N, friction 0.5"
     coordinates = spelt.coordinates()["normal_load"]
     assert coordinates[2] == {"key": "rolling.normal_load", "units": "N", "long_name": "normal load"}
 

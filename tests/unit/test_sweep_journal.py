@@ -8,11 +8,11 @@ import pytest
 
 import treadload as tl
 from sweeps import same, small_case
-from treadload.study import open_sweep
-from treadload.study.sweeps import parts
-from treadload.study.sweeps.arrays import keep_fields
-from treadload.study.sweeps.journal import line_of, read_journal
-from treadload.study.sweeps.record import Record
+from treadload.steps import scene
+from treadload.sweeps import open_sweep
+from treadload.sweeps.arrays import keep_fields
+from treadload.sweeps.journal import line_of, read_journal
+from treadload.sweeps.record import Record
 
 pytest.importorskip("zarr")
 VARY = {"modulus": [1e9, 2e9, 4e9], "poisson": [0.25, 0.35]}
@@ -115,15 +115,15 @@ def test_a_journal_without_checksums_is_read(solved, tmp_path):
 def test_fields_are_put_together_when_a_case_fails_too(tmp_path, monkeypatch):
     case, path = small_case(tmp_path), tmp_path / "study.zarr"
     memory = tl.sweep(case, VARY, fields=FIELDS)
-    original = parts.load_case
+    original = scene.load_case
 
     def fails(question, *args, **more):
-        if question.given()["pavement"]["layers"][0]["material"]["modulus"] == 2e9:
+        if question.as_tables()["pavement"]["layers"][0]["material"]["modulus"] == 2e9:
             raise MemoryError
         return original(question, *args, **more)
 
     with monkeypatch.context() as patch:
-        patch.setattr(parts, "load_case", fails)
+        patch.setattr(scene, "load_case", fails)
         study = tl.sweep(case, VARY, fields=FIELDS, store=path)
     assert study.stats["failed"] == 2
     assert not (path / ".fields").exists()

@@ -19,10 +19,9 @@ from cases import BASE_AND_SOIL, ONE_AXLE
 from sweeps import same, small_case
 from treadload.errors import InputError
 from treadload.results import to_tree
-from treadload.study import open_sweep
-from treadload.study.run_life import run_life
-from treadload.study.sweeps import places
-from treadload.study.sweeps import store as stores
+from treadload.steps import run
+from treadload.sweeps import open_sweep, places
+from treadload.sweeps import store as stores
 
 zarr = pytest.importorskip("zarr")
 VARY = {"modulus": [1e9, 2e9, 4e9], "poisson": [0.25, 0.35]}
@@ -57,13 +56,13 @@ def test_a_store_holds_what_memory_does_and_opens_with_xarray(tmp_path):
 def test_a_study_of_lives_is_kept_with_its_texts(tmp_path):
     """What fails first is a text of every case, in a store as in memory; a run of a case alone says the same."""
     both = ONE_AXLE + BASE_AND_SOIL
-    case, path = tl.LifeCase.from_text(both), tmp_path / "lives.zarr"
+    case, path = tl.Case.from_text(both), tmp_path / "lives.zarr"
     vary = {"axle_load": ["60 kN", "130 kN"], "traffic.classes.0.inflation_pressure": ["7 bar", "9 bar"]}
     kept = tl.sweep(case, vary, store=path).dataset
     memory = tl.sweep(case, vary).dataset
     assert same(kept, memory)
     assert set(kept["governing"].to_numpy().ravel().tolist()) <= {"base", "soil"}
-    alone = run_life(tl.LifeCase.from_text(both.replace("100 kN", "60 kN").replace("8 bar", "9 bar"))).life
+    alone = run(tl.Case.from_text(both.replace("100 kN", "60 kN").replace("8 bar", "9 bar"))).life
     here = xr.open_zarr(path, chunks=None).isel({"axle_load": 0, "traffic.classes.0.inflation_pressure": 1})
     assert str(here["governing"].to_numpy()) == alone.governing
     assert float(here["governing_years"]) == pytest.approx(alone.years(alone.governing), rel=1e-9)
@@ -112,17 +111,17 @@ def test_an_array_that_was_being_made_when_its_process_was_stopped_is_made_again
 
 def test_what_failed_is_tried_again(tmp_path, monkeypatch):
     case, path = small_case(tmp_path), tmp_path / "study.zarr"
-    from treadload.study.sweeps import parts
+    from treadload.steps import scene
 
-    original = parts.load_case
+    original = scene.load_case
     with monkeypatch.context() as patch:
 
         def fails(one, *args, **more):
-            if one.given()["pavement"]["layers"][0]["material"]["modulus"] == 2e9:
+            if one.as_tables()["pavement"]["layers"][0]["material"]["modulus"] == 2e9:
                 raise MemoryError
             return original(one, *args, **more)
 
-        patch.setattr(parts, "load_case", fails)
+        patch.setattr(scene, "load_case", fails)
         study = tl.sweep(case, VARY, store=path)
         assert study.stats["failed"] == 2
         assert "out of memory" in study.failures[0][1]
@@ -229,7 +228,7 @@ def test_a_process_that_dies_takes_only_its_case(tmp_path):
 import os, signal, sys
 sys.path.insert(0, {str(HERE)!r})
 import treadload as tl
-from treadload.study.sweeps import work
+from treadload.sweeps import work
 
 solve = work.Worker.solve
 def killed(self, number, values):
@@ -264,7 +263,7 @@ def test_a_script_without_a_guard_is_told_so(tmp_path, more):
 DYING = """
 import os, pathlib, signal, sys
 import treadload as tl
-from treadload.study.sweeps import places
+from treadload.sweeps import places
 
 serve = places._serve
 def dying(pipe, question):

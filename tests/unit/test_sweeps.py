@@ -7,9 +7,9 @@ import xarray as xr
 import treadload as tl
 from sweeps import same, small_case
 from treadload.errors import InputError
-from treadload.study.sweeps.asked import asked_for, attributes
-from treadload.study.sweeps.sweep import _anchor
-from treadload.study.sweeps.work import Question, Worker
+from treadload.sweeps.selection import attributes, selectors_for
+from treadload.sweeps.sweep import _anchor
+from treadload.sweeps.work import Question, Worker
 
 TIRE = """
 spacing = "16 mm"
@@ -40,8 +40,10 @@ def rolled(tire_case):
 
 
 def test_every_number_is_that_of_the_case_run_alone(tire_case, rolled):
-    case = tire_case.from_dict({**tire_case.given(), "rolling": {**tire_case.given()["rolling"], "friction": 0.5}})
-    alone = tl.run_case(case)
+    case = tire_case.from_dict(
+        {**tire_case.as_tables(), "rolling": {**tire_case.as_tables()["rolling"], "friction": 0.5}}
+    )
+    alone = tl.run(case)
     here = rolled.dataset.sel(friction=0.5, normal_load=30e3)
     # A study starts its contacts near each other: equal to the solver's tolerance, of 1e-6 of μp and of the approach.
     assert float(here["tractive_force"]) == pytest.approx(float(alone.contact.dataset["tractive_force"]), rel=1e-5)
@@ -60,7 +62,7 @@ def test_every_number_is_that_of_the_case_run_alone(tire_case, rolled):
 def test_sections_keep_their_own_depths(tmp_path):
     case = small_case(tmp_path)
     study = tl.sweep(case, {"modulus": [2e9, 5.4e9]}, fields=["slice_along.strain_xx", "extension_by_depth"])
-    alone = tl.run_case(case).slice_along.dataset["strain_xx"]
+    alone = tl.run(case).slice_along.dataset["strain_xx"]
     kept = study.dataset["slice_along.strain_xx"].sel(modulus=5.4e9)
     assert kept.dims == ("slice_along_depth", "slice_along_x")
     assert kept.sizes["slice_along_depth"] == alone.sizes["depth"] > study.dataset.sizes["depth"] == 2
@@ -86,7 +88,7 @@ def test_inputs_are_coordinates_with_units(rolled):
         "key": "rolling.normal_load", "units": "N", "long_name": "normal load",
     }  # fmt: skip
     assert rolled.stats["solved"] == 6
-    assert rolled.summary().splitlines()[1] == "varied    rolling.friction: 0.3 to 0.7, 3 values"
+    assert rolled.rows()[0].sentence == "rolling.friction: 0.3 to 0.7, 3 values"
 
 
 def test_the_order_of_cases_and_the_place_do_not_matter(tire_case, rolled):
@@ -96,7 +98,7 @@ def test_the_order_of_cases_and_the_place_do_not_matter(tire_case, rolled):
     design = rolled.design
     anchor = _anchor(tire_case, design)
     assert anchor == {"rolling.friction": 0.3}
-    question = Question("Case", tire_case.given(), tire_case.folder, anchor=anchor)
+    question = Question(tire_case.as_tables(), tire_case.folder, anchor=anchor)
     for number in (5, 0, 2):
         record = Worker(question).solve(number, design.at(number))
         at = rolled.dataset.isel(friction=number // 2, normal_load=number % 2)
@@ -104,7 +106,7 @@ def test_the_order_of_cases_and_the_place_do_not_matter(tire_case, rolled):
 
 
 def test_cases_that_differ_behind_the_contact_share_it(tire_case, monkeypatch):
-    from treadload.study.sweeps import work
+    from treadload.sweeps import work
 
     solved = []
     original = work.contact_of
@@ -112,16 +114,16 @@ def test_cases_that_differ_behind_the_contact_share_it(tire_case, monkeypatch):
     tl.sweep(tire_case, {"response.wheels": [[{"y": 0.0}], [{"y": 0.16}], [{"y": 0.32}]]})
     assert len(solved) == 1
     # A crossing comes beside the plain wheel, and solves its own contacts.
-    case = tire_case.from_dict({**tire_case.given(), "crossing": {"step": {"rise": 2e-3}}})
-    worker = Worker(Question("Case", case.given(), case.folder))
+    case = tire_case.from_dict({**tire_case.as_tables(), "crossing": {"step": {"rise": 2e-3}}})
+    worker = Worker(Question(case.as_tables(), case.folder))
     low, high = (worker._parts({"crossing.step.rise": rise}) for rise in (2e-3, 3e-3))
-    assert low.load.contact is high.load.contact
+    assert low.scene.loaded.contact is high.scene.loaded.contact
     assert len(solved) == 2
 
 
 def test_a_tire_is_read_once_whatever_inflates_it(tire_case, monkeypatch):
     from treadload.case.model import Case
-    from treadload.study.sweeps import work
+    from treadload.sweeps import work
 
     read, used = [], []
     build, solve = Case.build_tire, work.contact_of
@@ -151,10 +153,10 @@ def test_what_fails_is_kept_and_the_others_go_on(tmp_path):
 
 
 def test_a_bug_in_one_case_does_not_end_a_study(tmp_path, monkeypatch):
-    from treadload.study.sweeps import parts
+    from treadload.steps import scene
 
     case, calls = small_case(tmp_path), []
-    original = parts.load_case
+    original = scene.load_case
 
     def broken(*args, **more):
         calls.append(1)
@@ -162,7 +164,7 @@ def test_a_bug_in_one_case_does_not_end_a_study(tmp_path, monkeypatch):
             raise ZeroDivisionError("nobody foresaw this")
         return original(*args, **more)
 
-    monkeypatch.setattr(parts, "load_case", broken)
+    monkeypatch.setattr(scene, "load_case", broken)
     study = tl.sweep(case, {"poisson": [0.2, 0.3, 0.4]})
     assert study.failures == ((1, "ZeroDivisionError: nobody foresaw this"),)
 
@@ -197,7 +199,7 @@ def test_a_field_that_a_case_lacks_is_told_with_those_it_has(tmp_path):
 
 
 def test_labels_and_their_attributes(tire_case):
-    one = asked_for(["mean(stress_xx)", "max(response.stress_xx)", "bowl.displacement_z"], tire_case)
+    one = selectors_for(["mean(stress_xx)", "max(response.stress_xx)", "bowl.displacement_z"], tire_case)
     assert [part.label for part in one] == ["mean_of_stress_xx", "max_stress_xx", "bowl.displacement_z"]
     assert attributes("mean_of_stress_xx")["units"] == "Pa"
     assert attributes("mean_stress")["long_name"] == "mean stress, tension positive"
@@ -221,8 +223,8 @@ def test_wrong_questions(tmp_path, vary, more, said):
 def test_a_calibration_is_no_question_to_vary():
     from treadload.case.first import first_case
 
-    with pytest.raises(InputError, match="no question to vary"):
-        tl.sweep(tl.case.CalibrationCase.from_text(first_case("calibrate")), {"friction": [0.5]})
+    with pytest.raises(InputError, match=r"\[calibration\], of which no numbers are kept"):
+        tl.sweep(tl.case.Case.from_text(first_case("calibrate")), {"friction": [0.5]})
 
 
 def test_a_dataset_of_cases_keeps_its_dimensions(tmp_path):

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from treadload.kernels.half_space.bilinear import bilinear_on_grid
+from bilinear_loads import bilinear_on_grid
 from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.layers import synthesis
 from treadload.kernels.layers.layered import Stack, transfer
@@ -107,7 +107,7 @@ def test_panels_of_a_rule_converge():
     exact = solved([cells()], LAYERS)
     errors = []
     for fewer in (5, 3, 1):
-        few = replace(FULL, some=FULL.some - fewer)
+        few = replace(FULL, usual_points=FULL.usual_points - fewer)
         error = np.abs(solved([cells()], LAYERS, accuracy=few) - exact)[:, :6].max()
         errors.append(float(error / np.abs(exact[:, :6]).max()))
     # Each point takes a factor of 2.5² = 6; 3 is asserted.

@@ -34,9 +34,9 @@ thickness = "15 mm"
 def test_a_case_on_texture_runs_is_saved_and_opens_again(tmp_path):
     case = Case.from_text(COARSE_CASE + SPECTRUM)
     assert Case.from_text(case.to_toml()) == case
-    result = tl.run_case(case)
+    result = tl.run(case)
     assert result.texture is not None
-    assert "mm² touch" in result.summary()
+    assert "real contact area" in result.summary()
     path = tl.save_results(result, tmp_path / "r.nc")
     opened = tl.open_results(path)
     np.testing.assert_array_equal(opened["texture"].dataset.pressure, result.texture.dataset.pressure)
@@ -53,8 +53,8 @@ def test_a_measured_profile_is_treated_and_touched():
     # Chip seal: some millimetres between its stones.
     assert 1e-3 < np.ptp(texture.heights) < 15e-3
 
-    assert "case.texture" not in tl.study.case_as_python(Case.from_text(COARSE_CASE + SPECTRUM))
-    assert "'texture'" in tl.study.case_as_python(Case.from_text(COARSE_CASE + SPECTRUM))
+    assert "case.texture" not in tl.steps.case_as_python(Case.from_text(COARSE_CASE + SPECTRUM))
+    assert "'texture'" in tl.steps.case_as_python(Case.from_text(COARSE_CASE + SPECTRUM))
 
 
 RESOLVED = """
@@ -73,7 +73,7 @@ def test_the_whole_tire_rolls_on_a_resolved_texture():
     """As `solve_contact(relief=...)` has it; its load is met, and its peaks stand above those of the plane."""
     case = Case.from_text(COARSE_CASE + RESOLVED)
     assert Case.from_text(case.to_toml()) == case
-    result = tl.run_case(case)
+    result = tl.run(case)
     road, relief = case.build_road(), case.texture.build(None)
     same = tl.solve_contact(case.build_tire(), road, case.build_rolling(), spacing=12e-3, relief=relief)
     np.testing.assert_array_equal(result.contact.dataset.pressure, same.dataset.pressure)
@@ -81,13 +81,13 @@ def test_the_whole_tire_rolls_on_a_resolved_texture():
     assert result.texture is None
     plain = tl.solve_contact(case.build_tire(), road, case.build_rolling(), spacing=12e-3).dataset
     assert float(same.dataset.pressure.max()) > 1.1 * float(plain.pressure.max())
-    assert "under the whole tire" in tl.study.plan_case(case)
+    assert "under the whole tire" in tl.plan(case)
 
 
 @pytest.mark.slow
 def test_the_layers_feel_the_enveloped_pressure(tmp_path):
     case = Case.from_text(COARSE_CASE + RESOLVED + 'enveloping = "60 mm"\n')
-    result = tl.run_case(case)
+    result = tl.run(case)
     spread = tl.contact.envelop(result.contact, 0.06)
     np.testing.assert_array_equal(result.enveloped.dataset.pressure, spread.dataset.pressure)
     # The response is under the spread pressure: straight below the wheel the surface bears it.

@@ -17,12 +17,12 @@ from treadload.damage.quantities import TENSION
 from treadload.damage.thermal import DAYS, DailyCycles, Thermal, passes_until, years_until
 from treadload.errors import InputError
 from treadload.kernels.thermal import periodic_stress, restrained_stress
+from treadload.life import sensitivity
+from treadload.life.sensitivity import _slopes
+from treadload.life.thermal import daily_cycles, daily_stress, day_tension
 from treadload.materials import Arrhenius, Prony, Thermorheological
 from treadload.materials.relaxing import relaxation_of
 from treadload.pavement import TemperatureProfile
-from treadload.study import sensitivity
-from treadload.study.sensitivity import _slopes
-from treadload.study.thermal import daily_cycles, daily_stress, day_tension
 
 ALPHA, NU = 2e-5, 0.3
 HOURS = np.arange(24.0)
@@ -272,7 +272,8 @@ def test_what_the_weathers_part_of_a_life_depends_on(monkeypatch):
     life = miner(
         values, [TOP], TRAFFIC, cold, y=np.array([-0.1, 0, 0.1]), layer_temperatures=np.array([[5.0]]), weather=found
     )
-    told = sensitivity.life_sensitivity(None, road(), life, contacts=object()).dataset["elasticity"]
+    design = tl.Design(None, road(), TRAFFIC, cold, [TOP])
+    told = sensitivity.life_sensitivity(design, life).dataset["elasticity"]
     weather = float(found.yearly[0])
     busy = weather * float(life.dataset["damage_share"].sum()) / float(life.dataset["weather_share"].sum())
     by_traffic, by_weather = _slopes(TRAFFIC, busy, weather)
@@ -325,8 +326,8 @@ place = "top"
 @pytest.mark.slow
 def test_a_case_with_cold_days_end_to_end(tmp_path):
     """A quiet road in a hard winter: the weather counts, the file keeps it, temperature shortens what the days do."""
-    case = tl.LifeCase.from_text(CASE)
-    result = tl.run_life(case, sensitivity=False, workers=1)
+    case = tl.Case.from_text(CASE)
+    result = tl.run(case, leave_out=("sensitivity",), workers=1)
     life, data = result.life, result.life.dataset
     share = float(data["weather_share"].sum())
     assert 0.001 < share < 1
@@ -351,4 +352,4 @@ def test_a_case_with_cold_days_end_to_end(tmp_path):
 def test_thermal_belongs_to_a_climate_of_weather():
     text = CASE[: CASE.index("air = ")] + "temperature = 15\n" + CASE[CASE.index("thermal = ") :]
     with pytest.raises(InputError, match="thermal belongs to a climate of weather"):
-        tl.LifeCase.from_text(text)
+        tl.Case.from_text(text)

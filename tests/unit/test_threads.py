@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from treadload.study.threads import how_many, let_go, pool_of
+from treadload.life.threads import how_many, let_go, pool_of
 
 
 def products():

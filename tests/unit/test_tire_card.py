@@ -13,12 +13,12 @@ from treadload.errors import InputError
 from treadload.tire import ProfileSurface, TreadProfile
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
-TRUCK = tl.Tire.from_profile("315/80R22.5", inflation_pressure=800e3, belt=tl.Belt.from_library("315/80R22.5"))
+TRUCK = tl.Tire.from_profile("315/80R22.5", inflation_pressure=800e3, belt=tl.tire.Belt.from_library("315/80R22.5"))
 
 
 @pytest.fixture(scope="module")
 def card():
-    return tl.study.tire_card(TRUCK, ROAD, [35e3, 20e3], [900e3, 700e3], stiffness=False, spacing=10e-3)
+    return tl.footprint.tire_card(TRUCK, ROAD, [35e3, 20e3], [900e3, 700e3], stiffness=False, spacing=10e-3)
 
 
 def test_a_card_is_sorted_and_has_units(card):
@@ -66,7 +66,7 @@ def test_the_card_reads_the_contact(card):
 @pytest.mark.slow
 def test_stiffnesses_of_the_catalogued_tire_are_those_of_the_textbook_set():
     # CityBus_Pac02Tire.tir, 35 kN, 800 kPa: each within 20 %, as the belt's documented parameters were chosen for.
-    row = tl.study.tire_card(TRUCK, ROAD, [35e3], spacing=6e-3).dataset.squeeze()
+    row = tl.footprint.tire_card(TRUCK, ROAD, [35e3], spacing=6e-3).dataset.squeeze()
     assert float(row["secant_stiffness"]) == pytest.approx(1.0e6, rel=0.05)
     assert float(row["longitudinal_stiffness"]) / 35e3 == pytest.approx(14.85, rel=0.2)
     assert float(row["cornering_stiffness"]) / 35e3 == pytest.approx(5.66, rel=0.2)
@@ -79,7 +79,7 @@ def test_slip_stiffness_of_a_half_space_is_carters():
     # roller of finite width is stiffer at its ends; cells of 5 mm on a half-length of 25 mm err by a few percent.
     tread = TreadProfile(rolling_radius=0.5, crown_radius=1e3, width=0.6)
     tire = tl.Tire(ProfileSurface(tread), tl.Elastic(4e6, 0.5))
-    row = tl.study.tire_card(tire, ROAD, [3e3], spacing=5e-3).dataset.squeeze()
+    row = tl.footprint.tire_card(tire, ROAD, [3e3], spacing=5e-3).dataset.squeeze()
     half = math.sqrt(4 * 3e3 * 0.5 * 0.75 / (math.pi * 4e6 * 0.6))
     assert float(row["longitudinal_stiffness"]) == pytest.approx(2 * 3e3 * 0.5 / half, rel=0.1)
     assert float(row["effective_radius_ratio"]) == pytest.approx(1.0, abs=2e-4)
@@ -93,8 +93,9 @@ def test_a_card_can_be_kept_drawn_and_reported(card, tmp_path):
     assert again.summary() == card.summary()
     assert again.tire.belt == TRUCK.belt
     lines = card.summary().splitlines()
-    assert lines[0] == "tire card of 315/80R22.5, rolling freely"
-    assert len(lines) == 3 + 4
+    assert lines[0] == "Tire card: 315/80R22.5, rolling freely"
+    # Heads, and a line for each pressure and load.
+    assert len(lines) == 2 + 4
     figure = card.plot.card()
     assert [ax.get_ylabel() for ax in figure.axes][:2] == ["vertical load (kN)", "area (cm²)"]
     assert len(figure.axes) == 4
@@ -119,14 +120,14 @@ def test_a_card_can_be_kept_drawn_and_reported(card, tmp_path):
 )
 def test_bad_loads_and_pressures(loads, pressures, words):
     with pytest.raises(InputError, match=words):
-        tl.study.tire_card(TRUCK, ROAD, loads, pressures)
+        tl.footprint.tire_card(TRUCK, ROAD, loads, pressures)
 
 
 def test_a_half_space_feels_no_inflation():
     tire = tl.Tire.from_profile("315/80R22.5", material=tl.Elastic(3e6, 0.5))
     with pytest.raises(InputError, match="the 2 pressures would give one card"):
-        tl.study.tire_card(tire, ROAD, [20e3], [700e3, 800e3])
-    row = tl.study.tire_card(tire, ROAD, [20e3], stiffness=False, spacing=12e-3).dataset
+        tl.footprint.tire_card(tire, ROAD, [20e3], [700e3, 800e3])
+    row = tl.footprint.tire_card(tire, ROAD, [20e3], stiffness=False, spacing=12e-3).dataset
     assert math.isnan(float(row["mean_over_inflation"].squeeze()))
 
 
@@ -151,7 +152,7 @@ def test_the_command_prints_and_writes_a_card(tmp_path):
         app, [*told, "--loads", "15 kN; 25 kN", "--pressures", "7 bar; 8 bar", "-o", str(tmp_path / "card.nc")]
     )
     assert made.exit_code == 0, made.output
-    assert "tire card of 315/80R22.5" in made.output
+    assert "Tire card: 315/80R22.5" in made.output
     data = tl.open_results(tmp_path / "card.nc").tire_card.dataset
     np.testing.assert_allclose(data["inflation_pressure"], [7e5, 8e5])
     np.testing.assert_allclose(data["wheel_load"], [15e3, 25e3])

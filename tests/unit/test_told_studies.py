@@ -14,9 +14,8 @@ from studies import CASE, product_study, stored, study_of, wheel
 from treadload.cli import app
 from treadload.reporting.pictures import Picture
 from treadload.results.exports import write
-from treadload.study import sampled
-from treadload.study.sweeps import open_sweep, table_of
-from treadload.study.sweeps.design import product
+from treadload.sweeps import open_sweep, sampled, table_of
+from treadload.sweeps.design import product
 
 VARY = {"friction": [0.2, 0.4, 0.6], "normal_load": ["20 kN", "40 kN"]}
 
@@ -131,7 +130,7 @@ def unprinted(monkeypatch):
         assert draw().axes
         return [Picture(title, caption, "data:,", 100, wide)]
 
-    monkeypatch.setattr("treadload.reporting.studies.picture", picture)
+    monkeypatch.setattr("treadload.reporting.pictures.picture", picture)
 
 
 @pytest.mark.slow
@@ -185,7 +184,7 @@ def test_a_study_opens_from_a_file_as_it_was(store, tmp_path):
     xr.testing.assert_identical(back.dataset, study.dataset.load())
     assert back.failures == study.failures
     assert back.summary() == study.summary()
-    assert back.design.said(3) == study.design.said(3)
+    assert back.design.words_of(3) == study.design.words_of(3)
     assert opened.case == CASE
     assert back.plot.curve("worst_strain").axes
 

@@ -6,7 +6,7 @@ import pytest
 import treadload as tl
 from treadload.materials.anisotropic import eigenvalues, inverted
 
-MIX = tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
+MIX = tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
 
 
 def test_pulling_along_an_axis_gives_its_modulus_and_its_ratios():
@@ -34,7 +34,7 @@ def test_the_stiffness_turns_about_the_vertical_without_change_and_is_elastic_s_
     assert np.abs(turned - full).max() < 1e-14 * full.max()
 
     young, nu = 5e9, 0.3
-    same = tl.TransverselyIsotropic(young, young, young / 2.6, nu, nu).stiffness
+    same = tl.materials.TransverselyIsotropic(young, young, young / 2.6, nu, nu).stiffness
     lame = young * nu / (1.3 * 0.4)
     expected = np.diag([young / 1.3] * 3 + [young / 2.6] * 3)
     expected[:3, :3] += lame
@@ -51,22 +51,22 @@ def test_an_elasticity_that_would_give_energy_is_refused_with_its_eigenvalue(rat
     assert eigenvalue < 0
     most = np.sqrt((1 - horizontal) * 3.8 / (2 * 5.4))
     with pytest.raises(tl.InputError, match=r"^this elasticity is not positive definite: the smallest eigen") as told:
-        tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, horizontal, across)
+        tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, horizontal, across)
     assert f"is {eigenvalue:.3g} 1/Pa" in str(told.value)
     assert f"poisson_vertical between -{most:.3g} and {most:.3g}" in str(told.value)
     # And the bound is where it says.
-    tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, horizontal, 0.999 * most)
+    tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, horizontal, 0.999 * most)
     with pytest.raises(tl.InputError, match="not positive definite"):
-        tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, horizontal, 1.001 * most)
+        tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, horizontal, 1.001 * most)
 
 
 def test_what_is_no_number_or_beyond_all_ratios_is_refused():
     with pytest.raises(tl.InputError, match=r"must lie in \(-1, 1\), got 1\.2, .* is -6\.35e-11 1/Pa"):
-        tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 1.2, 0.25)
+        tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 1.2, 0.25)
     with pytest.raises(tl.InputError, match="vertical must be a positive number of Pa, got -1"):
-        tl.TransverselyIsotropic(5.4e9, -1.0, 1.6e9, 0.35, 0.25)
+        tl.materials.TransverselyIsotropic(5.4e9, -1.0, 1.6e9, 0.35, 0.25)
     with pytest.raises(tl.InputError, match="poisson_vertical must be a number, got nan"):
-        tl.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, float("nan"))
+        tl.materials.TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, float("nan"))
 
 
 def test_eigenvalues_are_those_of_the_tensor_and_stiffness_is_the_inverse():
@@ -81,4 +81,4 @@ def test_it_says_what_it_is():
     assert str(MIX) == (
         "transversely isotropic, E_h = 5400 MPa, E_v = 3800 MPa, G_hv = 1600 MPa, ν_hh = 0.35, ν_vh = 0.25"
     )
-    assert eval(repr(MIX), vars(tl)) == MIX
+    assert eval(repr(MIX), vars(tl.materials)) == MIX

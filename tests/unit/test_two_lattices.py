@@ -7,7 +7,7 @@ import treadload as tl
 from cases import COARSE_CASE
 from sweeps import same
 from treadload.errors import InputError
-from treadload.study import loaded
+from treadload.steps import loaded
 
 FATIGUE = "slope = -0.2 }"
 
@@ -20,11 +20,11 @@ def asked(what):
 def test_a_case_reads_two_lattices_unless_told_otherwise():
     """Its digits are those of the verbs and of a sweep, and not those of one lattice."""
     case = tl.Case.from_text(COARSE_CASE)
-    result = tl.run_case(case)
+    result = tl.run(case)
     both = float(result.verdict.dataset["worst_passes"])
     assert result.verdict.dataset.attrs["lattices"] == 2
-    assert "read under the mean of two contacts whose cells lie half a cell apart" in result.summary()
-    one = tl.run_case(tl.Case.from_text(asked("lattices = 1"))).verdict
+    assert "the mean of two contacts whose grids are offset by half a cell" in result.summary()
+    one = tl.run(tl.Case.from_text(asked("lattices = 1"))).verdict
     assert float(one.dataset["worst_passes"]) != pytest.approx(both, rel=1e-3)
     assert "half a cell" not in one.summary()
 
@@ -33,8 +33,8 @@ def test_a_case_reads_two_lattices_unless_told_otherwise():
         float(tl.assess(result.response, line).dataset["worst_passes"]), rel=1e-12
     )
     shifted = tl.solve_contact(
-        case.build_tire(), case.build_road(), case.build_rolling(), spacing=case.spacing, tolerance=case.tolerance,
-        offset=(0.5, 0.5),
+        case.build_tire(), case.build_road(), case.build_rolling(), spacing=case.spacing,
+        tolerance=case.source.tolerance_of(case), offset=(0.5, 0.5),
     )  # fmt: skip
     verdict = tl.assess(result.response, line, shifted=shifted)
     assert float(verdict.dataset["worst_passes"]) == pytest.approx(both, rel=1e-12)
@@ -57,7 +57,7 @@ def test_a_case_reads_two_lattices_unless_told_otherwise():
 @pytest.mark.parametrize(("more", "solves"), [({}, 2), ({"error_estimate": True}, 4)])
 def test_a_study_of_the_verdict_alone_solves_each_contact_once(more, solves, monkeypatch):
     """Both lattices, and both of the coarser cells: the numbers of every case are those of a study of it alone."""
-    table = tl.Case.from_text(COARSE_CASE.replace('["0 mm", "20 mm"]', '["0 mm"]')).given()
+    table = tl.Case.from_text(COARSE_CASE.replace('["0 mm", "20 mm"]', '["0 mm"]')).as_tables()
     case = tl.Case.from_dict({**table, "damage": {**table["damage"], **more}})
     solved = []
     original = loaded.solve_contact
@@ -97,10 +97,10 @@ def test_what_has_one_lattice_is_read_on_it(tmp_path):
         "rolling": {"normal_load": 5e3, "friction": 0.5},
         "damage": {"fatigue": {"epsilon_6": 120e-6, "slope": -0.2}},
     }
-    verdict = tl.run_case(tl.Case.from_dict(case, folder=tmp_path)).verdict
+    verdict = tl.run(tl.Case.from_dict(case, folder=tmp_path)).verdict
     assert "lattices" not in verdict.dataset.attrs
     case["damage"]["lattices"] = 2
     with pytest.raises(InputError, match="a height map has one lattice of cells"):
-        tl.run_case(tl.Case.from_dict(case, folder=tmp_path))
+        tl.run(tl.Case.from_dict(case, folder=tmp_path))
     with pytest.raises(InputError, match="depth reads the points of one lattice of cells"):
         tl.Case.from_text(asked('lattices = 2\ndepth = "0 mm"'))

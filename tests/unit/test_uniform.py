@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from treadload.contact import Rolling, solve_contact
+from treadload.damage.uniform import COMPUTED, DISC, RECTANGLE, compare_uniform
 from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.plots.uniform import uniform_comparison
-from treadload.study.uniform import COMPUTED, DISC, RECTANGLE, compare_uniform
 from treadload.tire import Tire
 
 TIRE = Tire.from_profile("315/80R22.5", inflation_pressure=820e3)

@@ -96,7 +96,9 @@ def test_an_integer_beyond_floats_is_refused():
         (0.9999e9, "1 GPa"),
         (45.67e6, "45.7 MPa"),
         (1.2376e6, "1238 kPa"),
-        (420.0, "0 kPa"),
+        (420.0, "0.42 kPa"),
+        (9.96e3, "10 kPa"),
+        (1e-6, "0 kPa"),
     ],
 )
 def test_a_stress_has_the_digits_that_a_reader_needs(value, words):

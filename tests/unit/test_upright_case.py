@@ -45,7 +45,7 @@ def test_a_case_is_read_and_a_response_written_and_opened(tmp_path):
 def test_a_case_is_solved_written_opened_and_reported(tmp_path):
     case = tl.Case.from_text(GRAINED)
     road = case.pavement.build()
-    result = tl.run_case(case)
+    result = tl.run(case)
     data = result.response.dataset
     # Hooke's law of the grained top, from what the result holds.
     names = ("xx", "yy", "zz", "yz", "xz", "xy")
@@ -78,7 +78,7 @@ def test_laws_that_need_one_modulus_say_that_there_is_none():
     text = ONE_AXLE.replace('pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }\n', "") + LAYERS
     law = '\n[[criteria]]\nname = "a"\nlaw = "asphalt-institute"\nlayer = "asphalt"\nplace = "bottom"\n'
     with pytest.raises(tl.InputError, match="modulus is missing, and the layer does not provide it"):
-        tl.LifeCase.from_text(text + law + "air_voids = 0.05\nbinder_volume = 0.11\n")
+        tl.Case.from_text(text + law + "air_voids = 0.05\nbinder_volume = 0.11\n")
 
 
 def test_thin_unbound_layers_are_not_asphalt_and_stiff_ones_may_be():
@@ -88,7 +88,7 @@ def test_thin_unbound_layers_are_not_asphalt_and_stiff_ones_may_be():
 
 def test_numbers_that_no_layer_has_are_doubted():
     # Megapascals without their unit.
-    soft = tl.TransverselyIsotropic(150.0, 300.0, 120.0, 0.35, 0.3)
+    soft = tl.materials.TransverselyIsotropic(150.0, 300.0, 120.0, 0.35, 0.3)
     disc = tl.UniformDisc(0.1, 7e5)
     found = tl.solve_response(disc, tl.Pavement.half_space(soft), depths=[0.1], x=[0.0], y=[0.0])
     assert any("the modulus of layer 1 is 300 Pa" in text for text in found.warnings)
@@ -96,8 +96,8 @@ def test_numbers_that_no_layer_has_are_doubted():
 
 def test_means_over_a_cube_and_interfaces_read_the_grain():
     road = tl.Pavement([tl.Layer(MIX, 0.12, bond=tl.Bond(1e9)), tl.Layer(STONE)])
-    grid = tl.Grid.centred(0.2, 0.2, 0.02)
-    load = tl.GridLoad(grid, np.full(grid.shape, 7e5), np.full(grid.shape, 1e5), np.zeros(grid.shape))
+    grid = tl.response.Grid.centred(0.2, 0.2, 0.02)
+    load = tl.response.GridLoad(grid, np.full(grid.shape, 7e5), np.full(grid.shape, 1e5), np.zeros(grid.shape))
     asked = {"depths": [0.0, 0.119], "x": [0.0, 0.05], "y": [0.01]}
     mean = tl.solve_response(load, road, mean_over=0.01, **asked).dataset
     point = tl.solve_response(load, road, **asked).dataset
@@ -105,6 +105,6 @@ def test_means_over_a_cube_and_interfaces_read_the_grain():
     for name in ("strain_xx", "strain_zz"):
         found, other = (one[name].sel(depth=0.119).to_numpy() for one in (mean, point))
         np.testing.assert_allclose(found, other, rtol=0.05)
-    slid = tl.study.solve_interfaces(load, road, x=np.linspace(-0.2, 0.2, 9), y=[0.01])
+    slid = tl.life.solve_interfaces(load, road, x=np.linspace(-0.2, 0.2, 9), y=[0.01])
     data = slid.dataset if hasattr(slid, "dataset") else slid
     assert float(np.abs(data["interface_shear"]).max()) > 1e3

@@ -5,7 +5,7 @@ import pytest
 from scipy.special import j0, j1
 
 import treadload as tl
-from treadload.kernels.half_space.bilinear import bilinear_on_grid
+from bilinear_loads import bilinear_on_grid
 from treadload.kernels.half_space.disc import disc_fields
 from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.layers.layered import Stack, transfer
@@ -71,8 +71,8 @@ def test_stress_is_the_angular_integral_s(name):
 def test_strain_is_the_slope_of_the_displacement(name, interpolation):
     material, step = MATERIALS[name], 1e-4
     rng = np.random.default_rng(3)
-    grid = tl.Grid.centred(0.09, 0.06, 0.03)
-    load = tl.GridLoad(grid, *rng.random((3, *grid.shape)) * 1e6, interpolation)
+    grid = tl.response.Grid.centred(0.09, 0.06, 0.03)
+    load = tl.response.GridLoad(grid, *rng.random((3, *grid.shape)) * 1e6, interpolation)
     at = np.arange(-2, 3) * step
     fields = tl.solve_response(
         load, tl.Pavement.half_space(material), x=0.021 + at, y=0.013 + at, depths=0.04 + at
@@ -197,7 +197,7 @@ def test_a_disc_is_its_hankel_integral(name, depth):
 def test_strain_by_compliance_is_hooke_s_in_isotropy():
     rng = np.random.default_rng(6)
     stress = rng.normal(size=(6, 4))
-    same = tl.TransverselyIsotropic(5e9, 5e9, 5e9 / 2.6, 0.3, 0.3)
+    same = tl.materials.TransverselyIsotropic(5e9, 5e9, 5e9 / 2.6, 0.3, 0.3)
     expected = strain_from_stress(stress, 5e9, 0.3)
     np.testing.assert_allclose(same.strain(stress), expected, rtol=1e-12)
     np.testing.assert_allclose(tl.Elastic(5e9, 0.3).strain(stress), expected, rtol=0)

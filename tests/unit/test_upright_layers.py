@@ -115,14 +115,14 @@ def test_long_waves_on_rock_compress_and_shear_column_by_column():
     np.testing.assert_allclose(surface[0, 0] / k, sum(h / own.shear for own, h in columns), rtol=2e-5)
 
 
-GRID = tl.Grid.centred(0.1, 0.08, 0.02)
+GRID = tl.response.Grid.centred(0.1, 0.08, 0.02)
 WHERE = {"x": np.linspace(-0.2, 0.21, 7), "y": np.linspace(-0.15, 0.16, 5)}
 
 
 def loads():
     rng = np.random.default_rng(7)
-    cells = tl.GridLoad(GRID, rng.random(GRID.shape) * 1e6, *rng.normal(size=(2, *GRID.shape)) * 2e5)
-    smooth = tl.GridLoad(GRID, cells.pressure, cells.traction_x, cells.traction_y, "bilinear")
+    cells = tl.response.GridLoad(GRID, rng.random(GRID.shape) * 1e6, *rng.normal(size=(2, *GRID.shape)) * 2e5)
+    smooth = tl.response.GridLoad(GRID, cells.pressure, cells.traction_x, cells.traction_y, "bilinear")
     return {"cells": cells, "bilinear": smooth, "disc": tl.UniformDisc(0.1, 7e5)}
 
 
@@ -188,13 +188,13 @@ def test_many_roads_under_many_loads_are_each_alone():
 def test_gridded_and_axisymmetric_loads_meet_on_layers():
     """A disc of cells: two syntheses, one in two directions and one in the distance."""
     layers = road((MIX, 0.08), (UNBOUND, 0.3), (SOIL,))
-    fine = tl.Grid.centred(0.24, 0.24, 0.004)
+    fine = tl.response.Grid.centred(0.24, 0.24, 0.004)
     sub = (np.arange(8) + 0.5) / 8 - 0.5
     x = (fine.x[:, None] + fine.dx * sub).ravel()
     inside = (np.hypot(x[None], x[:, None]) < 0.1).reshape(fine.ny, 8, fine.nx, 8).mean(axis=(1, 3))
     zero = np.zeros(fine.shape)
     asked = {"depths": [0.08, 0.3], "x": [0.0, 0.13], "y": [0.02]}
-    cells = tl.solve_response(tl.GridLoad(fine, 7e5 * inside, zero, zero), layers, **asked)
+    cells = tl.solve_response(tl.response.GridLoad(fine, 7e5 * inside, zero, zero), layers, **asked)
     disc = tl.solve_response(tl.UniformDisc(0.1, 7e5), layers, **asked)
     # The area of the disc on cells, and its rim.
     assert apart(cells, disc) < 2e-3
@@ -202,7 +202,7 @@ def test_gridded_and_axisymmetric_loads_meet_on_layers():
 
 def test_an_upright_base_moves_the_strain_by_what_its_own_moduli_say():
     # Far below, a thick layer carries vertical stress that hardly depends on it; ε_zz follows E_v and not E_h.
-    soft = tl.TransverselyIsotropic(100e6, 200e6, 75e6, 0.3, 0.3)
+    soft = tl.materials.TransverselyIsotropic(100e6, 200e6, 75e6, 0.3, 0.3)
     isotropic = tl.Elastic(200e6, 0.3)
     asked = {"depths": [0.3], "x": [0.0], "y": [0.0]}
     disc = tl.UniformDisc(0.15, 7e5)
@@ -309,7 +309,7 @@ def test_images_hold_layers(layers):
 
 
 def test_layers_all_equal_are_the_half_space_in_contact():
-    at = tl.Grid.centred(0.03, 0.03, 0.001).x
+    at = tl.response.Grid.centred(0.03, 0.03, 0.001).x
     gap = (at[None] ** 2 + at[:, None] ** 2) / 2
     steel = tl.Tire.from_height_map(gap, 0.001, material=tl.Elastic(210e9, 0.3))
     wheel = tl.Rolling(normal_load=2e3, friction=0.3, tractive_force=200.0)

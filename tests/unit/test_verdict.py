@@ -129,9 +129,10 @@ def test_in_plane_reads_the_plane_and_says_both():
     assert math.degrees(plane.dataset["worst_crack_dip"]) == pytest.approx(90, abs=1e-9)
     assert math.degrees(space.dataset["worst_crack_dip"]) == pytest.approx(45, abs=1e-6)
     for verdict in (space, plane):
-        assert "three-dimensional: 100.0 microstrain" in verdict.summary()
-        assert "horizontal plane:  45.0 microstrain" in verdict.summary()
-    assert "read with the in-plane strain" in plane.summary()
+        rows = {row.key: row for row in verdict.rows()}
+        assert rows["largest_principal_strain"].text == "100.0 microstrain"
+        assert rows["largest_in_plane_strain"].text == "45.0 microstrain"
+    assert str({row.key: row.value for row in plane.rows()}["evaluation"]).startswith("in-plane strain")
 
 
 def test_nothing_extends_nothing_cracks():

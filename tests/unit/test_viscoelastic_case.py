@@ -3,10 +3,10 @@
 import pytest
 
 from cases import COARSE_CASE
-from treadload import run_case
 from treadload.case import Case
 from treadload.errors import InputError
 from treadload.materials import Prony
+from treadload.steps import run
 
 RUBBER = 'material = { kind = "prony", modulus = "10 MPa", terms = [[0.3, "1 ms"], [0.4, "20 ms"]], poisson = 0.49 }'
 
@@ -23,7 +23,7 @@ def test_read_and_written_back():
 
 
 def test_run():
-    contact = run_case(Case.from_text(text())).contact
+    contact = run(Case.from_text(text())).contact
     assert float(contact.dataset.pressure_centre_x) > 1e-3
     assert contact.dataset.rolling_resistance_moment.attrs["units"] == "N m"
 

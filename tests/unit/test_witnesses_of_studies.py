@@ -15,25 +15,25 @@ from cases import COARSE_CASE
 from treadload.contact import Rolling, solve_contact
 from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, Traffic
 from treadload.damage.miner import miner
+from treadload.damage.uniform import COMPUTED, DISC, RECTANGLE, compare_uniform
 from treadload.errors import InputError
+from treadload.life import life_sensitivity
+from treadload.life.caveats import traffic_doubts
+from treadload.life.contacts import Contacts
+from treadload.life.delamination import AFTER, BEFORE, PARTING, BondComparison
+from treadload.life.passages import solve_passages
+from treadload.life.solve import solve_life
+from treadload.life.variants import Solver
+from treadload.life.wheels import across
 from treadload.materials import Elastic
 from treadload.pavement import FRICTIONLESS, Layer, Pavement
-from treadload.study import life_sensitivity, plan, plan_case
-from treadload.study.altered import Solver
-from treadload.study.contacts import Contacts
-from treadload.study.delamination import AFTER, BEFORE, PARTING, BondComparison
-from treadload.study.doubts import traffic_doubts
-from treadload.study.life import solve_life
-from treadload.study.passages import solve_passages
-from treadload.study.plan import _seconds
-from treadload.study.uniform import COMPUTED, DISC, RECTANGLE, compare_uniform
-from treadload.study.wheels import across
+from treadload.steps import outline, plan
 from treadload.tire import Tire, TreadProfile
 
 TIRE = Tire.from_profile(TreadProfile(0.538, 1.678, 0.2, 0.0088), inflation_pressure=820e3)
 HALF = Pavement.half_space(Elastic(5e9, 0.35))
 TWO = Pavement([Layer(Elastic(5e9, 0.35), 0.15), Layer(Elastic(1e8, 0.35))])
-COARSE = {"spacing": 20e-3, "workers": 1}
+COARSE = {"spacing": 20e-3}
 BASE = Criterion("base", FatigueLine(90e-6, -0.2), 0)
 ONE = AxleClass("one", 1.0, 20e3, 820e3)
 TOP = Criterion("top", FatigueLine(90e-6, -0.2), 0, "top")
@@ -88,14 +88,13 @@ def test_the_rectangle_carries_the_shear_of_the_contact(driving):
 
 def test_the_table_of_uniform_loads_is_that_of_the_dataset(driving):
     compared = compare_uniform(driving, TWO, depths=[0.02, 0.15])
-    rows = compared.summary().splitlines()[2:]
-    for row, depth in zip(rows, (0.02, 0.15), strict=True):
-        numbers = [float(part) for part in row.replace("/", " ").split()]
-        assert numbers[0] == pytest.approx(1e3 * depth)
+    rows = compared.rows()
+    for depth in (0.02, 0.15):
+        numbers = [float(row.number) for row in rows if row.group.startswith(f"{1e3 * depth:.0f} mm deep, ")]
         names = ("largest_extension", "largest_in_plane_extension", "largest_vertical_shear")
         data = compared.dataset.sel(depth=depth)
         wanted = [1e6 * float(data[name].sel(load=load)) for load in (COMPUTED, DISC, RECTANGLE) for name in names]
-        np.testing.assert_allclose(numbers[1:], wanted, atol=0.051)
+        np.testing.assert_allclose(numbers, wanted, atol=0.051)
 
 
 def contact_on(cells, step):
@@ -132,7 +131,7 @@ def test_damage_of_a_changed_question_is_that_of_its_life():
     """What the sensitivities solve is what a life solves: the largest damage of a year."""
     pair = replace(ONE, wheels=((0.0, 0.0), (1.4, 0.0)))
     traffic = Traffic((pair,), 1e5)
-    life = solve_life(TIRE, TWO, traffic, CLIMATE, (BASE,), **COARSE)
+    life = solve_life(tl.Design(TIRE, TWO, traffic, CLIMATE, (BASE,), **COARSE), workers=1)
     solver = Solver(BASE, [(0, 0)], Contacts(TIRE, 20e-3), None)
     with ThreadPoolExecutor(1) as pool:
         (found, doubled) = solver.damages([(TWO, traffic, CLIMATE), (TWO, Traffic((pair,), 2e5), CLIMATE)], pool)
@@ -145,9 +144,10 @@ def test_damage_of_a_changed_question_is_that_of_its_life():
 def test_elasticities_of_one_layer_on_nothing_else_have_closed_forms():
     """On a half-space under a soft tire strain goes as 1/E: life goes as E to the power of -1/slope."""
     traffic = Traffic((ONE,), 1e5)
-    life = solve_life(TIRE, HALF, traffic, CLIMATE, (TOP,), **COARSE)
+    design = tl.Design(TIRE, HALF, traffic, CLIMATE, (TOP,), **COARSE)
+    life = solve_life(design, workers=1)
     told = []
-    found = life_sensitivity(TIRE, HALF, life, **COARSE, progress=lambda *said: told.append(said))
+    found = life_sensitivity(design, life, progress=lambda *said: told.append(said), workers=1)
     values = dict(zip(found.dataset["input"].to_numpy(), found.dataset["elasticity"].to_numpy(), strict=True))
     (modulus,) = [value for name, value in values.items() if name.startswith("modulus")]
     # ln(1.05 / 0.95) in place of the derivative leaves 1e-3 of it.
@@ -162,14 +162,16 @@ def test_elasticities_of_one_layer_on_nothing_else_have_closed_forms():
 @pytest.mark.parametrize("coverage", [0.0, -0.1, 1.0001, math.nan])
 def test_a_coverage_that_is_no_share_is_refused_before_anything_is_solved(coverage):
     with pytest.raises(InputError, match="coverage must lie in"):
-        life_sensitivity(TIRE, HALF, None, coverage=coverage)
+        life_sensitivity(None, None, coverage=coverage)
 
 
 def test_the_solves_of_several_classes_are_counted_to_the_last():
     """Two contacts; the heavier class in every road, the other where the first needs it."""
     traffic = Traffic((replace(ONE, share=0.5), AxleClass("other", 0.5, 15e3, 700e3)), 1e5)
     told = []
-    found = solve_passages(TIRE, HALF, traffic, CLIMATE, (TOP,), **COARSE, progress=lambda *said: told.append(said))
+    found = solve_passages(
+        tl.Design(TIRE, HALF, traffic, CLIMATE, (TOP,), **COARSE), progress=lambda *said: told.append(said), workers=1
+    )
     assert (found.contacts, found.responses) == (2, 2)
     assert told[-1][:2] == (4, 4)
     assert [what for _, _, what in told].count("contact") == 2
@@ -182,7 +184,9 @@ def test_each_criterion_is_read_on_its_side_of_an_interface():
         Criterion("bottom", FatigueLine(1e-4, -0.2), 0),
         Criterion("top", FatigueLine(1e-4, -0.2), 1, "top"),
     )
-    read = solve_passages(TIRE, road, Traffic((ONE,), 1), CLIMATE, (above, below), **COARSE).readings
+    read = solve_passages(
+        tl.Design(TIRE, road, Traffic((ONE,), 1), CLIMATE, (above, below), **COARSE), workers=1
+    ).readings
     contact = solve_contact(TIRE, road, Rolling(normal_load=20e3, friction=0.7), spacing=20e-3)
     x = np.arange(-0.3, 0.3, 0.02)
     for criterion, side in (("bottom", "above"), ("top", "below")):
@@ -227,15 +231,16 @@ def test_the_road_ends_with_the_first_of_its_layers_and_not_with_its_bond():
 
 
 def test_the_table_of_a_parted_bond_leaves_out_what_means_nothing():
-    lines = comparison([[9, 8], [0.1, 0.2], [1.5, 4]], [True, False]).summary().splitlines()
-    (bond,) = [line for line in lines if line.startswith("c0")]
-    (layer,) = [line for line in lines if line.startswith("c1")]
+    compared = comparison([[9, 8], [0.1, 0.2], [1.5, 4]], [True, False])
+    lines, rows = compared.summary().splitlines(), compared.rows()
+    bond, layer = ([row.text for row in rows if row.group.startswith(name)] for name in ("c0", "c1"))
     # Bonded, parted, and one after the other; the parted bond's own criterion is not read.
-    assert bond.split() == ["c0", "0", "units", "(9", "years)", "-", "1.5", "years"]
-    assert layer.split() == ["c1", "1", "units", "(8", "years)", "3", "units", "(0.2", "years)", "4", "years"]
+    assert bond == ["0 units", "9 years", "–", "–", "4 units", "1.5 years"]
+    assert layer == ["1 units", "8 years", "3 units", "0.2 years", "5 units", "4 years"]
     assert lines.count("warning: told once") == 1
-    assert re.match(r"Verdict: c0 .* after 2e\+05 passes, 1\.5 years; c1 governs", lines[-1])
-    assert lines[-1].endswith("lasts 4 years instead of 8 years.")
+    verdict = rows[-1].text
+    assert re.match(r"c0 .* after 2e\+05 load repetitions, 1\.5 years; c1 governs", verdict)
+    assert verdict.endswith("lasts 4 years instead of 8 years.")
 
 
 @pytest.mark.parametrize(
@@ -243,29 +248,31 @@ def test_the_table_of_a_parted_bond_leaves_out_what_means_nothing():
 )
 def test_a_plan_tells_seconds_or_minutes(monkeypatch, transform, told):
     """By how fast this machine is; some 24 s where a transform takes 60 ms."""
-    monkeypatch.setattr(plan, "_transform", lambda: transform)
-    text = plan_case(tl.Case.from_text(COARSE_CASE))
+    monkeypatch.setattr(outline, "_transform", lambda: transform)
+    text = plan(tl.Case.from_text(COARSE_CASE))
     assert re.search(told, text), text
 
 
 @pytest.mark.parametrize("road", [HALF, TWO])
 def test_an_estimate_adds_up_what_is_solved(monkeypatch, road):
-    monkeypatch.setattr(plan, "_transform", lambda: 1.0)
-    nothing, some, more = (_seconds(road, cells, 0, 0) for cells in (0, 1000, 2000))
+    monkeypatch.setattr(outline, "_transform", lambda: 1.0)
+    nothing, some, more = (outline.seconds_of(road, cells, 0, 0) for cells in (0, 1000, 2000))
     assert nothing == 0
     # A contact takes something besides its cells.
     assert some - nothing > more - some > 0
-    assert _seconds(road, 0, 10, 20) == pytest.approx(_seconds(road, 0, 10, 0) + _seconds(road, 0, 0, 20))
-    assert _seconds(road, 0, 20, 0) == pytest.approx(2 * _seconds(road, 0, 10, 0))
+    assert outline.seconds_of(road, 0, 10, 20) == pytest.approx(
+        outline.seconds_of(road, 0, 10, 0) + outline.seconds_of(road, 0, 0, 20)
+    )
+    assert outline.seconds_of(road, 0, 20, 0) == pytest.approx(2 * outline.seconds_of(road, 0, 10, 0))
 
 
 def test_a_transform_takes_time():
-    assert 0 < plan._transform() < 60
+    assert 0 < outline._transform() < 60
 
 
 def test_a_plan_says_what_the_verdict_reads():
-    assert "means over 10 mm in the top layer" in plan_case(tl.Case.from_text(COARSE_CASE))
-    deep = plan_case(tl.Case.from_text(COARSE_CASE, changes=["damage.depth=20 mm"]))
+    assert "means over 10 mm in the top layer" in plan(tl.Case.from_text(COARSE_CASE))
+    deep = plan(tl.Case.from_text(COARSE_CASE, changes=["damage.depth=20 mm"]))
     assert "points at 20 mm" in deep
     assert "means over" not in deep
 

@@ -30,16 +30,21 @@ class Impatient(_Base):  # type: ignore[misc]
         super().data_received(data)
         if self.transport.is_closing() or self.transport.get_protocol() is not self:
             # A socket of the page has a patience of its own.
-            self._heard()
+            self._on_message()
         elif self.cycle is None or self.cycle.response_complete:
             self._wait()
         else:
-            self._heard()
+            self._on_message()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """It is over."""
-        self._heard()
+        self._on_message()
         super().connection_lost(exc)
+
+    def timeout_keep_alive_handler(self) -> None:
+        """Nothing more was asked for 5 s; a socket may have come on the last bytes of an answer, and stays."""
+        if self.transport.get_protocol() is self:
+            super().timeout_keep_alive_handler()
 
     def _wait(self) -> None:
         if self in self._waiting:
@@ -48,11 +53,11 @@ class Impatient(_Base):  # type: ignore[misc]
             next(iter(self._waiting))._give_up()
         self._waiting[self] = asyncio.get_running_loop().call_later(PATIENCE, self._give_up)
 
-    def _heard(self) -> None:
+    def _on_message(self) -> None:
         timer = self._waiting.pop(self, None)
         if timer is not None:
             timer.cancel()
 
     def _give_up(self) -> None:
-        self._heard()
+        self._on_message()
         self.transport.abort()

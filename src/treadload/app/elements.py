@@ -47,10 +47,12 @@ def plain(content: str, do: Callable[..., Any], *, main: bool = False, label: st
 def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], Any]) -> Any:
     """One of a few."""
     select = ui.select(options, value=value, label=label, on_change=lambda event: do(event.value))
-    return select.props("dense outlined options-dense").classes("wide")
+    return select.props("dense outlined options-dense").classes(
+        "choice wide" if len(options.get(value, "")) > 18 else "choice"
+    )
 
 
-def call_script(name: str, *told: Any) -> None:
+def call_script(name: str, *arguments: Any) -> None:
     """Call a function of `look/bench.js` in the browser of the page that is being built."""
     assert name.isidentifier()
-    ui.run_javascript(f"{name}({', '.join(json.dumps(one) for one in told)})")
+    ui.run_javascript(f"{name}({', '.join(json.dumps(argument) for argument in arguments)})")

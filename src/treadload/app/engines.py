@@ -13,6 +13,8 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
+from treadload.case.schema import KINDS
+
 # A figure of many cells is one line.
 _LONGEST_LINE = 2**28
 _ENDS = ("done", "error", "stopped")
@@ -72,17 +74,17 @@ class Engine:
         """Of the process."""
         return self._process.pid
 
-    async def ask(self, do: str, **told: Any) -> AsyncIterator[dict[str, Any]]:
+    async def ask(self, do: str, **question: Any) -> AsyncIterator[dict[str, Any]]:
         """Answers as they come; the last holds "done", "error" or "stopped". Raises EngineLost."""
         number, queue = next(self._numbers), asyncio.Queue[dict[str, Any] | None]()
         self._waiting[number] = queue
-        if do in ("solve", "life"):
+        if do in KINDS:
             self._solving.add(number)
         self.used = time.monotonic()
         try:
             if not self.lives:
                 raise EngineLost(_ENDED)
-            await self._send({"id": number, "do": do, **told})
+            await self._send({"id": number, "do": do, **question})
             while True:
                 answer = await queue.get()
                 if answer is None:
@@ -93,10 +95,10 @@ class Engine:
         finally:
             del self._waiting[number]
 
-    async def last(self, do: str, **told: Any) -> dict[str, Any]:
+    async def last(self, do: str, **question: Any) -> dict[str, Any]:
         """The last answer to a question."""
         answer: dict[str, Any] = {}
-        async for answer in self.ask(do, **told):  # noqa: B007
+        async for answer in self.ask(do, **question):  # noqa: B007
             pass
         return answer
 
@@ -113,15 +115,21 @@ class Engine:
         return False
 
     def kill(self) -> None:
-        """End the process at once."""
+        """End the process at once, and say so to all who wait for it: a child of it may keep its output open."""
         self._killed = True
+        self._leave()
         with contextlib.suppress(ProcessLookupError):
             self._process.kill()
 
-    async def _send(self, told: dict[str, Any]) -> None:
+    def _leave(self) -> None:
+        """Tell all who wait that no answer will come."""
+        for queue in self._waiting.values():
+            queue.put_nowait(None)
+
+    async def _send(self, question: dict[str, Any]) -> None:
         assert self._process.stdin is not None
         try:
-            self._process.stdin.write(json.dumps(told).encode() + b"\n")
+            self._process.stdin.write(json.dumps(question).encode() + b"\n")
             await self._process.stdin.drain()
         except (ConnectionError, RuntimeError) as error:
             raise EngineLost(_ENDED) from error
@@ -137,10 +145,8 @@ class Engine:
                 if queue is not None:
                     queue.put_nowait(answer)
         finally:
-            for queue in self._waiting.values():
-                queue.put_nowait(None)
-            with contextlib.suppress(ProcessLookupError):
-                self._process.kill()
+            # Who asks from here on is told that it has ended, and does not wait for what nobody reads any more.
+            self.kill()
             await self._process.wait()
 
 
@@ -170,16 +176,16 @@ class Engines:
 
     def _make_room(self) -> None:
         """End what has been idle for longest, where there are too many. Raises EngineLost where all of them solve."""
-        self._all = [one for one in self._all if one.lives]
+        self._all = [engine for engine in self._all if engine.lives]
         if len(self._all) + self._starting < MOST_PROCESSES:
             return
-        idle = [one for one in self._all if one.is_idle]
+        idle = [engine for engine in self._all if engine.is_idle]
         if not idle:
             raise EngineLost(
                 f"{MOST_PROCESSES} cases are being solved at once, the most of this server; solve again when one of "
                 "them is done, or cancel one"
             )
-        min(idle, key=lambda one: one.used).kill()
+        min(idle, key=lambda engine: engine.used).kill()
 
     async def take(self, folder: Path) -> Engine:
         """A process for the browser with this folder."""
@@ -198,7 +204,12 @@ class Engines:
         if not engine.lives:
             engine = await self._start()
         engine.used = time.monotonic()
-        await engine.last("folder", folder=str(folder))
+        try:
+            await engine.last("folder", folder=str(folder))
+        except BaseException:
+            # It knows a folder, or is no more: nobody else can take it.
+            engine.kill()
+            raise
         if self._later is not None:
             self._later.cancel()
         self._later = asyncio.get_running_loop().call_later(_LATER, self._warm_later)
@@ -206,7 +217,7 @@ class Engines:
 
     def _warm_later(self) -> None:
         """Have one ready for the next, where it takes the place of none."""
-        self._all = [one for one in self._all if one.lives]
+        self._all = [engine for engine in self._all if engine.lives]
         if len(self._all) + self._starting < MOST_PROCESSES:
             self.warm()
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 import tomli_w
 
-from treadload.app.fields import SURFACES, Field
+from treadload.app.form_field import Field
+from treadload.app.form_parts import CaseSchema, Group, value_at
 from treadload.case import Case
 from treadload.case.changes import changed, set_key
-from treadload.case.file import FilePart
-from treadload.case.first import first_case
+from treadload.case.keys import value_at as value_in
 from treadload.errors import InputError
 from treadload.files import parse_toml
 from treadload.read import by_key
@@ -22,55 +22,53 @@ from treadload.tire import TreadProfile
 
 # Texts that are never the path of a file.
 _WORDS = ("title", "name", "source", "notes", "doubts")
+# A road whose mixes wait for a temperature gets this one.
+_TEMPERATURE, _USUAL = "pavement.temperature", 15
 
 
 @dataclass(frozen=True)
 class Checked:
     """What the reader of cases says of a form: the case, or sentences by the path of their key, "" of the whole."""
 
-    case: FilePart | None
+    case: Case | None
     wrong: Mapping[str, str]
 
-    def at(self, path: str, known: set[str]) -> str:
+    def at(self, path: str, fields: set[str]) -> str:
         """What is said of a field: of its key, or of one inside it that has no field of its own."""
-        told = [text for key, text in self.wrong.items() if _nearest(key, known) == path]
-        return "; ".join(told)
+        return "; ".join(text for key, text in self.wrong.items() if _nearest(key, fields) == path)
 
-    def elsewhere(self, known: set[str]) -> list[str]:
+    def elsewhere(self, fields: set[str]) -> list[str]:
         """What belongs to no field."""
-        return [f"{key}: {text}" if key else text for key, text in self.wrong.items() if not _nearest(key, known)]
+        return [f"{key}: {text}" if key else text for key, text in self.wrong.items() if not _nearest(key, fields)]
 
 
-def _nearest(key: str, known: set[str]) -> str:
+def _nearest(key: str, fields: set[str]) -> str:
     parts = key.split(".")
     ends = (".".join(parts[:count]) for count in range(len(parts), 0, -1))
-    return next((one for one in ends if one in known), "")
+    return next((path for path in ends if path in fields), "")
 
 
 @dataclass(frozen=True)
 class Form:
     """Tables of a case, and the paths of the keys that are the user's own; the others are where the page began.
 
-    kind: of case. solver: what the process is asked to do with it. road_temperature: True where
-    the road has a temperature of its own.
+    command: that runs the case.
     """
-
-    kind: ClassVar[type[FilePart]] = Case
-    solver: ClassVar[str] = "solve"
-    road_temperature: ClassVar[bool] = True
 
     table: Mapping[str, Any]
     yours: frozenset[str] = frozenset()
+    command: str = "run"
 
     @classmethod
-    def first(cls) -> Self:
-        """Where the page begins: the case that `treadload init` writes, on cells of 3 mm, read at the surface."""
-        table = parse_toml(first_case("run"), "case")
-        table["spacing"] = "3 mm"
-        return cls(table)
+    def first(cls, command: str = "run") -> Self:
+        """Where a page begins: the case that `treadload init` writes; that of a wheel on cells of 3 mm."""
+        table = copy.deepcopy(dict(CaseSchema.of(command).first))
+        if command == "run":
+            table["spacing"] = "3 mm"
+        return cls(table, command=command)
 
     @classmethod
-    def from_text(cls, text: str, name: str, files: Mapping[str, str]) -> Self:
+    def from_text(cls, text: str, name: str, files: Mapping[str, str], command: str = "run") -> Self:
         """A form of the text of a TOML file, all of whose keys are the user's.
 
         files: name that the user knows → name under which an uploaded file is kept. Raises InputError, also for a
@@ -78,21 +76,30 @@ class Form:
         """
         table = parse_toml(text, name)
         _settle(table, files)
-        form = cls(table, frozenset(_paths(table)))
+        form = cls(table, frozenset(_paths(table)), command)
         # Whatever else is wrong with it is said at its field; what has no field could not be repaired there.
-        cls.kind._check_kind(table, name)
+        case = form.check(Path()).case
+        if case is not None and case.command != command:
+            raise InputError(
+                f"{name} is not a case of this page: use `treadload {case.command}`, or the page that is for it"
+            )
         return form
+
+    def parts(self, folder: Path) -> Group:
+        """The parts of the form on the page. folder: of uploaded files."""
+        case = self.check(folder).case
+        road = None if case is None else case.road()
+        layers = [layer.name for layer in road.layers if layer.name] if road is not None else []
+        return self.schema.form(self.table, layers)
+
+    @property
+    def schema(self) -> CaseSchema:
+        """What its keys may be."""
+        return CaseSchema.of(self.command)
 
     def with_text(self, field: Field, text: str) -> Self:
         """The form with what was typed into a field; nothing sets the default."""
-        value = field.read(text)
-        table = copy.deepcopy(dict(self.table))
-        if value is None:
-            if self.value(field.path) is not None:
-                table = changed(table, [f"{field.path}="])
-            return replace(self, table=table, yours=self.yours - {field.path})
-        set_key(table, field.path, value)
-        return replace(self, table=table, yours=self.yours | {field.path})
+        return self.with_values({field.path: field.read(text)})
 
     def with_values(self, values: Mapping[str, Any]) -> Self:
         """The form with keys set, or removed where the value is None."""
@@ -101,24 +108,97 @@ class Form:
             if value is not None:
                 set_key(table, path, copy.deepcopy(value))
                 yours.add(path)
-            elif _at(table, path) is not None:
+                continue
+            if value_at(table, path) is not None:
                 table = changed(table, [f"{path}="])
-                yours = {one for one in yours if one != path and not one.startswith(f"{path}.")}
+            yours = {key for key in yours if key != path and not key.startswith(f"{path}.")}
         return replace(self, table=table, yours=frozenset(yours))
+
+    def with_added(self, path: str, folder: Path, value: Any = None, shape: str = "") -> Self:
+        """The form with a key that it did not have; one that stands in its way gives way.
+
+        value: left out, where the key begins. shape: of the value, as `CaseSchema` names it.
+        """
+        schema = self.schema
+        if value is None:
+            value = schema.start(path, schema.at(path, self.table), shape)
+        before = value_at(self.table, path)
+        if isinstance(before, Mapping):
+            # What another kind of table has as well, such as its name and its share.
+            value = _kept(value, before, schema, path, self.table)
+        table, _, key = path.rpartition(".")
+        form = self.with_values({path: value})
+        siblings = value_at(self.table, table) if table else None
+        if not isinstance(siblings, Mapping):
+            return form.mended(folder)
+        ways, needed = schema.ways_of(table, self.table)
+        places = {sibling: f"{table}.{sibling}" for sibling in siblings if sibling != key}
+        if key in ways:
+            form = form.with_values({places[way]: None for way in ways if way in places})
+        left = [where for name, where in places.items() if name not in (*ways, *needed)]
+        return form.mended(folder, left, whole=key in ways)
+
+    def with_row(self, path: str, folder: Path) -> Self:
+        """The form with one more row of a list: at its end, or before the last where only that is a case."""
+        rows = list(value_at(self.table, path) or [])
+        row = self.schema.start(f"{path}.{len(rows)}", self.schema.at(f"{path}.{len(rows)}", self.table))
+        if isinstance(row, dict) and "name" in row:
+            names = {row.get("name") for row in rows if isinstance(row, Mapping)}
+            count = sum(str(name).startswith(row["name"]) for name in names)
+            row["name"] += f" {count + 1}" if count else ""
+        last = self.with_values({path: [*rows, row]})
+        before = self.with_values({path: [*rows[:-1], row, *rows[-1:]]})
+        return next((form for form in (last, before) if form.check(folder).case is not None), last)
+
+    def without(self, path: str, folder: Path) -> Self:
+        """The form without a key, or without a row of a list."""
+        table, _, key = path.rpartition(".")
+        rows = value_at(self.table, table) if table else None
+        if isinstance(rows, list):
+            form = self.with_values({table: [row for number, row in enumerate(rows) if number != int(key)]})
+        else:
+            form = self.with_values({path: None})
+        return form.mended(folder)
+
+    def mended(self, folder: Path, optional: Sequence[str] = (), *, whole: bool = False) -> Self:
+        """The form, or one that is a case where this is none: without one of some keys, or with a warm road.
+
+        optional: keys that may go. whole: True where more than one may. The form itself where none of these is one.
+        """
+        if self.check(folder).case is not None:
+            return self
+        tries = [self.with_values({path: None}) for path in optional]
+        if self.command == "run" and isinstance(self.value("pavement"), Mapping):
+            is_cold = self.value(_TEMPERATURE) is None
+            tries.append(self.with_values({_TEMPERATURE: _USUAL if is_cold else None}))
+        if whole:
+            bare = self.with_values(dict.fromkeys(optional))
+            for path in optional:
+                back = bare.with_values({path: self.value(path)})
+                bare = back if back.check(folder).case is not None else bare
+            tries.append(bare)
+        return next((form for form in tries if form.check(folder).case is not None), self)
 
     def value(self, path: str) -> Any:
         """The value of a key as it is given; None where it is not."""
-        return _at(self.table, path)
+        return value_at(self.table, path)
 
     def is_yours(self, path: str) -> bool:
         """True where the user gave the value, or the table that it stands in."""
-        return any(path == one or path.startswith(f"{one}.") for one in self.yours)
+        return any(path == key or path.startswith(f"{key}.") for key in self.yours)
+
+    def default_of(self, field: Field, case: Case | None) -> str:
+        """What an empty field stands for, as text."""
+        value = None if case is None else value_in(case, field.path)
+        if value is None and case is not None and field.path == "tolerance":
+            value = case.source.tolerance_of(case)
+        return field.shown(value) if isinstance(value, str | int | float | tuple) else field.otherwise
 
     def check(self, folder: Path) -> Checked:
         """What the reader of `treadload run` says. folder: of uploaded files."""
         try:
             _settle(self.table, None)
-            return Checked(self.kind.from_dict(dict(self.table), folder=folder, name="case"), {})
+            return Checked(Case.from_dict(dict(self.table), folder=folder, name="case"), {})
         except InputError as error:
             return Checked(None, by_key(error) or {"": str(error).removeprefix("case: ")})
 
@@ -126,146 +206,41 @@ class Form:
         """The case as a TOML file, as it was typed."""
         return tomli_w.dumps(dict(self.table))
 
-    # What the choices above the fields say of the tables.
-
-    @property
-    def surface(self) -> str:
-        """One of `SURFACES`."""
-        tire = self.table.get("tire", {})
-        if isinstance(tire, Mapping):
-            if "scan" in tire:
-                return "example" if tire["scan"] == "example" else "scan"
-            if "height_map" in tire:
-                return "height_map"
-            if isinstance(tire.get("profile"), Mapping):
-                return "profile"
-        return "library"
-
-    def with_surface(self, surface: str, file: str = "") -> Self:
-        """The form with a surface of this kind. file: of a mesh or a height map that was uploaded."""
-        assert surface in SURFACES
-        tire = dict(self.table.get("tire", {}))
-        keep = {key: tire[key] for key in ("inflation_pressure", "material", "belt") if key in tire}
-        kinds: dict[str, dict[str, Any]] = {
-            "library": {"profile": "315/80R22.5"},
-            "profile": {"profile": _plain_profile()},
-            "example": {"scan": "example"},
-            "scan": {"scan": file},
-            "height_map": {"height_map": file},
-        }
-        own = kinds[surface]
-        kept = frozenset(one for one in self.yours if not one.startswith("tire.")) | {f"tire.{key}" for key in own}
-        again = {f"tire.{key}" for key in keep if self.is_yours(f"tire.{key}")}
-        return replace(self, table={**self.table, "tire": {**own, **keep}}, yours=kept | again)
-
-    @property
-    def road(self) -> str:
-        """One of `ROADS`."""
-        pavement = self.table.get("pavement", {})
-        if isinstance(pavement, Mapping) and "structure" in pavement:
-            return "structure"
-        return "half_space" if len(self.layers) == 1 else "layers"
-
-    @property
-    def layers(self) -> list[Any]:
-        """Tables of the layers."""
-        pavement = self.table.get("pavement", {})
-        layers = pavement.get("layers", []) if isinstance(pavement, Mapping) else []
-        return list(layers) if isinstance(layers, list) else []
-
-    def with_road(self, kind: str) -> Self:
-        """The form with a road of this kind."""
-        asphalt = {"kind": "elastic", "modulus": "5400 MPa", "poisson": 0.35}
-        first = Form.first().table["pavement"]
-        made: dict[str, Any] = {
-            "half_space": {"layers": [{"name": "road", "material": asphalt}]},
-            "layers": first,
-            "structure": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15},
-        }[kind]
-        if not self.road_temperature:
-            made = {key: value for key, value in made.items() if key in ("layers", "structure")}
-        kept = frozenset(one for one in self.yours if not one.startswith("pavement"))
-        return replace(self, table={**self.table, "pavement": copy.deepcopy(made)}, yours=kept | {"pavement"})
-
-    def with_layers(self, layers: list[Any]) -> Self:
-        """The form with these layers."""
-        pavement = {**self.table.get("pavement", {}), "layers": layers}
-        return replace(self, table={**self.table, "pavement": pavement}, yours=self.yours | {"pavement.layers"})
-
-    @property
-    def by_force(self) -> bool:
-        """True where forces are prescribed, False for creepages."""
-        rolling = self.table.get("rolling", {})
-        return not any(key in rolling for key in ("creepage_x", "creepage_y"))
-
-    @property
-    def state(self) -> str:
-        """One of `STATES`, told from the forces or creepages."""
-        rolling = self.table.get("rolling", {})
-        along = rolling.get("tractive_force", rolling.get("creepage_x"))
-        aside = [rolling.get(key) for key in ("lateral_force", "creepage_y", "spin")]
-        turns = any(one not in (None, 0, 0.0) for one in aside)
-        if along in (None, 0, 0.0):
-            return "turning" if turns else "free"
-        backwards = str(along).strip().startswith(("-", "−"))
-        drives = backwards != ("tractive_force" in rolling)
-        return "combined" if turns else ("driving" if drives else "braking")
-
-    def with_state(self, state: str, *, by_force: bool) -> Self:
-        """The form with a wheel that does this, by forces or by creepages."""
-        rolling = dict(self.table.get("rolling", {}))
-        keep = {key: rolling[key] for key in ("normal_load", "approach", "friction", "speed") if key in rolling}
-        along = {"driving": 1, "braking": -1, "combined": 1}.get(state)
-        own: dict[str, Any] = {}
-        if along is not None:
-            own |= {"tractive_force": f"{10 * along} kN"} if by_force else {"creepage_x": -0.01 * along}
-        if state in ("turning", "combined"):
-            own |= {"lateral_force": "5 kN"} if by_force else {"creepage_y": 0.01}
-        if not by_force and state in ("driving", "braking"):
-            own |= {"creepage_y": 0.0}
-        if not by_force and state == "turning":
-            own |= {"creepage_x": 0.0}
-        # A wheel that rolls freely is the default of the case: it has no key to be the user's.
-        kept = frozenset(one for one in self.yours if one.removeprefix("rolling.") not in _MOVES)
-        given = frozenset(f"rolling.{key}" for key in own)
-        return replace(self, table={**self.table, "rolling": {**keep, **own}}, yours=kept | given)
-
-
-_MOVES = ("tractive_force", "lateral_force", "creepage_x", "creepage_y", "spin")
-
-
-def _plain_profile() -> dict[str, Any]:
-    """A truck's tread to begin with, in the units that the fields show."""
-    return {
-        "rolling_radius": "522 mm", "crown_radius": "800 mm", "width": "280 mm", "shoulder_radius": "20 mm",
-        "grooves": [{"centre": f"{y} mm", "width": "12 mm", "depth": "14 mm"} for y in (-80, -27, 27, 80)],
-    }  # fmt: skip
-
 
 def profile_of(form: Form) -> TreadProfile | None:
     """The profile of a form as it stands, for its cross-section; None where it is none or wrong."""
-    told = form.value("tire.profile")
+    table = form.value("tire.profile")
     try:
-        return TreadProfile.from_dict(told) if isinstance(told, Mapping) else None
+        return TreadProfile.from_dict(table) if isinstance(table, Mapping) else None
     except (InputError, ValueError):
         return None
 
 
-def _at(table: Any, path: str) -> Any:
-    here = table
-    for part in path.split("."):
-        if isinstance(here, list):
-            here = here[int(part)] if part.isdigit() and int(part) < len(here) else None
-        else:
-            here = here.get(part) if isinstance(here, Mapping) else None
-    return here
+def _kept(value: Any, before: Mapping[str, Any], schema: CaseSchema, path: str, table: Any) -> Any:
+    shapes = schema.shapes(schema.at(path, table))
+    if not isinstance(value, Mapping):
+        # A name alone has no keys beside it; its table has.
+        named = [shape for shape in shapes if shape.word is None and shape.name.partition(":")[2] == value]
+        properties = schema.resolved(named[0].schema)["properties"] if named else {}
+        kept = {key: item for key, item in before.items() if key in properties and "const" not in properties[key]}
+        return {**kept, named[0].name.partition(":")[0]: value} if kept else value
+    properties = schema.resolved(schema.fitting(shapes, value).schema).get("properties", {})
+    kept = {
+        key: item
+        for key, item in before.items()
+        if key in properties and key in value and "const" not in properties[key]
+    }
+    kept |= {key: before[key] for key in ("name", "share", "layer") if key in properties and key in before}
+    return {**value, **{key: item for key, item in kept.items() if type(item) is type(value.get(key, item))}}
 
 
 def _paths(table: Any, before: str = "") -> Iterator[str]:
     members = enumerate(table) if isinstance(table, list) else table.items()
     for key, value in members:
         path = f"{before}{key}"
-        if isinstance(value, Mapping) or (isinstance(value, list) and any(isinstance(one, Mapping) for one in value)):
+        if isinstance(value, Mapping) or (
+            isinstance(value, list) and any(isinstance(item, Mapping) for item in value)
+        ):
             yield from _paths(value, f"{path}.")
         else:
             yield path

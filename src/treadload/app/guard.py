@@ -54,14 +54,15 @@ class Keys:
     """What opens one server: its addresses, the names it answers to, and the browsers that came by an address.
 
     host: that it listens on. opens: says once of a token that it opens this server. evicted: called with the name of
-    a session that goes for another. sessions: secret of a cookie → name of the session, the one seen last at the end.
-    owners: page of a browser → session.
+    a session that goes for another. connected: whether the browser of a page is connected now. sessions: secret of a
+    cookie → name of the session, the one seen last at the end. owners: page of a browser → session.
     """
 
     host: str
     port: int
     opens: Callable[[str], bool] = field(repr=False)
     evicted: Callable[[str], Any] = field(default=lambda name: None, repr=False)
+    connected: Callable[[str], bool] = field(default=lambda page: True, repr=False)
     sessions: dict[str, str] = field(default_factory=dict, repr=False)
     owners: dict[str, str] = field(default_factory=dict, repr=False)
 
@@ -84,10 +85,11 @@ class Keys:
         secret = secrets.token_urlsafe(32)
         self.sessions[secret] = secrets.token_hex(8)
         while len(self.sessions) > _MOST_SESSIONS:
-            # One that has a tab open goes only where all have.
-            others = list(self.sessions.items())[:-1]
-            open_tabs = set(self.owners.values())
-            gone = next((one for one, name in others if name not in open_tabs), others[0][0])
+            # One whose browser is connected goes only where all are. A page is owned for a while after its browser
+            # has left, and one that has just come has no page yet: it goes after those that have left.
+            earlier = list(self.sessions.items())[:-1]
+            here = {name for page, name in self.owners.items() if self.connected(page)}
+            gone = next((secret for secret, name in earlier if name not in here), earlier[0][0])
             name = self.sessions.pop(gone)
             self.owners = {page: owner for page, owner in self.owners.items() if owner != name}
             self.evicted(name)
@@ -102,7 +104,7 @@ class Keys:
         morsel = jar.get(self.cookie)
         if morsel is None:
             return None
-        secret = next((one for one in self.sessions if _same(one, morsel.value)), None)
+        secret = next((secret for secret in self.sessions if _same(secret, morsel.value)), None)
         if secret is None:
             return None
         name = self.sessions[secret] = self.sessions.pop(secret)
@@ -121,8 +123,8 @@ def address_of(host: str, port: int) -> str:
     return f"http://{shown}:{port}/"
 
 
-def _same(one: str, other: str) -> bool:
-    return hmac.compare_digest(one.encode(), other.encode("utf-8", "replace"))
+def _same(secret: str, reference: str) -> bool:
+    return hmac.compare_digest(secret.encode(), reference.encode("utf-8", "replace"))
 
 
 @dataclass(frozen=True)
@@ -194,7 +196,7 @@ class Guard:
         if scope["path"].startswith(_SOCKET):
             query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
             named += query.get("client_id", [])
-        if any(not self._keys.may_use(one, session) for one in named):
+        if any(not self._keys.may_use(name, session) for name in named):
             return Refusal(403, "this page belongs to another browser, or the server was started anew; load it again")
         return None
 
@@ -213,8 +215,8 @@ class Guard:
         headers = [(b"content-type", b"text/html; charset=utf-8"), (b"cache-control", b"no-store")]
         headers.append((b"content-length", str(len(body)).encode()))
         if session is None:
-            said = f"{self._keys.cookie}={self._keys.enter()}; Path=/; HttpOnly; SameSite=Strict"
-            headers.append((b"set-cookie", said.encode()))
+            cookie = f"{self._keys.cookie}={self._keys.enter()}; Path=/; HttpOnly; SameSite=Strict"
+            headers.append((b"set-cookie", cookie.encode()))
         await send({"type": "http.response.start", "status": 200, "headers": headers + headers_of()})
         await send({"type": "http.response.body", "body": body})
 
@@ -256,8 +258,12 @@ def _header(scope: Scope, wanted: str) -> str:
 def _with_headers(send: Send, extra: list[tuple[bytes, bytes]]) -> Send:
     async def sent(message: Message) -> None:
         if message["type"] == "http.response.start":
-            own = [one for one in message.get("headers", ()) if not one[0].lower().startswith(b"access-control-")]
-            message = {**message, "headers": [*own, *extra]}
+            kept_headers = [
+                header
+                for header in message.get("headers", ())
+                if not header[0].lower().startswith(b"access-control-")
+            ]
+            message = {**message, "headers": [*kept_headers, *extra]}
         await send(message)
 
     return sent

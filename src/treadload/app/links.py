@@ -96,14 +96,14 @@ def new_link(port: int = 0) -> str:
 
     port: of the server; 0 for the only one. Raises InputError where none, or several, answer.
     """
-    known = {int(about["port"]): links for links, about in _servers() if _answers(about)}
-    if port and port not in known:
-        raise InputError(f"you serve no page on port {port} of this machine; {_those(sorted(known))}")
-    if len(known) != 1 and not port:
+    servers = {int(about["port"]): links for links, about in _servers() if _answers(about)}
+    if port and port not in servers:
+        raise InputError(f"you serve no page on port {port} of this machine; {_those(sorted(servers))}")
+    if len(servers) != 1 and not port:
         raise InputError(
-            f"a new address needs one page that is being served, got {len(known)}; {_those(sorted(known))}"
+            f"a new address needs one page that is being served, got {len(servers)}; {_those(sorted(servers))}"
         )
-    return known[port or next(iter(known))].new()
+    return servers[port or next(iter(servers))].new()
 
 
 def _those(ports: list[int]) -> str:
@@ -114,14 +114,14 @@ def _those(ports: list[int]) -> str:
 
 def _servers() -> list[tuple[Links, dict[str, Any]]]:
     """Folders of this user's servers, running or not."""
-    found = []
+    servers = []
     for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
         with contextlib.suppress(OSError, ValueError, KeyError):
             if hasattr(os, "getuid") and folder.lstat().st_uid != os.getuid():
                 continue
             about = json.loads((folder / _ABOUT).read_text(encoding="utf-8"))
-            found.append((Links(folder, str(about["address"])), about))
-    return found
+            servers.append((Links(folder, str(about["address"])), about))
+    return servers
 
 
 def _answers(about: dict[str, Any]) -> bool:

@@ -39,8 +39,8 @@ def headers_of(nonce: str = "", host: str = "") -> list[tuple[bytes, bytes]]:
     nonce: of the scripts and style sheets in it, "" where it has none. host: and port under which the browser knows
     this server, "" for an answer that loads nothing.
     """
-    told = {"content-security-policy": _policy(nonce, host), **_FIXED}
-    return [(name.encode(), value.encode()) for name, value in told.items()]
+    headers = {"content-security-policy": _policy(nonce, host), **_FIXED}
+    return [(name.encode(), value.encode()) for name, value in headers.items()]
 
 
 def _policy(nonce: str, host: str) -> str:

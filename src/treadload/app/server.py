@@ -13,19 +13,19 @@ from typing import Any
 
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
-from nicegui import app, background_tasks, core, ui
+from nicegui import Client, app, background_tasks, core, ui
 from nicegui.client import templates
 from nicegui.server import Server
 
 from treadload.app.connections import Impatient
 from treadload.app.engines import EngineLost, Engines
+from treadload.app.export_files import KINDS
 from treadload.app.guard import SESSION, Guard, Keys, address_of
 from treadload.app.links import Links
-from treadload.app.page import KINDS_OF_PAGES, LOOK, build
+from treadload.app.page_frame import Page
+from treadload.app.pages import LOOK, build, registered_pages
 from treadload.app.policy import give_nonces
 from treadload.app.sessions import TAB_GONE, Sessions
-from treadload.app.tab import PAGES, Tab
-from treadload.app.takehome import KINDS
 from treadload.errors import InputError
 from treadload.plots.interactive import link_script
 
@@ -57,7 +57,7 @@ def run(host: str, port: int, *, open_browser: bool) -> None:
     links = Links.begin(host, port, address_of(host, port))
     engines = Engines()
     sessions = Sessions(engines, links.folder)
-    keys = Keys(host, port, links.use, sessions.end)
+    keys = Keys(host, port, links.use, sessions.end, _is_connected)
     prepare(keys, sessions)
 
     async def ready() -> None:
@@ -86,6 +86,12 @@ def run(host: str, port: int, *, open_browser: bool) -> None:
         links.end()
 
 
+def _is_connected(page: str) -> bool:
+    """True while the browser of a page holds its socket open."""
+    client = Client.instances.get(page)
+    return client is not None and client.has_socket_connection
+
+
 def _serve(host: str, port: int) -> None:
     ui.run(
         host=host, port=port, show=False, reload=False, title="treadload", favicon=_ICON, dark=None,
@@ -102,17 +108,18 @@ def prepare(keys: Keys, sessions: Sessions) -> None:
     # A bar over the page at each upload, which has no name for who does not see it.
     app.config.quasar_config["loadingBar"]["skipHijack"] = True
 
-    for kind in KINDS_OF_PAGES:
-        _page(keys, sessions, kind)
+    pages = registered_pages()
+    for kind in pages:
+        _page(keys, sessions, kind, pages)
 
     @app.get("/take/{run}/{kind}")
     async def take(request: Request, run: str, kind: str) -> Response:
         session = sessions.get(request.scope[SESSION])
-        held = None if session is None else session.runs.get(run)
-        if session is None or held is None or kind not in KINDS:
+        stored = None if session is None else session.runs.get(run)
+        if session is None or stored is None or kind not in KINDS:
             return PlainTextResponse("treadload: this browser has no such result\n", status_code=404)
         try:
-            answer = await session.last(held.room, "export", run=run, kind=kind)
+            answer = await session.last(stored.page, "export", run=run, kind=kind)
         except EngineLost as error:
             return PlainTextResponse(f"treadload: {error}\n", status_code=503)
         if "file" not in answer:
@@ -132,11 +139,11 @@ def prepare(keys: Keys, sessions: Sessions) -> None:
     _around_everything(keys)
 
 
-def _page(keys: Keys, sessions: Sessions, kind: type[Tab]) -> None:
+def _page(keys: Keys, sessions: Sessions, kind: type[Page], pages: list[type[Page]]) -> None:
     """A page at its address, for tabs of whoever asks."""
 
-    @ui.page(kind.address, title=f"treadload, {PAGES[kind.address]}", response_timeout=30.0)
-    async def made(request: Request) -> None:
+    @ui.page(kind.address, title=f"treadload, {kind.title}", response_timeout=30.0)
+    async def page_of(request: Request) -> None:
         name, client = request.scope[SESSION], ui.context.client
         session, left = sessions.tab(name)
         keys.owners[client.id] = name
@@ -146,7 +153,7 @@ def _page(keys: Keys, sessions: Sessions, kind: type[Tab]) -> None:
             left()
 
         client.on_delete(gone)
-        build(session, kind)
+        build(session, kind, pages)
 
 
 def _around_everything(keys: Keys) -> None:
@@ -172,7 +179,7 @@ def _own_events(keys: Keys) -> None:
             return False
 
         async def waited(sid: str, message: Any, checked: Any = checked) -> Any:
-            made = checked(sid, message)
-            return await made if hasattr(made, "__await__") else made
+            answer = checked(sid, message)
+            return await answer if hasattr(answer, "__await__") else answer
 
         core.sio.on(event, waited)

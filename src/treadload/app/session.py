@@ -15,7 +15,6 @@ from typing import Any
 
 from treadload.app.engines import Engine, EngineLost, Engines
 from treadload.app.form import Form
-from treadload.app.life_form import LifeForm
 from treadload.errors import InputError
 from treadload.files import write_whole
 
@@ -26,19 +25,26 @@ MESHES = (".obj", ".ply", ".stl", ".glb", ".off")
 MAPS = (".nc", ".csv", ".npy", ".npz")
 FOOTPRINTS = (".csv", ".nc", ".asf", ".txt")
 STUDIES = (".nc",)
+FILES = {
+    "tire.scan": ("mesh …", MESHES), "tire.height_map": ("height map …", MAPS),
+    "climate.file": ("weather …", (".csv", ".epw")), "footprint.file": ("recorded stress …", FOOTPRINTS),
+    "texture.file": ("texture …", (".csv", ".txt", ".dat", ".x3p", ".sdf", ".sur", ".al3d", ".npy", ".nc")),
+}  # fmt: skip
+"""How paths of keys end that name a file: what its button says, and what it takes."""
 _STORES = (".zarr", ".zip")
 
 
 @dataclass
 class Run:
-    """A solved case. room: of the page that asked for it. rows: of the verdict. allowed: passes by
-    criterion. unsolved: a sentence on what of its case the page did not solve. thumb: a picture, as data URL.
+    """A solved case. page: address of the page that asked for it. rows: of its results. allowed: rows and notes on
+    load repetitions by criterion. unsolved: a sentence on what of its case the page did not solve. thumb: a picture,
+    as data URL.
     """
 
     name: str
     title: str
     form: Form | None
-    room: str = "bench"
+    page: str = "/"
     rows: list[dict[str, Any]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     allowed: dict[str, Any] = field(default_factory=dict)
@@ -53,43 +59,43 @@ class Session:
 
     engines: Engines
     folder: Path = field(default_factory=lambda: Path(tempfile.mkdtemp(prefix="treadload-app-")))
-    forms: dict[str, Form] = field(default_factory=lambda: {"bench": Form.first(), "life": LifeForm.first()})
+    forms: dict[str, Form] = field(default_factory=dict)
     runs: dict[str, Run] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
     _engines: dict[str, Engine] = field(default_factory=dict)
     _lock: asyncio.Lock = field(default_factory=asyncio.Lock)
     _closed: bool = False
 
-    async def engine(self, room: str) -> Engine:
+    async def engine(self, page: str) -> Engine:
         """The process of this browser for a page: a life goes on while the bench solves another wheel."""
         async with self._lock:
-            engine = self._engines.get(room)
+            engine = self._engines.get(page)
             if engine is None or not engine.lives:
                 engine = await self.engines.take(self.folder)
                 if self._closed:
                     engine.kill()
                     raise EngineLost("this page was closed, and its session has ended; load it again")
-                self._engines[room] = engine
+                self._engines[page] = engine
             return engine
 
-    async def ask(self, room: str, do: str, **told: Any) -> AsyncIterator[dict[str, Any]]:
+    async def ask(self, page: str, do: str, **question: Any) -> AsyncIterator[dict[str, Any]]:
         """Answers of the process of a page, see `Engine.ask`."""
-        engine = await self.engine(room)
-        async for answer in engine.ask(do, **told):
+        engine = await self.engine(page)
+        async for answer in engine.ask(do, **question):
             yield answer
 
-    async def last(self, room: str, do: str, **told: Any) -> dict[str, Any]:
+    async def last(self, page: str, do: str, **question: Any) -> dict[str, Any]:
         """The last answer of the process of a page."""
-        return await (await self.engine(room)).last(do, **told)
+        return await (await self.engine(page)).last(do, **question)
 
-    async def stop(self, room: str) -> None:
+    async def stop(self, page: str) -> None:
         """End what is being solved for a page; what was finished stays."""
-        if room in self._engines:
-            await self._engines[room].stop()
+        if page in self._engines:
+            await self._engines[page].stop()
 
-    def new_run(self, form: Form | None, title: str, room: str) -> Run:
+    def new_run(self, form: Form | None, title: str, page: str) -> Run:
         """A run with a name that nobody guesses."""
-        run = Run(secrets.token_hex(16), title, form, room)
+        run = Run(secrets.token_hex(16), title, form, page)
         self.runs[run.name] = run
         while len(self.runs) > _MOST_RUNS:
             oldest = next(iter(self.runs))
@@ -105,14 +111,14 @@ class Session:
             raise InputError(
                 f"{shown} is a store of Zarr or an archive; what is in one says itself which code unpacks it, so no "
                 "page opens one; bring the study as one file: "
-                "tl.save_results(tl.study.open_sweep('a.zarr'), 'a.nc')"
+                "tl.save_results(tl.sweeps.open_sweep('a.zarr'), 'a.nc')"
             )
         if suffix not in suffixes:
             raise InputError(f"{shown} is none of the files that go here: {', '.join(suffixes)}")
-        held = sum(one.stat().st_size for one in self.folder.iterdir() if one.is_file())
-        if len(self.files) >= _MOST_FILES or held + len(content) > _MOST_BYTES:
+        stored = sum(path.stat().st_size for path in self.folder.iterdir() if path.is_file())
+        if len(self.files) >= _MOST_FILES or stored + len(content) > _MOST_BYTES:
             raise InputError(
-                f"this browser has {len(self.files)} files and {held / 2**20:.0f} MB here, and {_MOST_FILES} files "
+                f"this browser has {len(self.files)} files and {stored / 2**20:.0f} MB here, and {_MOST_FILES} files "
                 f"and {_MOST_BYTES // 2**20} MB are the most; close its tabs for a minute, and all are removed"
             )
         kept = f"upload_{secrets.token_hex(8)}{suffix}"

@@ -26,30 +26,30 @@ class Sessions:
 
     def __init__(self, engines: Engines, folder: Path, *, lingers: float = LINGERS) -> None:
         self._engines, self._folder, self._lingers = engines, folder, lingers
-        self._held: dict[str, Session] = {}
+        self._sessions: dict[str, Session] = {}
         self._tabs: dict[str, int] = {}
         self._ending: dict[str, asyncio.TimerHandle] = {}
 
     def __len__(self) -> int:
-        return len(self._held)
+        return len(self._sessions)
 
     def get(self, name: str) -> Session | None:
         """The session of a name, where it has begun and not ended."""
-        return self._held.get(name)
+        return self._sessions.get(name)
 
     def tab(self, name: str) -> tuple[Session, Callable[[], None]]:
         """The session of a name for a tab that opens, and what to call when the tab is gone."""
-        if name not in self._held:
+        if name not in self._sessions:
             folder = Path(tempfile.mkdtemp(prefix="session-", dir=self._folder))
-            self._held[name] = Session(self._engines, folder)
-        session = self._held[name]
+            self._sessions[name] = Session(self._engines, folder)
+        session = self._sessions[name]
         self._tabs[name] = self._tabs.get(name, 0) + 1
         self._stay(name)
         gone = False
 
         def left() -> None:
             nonlocal gone
-            if gone or self._held.get(name) is not session:
+            if gone or self._sessions.get(name) is not session:
                 return
             gone = True
             self._tabs[name] -= 1
@@ -63,7 +63,7 @@ class Sessions:
         """End a session."""
         self._stay(name)
         self._tabs.pop(name, None)
-        session = self._held.pop(name, None)
+        session = self._sessions.pop(name, None)
         if session is not None:
             session.close()
             # A process that was writing may have put a file back.
@@ -72,7 +72,7 @@ class Sessions:
 
     def close(self) -> None:
         """End all of them."""
-        for name in list(self._held):
+        for name in list(self._sessions):
             self.end(name)
 
     def _stay(self, name: str) -> None:

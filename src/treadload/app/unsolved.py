@@ -2,46 +2,23 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
-
 from treadload.case import Case
-from treadload.case.file import FilePart
-from treadload.read import Table
-
-# What `Engine._solve` takes of a case: whole tables and values, or some keys of a table. What the case learns besides
-# is named until it stands here, so that nothing is left out in silence.
-_WHOLE = frozenset(
-    {"title", "folder", "spacing", "tolerance", "road_compliance", "tire", "pavement", "rolling", "footprint"}
-)
-_KEYS: Mapping[str, frozenset[str]] = {
-    "response": frozenset({"depths", "slice_depth", "wheels", "speed", "side"}),
-    "damage": frozenset({"fatigue", "strain", "mean_over", "depth", "lattices"}),
-}
+from treadload.case.step import Source
 
 
-def unsolved(case: FilePart) -> list[str]:
-    """Tables of a case, "[crossing]", and keys, "damage.error_estimate", that the page does not solve.
+def left_out(case: Case) -> tuple[str, ...]:
+    """Names of the steps of a case that the page does not solve."""
+    return tuple(step.name for step in case.steps if not (step.is_quick or isinstance(step, Source)))
 
-    A life is solved whole.
-    """
-    if not isinstance(case, Case):
+
+def unsolved(case: Case) -> list[str]:
+    """Tables of a case, "[crossing]", that the page does not solve. A life is solved whole."""
+    if case.command == "life":
         return []
-    named = []
-    for name in type(case).model_fields:
-        value = getattr(case, name, None)
-        if name not in case.model_fields_set or name in _WHOLE or value is None:
-            continue
-        if name in _KEYS and isinstance(value, Table):
-            stray = [key for key in type(value).model_fields if key in value.model_fields_set - _KEYS[name]]
-            named += [f"{name}.{key}" for key in stray if getattr(value, key) not in (None, False)]
-        elif not (name == "texture" and value.resolved):
-            # A texture that is resolved lies under the tire of the contact; else it is a patch, solved for itself.
-            named.append(f"[{name}]")
-    return named
+    return [f"[{step.name}]" for step in case.steps if step.has_table and not step.is_quick]
 
 
-def said_of(case: FilePart | None) -> str:
+def unsolved_sentence(case: Case | None) -> str:
     """A sentence on what the page did not solve of a case; "" where it solved all."""
     named = [] if case is None else unsolved(case)
     if case is None or not named:
@@ -53,7 +30,6 @@ def said_of(case: FilePart | None) -> str:
     )
 
 
-def command(case: FilePart, file: str = "case.toml") -> str:
+def command(case: Case, file: str = "case.toml") -> str:
     """The command that solves a case whole."""
-    (found,) = re.findall(r"`(treadload [^`]+)`", case.how_to_run.format(name=file))[:1]
-    return str(found)
+    return f"treadload {case.command} {file}"

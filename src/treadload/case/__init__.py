@@ -1,7 +1,5 @@
 """A case and its tables."""
 
-from treadload.case.calibration import CalibrationCase
-from treadload.case.life import LifeCase
 from treadload.case.model import Case
 
-__all__ = ["CalibrationCase", "Case", "LifeCase"]
+__all__ = ["Case"]

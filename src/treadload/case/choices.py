@@ -35,5 +35,5 @@ ManeuverTable = Annotated[Any, MANEUVER]
 
 def maneuver_of(table: Any) -> tuple[Maneuver, str, float | None]:
     """A maneuver, its name for tables, and its share of the class's passes if it gives one."""
-    made: Maneuver = MANEUVER.build(table)
-    return made, getattr(table, "name", None) or made.name, getattr(table, "share", None)
+    maneuver: Maneuver = MANEUVER.build(table)
+    return maneuver, getattr(table, "name", None) or maneuver.name, getattr(table, "share", None)

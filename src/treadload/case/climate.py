@@ -97,9 +97,9 @@ class ClimatePart(Table):
 
     @model_validator(mode="after")
     def _one_kind(self) -> ClimatePart:
-        given = [name for name in self.one_of if getattr(self, name) is not None]
-        if len(given) != 1:
-            got = " and ".join(given) or "none of them"
+        kinds = [name for name in self.one_of if getattr(self, name) is not None]
+        if len(kinds) != 1:
+            got = " and ".join(kinds) or "none of them"
             raise ValueError(f"give exactly one of temperature, months, seasons, file and air, got {got}")
         if self.months is not None and len(self.months) != len(MONTHS):
             raise ValueError(f"months needs 12 temperatures in °C, January first, got {len(self.months)}")
@@ -120,19 +120,19 @@ class ClimatePart(Table):
             return plain if ageing is None else plain.within(self.sublayers, ageing.build(None))
         weather = self.weather(folder)
         aged = None if ageing is None else ageing.build(weather)
-        found = self.temperatures(road, folder)
+        temperatures = self.temperatures(road, folder)
         climate = Climate.of_road(
-            road, found, parts=self.parts_of_day, hours=self.hours, sublayers=self.sublayers, ageing=aged
+            road, temperatures, parts=self.parts_of_day, hours=self.hours, sublayers=self.sublayers, ageing=aged
         )
         return climate if self.thermal is None else replace(climate, thermal=THERMAL.build(self.thermal))
 
     def temperatures(self, road: Pavement, folder: Path) -> RoadTemperatures:
         """Temperatures of a road below the weather, at the middles of its parts and all interfaces."""
         parts, _ = divided(road, thickest=self.sublayers)
-        ends = [float(one) for one in parts.interfaces]
+        ends = [float(interface) for interface in parts.interfaces]
         middles = [0.5 * (a + b) for a, b in zip([0.0, *ends], ends, strict=False)]
         heat = Heat() if self.heat is None else HEAT.build(self.heat)
-        return _found(road, self.weather(folder), tuple(sorted({0.0, *middles, *ends})), heat)
+        return _road_temperatures(road, self.weather(folder), tuple(sorted({0.0, *middles, *ends})), heat)
 
     def weather(self, folder: Path) -> Weather:
         """The weather. Raises InputError where there is none."""
@@ -164,5 +164,5 @@ def _of_months(months: tuple[float, ...], daily_range: float, latitude: float, c
 
 
 @lru_cache(maxsize=4)
-def _found(road: Pavement, weather: Weather, depths: tuple[float, ...], heat: Heat) -> RoadTemperatures:
+def _road_temperatures(road: Pavement, weather: Weather, depths: tuple[float, ...], heat: Heat) -> RoadTemperatures:
     return road_temperatures(road, weather, depths, heat)

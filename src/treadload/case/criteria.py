@@ -10,7 +10,7 @@ from treadload.damage.laws.of_layer import OnLayer, law_of_layer
 from treadload.damage.quantity import Place, Quantity, Reading
 from treadload.errors import InputError, nearest
 from treadload.pavement import Pavement
-from treadload.read import As, Choice, Made, guarded, made_by, parameters
+from treadload.read import As, Choice, TargetTable, guarded, made_by, parameters
 from treadload.registry import CRITERIA
 from treadload.response import MATERIAL_LENGTH
 from treadload.units import Length
@@ -18,7 +18,7 @@ from treadload.units import Length
 _READS = As(Quantity)
 
 
-class CriterionTable(Made):
+class CriterionTable(TargetTable):
     """`[[criteria]]`: name, law, and the layer that it judges.
 
     name: for tables and figures. layer: its name, or its number from the surface, 1 the top one; left out, the last
@@ -62,20 +62,20 @@ class CriterionTable(Made):
         """What is read: as the table says, or as its law does; None where only the built law shows it."""
         table: Any = self
         if self.told_quantity:
-            told: Quantity = _READS.build(table.reads)
-            return told
-        reads = (getattr(one, "reads", None) for one in made_by(type(self).target))
-        return next((one for one in reads if isinstance(one, Quantity)), None)
+            quantity: Quantity = _READS.build(table.reads)
+            return quantity
+        reads = (getattr(kind, "reads", None) for kind in made_by(type(self).target))
+        return next((quantity for quantity in reads if isinstance(quantity, Quantity)), None)
 
     def _law(self, at: OnLayer) -> Any:
         target = type(self).target
-        given = {name: value for name, value in self.given().items() if value is not None}
+        arguments = {name: value for name, value in self.arguments().items() if value is not None}
         taken = parameters(target)
         layer = [name for name, (hint, _) in taken.items() if hint is OnLayer]
         if layer:
-            return guarded(self.entry, target, **{layer[0]: at}, **given)
+            return guarded(self.entry, target, **{layer[0]: at}, **arguments)
         needed = tuple(name for name, (_, default) in taken.items() if default is ...)
-        return guarded(self.entry, law_of_layer, target, at, given, needed)
+        return guarded(self.entry, law_of_layer, target, at, arguments, needed)
 
 
 CRITERION = Choice(
@@ -112,21 +112,23 @@ def quantity_of(table: Mapping[str, Any]) -> Quantity | None:
     return quantity
 
 
-def _number(who: str, asked: int | str | None, road: Pavement, usual: int | None) -> int:
+def _number(who: str, wanted: int | str | None, road: Pavement, usual: int | None) -> int:
     """Number of the layer from 0 at the surface."""
     names = [layer.name for layer in road.layers]
     listed = ", ".join(f"{number} {name!r}" for number, name in enumerate(names, start=1))
-    if asked is None:
+    if wanted is None:
         if usual is None:
             raise InputError(f"{who!r}: layer is missing; the road has {listed}")
         return usual % len(names)
-    if isinstance(asked, int):
-        if not 1 <= asked <= len(names):
-            raise InputError(f"{who!r}: no layer {asked}; the road has {listed}")
-        return asked - 1
-    matches = [k for k, name in enumerate(names) if asked.casefold() == name.casefold()]
+    if isinstance(wanted, int):
+        if not 1 <= wanted <= len(names):
+            raise InputError(f"{who!r}: no layer {wanted}; the road has {listed}")
+        return wanted - 1
+    matches = [k for k, name in enumerate(names) if wanted.casefold() == name.casefold()]
     if len(matches) != 1:
         if matches:
-            raise InputError(f"{who!r}: several layers have the name {asked!r}; the road has {listed}")
-        raise InputError(f"{who!r}: no layer has the name {asked!r}; {nearest(asked, names)}; the road has {listed}")
+            raise InputError(f"{who!r}: several layers have the name {wanted!r}; the road has {listed}")
+        raise InputError(
+            f"{who!r}: no layer has the name {wanted!r}; {nearest(wanted, names)}; the road has {listed}"
+        )
     return matches[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from treadload.case.schema import kind_of_case
+from treadload.case.schema import check_kind
 
 _HERE = Path(__file__).parent
 
@@ -14,5 +14,5 @@ def first_case(name: str = "run") -> str:
 
     name: "run", "life" or "calibrate". Raises InputError.
     """
-    kind_of_case(name)
+    check_kind(name)
     return (_HERE / f"first_{name}.toml").read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ from treadload.case.changes import set_key
 from treadload.case.file import FilePart
 from treadload.errors import InputError, nearest
 from treadload.read import Table
-from treadload.read.table import Made, arms
+from treadload.read.table import TargetTable, arms
 from treadload.units import Unit
 
 
@@ -20,21 +20,21 @@ def keys_of(case: FilePart) -> dict[str, str | None]:
 
 
 def _keys(table: Table, before: str) -> Iterator[tuple[str, str | None]]:
-    told = table.hints if isinstance(table, Made) else {}
+    hints = table.hints if isinstance(table, TargetTable) else {}
     for name in type(table).known_keys():
         path = f"{before}{name}"
         field = type(table).model_fields[name]
-        own = told.get(name, Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation)
-        yield path, _unit(own)
+        hint = hints.get(name, Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation)
+        yield path, _unit(hint)
         value = getattr(table, name, None)
         members = enumerate(value) if isinstance(value, tuple | list) else [(None, value)]
-        for number, one in members:
-            if isinstance(one, Table):
-                yield from _keys(one, f"{path}." if number is None else f"{path}.{number}.")
+        for number, member in members:
+            if isinstance(member, Table):
+                yield from _keys(member, f"{path}." if number is None else f"{path}.{number}.")
 
 
-def _unit(told: Any) -> str | None:
-    for arm in arms(told):
+def _unit(hint: Any) -> str | None:
+    for arm in arms(hint):
         marks = get_args(arm)[1:] if get_origin(arm) is Annotated else ()
         unit = next((mark.si for mark in marks if isinstance(mark, Unit)), None)
         if unit is not None:
@@ -52,15 +52,15 @@ def find_key(case: FilePart, name: str) -> str:
 
     Raises InputError for a name that no table has, and for one that several have.
     """
-    known = keys_of(case)
-    if name in known or "." in name:
+    units = keys_of(case)
+    if name in units or "." in name:
         return name
-    ends = [path for path in known if path.rpartition(".")[2] == name]
+    ends = [path for path in units if path.rpartition(".")[2] == name]
     if len(ends) == 1:
         return ends[0]
     if ends:
         raise InputError(f"the key {name!r} may mean {', '.join(ends)}; write one of these")
-    short = sorted({path.rpartition(".")[2] for path in known})
+    short = sorted({path.rpartition(".")[2] for path in units})
     raise InputError(f"the case has no key {name!r}; {nearest(name, short)}")
 
 

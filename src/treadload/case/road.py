@@ -55,10 +55,10 @@ class LayerPart(Table):
 
     def _material(self, frequency: float | None) -> Material | TemperatureDependent | ElastoPlastic:
         if self.material is not None:
-            made: Any = ROAD_MATERIAL.build(self.material)
+            material: Any = ROAD_MATERIAL.build(self.material)
             if self.plasticity is not None:
-                made = ElastoPlastic(made, PLASTIC.build(self.plasticity))
-            return made  # type: ignore[no-any-return]
+                material = ElastoPlastic(material, PLASTIC.build(self.plasticity))
+            return material  # type: ignore[no-any-return]
         assert self.mix is not None
         mix = mixes[self.mix]
         return mix.with_frequency(frequency) if frequency is not None and isinstance(mix, Mix) else mix
@@ -98,6 +98,8 @@ class RoadPart(Table):
             raise ValueError(f"give either layers or the name of a structure, got {got} of them")
         if self.structure is not None and self.rigid_base:
             raise ValueError("a structure of the catalogue has its own base; rigid_base belongs to layers")
+        # Refused at its own key, whoever asks for the road first.
+        self.untempered()
         return self
 
     def untempered(self) -> Pavement:
@@ -108,8 +110,8 @@ class RoadPart(Table):
         return Pavement([layer.build(self.frequency) for layer in self.layers], rigid_base=self.rigid_base)
 
 
-def _waits(one: Any) -> bool:
-    return isinstance(one, TemperatureDependent) or getattr(one, "depends_on_temperature", False) is True
+def _waits(part: Any) -> bool:
+    return isinstance(part, TemperatureDependent) or getattr(part, "depends_on_temperature", False) is True
 
 
 class PavementPart(RoadPart):
@@ -122,17 +124,16 @@ class PavementPart(RoadPart):
     temperature: Annotated[Any, TEMPERATURE] = None
     extrapolate: bool = False
 
-    @model_validator(mode="after")
-    def _one_temperature(self) -> Self:
+    def check_temperature(self) -> None:
+        """Refuse a temperature that changes nothing, and a road that waits for one. Raises ValueError."""
         layers = [layer for layer in self.untempered().layers if layer.depends_on_temperature]
-        warm = [one for layer in layers for one in (layer.material, layer.bond) if _waits(one)]
+        warm = [part for layer in layers for part in (layer.material, layer.bond) if _waits(part)]
         if self.temperature is not None and not warm:
             raise ValueError("temperature changes nothing here: no layer is a mix or has a shift; leave it out")
         if self.frequency is not None and not any(isinstance(material, Mix) for material in warm):
             raise ValueError("frequency changes nothing here: no layer is a bituminous mix of the catalogue")
         if self.temperature is None and warm:
             raise ValueError(f"the road needs a temperature, temperature = 15 in °C: it holds {warm[0]}")
-        return self
 
     def build(self) -> Pavement:
         """The pavement at its temperature."""

@@ -32,7 +32,8 @@ class TirePart(Table):
     units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names no unit.
     cell: of a height map without coordinates. decimal: "." or ",", of a height map as text. inflation_pressure: gives
     the modulus where there is no material. material: of the tread's half-space. belt: in its place, a name of the
-    catalogue or a table; inflation carries it. Of a scan: nominal_diameter: outer, from which the unit follows.
+    catalogue or a table; inflation carries it. tread: of a profile on a belt, "ribs" with free sides between its
+    grooves, or a "layer" without grooves. Of a scan: nominal_diameter: outer, from which the unit follows.
     rotation: about the axle. camber: lean to the right. revolve: the meridian in place of the facets. fill_holes: of
     the tread. smooth: length to smooth noise over, or "auto". outliers: "remove", "refuse" or "keep" points that
     stick out. roundness: share of the radius by which it may vary. scale: m per unit of the file.
@@ -58,38 +59,41 @@ class TirePart(Table):
     inflation_pressure: Pressure | None = None
     material: TireMaterial | None = None
     belt: Annotated[Any, BELT] = None
+    tread: Literal["layer", "ribs"] = "layer"
 
     @model_validator(mode="after")
     def _one_surface(self) -> TirePart:
-        given = [name for name in ("scan", "profile", "height_map") if getattr(self, name) is not None]
-        if len(given) != 1:
+        kinds = [name for name in ("scan", "profile", "height_map") if getattr(self, name) is not None]
+        if len(kinds) != 1:
             raise ValueError(
-                f"give exactly one of scan, profile and height_map, got {' and '.join(given) or 'none of them'}"
+                f"give exactly one of scan, profile and height_map, got {' and '.join(kinds) or 'none of them'}"
             )
         if self.belt is not None and self.material is not None:
             raise ValueError("give either material, of a half-space, or belt; the tread's material is tread in belt")
+        if self.tread == "ribs" and (self.belt is None or self.profile is None):
+            raise ValueError('tread = "ribs" takes the ribs of a profile on a belt; give both, or tread = "layer"')
         if self.profile is not None and self.units is not None:
             raise ValueError("units belongs to a scan or a height_map; this tire is a profile")
         if self.scan is not None and isinstance(self.units, dict):
             raise ValueError('a scan has one unit of length: write units = "mm"')
         if self.decimal is not None and self.height_map is None:
-            raise ValueError(f"decimal belongs to a height_map; this tire is a {given[0]}")
+            raise ValueError(f"decimal belongs to a height_map; this tire is a {kinds[0]}")
         only_scan = {
             *("nominal_diameter", "rotation", "camber", "revolve", "fill_holes"),
             *("smooth", "outliers", "roundness", "scale"),
         }
         stray = sorted(only_scan & self.model_fields_set) if self.scan is None else []
         if stray:
-            raise ValueError(f"{stray[0]} belongs to a scan; this tire is a {given[0]}")
+            raise ValueError(f"{stray[0]} belongs to a scan; this tire is a {kinds[0]}")
         if self.cell is not None and self.height_map is None:
             raise ValueError(
-                f"cell belongs to a height_map; this tire is a {given[0]}: set spacing at the top instead"
+                f"cell belongs to a height_map; this tire is a {kinds[0]}: set spacing at the top instead"
             )
         return self
 
     def _belt(self) -> Belt | None:
-        made = BELT.build(self.belt)
-        return Belt.from_library(made) if isinstance(made, str) else made
+        belt = BELT.build(self.belt)
+        return Belt.from_library(belt) if isinstance(belt, str) else belt
 
     def build(self, folder: Path) -> Tire:
         """The tire; relative paths start from the folder."""
@@ -122,4 +126,4 @@ class TirePart(Table):
         profile = PROFILE.build(self.profile)
         if isinstance(profile, str) and profile.endswith(".toml"):
             profile = TreadProfile.from_toml(folder / profile)
-        return Tire.from_profile(profile, **body)
+        return Tire.from_profile(profile, tread=self.tread, **body)

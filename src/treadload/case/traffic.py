@@ -74,7 +74,7 @@ class AxlePart(Table):
         if "maneuver" in self.model_fields_set and self.maneuvers is not None:
             raise ValueError(f"{self.name!r} needs either a maneuver or maneuvers, got both")
         if self.maneuvers is not None:
-            shares = [maneuver_of(one)[2] for one in self.maneuvers]
+            shares = [maneuver_of(maneuver)[2] for maneuver in self.maneuvers]
             if any(share is None for share in shares):
                 raise ValueError(f"every one of the maneuvers of {self.name!r} needs its share")
             total = sum(share for share in shares if share is not None)
@@ -101,13 +101,13 @@ class AxlePart(Table):
         mirrored = tuple(range(0, len(places), side_by_side)) if duals else ()
         several = self.maneuvers or (self.maneuver,)
         rows = []
-        for one in several:
-            made, told, part = maneuver_of(one)
-            name = self.name if len(several) == 1 else f"{self.name}, {told}"
+        for table in several:
+            maneuver, words, part = maneuver_of(table)
+            name = self.name if len(several) == 1 else f"{self.name}, {words}"
             share = self.share * (1.0 if part is None else part)
             rows.append(
                 AxleClass(
-                    name, share, load, self.inflation_pressure, places, made, friction, self.speed, tire, mirrored
+                    name, share, load, self.inflation_pressure, places, maneuver, friction, self.speed, tire, mirrored
                 )
             )
         return rows
@@ -137,7 +137,7 @@ class TrafficPart(Table):
 
     def build(self, folder: Path) -> Traffic:
         """The traffic."""
-        rows = [row for one in self.classes for row in one.build(folder)]
+        rows = [row for axle_class in self.classes for row in axle_class.build(folder)]
         if self.frequency is not None:
             rule = LoadingFrequency(self.frequency, self.angular)
             rows = [replace(row, frequency=rule) for row in rows]

@@ -2,22 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any, Protocol
+from typing import Annotated, Any
 
 import typer
 
 from treadload.cli import shell
-from treadload.cli.progress import counts, stages
-from treadload.describing import HasSummary
-
-
-class Answer(HasSummary, Protocol):
-    """A result of a case."""
-
-    def to_tree(self) -> Any:
-        """What is written of it."""
+from treadload.cli.progress import Count, Stage, counts, stages
 
 
 def run(
@@ -28,14 +19,8 @@ def run(
     quiet: shell.Quiet = False,
 ) -> None:
     """Compute a case and write its result."""
-    from treadload.case import Case
-    from treadload.study import plan_case, run_case, run_dents
-
-    def solve(question: Case) -> Answer:
-        with stages(shell.err, quiet=quiet) as tell:
-            return run_dents(question, progress=tell) if question.dents else run_case(question, progress=tell)
-
-    _answer(case, Case, plan_case, solve, output, changes, dry_run=dry_run)
+    with stages(shell.err, quiet=quiet) as tell:
+        _answer(case, output, changes, dry_run=dry_run, progress=tell)
 
 
 def life(
@@ -48,14 +33,10 @@ def life(
     quiet: shell.Quiet = False,
 ) -> None:
     """Compute the life of a road under its traffic and climate, and write it."""
-    from treadload.case import LifeCase
-    from treadload.study import plan_life, run_life
-
-    def solve(question: LifeCase) -> Answer:
-        with counts(shell.err, quiet=quiet) as tell:
-            return run_life(question, sensitivity=sensitivity, workers=workers, progress=tell)
-
-    _answer(design, LifeCase, plan_life, solve, output, changes, dry_run=dry_run)
+    left_out = () if sensitivity else ("sensitivity",)
+    with counts(shell.err, quiet=quiet) as tell:
+        _answer(design, output, changes, dry_run=dry_run, command="life", count=tell, leave_out=left_out,
+                workers=workers)  # fmt: skip
 
 
 def calibrate(
@@ -71,45 +52,50 @@ def calibrate(
     quiet: shell.Quiet = False,
 ) -> None:
     """Fit numbers of a tire to what was measured of it, with error bars, and write them."""
-    from treadload.case import CalibrationCase
-    from treadload.study import plan_calibration, run_calibration
-
-    def solve(question: CalibrationCase) -> Answer:
-        try:
-            with counts(shell.err, quiet=quiet) as tell:
-                return run_calibration(question, jobs=jobs, state=state, progress=tell)
-        except KeyboardInterrupt:
-            raise KeyboardInterrupt(
-                "nothing is kept; with --state FILE, what is solved is kept, and the same command goes on from there"
-                if state is None
-                else f"what was solved is kept in {state}; the same command goes on from there"
-            ) from None
-
-    _answer(case, CalibrationCase, plan_calibration, solve, output, changes, dry_run=dry_run)
+    try:
+        with counts(shell.err, quiet=quiet) as tell:
+            _answer(case, output, changes, dry_run=dry_run, command="calibrate", count=tell, jobs=jobs, state=state)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(
+            "nothing is kept; with --state FILE, what is solved is kept, and the same command goes on from there"
+            if state is None
+            else f"what was solved is kept in {state}; the same command goes on from there"
+        ) from None
 
 
 def _answer(
     file: Path,
-    kind: Any,
-    plan: Callable[[Any], str],
-    solve: Callable[[Any], Answer],
     output: Path | None,
     changes: list[str] | None,
     *,
     dry_run: bool,
+    command: str = "",
+    progress: Stage | None = None,
+    count: Count | None = None,
+    **options: Any,
 ) -> None:
-    """Read a case of a kind; print its plan, or solve it, print its summary and write its result."""
+    """Read a case; print its plan, or solve it, print its summary and write its result.
+
+    command: that the case must be for; any where it is left out. options: of `treadload.run`.
+    """
+    from treadload.case import Case
+    from treadload.errors import InputError
     from treadload.files import check_writable
     from treadload.results.exports import check_output, write
+    from treadload.steps import Progress, plan
+    from treadload.steps import run as run_case
 
     path = output or file.with_suffix(".nc")
     # A path that cannot be written is refused before the computation, not after it.
     check_output(path)
-    question = kind.from_toml(file, changes=changes or ())
+    case = Case.from_toml(file, changes=changes or ())
+    if command and case.command != command:
+        raise InputError(f"{file} is not a case of `treadload {command}`: use `treadload {case.command} {file}`")
     check_writable(path)
     if dry_run:
-        return shell.planned(plan(question), path)
-    result = solve(question)
+        return shell.planned(plan(case), path)
+    hooks: dict[str, Any] = {"stage": progress, "count": count}
+    result = run_case(case, progress=Progress(**{key: hook for key, hook in hooks.items() if hook}), **options)
     # What was computed is told before the disk can refuse it.
     shell.out.print(result.summary(), markup=False)
     shell.written(write(result.to_tree(), path))

@@ -11,7 +11,7 @@ import typer
 from treadload.cli import shell
 from treadload.cli.progress import stages
 
-Told = Callable[[str], None]
+Tell = Callable[[str], None]
 Footprint = Annotated[
     Path, typer.Argument(help="Tekscan ASCII, a table x, y, pressure, a matrix, NetCDF, or a picture.")
 ]
@@ -34,32 +34,32 @@ Tolerance = Annotated[str, typer.Option(help="Share by which the loads may diffe
 def compare_files(
     result: Path,
     footprint: Path,
-    tell: Told,
+    tell: Tell,
     *,
     frame: str,
     colours: str | None,
     scale: str | None,
     registration: str,
     load_tolerance: str,
-    **told: Any,
+    **typed: Any,
 ) -> Any:
-    """The comparison of a result file with a footprint file. told: options of `read_footprint` as they were typed."""
+    """A result file beside a footprint file. typed: options of `read_footprint` as they were typed."""
     from treadload.errors import InputError
     from treadload.footprint import compare, read_footprint
     from treadload.results import open_results
     from treadload.units import quantity
 
     tell(f"reading {footprint}")
-    given = {name: value for name, value in told.items() if value is not None}
-    given["frame"] = int(frame) if frame.isdigit() else frame
+    options = {name: value for name, value in typed.items() if value is not None}
+    options["frame"] = int(frame) if frame.isdigit() else frame
     if colours is not None:
-        given["colours"] = colours
+        options["colours"] = colours
     if scale is not None:
         ends = scale.split(" to ")
         if len(ends) != 2:
             raise InputError(f'the scale is written like "0 kPa to 1000 kPa", got {scale!r}')
-        given["scale"] = tuple(ends)
-    measured = read_footprint(footprint, **given)
+        options["scale"] = tuple(ends)
+    measured = read_footprint(footprint, **options)
     results = open_results(result)
     if "contact" not in results:
         raise InputError(f"{result} has no contact to compare with; it holds {', '.join(results) or 'no result'}")

@@ -29,23 +29,23 @@ def design(
     quiet: shell.Quiet = False,
 ) -> None:
     """Find the thickness of a layer for which a road lasts, rounded up, with the life on both sides of it."""
-    from treadload.case import LifeCase
+    from treadload.case import Case
     from treadload.files import check_writable
     from treadload.results import to_tree
     from treadload.results.exports import check_output, write
-    from treadload.study import design_case
+    from treadload.steps import design_case
     from treadload.units import quantity
 
     path = output or case.with_name(f"{case.stem}_design.nc")
     check_output(path)
-    question = LifeCase.from_toml(case, changes=changes or ())
+    question = Case.from_toml(case, changes=changes or ())
     check_writable(path)
     share = None if risk is None else quantity(risk, "")
-    bounds = {"low": quantity(low, "m"), "high": quantity(high, "m"), "step": quantity(step, "m")}
     with counts(shell.err, quiet=quiet) as tell:
-        found = design_case(
-            question, layer=int(layer) if layer.isdigit() else layer, years=years, risk=share, workers=workers,
-            progress=tell, **bounds,
+        designed = design_case(
+            question, int(layer) if layer.isdigit() else layer, years=years, risk=share,
+            between=(quantity(low, "m"), quantity(high, "m")), step=quantity(step, "m"),
+            workers=workers, progress=tell,
         )  # fmt: skip
-    shell.out.print(found.summary(), markup=False)
-    shell.written(write(to_tree(found, case=question, road=found.road.at_temperature(15.0)), path))
+    shell.out.print(designed.summary(), markup=False)
+    shell.written(write(to_tree(designed, case=question, road=designed.road.at_temperature(15.0)), path))

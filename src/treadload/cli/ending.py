@@ -54,7 +54,8 @@ def orderly() -> Iterator[None]:
     try:
         yield
     except SystemExit as end:
-        status = end.code
+        # A page of help that is not read to its end is no failure: the libraries that print it end with 1.
+        status = DONE if isinstance(end.__context__, BrokenPipeError) else end.code
     except KeyboardInterrupt:
         _Signal.since = _Signal.since or 0.0
     if _Signal.since is not None and not _Signal.is_answered:

@@ -49,9 +49,9 @@ def export(
         return opened[name]
 
     if discs is not None:
-        made = equivalent_discs(chosen("contact"), discs)
-        shell.out.print(made.summary(), markup=False)
-        files: tuple[Path, ...] = (made.write_csv(output),)
+        equivalents = equivalent_discs(chosen("contact"), discs)
+        shell.out.print(equivalents.summary(), markup=False)
+        files: tuple[Path, ...] = (equivalents.write_csv(output),)
     elif suffix in VTK:
         kinds = ("response",) if suffix == ".vtr" else ("contact", "response")
         files = (write_vtk(chosen(*kinds), output),)
@@ -73,18 +73,18 @@ def cite(
     ] = None,
 ) -> None:
     """BibTeX of the program and of the methods that a case or a result really uses."""
+    from treadload.citations import references
     from treadload.files import check_suffix, write_whole
     from treadload.results.bibtex import bibtex, citations_of
-    from treadload.results.cite import CITATIONS
 
     if output is not None:
         check_suffix(output, {".bib": "BibTeX"}, "citations")
     if source is None:
-        used = [CITATIONS["chain"]]
+        used = references(())
     elif source.suffix.lower() == ".toml":
-        from treadload.case.schema import read_case
+        from treadload.case import Case
 
-        used = citations_of(read_case(source))
+        used = citations_of(Case.from_toml(source))
     else:
         from treadload.results import open_results
 
@@ -105,13 +105,13 @@ def as_python(
     changes: shell.Changes = None,
 ) -> None:
     """A case as the Python that gives the same numbers."""
-    from treadload.case.schema import read_case
+    from treadload.case import Case
     from treadload.files import check_suffix, write_whole
-    from treadload.study import case_as_python
+    from treadload.steps import case_as_python
 
     if output is not None:
         check_suffix(output, {".py": "Python"}, "a script")
-    text = case_as_python(read_case(case, changes=changes or ()))
+    text = case_as_python(Case.from_toml(case, changes=changes or ()))
     if output is None:
         shell.plain(text)
         return

@@ -25,17 +25,17 @@ def catalogue(
     from treadload import catalogue as catalogues
     from treadload.errors import InputError, nearest
 
-    kinds = {one: getattr(catalogues, one) for one in ("structures", "mixes", "materials", "tires", "belts")}
+    kinds = {kind: getattr(catalogues, kind) for kind in ("structures", "mixes", "materials", "tires", "belts")}
     if kind and kind not in kinds:
         raise InputError(f"no catalogue of {kind!r}; {nearest(kind, kinds)}")
     if name:
         return shell.out.print(kinds[kind].about(name), markup=False)
     notes: dict[str, int] = {}
-    for one in kinds.values() if not kind else [kinds[kind]]:
-        table = Table(shell.names(), "what it is", "notes", title=one.use, title_justify="left")
-        for item_name, words, item in one.rows():
-            told = [text for text in (item.source, *item.doubts) if text]
-            marks = " ".join(f"[{notes.setdefault(text, len(notes) + 1)}]" for text in told)
+    for shelf in kinds.values() if not kind else [kinds[kind]]:
+        table = Table(shell.names(), "what it is", "notes", title=shelf.use, title_justify="left")
+        for item_name, words, item in shelf.rows():
+            notes_of_item = [text for text in (item.source, *item.doubts) if text]
+            marks = " ".join(f"[{notes.setdefault(text, len(notes) + 1)}]" for text in notes_of_item)
             table.add_row(item_name, Text(words), Text(marks))
         shell.out.print(table)
     if not kind:
@@ -59,10 +59,10 @@ def criteria(
     )
     for title, rows in parts:
         shell.out.print(Text(title, style="bold underline"))
-        for one in rows:
-            named, *told = str(one).splitlines()
+        for row in rows:
+            named, *lines = str(row).splitlines()
             shell.out.print(Text(named, style="bold"))
-            for line in told:  # no table: five columns of sentences are not read in a terminal of 80 characters
+            for line in lines:  # no table: five columns of sentences are not read in a terminal of 80 characters
                 shell.out.print(Padding.indent(Text(line.strip()), 4), soft_wrap=False)
         shell.out.print()
 
@@ -90,17 +90,17 @@ def demo(
 
     try:
         with stages(shell.err, quiet=quiet) as tell:
-            made = run_demo(output, progress=tell)
+            result = run_demo(output, progress=tell)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(
             f"the files in {output} are whole; the same command makes all of them again"
         ) from None
-    heading, *rows = made.table
+    heading, *rows = result.table
     table = Table(*heading, title="A 335/65R22.5 truck tire at 32.5 kN on asphalt, friction 0.7")
     for row in rows:
         table.add_row(*row)
     shell.out.print(table)
-    shell.out.print(f"{len(made.files)} files in {output.resolve()} after {made.seconds:.1f} s", markup=False)
+    shell.out.print(f"{len(result.files)} files in {output.resolve()} after {result.seconds:.1f} s", markup=False)
     shell.out.print(f"open {output / 'report.html'}", markup=False)
 
 

@@ -44,14 +44,14 @@ class Lines:
     def __init__(self, write: Callable[[str], None], began: float | None = None) -> None:
         self._write, self._short, self._again = write, SHORT, AGAIN
         self._began = self._last = time.monotonic() if began is None else began
-        self._text, self._told = "", False
+        self._text, self._printed = "", False
         self._first: tuple[int, float] | None = None
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
 
     def stage(self, text: str) -> None:
         """A stage begins, or the text of the present one changes."""
-        self._text, self._told = text, False
+        self._text, self._printed = text, False
 
     def count(self, done: int, total: int, what: str) -> None:
         """So many of so many are done."""
@@ -73,9 +73,9 @@ class Lines:
     def tick(self, now: float) -> None:
         """Look at the clock, s, and write a line if it is time for one."""
         quiet = now - self._last
-        if self._text and (quiet >= self._again or (quiet >= self._short and not self._told)):
+        if self._text and (quiet >= self._again or (quiet >= self._short and not self._printed)):
             self._write(f"{now - self._began:5.0f} s  {self._text}")
-            self._last, self._told = now, True
+            self._last, self._printed = now, True
 
     def _run(self) -> None:
         while not self._over.wait(self._short / 8):

@@ -19,7 +19,7 @@ app = typer.Typer(
 
 def summary(store: Store) -> None:
     """What was varied, how many cases are solved, why others failed, and the range of the results."""
-    from treadload.study import open_sweep
+    from treadload.sweeps import open_sweep
 
     shell.out.print(open_sweep(store).summary(), markup=False)
 
@@ -35,8 +35,7 @@ def table(
     """Write a row for each case: inputs, whether it was solved, its numbers, why it failed."""
     from treadload.files import check_suffix
     from treadload.results.exports import TABLES, check_output, write
-    from treadload.study import open_sweep
-    from treadload.study.sweeps import table_of
+    from treadload.sweeps import open_sweep, table_of
 
     path = output or store.with_suffix(".csv")
     check_suffix(path, TABLES, "a table")
@@ -53,7 +52,7 @@ def report(
     """Write a self-contained HTML page: what was varied, curves, maps, what failed, the base case."""
     from treadload.files import HTML, check_suffix, check_writable
     from treadload.reporting import report as write_page
-    from treadload.study import open_sweep
+    from treadload.sweeps import open_sweep
 
     path = output or store.with_suffix(".html")
     check_suffix(path, HTML, "the report")

@@ -87,7 +87,7 @@ def sweep(
     """Solve a case for many values of its inputs; goes on where it was interrupted."""
     from treadload.case.schema import read_case
     from treadload.errors import InputError
-    from treadload.study.sweeps import from_file, from_texts, plan_sweep, sweep
+    from treadload.sweeps import from_file, from_texts, plan_sweep, sweep
 
     question = read_case(case, changes=changes or ())
     if table is not None and (vary or sample):

@@ -71,9 +71,9 @@ def scan(
         raise InputError("--reference-length is of an earlier scan: give it with --reference, or leave it out")
     if mesh.suffix.lower() == ".toml" and not (lines_of_wheel := _turned(mesh)):
         sources = {name: context.get_parameter_source(name) for name in _OF_MESHES}
-        given = [name for name, source in sources.items() if source is not None and source.name != "DEFAULT"]
-        if given:
-            option = given[0].replace("_", "-")
+        keys = [name for name, source in sources.items() if source is not None and source.name != "DEFAULT"]
+        if keys:
+            option = keys[0].replace("_", "-")
             page = "fringes" if lines_of_wheel is None else "laser"
             raise InputError(
                 f"--{option} belongs to a scan of a tire; {mesh} has its own keys, see docs/howto/{page}.md"
@@ -135,10 +135,10 @@ def _piece(file: Path, output: Path | None, figure: Path | None, *, quiet: bool)
     """Level the piece of tread under a laser whose lines a file names."""
     from treadload.tire.scan.laser import piece_of_lines
 
-    def drawn(found: Any) -> Any:
+    def drawn(result: Any) -> Any:
         from treadload.plots.contact import height_map
 
-        return height_map(found.dataset)
+        return height_map(result.dataset)
 
     _measured(f"reading the lines of {file}", lambda: piece_of_lines(file), drawn, output, figure, quiet=quiet)
 
@@ -147,10 +147,10 @@ def _fringes(file: Path, output: Path | None, figure: Path | None, *, quiet: boo
     """Evaluate the pictures that a file names."""
     from treadload.tire.fringes import read_fringes
 
-    def drawn(found: Any) -> Any:
+    def drawn(result: Any) -> Any:
         from treadload.plots import fringe_scan
 
-        return fringe_scan(found.pixels)
+        return fringe_scan(result.pixels)
 
     _measured(f"evaluating the pictures of {file}", lambda: read_fringes(file), drawn, output, figure, quiet=quiet)
 
@@ -172,16 +172,16 @@ def _measured(
         check_writable(figure)
     with stages(shell.err, quiet=quiet) as tell:
         tell(stage)
-        found = measure()
-    shell.out.print(found.summary(), markup=False)
+        result = measure()
+    shell.out.print(result.summary(), markup=False)
     if output is not None:
-        shell.written(write(found.dataset, output))
+        shell.written(write(result.dataset, output))
     if figure is not None:
         from treadload.plots import save
 
         with stages(shell.err, quiet=quiet) as tell:
             tell("drawing")
-            picture = save(drawn(found), figure)
+            picture = save(drawn(result), figure)
         shell.written([picture])
 
 
@@ -200,24 +200,24 @@ def card(
     """Deflection, footprint and stiffnesses of a freely rolling tire, over loads and inflation pressures."""
     from treadload.case import Case
     from treadload.errors import InputError
-    from treadload.study import tire_card
+    from treadload.footprint import tire_card
     from treadload.units import quantity
 
     shell.check_files(output, report)
     question = Case.from_toml(case, changes=changes or ())
     if question.tire is None:
         raise InputError(f"{case} has a recorded footprint and no tire; a card needs [tire]")
-    asked = [quantity(one, "N") for one in loads.split(";")]
-    inflation = None if pressures is None else [quantity(one, "Pa") for one in pressures.split(";")]
+    forces = [quantity(part, "N") for part in loads.split(";")]
+    inflation = None if pressures is None else [quantity(part, "Pa") for part in pressures.split(";")]
     with stages(shell.err, quiet=quiet) as tell:
-        made = tire_card(
+        result = tire_card(
             question.build_tire(),
-            question.pavement.build(),
-            asked,
+            question.road(),
+            forces,
             inflation,
             stiffness=stiffness,
             spacing=question.spacing,
             progress=tell,
         )
-    shell.out.print(made.summary(), markup=False)
-    shell.write_files(made, output, report, f"Tire card: {question.title or case.stem}", quiet=quiet)
+    shell.out.print(result.summary(), markup=False)
+    shell.write_files(result, output, report, f"Tire card: {question.title or case.stem}", quiet=quiet)

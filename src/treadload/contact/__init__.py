@@ -1,5 +1,6 @@
 """Contact of tire and road: pressure, shear, stick and slip."""
 
+from treadload.contact import friction
 from treadload.contact.crossing import Crossing, cross_obstacle
 from treadload.contact.curve import CreepCurve, creep_curve
 from treadload.contact.enveloped import Enveloped, envelop
@@ -29,6 +30,7 @@ __all__ = [
     "creep_curve",
     "cross_obstacle",
     "envelop",
+    "friction",
     "rolling_resistance",
     "solve_contact",
     "solve_indentation",

@@ -5,6 +5,8 @@ Solvers take steps in single precision, which ends at 1e38, and square what they
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from treadload.contact.bodies.body import Body
@@ -12,11 +14,14 @@ from treadload.contact.rolling_state import Rolling
 from treadload.errors import InputError, within
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
+from treadload.tire import Tire
 
 # Of a cell, m, and of all heights, m.
 _CELLS, _HIGHEST = (1e-9, 1e3), 1e6
 # Of the load on one cell and on all cells, Pa; of a body, 1/modulus.
 _PRESSURES, _MODULI = (1e-12, 1e17), (1e-9, 1e18)
+# Rows of cells that a rib has at least; of their width, after sums.
+_CELLS_OF_A_RIB, _ROUND_OFF = 3, 1e-9
 
 
 def check_spacing(dx: float, dy: float) -> None:
@@ -53,4 +58,16 @@ def check_modulus(name: str, body: Body) -> None:
         raise InputError(
             f"the modulus of {name} must lie between {_MODULI[0]:g} and {_MODULI[1]:g} Pa, and it is {side} than "
             f"{bound:g} Pa; rubber has 3e6, asphalt 5e9, steel 2.1e11"
+        )
+
+
+def check_ribs(tire: Tire, grid: Grid) -> None:
+    """Refuse cells that are too wide for the ribs of a tire. Raises InputError with the size that serves."""
+    widths = [right - left for group in tire.ribs for left, right in group.faces]
+    narrowest = min(widths, default=math.inf)
+    if narrowest < _CELLS_OF_A_RIB * grid.dy * (1 - _ROUND_OFF):
+        size = math.floor(narrowest / _CELLS_OF_A_RIB * 1e4) / 10
+        raise InputError(
+            f"the narrowest rib is {narrowest * 1e3:.3g} mm wide and has fewer than {_CELLS_OF_A_RIB} cells of "
+            f'{grid.dy * 1e3:g} mm; use spacing = "{size:g} mm" or less'
         )

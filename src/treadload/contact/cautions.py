@@ -22,27 +22,34 @@ _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip
 # Mean pressure of a footprint over the inflation pressure: a sensor below 315/80R22.5 at 35 kN gave 0.73 (Materials
 # 2021, 14, 2117), rated loads give 1.0 to 1.3 (from memory), overload more.
 _MEAN_OVER_INFLATION = (0.6, 1.6)
+# Least Poisson's ratio of rubber that keeps its volume.
+_RUBBER = 0.49
 
 
 def of_tire(tire: Tire) -> list[str]:
     """What is known of the tire's surface, and where its modulus comes from when nobody gave it."""
-    said = [] if tire.quality is None else list(tire.quality.warnings)
+    warnings = [] if tire.quality is None else list(tire.quality.warnings)
     surface = tire.surface
     if isinstance(surface, HeightMapSurface) and surface.is_steep:
         length, width = surface.extent
-        said.append(
+        warnings.append(
             f"the heights of the tread differ by {surface.relief:.4g} m on a map of {length:.3g} x {width:.3g} m; if "
             'they are in mm, give units={"gap": "mm"}'
         )
     if tire.material is None and tire.belt is None and tire.inflation_pressure is not None:
         radius = tire.outer_radius
-        told = modulus_doubt(tire.inflation_pressure, None if radius is None else 2 * radius)
-        said += [] if told is None else [told]
+        doubt_of_modulus = modulus_doubt(tire.inflation_pressure, None if radius is None else 2 * radius)
+        warnings += [] if doubt_of_modulus is None else [doubt_of_modulus]
     if tire.belt is not None and tire.inflation_pressure is not None:
         radius = tire.outer_radius
-        told = belt_doubt(tire.belt, tire.inflation_pressure, None if radius is None else 2 * radius)
-        said += [] if told is None else [told]
-    return said
+        doubt_of_modulus = belt_doubt(tire.belt, tire.inflation_pressure, None if radius is None else 2 * radius)
+        warnings += [] if doubt_of_modulus is None else [doubt_of_modulus]
+    if tire.tread == "ribs" and tire.belt is not None and tire.belt.tread.poisson < _RUBBER:
+        warnings.append(
+            f"the ribs have a Poisson's ratio of {tire.belt.tread.poisson:g}, as of a layer that stands for grooves "
+            f"as well; rubber has {_RUBBER:g} to 0.4999: give the tread of the belt Elastic(modulus, 0.495)"
+        )
+    return warnings
 
 
 def of_rolling(tire: Tire, rolling: Rolling) -> list[str]:
@@ -59,18 +66,18 @@ def of_rolling(tire: Tire, rolling: Rolling) -> list[str]:
 def of_numbers(tire: Tire, rolling: Rolling, grid: Grid) -> list[str]:
     """Loads, pressures, speeds, cells that no tire has, with the unit that was likely meant."""
     length, width = tire.extent
-    said = doubt("width of the surface", width) or doubt("width of the surface", length)
+    warnings = doubt("width of the surface", width) or doubt("width of the surface", length)
     if rolling.normal_load is not None:
-        said += load_doubt(rolling.normal_load, width)
+        warnings += load_doubt(rolling.normal_load, width)
     if tire.inflation_pressure is not None:
-        said += doubt("inflation pressure", tire.inflation_pressure)
+        warnings += doubt("inflation pressure", tire.inflation_pressure)
     if isinstance(tire.material, Elastic):
-        said += doubt("modulus of the tire", tire.material.modulus)
-    said += doubt("friction", rolling.law.largest)
+        warnings += doubt("modulus of the tire", tire.material.modulus)
+    warnings += doubt("friction", rolling.law.largest)
     if rolling.speed is not None:
-        said += doubt("speed", rolling.speed)
-    said += doubt("size of the cells", min(grid.dx, grid.dy)) or doubt("size of the cells", max(grid.dx, grid.dy))
-    return list(said)
+        warnings += doubt("speed", rolling.speed)
+    warnings += doubt("size of the cells", min(grid.dx, grid.dy)) or doubt("size of the cells", max(grid.dx, grid.dy))
+    return list(warnings)
 
 
 def of_mean_pressure(tire: Tire, load: float, area: float) -> list[str]:
@@ -94,10 +101,10 @@ def of_mean_pressure(tire: Tire, load: float, area: float) -> list[str]:
 
 def of_fields(data: xr.Dataset) -> list[str]:
     """Results that are not numbers, by name; those that are NaN by design do not count."""
-    said = []
+    warnings = []
     infinite = [str(name) for name, part in data.data_vars.items() if np.isinf(part.values).any()]
     if infinite:
-        said.append(
+        warnings.append(
             f"{', '.join(infinite)} {'is' if len(infinite) == 1 else 'are'} infinite: beyond the largest number of "
             "this machine, 1.8e308; look at the speed"
         )
@@ -105,5 +112,5 @@ def of_fields(data: xr.Dataset) -> list[str]:
         str(name) for name, part in data.data_vars.items() if name not in _MAY_BE_NAN and np.isnan(part.values).any()
     ]
     if unknown:
-        said.append(f"{', '.join(unknown)} could not be computed and {'is' if len(unknown) == 1 else 'are'} NaN")
-    return said
+        warnings.append(f"{', '.join(unknown)} could not be computed and {'is' if len(unknown) == 1 else 'are'} NaN")
+    return warnings

@@ -30,15 +30,16 @@ from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip
-from treadload.describing import first_line
 from treadload.errors import ConvergenceError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.pavement.relief import Relief
+from treadload.rows import Row, extremes, row
 from treadload.tables import finite_list
 from treadload.tire import Tire
 
+_WORK = ("closing_work", "edge_work", "plain_work", "friction_work_density")
 MOST_POSITIONS = 400
 """Positions of a history at most."""
 
@@ -53,6 +54,7 @@ class Crossing(BaseResult, group="crossing"):
     hold: "load" or "axle". stats: iterations, seconds. warnings: sentences for the user.
     """
 
+    title: ClassVar[str] = "Crossing of an obstacle"
     holds: ClassVar[Holds] = Holds(
         {
             "normal_load approach contact_area largest_pressure edge_pressure share_before share_beyond": "position",
@@ -73,39 +75,35 @@ class Crossing(BaseResult, group="crossing"):
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 
-    def summary(self) -> str:
-        """A screenful: the way, the load, peaks of pressure, contact area and work."""
+    @property
+    def heading(self) -> str:
+        """The obstacle."""
+        return str(self.relief)
+
+    def rows(self) -> tuple[Row, ...]:
+        """The way, the load, peaks of pressure, contact area and work."""
         d = self.dataset
-        at, peak = d["position"].to_numpy() * 1e3, d["largest_pressure"].to_numpy() / 1e3
-        load, area = d["normal_load"].to_numpy() / 1e3, d["contact_area"].to_numpy() * 1e6
-        high = int(peak.argmax())
-        held = "the load" if self.hold == "load" else "the height of the axle"
-        work = float(d["closing_work"].max()) / 1e3
+        at, peak = d["position"].to_numpy(), d["largest_pressure"].to_numpy()
+        constant = "the load" if self.hold == "load" else "the height of the axle"
+        way = f"{at[0] * 1e3:.1f} to {at[-1] * 1e3:.1f} mm in {len(at)} positions, {constant} held"
+        plain = float(d["plain_pressure"]) if "plain_pressure" in d else 0.0
+
+        def pressure(key: str, value: float, place: str = "") -> Row:
+            over = f"{value / plain:.3g} times that without the obstacle" if plain > 0 else ""
+            return row(key, value, note=", ".join(filter(None, (place, over))))
+
         lines = [
-            f"crossing      {self.relief}",
-            f"way           {at[0]:.1f} to {at[-1]:.1f} mm in {len(at)} positions, {held} held",
-            f"normal load   {load.min():.3f} to {load.max():.3f} kN",
-            f"contact area  {area.min():.0f} to {area.max():.0f} mm²",
-            f"peak pressure {_beside(float(peak[high]), d)} at {at[high]:.1f} mm",
-            f"at an edge    {_beside(float(d['edge_pressure'].max()) / 1e3, d)} at most",
-            f"closing work  {work:.3g} kJ/m² at most",
+            row("position", way),
+            *(
+                extremes(key, d[name].to_numpy())
+                for key, name in (("normal_load",) * 2, ("net_area", "contact_area"))
+            ),
+            pressure("largest_pressure", float(peak.max()), f"axle at {at[peak.argmax()] * 1e3:.1f} mm"),
+            pressure("edge_pressure", float(d["edge_pressure"].max())),
+            *([row("plain_pressure", plain)] if plain > 0 else []),
+            *(row(name, float(d[name].max())) for name in _WORK if name in d),
         ]
-        if "edge_work" in d and "plain_work" in d:
-            edge, plain = float(d["edge_work"]) / 1e3, float(d["plain_work"]) / 1e3
-            lines[-1] += f", {edge:.3g} at an edge, {plain:.3g} on the plane"
-        if "friction_work_density" in d:
-            lines.append(f"sliding work  {float(d['friction_work_density'].max()):.2f} J/m² at most")
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
-
-    __repr__ = first_line
-
-
-def _beside(peak: float, data: xr.Dataset) -> str:
-    """A pressure, kPa, beside that on a road without the obstacle."""
-    plain = float(data["plain_pressure"]) / 1e3 if "plain_pressure" in data else 0.0
-    if not plain > 0:
-        return f"{peak:.0f} kPa"
-    return f"{peak:.0f} kPa, {peak / plain:.3g} times the {plain:.0f} kPa of the plane,"
+        return tuple(lines)
 
 
 def cross_obstacle(
@@ -156,26 +154,26 @@ def cross_obstacle(
     scene = Scene(tire, relief, rolling, grid, influence, tire.height_map(grid), steps)
     plain = solve_normal(influence, scene.gap, load=rolling.normal_load, tolerance=tight)
     approach = plain.approach if hold == "axle" else None
-    found: list[NormalSolution] = []
+    contacts: list[NormalSolution] = []
     for number, step in enumerate(steps):
         tell(f"position {number + 1} of {len(steps)}")
         load = rolling.normal_load if approach is None else None
         normal = solve_normal(influence, scene.over(int(step)), load=load, approach=approach, tolerance=tight)
         check_border(normal.pressure, grid)
-        found.append(normal)
+        contacts.append(normal)
     rubbed = None
     if rolling.law.largest > 0:
         tell("sliding along the way")
-        rubbed = _sliding(scene, found, tolerance)
+        rubbed = _sliding(scene, contacts, tolerance)
     stats = {
         "positions": len(steps),
-        "normal_iterations": sum(one.iterations for one in found),
-        "normal_residual": max(one.residual for one in found),
+        "normal_iterations": sum(contact.iterations for contact in contacts),
+        "normal_residual": max(contact.residual for contact in contacts),
         "dundurs": influence.dundurs,
         "cells": grid.nx * grid.ny,
         "seconds": time.perf_counter() - began,
     }
-    data = fields_of(scene, found, rubbed, plain)
+    data = fields_of(scene, contacts, rubbed, plain)
     warnings = (*cautions.of_tire(tire), *cautions.of_numbers(tire, rolling, grid), *doubts(scene, hold, data))
     return Crossing(data, tire, road, rolling, relief, hold, stats, warnings)
 
@@ -199,19 +197,19 @@ def _steps(positions: Sequence[float] | Array | None, dx: float, low: float, hig
         # Symmetric about the middle, so that what is mirrored has a mirrored history.
         half = math.ceil(max(-low, high) / (STRIDE * dx))
         whole: Any = STRIDE * np.arange(-half, half + 1)
-        return _few(whole)
-    given = finite_list(positions, "positions", "m")
-    steps: Any = np.rint(given / dx).astype(int)
+        return _check_count(whole)
+    places = finite_list(positions, "positions", "m")
+    steps: Any = np.rint(places / dx).astype(int)
     if (np.diff(steps) <= 0).any():
         at = int(np.argmax(np.diff(steps) <= 0))
         raise InputError(
-            f"positions must ascend by a cell of {dx * 1e3:g} mm or more, got {given[at]:g} m and then "
-            f"{given[at + 1]:g} m; take them further apart, or smaller cells"
+            f"positions must ascend by a cell of {dx * 1e3:g} mm or more, got {places[at]:g} m and then "
+            f"{places[at + 1]:g} m; take them further apart, or smaller cells"
         )
-    return _few(steps)
+    return _check_count(steps)
 
 
-def _few(steps: Any) -> Any:
+def _check_count(steps: Any) -> Any:
     if len(steps) > MOST_POSITIONS:
         raise InputError(
             f"{len(steps)} positions are more than {MOST_POSITIONS}; give fewer positions, further apart"
@@ -228,14 +226,14 @@ def _grid(
         grids += [
             place(above(tire, Moved(relief, int(step) * dx)), rolling, bodies.both, spacing)[0] for step in steps
         ]
-    long, wide = (max(getattr(one, name) for one in grids) for name in ("nx", "ny"))
+    long, wide = (max(getattr(grid, name) for grid in grids) for name in ("nx", "ny"))
     first = grids[0]
     if (first.nx, first.ny) == (long, wide):
         return first
     return Grid.on_lattice(long * first.dx, wide * first.dy, first.dx)
 
 
-def _sliding(scene: Scene, found: Sequence[NormalSolution], tolerance: float) -> list[State]:
+def _sliding(scene: Scene, contacts: Sequence[NormalSolution], tolerance: float) -> list[State]:
     """Shear, slip and work of a wheel that rolls from its first position to its last under known pressures."""
     grid, rolling, law = scene.grid, scene.rolling, scene.rolling.law
 
@@ -244,11 +242,11 @@ def _sliding(scene: Scene, found: Sequence[NormalSolution], tolerance: float) ->
         return law.bound(Interface(pressure, still, grid.x, grid.y, grid.dx, rolling.speed))
 
     def stages() -> Iterator[Stage]:
-        yield Stage(np.zeros((2, 1, 1)), (0.0, 0.0), bound, 0.0, law.axes, pressure=found[0].pressure)
+        yield Stage(np.zeros((2, 1, 1)), (0.0, 0.0), bound, 0.0, law.axes, pressure=contacts[0].pressure)
         slip = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
         slip[0] += scene.tire.row_slip(grid)
-        for travel, one in zip(np.diff(scene.steps) * grid.dx, found[1:], strict=True):
-            yield Stage(slip * travel, rolling.forces, bound, float(travel), law.axes, pressure=one.pressure)
+        for travel, contact in zip(np.diff(scene.steps) * grid.dx, contacts[1:], strict=True):
+            yield Stage(slip * travel, rolling.forces, bound, float(travel), law.axes, pressure=contact.pressure)
 
     try:
         return list(march(scene.influence, stages(), tolerance=tolerance))

@@ -69,11 +69,11 @@ class Scene:
 
 
 def fields_of(
-    scene: Scene, found: Sequence[NormalSolution], rubbed: Sequence[State] | None, plain: NormalSolution
+    scene: Scene, contacts: Sequence[NormalSolution], rubbed: Sequence[State] | None, plain: NormalSolution
 ) -> xr.Dataset:
     """Fields of a crossing over its positions, and over the road what it felt, as `Crossing` describes them.
 
-    found: the contact at every position; rubbed: shear there, None without friction; plain: the contact without the
+    contacts: the contact at every position; rubbed: shear there, None without friction; plain: that without the
     obstacle.
     """
     grid, steps, place_of = scene.grid, scene.steps, scene.road_x
@@ -83,11 +83,11 @@ def fields_of(
     highest, closing, sliding = np.zeros(wide), np.zeros(wide), np.zeros(wide)
     before, depth = np.zeros(wide), np.full(wide, -np.inf)
     rows: dict[str, list[float]] = {name: [] for name in _SCALARS}
-    for number, (step, one) in enumerate(zip(steps, found, strict=True)):
+    for number, (step, contact) in enumerate(zip(steps, contacts, strict=True)):
         at = slice(int(step - steps[0]), int(step - steps[0]) + grid.nx)
         now, sunk = np.zeros(wide), np.full(wide, -np.inf)
-        now[:, at] = one.pressure
-        sunk[:, at] = np.nan_to_num(one.approach - scene.over(int(step)), nan=-np.inf)
+        now[:, at] = contact.pressure
+        sunk[:, at] = np.nan_to_num(contact.approach - scene.over(int(step)), nan=-np.inf)
         np.maximum(highest, now, out=highest)
         # Where a place comes into contact its two surfaces have closed since they met.
         grown = np.maximum(sunk, 0.0) - np.maximum(depth, 0.0)
@@ -97,15 +97,15 @@ def fields_of(
             state = rubbed[number].tangential
             sliding[:, at] += np.maximum(-(state.shear * state.slip).sum(0), 0.0) * (number > 0)
         here = grid.x + step * grid.dx
-        load = float(one.pressure.sum()) * area
-        along = one.pressure.sum(axis=0) * area
+        load = float(contact.pressure.sum()) * area
+        along = contact.pressure.sum(axis=0) * area
         near = (np.abs(here[:, None] - edges[None]) <= 1.01 * grid.dx).any(axis=1)
         for name, value in (
             ("normal_load", load),
-            ("approach", one.approach),
-            ("contact_area", float((one.pressure > 0).sum()) * area),
-            ("largest_pressure", float(one.pressure.max())),
-            ("edge_pressure", float(one.pressure[:, near].max(initial=0.0))),
+            ("approach", contact.approach),
+            ("contact_area", float((contact.pressure > 0).sum()) * area),
+            ("largest_pressure", float(contact.pressure.max())),
+            ("edge_pressure", float(contact.pressure[:, near].max(initial=0.0))),
             ("share_before", _share(along, here < edges.min() - _NEAR * grid.dx, load)),
             ("share_beyond", _share(along, here > edges.max() + _NEAR * grid.dx, load)),
             ("pressure_centre_x", float(along @ grid.x) / load if load > 0 else math.nan),
@@ -114,7 +114,7 @@ def fields_of(
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
         name: (("position",), np.array(values)) for name, values in rows.items()
     }
-    fields["pressure"] = (("position", "y", "x"), np.stack([one.pressure for one in found]))
+    fields["pressure"] = (("position", "y", "x"), np.stack([contact.pressure for contact in contacts]))
     road = ("y", "road_x")
     fields["road_height"] = (road, scene.relief.height(place_of, grid.y))
     fields["highest_pressure"] = (road, highest)
@@ -143,7 +143,7 @@ def _share(along: Array, side: Array, load: float) -> float:
 
 def doubts(scene: Scene, hold: str, data: xr.Dataset) -> list[str]:
     """What a crossing leaves out, and what of it belongs to the cells: sentences for the user."""
-    said = [
+    caveats = [
         "the road below an edge is taken for a half-space, or layers, that go on without end: its own free edge, and "
         "the stress that gathers there, is not in the pressures",
         "the wheel crosses without inertia and its pressures stand upright: what a fast wheel adds, and what slopes "
@@ -151,26 +151,26 @@ def doubts(scene: Scene, hold: str, data: xr.Dataset) -> list[str]:
     ]
     finest = getattr(scene.relief, "finest", None)
     if finest is not None and finest < _FEWEST * scene.grid.dx:
-        said.append(
+        caveats.append(
             f"the obstacle is {finest * 1e3:.3g} mm long and the cells {scene.grid.dx * 1e3:.3g} mm: pressures at "
             f"its edges are those of the cells; use {finest / _FEWEST * 1e3:.2g} mm or less"
         )
     if getattr(scene.relief, "chamfer", None) == 0 and float(np.ptp(data["road_height"].to_numpy())) > 0:
-        said.append(
+        caveats.append(
             "the edge is sharp: pressure and work at it grow without end as cells shrink, and are means over a "
             f"cell of {scene.grid.dx * 1e3:.3g} mm; give it a chamfer for numbers that do not belong to the cells"
         )
     apart = int(np.diff(scene.steps).max(initial=1))
     if apart > STRIDE:
-        said.append(
+        caveats.append(
             f"positions stand up to {apart} cells apart: pressures hold at each of them, but works per place ripple "
             f"between them; take positions {STRIDE} cells apart or less for work"
         )
     if scene.rolling.law.largest > 0 and abs(scene.influence.dundurs) > _ALIKE:
-        said.append(
+        caveats.append(
             f"tire and road differ so that shear changes the pressure (Dundurs' β = {scene.influence.dundurs:.2f}), "
             "which a crossing leaves out"
         )
     if hold == "axle" and (data["normal_load"].to_numpy() <= 0).any():
-        said.append("the tire leaves the road where it is sunk, since its axle is held")
-    return said
+        caveats.append("the tire leaves the road where it is sunk, since its axle is held")
+    return caveats

@@ -14,9 +14,9 @@ from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
 from treadload.contact.solvers.coupling import Progress
-from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.pavement import Pavement
+from treadload.rows import Row, row
 from treadload.tables import finite_list
 from treadload.tire import Tire
 from treadload.variables import dataset
@@ -41,6 +41,7 @@ class CreepCurve(BaseResult, group="creep_curve"):
     of a contact. along: "x" or "y". contacts: the contact of every creepage, in the order given.
     """
 
+    title: ClassVar[str] = "Creep curve"
     holds: ClassVar[Holds] = Holds(
         {
             "creepage friction normal_load tractive_force lateral_force aligning_moment slip_fraction": "creepage",
@@ -57,20 +58,24 @@ class CreepCurve(BaseResult, group="creep_curve"):
         """Sentences for the user, of all contacts."""
         return tuple(dict.fromkeys(text for contact in self.contacts for text in contact.warnings))
 
-    def summary(self) -> str:
-        """A table: creepage, forces over friction times load, slip, moment."""
-        lines = [f"creepage along {self.along}   Q_x/μP   Q_y/μP   slip, %   moment, N m"]
-        for number, creepage in enumerate(self.dataset.creepage.values):
-            row = self.dataset.isel(creepage=number)
-            limit = float(row.friction * row.normal_load) or 1.0
-            along, across = float(row.tractive_force) / limit, float(row.lateral_force) / limit
-            lines.append(
-                f"{creepage:18.5f}  {along:z7.4f}  {across:z7.4f}"
-                f"  {100 * float(row.slip_fraction):8.1f}  {float(row.aligning_moment):z12.2f}"
-            )
-        return "\n".join(lines)
+    @property
+    def heading(self) -> str:
+        """The direction of the creepage."""
+        return f"creepage along {self.along}"
 
-    __repr__ = first_line
+    def rows(self) -> tuple[Row, ...]:
+        """Forces over friction times load, slip and moment by creepage."""
+        lines = []
+        for number, creepage in enumerate(self.dataset.creepage.values):
+            here = self.dataset.isel(creepage=number)
+            limit = float(here.friction * here.normal_load) or 1.0
+            numbers = {
+                "tractive_force_ratio": here.tractive_force / limit,
+                "lateral_force_ratio": here.lateral_force / limit,
+                "slip_fraction": here.slip_fraction, "aligning_moment": here.aligning_moment,
+            }  # fmt: skip
+            lines += [row(key, float(value), group=f"creepage {creepage:.5f}") for key, value in numbers.items()]
+        return tuple(lines)
 
 
 def creep_curve(

@@ -17,9 +17,9 @@ from scipy.special import erf
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact.solution import Contact
-from treadload.describing import first_line
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
+from treadload.rows import Row, row
 from treadload.variables import dataset
 
 # Of the Gaussian, in its standard deviations; cells of the result in an enveloping length.
@@ -35,6 +35,7 @@ class Enveloped(BaseResult, group="enveloped"):
     in its attributes.
     """
 
+    title: ClassVar[str] = "Enveloped contact"
     holds: ClassVar[Holds] = Holds(
         {"pressure traction_x traction_y": "y x", "normal_load": ""}, numbers="dx dy enveloping_length",
         positive="dx dy enveloping_length",
@@ -44,16 +45,19 @@ class Enveloped(BaseResult, group="enveloped"):
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 
-    def summary(self) -> str:
-        """Load, length, peak before and after."""
+    @property
+    def heading(self) -> str:
+        """The enveloping length."""
+        return f"over {self.dataset.attrs['enveloping_length'] * 1e3:.3g} mm"
+
+    def rows(self) -> tuple[Row, ...]:
+        """Load, peak after and before."""
         d = self.dataset
         return (
-            f"enveloped     over {d.attrs['enveloping_length'] * 1e3:.3g} mm: {float(d.normal_load) / 1e3:.3f} kN, "
-            f"peak {float(d.pressure.max()) / 1e3:.0f} kPa, before "
-            f"{self.stats.get('peak_before', math.nan) / 1e3:.0f} kPa"
+            row("normal_load", float(d.normal_load)),
+            row("largest_pressure", float(d.pressure.max())),
+            row("peak_before", self.stats.get("peak_before", math.nan)),
         )
-
-    __repr__ = first_line
 
 
 def envelop(contact: Contact, length: float) -> Enveloped:

@@ -15,7 +15,7 @@ import xarray as xr
 
 from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair
-from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.influence import Influence, operators
 from treadload.contact.solvers.tangential import TangentialSolution
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
@@ -52,7 +52,7 @@ class Scene:
         return np.array([-along_x, -along_y, opening])
 
     def _on_grid(self, body: Body) -> Influence:
-        return Influence(self.grid.shape, self.grid.dx, self.grid.dy, body)
+        return operators(self.grid.shape, self.grid.dx, self.grid.dy, body, self.grid.y0)
 
 
 def shear_on_road(shear: Array) -> Array:

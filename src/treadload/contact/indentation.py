@@ -14,6 +14,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
+from treadload.citations import DENTS
 from treadload.composing import BaseResult, Holds
 from treadload.contact.bodies.choose import Pair
 from treadload.contact.bodies.influence import Influence
@@ -22,17 +23,23 @@ from treadload.contact.rolling_state import Rolling
 from treadload.contact.solve import check_border, place
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.yielding import Ground, Yielding
-from treadload.describing import first_line
 from treadload.errors import InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.kernels.eigenstrain.rows import graded_edges
 from treadload.materials import ElastoPlastic, PassesPowerLaw, Perzyna
 from treadload.pavement import Pavement
+from treadload.rows import Row, row
 from treadload.tire import Tire
+from treadload.variables import SAMPLE
 
 # Depth of the rows, in radii of the elastic contact under the largest load.
 _DEEP = 2.2
+# Row and variable by step.
+_BY_STEP = (
+    ("normal_load",) * 2, ("approach",) * 2, ("largest_pressure", "peak_pressure"), ("net_area", "contact_area"),
+    ("largest_plastic_strain",) * 2, ("residual_displacement_z",) * 2,
+)  # fmt: skip
 # What a side of the box takes of the largest plastic strain, from where on the box is too small; and small strains.
 _REACHED, _SMALL = 0.02, 0.05
 
@@ -48,6 +55,7 @@ class Indentation(BaseResult, group="indentation"):
     sentences. tire, road, loads: the question.
     """
 
+    title: ClassVar[str] = "Indentation"
     holds: ClassVar[Holds] = Holds(
         {
             "step": "step", "depth": "depth", "y": "y", "x": "x",
@@ -55,7 +63,7 @@ class Indentation(BaseResult, group="indentation"):
             "pressure residual_displacement_z": "step y x",
             "equivalent_plastic_strain": "step depth y x",
         },
-        known="normal_load pressure residual_displacement_z",
+        not_nan="normal_load pressure residual_displacement_z",
         maybe={"peak_pressure_error largest_plastic_strain_error": "step"},
         texts="law",
         sizes={"step": (1, np.inf)},
@@ -68,31 +76,29 @@ class Indentation(BaseResult, group="indentation"):
     road: Pavement | None = None
     loads: tuple[float, ...] = ()
 
-    def summary(self) -> str:
-        """Load, approach, peak pressure, plastic strain and dent, step by step."""
-        data = self.dataset
-        lines = [f"indentation of a road, {data.attrs['law']}; {data.sizes['step']} step(s)"]
-        lines.append("load N     approach µm   peak MPa   area mm²   plastic strain %   dent µm")
-        for row in range(data.sizes["step"]):
-            one = data.isel(step=row)
-            lines.append(
-                f"{float(one['normal_load']):<10.4g} {float(one['approach']) * 1e6:>11.4g} "
-                f"{float(one['peak_pressure']) / 1e6:>10.4g} {float(one['contact_area']) * 1e6:>10.4g} "
-                f"{100 * float(one['largest_plastic_strain']):>18.3g} "
-                f"{float(one['residual_displacement_z'].max()) * 1e6:>9.4g}"
-            )
-        if "peak_pressure_error" in data and "largest_plastic_strain_error" in data:
-            peak, strain = (
-                100 * float(data[f"{name}_error"].max()) / (float(data[name].max()) or 1.0)
-                for name in ("peak_pressure", "largest_plastic_strain")
-            )
-            lines.append(
-                f"load steps: half as long ones changed peak pressures by {peak:.1f} % and plastic strains by "
-                f"{strain:.1f} %, at most"
-            )
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+    def cites(self) -> tuple[str, ...]:
+        """Methods of the contact and of plastic strain."""
+        return DENTS
 
-    __repr__ = first_line
+    @property
+    def heading(self) -> str:
+        """The law of the road and the number of steps."""
+        return f"{self.dataset.attrs['law']}; {self.dataset.sizes['step']} step(s)"
+
+    def rows(self) -> tuple[Row, ...]:
+        """Load, approach, peak pressure, plastic strain and dent, step by step; what half as long steps change."""
+        data = self.dataset
+        lines = [
+            row(key, float(data[name][k].max()), group=f"step {k + 1}", display=SAMPLE.get(key))
+            for k in range(data.sizes["step"])
+            for key, name in _BY_STEP
+        ]
+        for name in ("peak_pressure_error", "largest_plastic_strain_error"):
+            if name in data:
+                most = float(data[name.removesuffix("_error")].max()) or 1.0
+                share = f"{100 * float(data[name].max()) / most:.1f} % at most, by load steps half as long"
+                lines.append(row(name, share))
+        return tuple(lines)
 
 
 def solve_indentation(
@@ -146,7 +152,7 @@ def solve_indentation(
         "rounds": pressing.rounds,
         "substeps": sum(step.substeps for step in history),
         "step_error": error,
-        "memory_mb": pressing.zone.own.bytes / 1e6,
+        "memory_mb": pressing.zone.stress_of_strain.bytes / 1e6,
     }
     data = _dataset(grid, ground, history, type(material.law).__name__)
     largest = float(data["largest_plastic_strain"].max())
@@ -189,7 +195,7 @@ def _checked(
     road: Pavement, loads: Sequence[float], depth: float | None, layers: int, tolerance: float
 ) -> tuple[ElastoPlastic, list[float]]:
     material = check_indented(road)
-    steps = [float(one) for one in np.atleast_1d(np.asarray(loads, dtype=float))]
+    steps = [float(load) for load in np.atleast_1d(np.asarray(loads, dtype=float))]
     if not steps or not np.isfinite(steps).all() or min(steps) < 0 or max(steps) <= 0:
         raise InputError(f"loads must be numbers >= 0 N with one above, got {list(loads)}; 0 lifts the body off")
     if depth is not None:

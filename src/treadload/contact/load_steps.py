@@ -168,7 +168,7 @@ class Pressing:
         """Contact over a state as it is, and whether the ground bears it without yielding."""
         self.rounds += 1
         zone, inner = self.zone, self.zone.of(state)
-        stress, touching = zone.own(inner.strain), None
+        stress, touching = zone.stress_of_strain(inner.strain), None
         if load:
             dented = self.gap + zone.sunk(inner.strain)
             touching = solve_normal(self.influence, dented, load=load, start=self.near, tolerance=_FINEST)
@@ -184,7 +184,7 @@ class Pressing:
         while True:
             inner, touching = self._settled(load, self.zone.of(state), name)
             after = self.zone.put(state, inner)
-            if self.zone.held(state, after):
+            if self.zone.spared_border(state, after):
                 return after, touching
             self.zone = self.zone.grown(state, after)
 
@@ -196,7 +196,7 @@ class Pressing:
         touching: NormalSolution | None = None
         for _ in range(_MOST_ROUNDS):
             self.rounds += 1
-            stress = zone.own(state.strain + change) + law.elastic(change)
+            stress = zone.stress_of_strain(state.strain + change) + law.elastic(change)
             if load:
                 dented = self.gap + zone.sunk(state.strain + change)
                 inner = min(max(_INNER * still, _FINEST), _INNER)

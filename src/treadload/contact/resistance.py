@@ -9,6 +9,7 @@ import xarray as xr
 from treadload.composing import BaseResult
 from treadload.contact.solution import Contact
 from treadload.errors import positive
+from treadload.rows import Row, row
 from treadload.variables import dataset
 
 
@@ -32,21 +33,16 @@ class RollingResistance(BaseResult, group="rolling_resistance"):
     @property
     def dataset(self) -> xr.Dataset:
         """The same numbers by name."""
-        told = {
+        values = {
             "rolling_resistance_moment": self.moment, "pressure_centre_x": self.pressure_centre_x,
             "rolling_resistance": self.force, "rolling_resistance_coefficient": self.coefficient,
             "material_loss": self.material_loss, "material_power": self.material_power,
         }  # fmt: skip
-        return dataset({name: ((), value) for name, value in told.items() if value is not None}, {})
+        return dataset({name: ((), value) for name, value in values.items() if value is not None}, {})
 
-    def summary(self) -> str:
-        """What rolling costs, in a sentence."""
-        power = "" if self.material_power is None else f" ({self.material_power:.4g} W)"
-        return (
-            f"rolling resistance {1e3 * self.coefficient:.3g} N/kN: {self.force:.4g} N, pressure "
-            f"{1e3 * self.pressure_centre_x:.3g} mm ahead of the axle; {self.material_loss:.4g} J/m{power} "
-            "lost in the material"
-        )
+    def rows(self) -> tuple[Row, ...]:
+        """What rolling costs."""
+        return tuple(row(str(name), float(value)) for name, value in self.dataset.data_vars.items())
 
 
 def rolling_resistance(contact: Contact, radius: float) -> RollingResistance:
@@ -62,12 +58,12 @@ def rolling_resistance(contact: Contact, radius: float) -> RollingResistance:
     data = contact.dataset
     moment = float(data.rolling_resistance_moment)
     force = moment / radius
-    given = (
+    drive = (
         data.creepage_x * data.tractive_force
         + data.creepage_y * data.lateral_force
         + data.spin * data.aligning_moment
     )
-    loss = force - float(data.friction_work_total) - float(given)
+    loss = force - float(data.friction_work_total) - float(drive)
     speed = contact.rolling.speed
     return RollingResistance(
         moment,

@@ -20,19 +20,20 @@ from typing import Any, ClassVar
 import numpy as np
 import xarray as xr
 
+from treadload.citations import TEXTURE
 from treadload.composing import BaseResult, Holds
 from treadload.contact.friction.laws import PressureDependent
 from treadload.contact.rough_theory import asperity_area, persson_area
 from treadload.contact.solution import Contact
 from treadload.contact.tread_layer import TreadRubber, wave_that_matters
-from treadload.describing import first_line
 from treadload.errors import ConvergenceError, InputError, positive
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.complementarity import projected_cg
 from treadload.kernels.gridding.periodic import Endless
 from treadload.materials import Elastic, Prony
 from treadload.pavement.texture.description import Texture
-from treadload.variables import dataset
+from treadload.rows import Row, row
+from treadload.variables import SAMPLE, dataset
 
 # Of the rim of the contact, in cells, that the cells count too much: (π - 1 + ln 2)/24.
 _RIM = (math.pi - 1 + math.log(2)) / 24
@@ -40,7 +41,11 @@ _MOST_CELLS, _MOST_STEPS, _MOST_PRESSURES = 4_200_000, 3000, 64
 # Classes of local pressure, of the peak.
 _CLASSES, _LOWEST = 60, 1e-3
 # Where a warning is due: slopes that are no longer small, and waves of the mean that a patch must hold.
-_STEEP, _FEW = 0.5, 6
+_STEEP, _FEWEST_WAVES = 0.5, 6
+# Row and variable by mean pressure.
+_BY_PRESSURE = (
+    ("real_area_ratio",) * 2, ("persson_area_ratio",) * 2, ("largest_pressure", "peak_pressure"), ("mean_gap",) * 2,
+)  # fmt: skip
 # Of the pressures of a wheel, from its largest down, and how many.
 _OF_PEAK, _STEPS = 0.05, 7
 
@@ -55,6 +60,7 @@ class TextureContact(BaseResult, group="texture"):
     reference_pressure. stats: iterations, seconds. warnings: sentences. texture, rubber: the question.
     """
 
+    title: ClassVar[str] = "Contact with a texture"
     holds: ClassVar[Holds] = Holds(
         {
             "mean_pressure": "mean_pressure", "local_pressure": "local_pressure", "y": "y", "x": "x",
@@ -64,7 +70,7 @@ class TextureContact(BaseResult, group="texture"):
             "reference_pressure": "",
         },
         maybe={"real_area contact_area": ""},
-        known="real_area_ratio pressure texture_height mean_pressure",
+        not_nan="real_area_ratio pressure texture_height mean_pressure",
         numbers="dx dy modulus poisson rms_slope rms_height",
         texts="rubber",
         positive="dx dy modulus mean_pressure",
@@ -75,19 +81,23 @@ class TextureContact(BaseResult, group="texture"):
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 
+    def cites(self) -> tuple[str, ...]:
+        """Methods of rough contact."""
+        return TEXTURE
+
     def area_ratio(self, pressure: Array) -> Array:
         """Share of the area that touches at mean pressures, Pa, of any shape: along the curve, proportional below it.
 
         Raises InputError above the largest mean pressure that was solved.
         """
         p, ratio = (self.dataset[name].to_numpy() for name in ("mean_pressure", "real_area_ratio"))
-        asked = np.asarray(pressure, dtype=float)
-        if asked.size and not float(np.nanmax(asked)) <= p[-1] * (1 + 1e-9):
+        wanted = np.asarray(pressure, dtype=float)
+        if wanted.size and not float(np.nanmax(wanted)) <= p[-1] * (1 + 1e-9):
             raise InputError(
-                f"the texture was solved up to {p[-1] / 1e3:.4g} kPa, and {float(np.nanmax(asked)) / 1e3:.4g} kPa is "
-                "asked for; give solve_texture larger pressures"
+                f"the texture was solved up to {p[-1] / 1e3:.4g} kPa, and {float(np.nanmax(wanted)) / 1e3:.4g} kPa "
+                "is asked for; give solve_texture larger pressures"
             )
-        return np.asarray(np.interp(asked, [0.0, *p], [0.0, *ratio]))
+        return np.asarray(np.interp(wanted, [0.0, *p], [0.0, *ratio]))
 
     def friction_law(self, shear_strength: float) -> PressureDependent:
         """An effective law of friction on this texture: shear_strength, Pa, on the area that really touches.
@@ -104,28 +114,25 @@ class TextureContact(BaseResult, group="texture"):
         exponent = min(max(-slope, 0.0), 1 / 3)
         return PressureDependent(reference, middle, exponent, upper=max(float(friction.max()), reference))
 
-    def summary(self) -> str:
-        """The texture, the rubber, and area, gap and peak pressure by mean pressure."""
-        d, a = self.dataset, self.dataset.attrs
-        lines = [
-            f"texture       rms height {a['rms_height'] * 1e3:.3g} mm, rms slope {a['rms_slope']:.3g}, "
-            f"{d.sizes['x']} x {d.sizes['y']} cells of {a['dx'] * 1e3:.3g} x {a['dy'] * 1e3:.3g} mm",
-            f"rubber        {a['rubber']}",
-            "mean kPa   touches %   Persson %   peak MPa   mean gap mm",
-        ]
-        for row in range(d.sizes["mean_pressure"]):
-            one = d.isel(mean_pressure=row)
-            lines.append(
-                f"{float(one.mean_pressure) / 1e3:<8.4g} {100 * float(one.real_area_ratio):>10.3g} "
-                f"{100 * float(one.persson_area_ratio):>11.3g} {float(one.peak_pressure) / 1e6:>10.3g} "
-                f"{float(one.mean_gap) * 1e3:>13.3g}"
-            )
-        if "real_area" in d and "contact_area" in d:
-            part = float(d.real_area / d.contact_area)
-            lines.append(f"wheel         {float(d.real_area) * 1e6:.0f} mm² touch, {100 * part:.3g} % of its contact")
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+    @property
+    def heading(self) -> str:
+        """The rubber."""
+        return str(self.dataset.attrs["rubber"])
 
-    __repr__ = first_line
+    def rows(self) -> tuple[Row, ...]:
+        """The texture, and area, gap and peak pressure by mean pressure."""
+        d, a = self.dataset, self.dataset.attrs
+        sizes = f"{d.sizes['x']} x {d.sizes['y']} cells of {a['dx'] * 1e3:.3g} x {a['dy'] * 1e3:.3g} mm"
+        lines = [row("grid", sizes), *(row(name, a[name]) for name in ("rms_height", "rms_slope"))]
+        for number, mean in enumerate(d["mean_pressure"].to_numpy()):
+            lines += [
+                row(key, float(d[name][number]), group=f"mean pressure {mean / 1e3:.4g} kPa", display=SAMPLE.get(key))
+                for key, name in _BY_PRESSURE
+            ]
+        if "real_area" in d and "contact_area" in d:
+            share = float(d.real_area / d.contact_area)
+            lines.append(row("real_area", float(d.real_area), note=f"{100 * share:.3g} % of the wheel's contact"))
+        return tuple(lines)
 
 
 def solve_texture(
@@ -180,26 +187,26 @@ def solve_texture(
     iterations, residual = 0, 0.0
     for mean in steps:
         tell(f"rubber on texture under {mean / 1e3:.4g} kPa")
-        found = projected_cg.solve(
+        solution = projected_cg.solve(
             product, below, start, total=mean * heights.size, precondition=inverse, tolerance=tolerance,
             max_iterations=_MOST_STEPS,
         )  # fmt: skip
-        if not found.converged:
+        if not solution.converged:
             raise ConvergenceError(
-                f"rubber on texture under {mean / 1e3:.4g} kPa stopped after {found.iterations} iterations with a "
-                f"residual of {found.residual:.2e}, above the tolerance of {tolerance:.2e}; raise the tolerance, or "
-                "take short waves out of the texture (band_pass)",
-                found.residual,
+                f"rubber on texture under {mean / 1e3:.4g} kPa stopped after {solution.iterations} iterations with a "
+                f"residual of {solution.residual:.2e}, above the tolerance of {tolerance:.2e}; raise the tolerance, "
+                "or take short waves out of the texture (band_pass)",
+                solution.residual,
             )
-        start = found.pressure
-        iterations, residual = iterations + found.iterations, max(residual, found.residual)
-        gap = below + found.compliance - found.level
-        pressed[mean] = found.pressure
+        start = solution.pressure
+        iterations, residual = iterations + solution.iterations, max(residual, solution.residual)
+        gap = below + solution.compliance - solution.level
+        pressed[mean] = solution.pressure
         rows.append(
             {
-                "real_area_ratio": _touching(found.pressure > 0, cells.mirrored),
+                "real_area_ratio": _touching(solution.pressure > 0, cells.mirrored),
                 "mean_gap": max(float(gap.mean()), 0.0),
-                "peak_pressure": float(found.pressure.max()),
+                "peak_pressure": float(solution.pressure.max()),
             }
         )
     data = _dataset(texture, tread, steps, rows, pressed, kept)
@@ -226,14 +233,14 @@ def _steps(pressures: Sequence[float] | Array | Contact, reference: float | None
         wanted = [*np.geomspace(_OF_PEAK * peak, peak, _STEPS), mean if reference is None else reference]
         kept = wanted[-1]
     else:
-        wanted = [float(one) for one in np.atleast_1d(np.asarray(pressures, dtype=float))]
+        wanted = [float(value) for value in np.atleast_1d(np.asarray(pressures, dtype=float))]
         if not wanted or len(wanted) > _MOST_PRESSURES or not np.isfinite(wanted).all() or min(wanted) <= 0:
             raise InputError(
                 f"pressures must be 1 to {_MOST_PRESSURES} numbers of Pa above 0, got "
                 f"{list(np.atleast_1d(pressures))[:4]}"
             )
         kept = sorted(wanted)[len(wanted) // 2] if reference is None else float(reference)
-    steps = sorted({float(one) for one in wanted})
+    steps = sorted({float(value) for value in wanted})
     if kept not in steps:
         raise InputError(f"reference must be one of the pressures, got {kept:g} Pa; they are {steps} Pa")
     return steps, kept
@@ -291,24 +298,26 @@ def _dataset(
 
 
 def _doubts(texture: Texture, tread: TreadRubber, rows: Sequence[Mapping[str, float]]) -> list[str]:
-    said = []
+    caveats = []
     if texture.rms_slope > _STEEP:
-        said.append(
+        caveats.append(
             f"the texture has an rms slope of {texture.rms_slope:.3g}, and slopes are taken as small (below "
             f"{_STEEP:g}): area and peak pressure are those of linear theory; take short waves out "
             "(band_pass) and say which"
         )
     waves = texture.length / texture.mean_wave
-    if waves < _FEW:
-        said.append(
+    if waves < _FEWEST_WAVES:
+        caveats.append(
             f"the patch of {texture.length * 1e3:.4g} mm holds {waves:.2g} of the texture's mean waves of "
             f"{texture.mean_wave * 1e3:.3g} mm: it may not stand for the road; take a longer one"
         )
     if texture.is_profile:
-        said.append("the texture is a profile, taken as ridges across: stones touch less, and give way more easily")
+        caveats.append(
+            "the texture is a profile, taken as ridges across: stones touch less, and give way more easily"
+        )
     if rows[-1]["peak_pressure"] > tread.modulus:
-        said.append(
+        caveats.append(
             f"the peak pressure of {rows[-1]['peak_pressure'] / 1e6:.3g} MPa lies above the modulus of the rubber, "
             f"{tread.modulus / 1e6:.3g} MPa: linear elasticity is beyond its range there"
         )
-    return said
+    return caveats

@@ -30,8 +30,3 @@ def sine_area(pressure: Array, modulus: float, amplitude: float, wave: float) ->
     """Share of the area that touches on ridges a·cos(2π x/λ): (2/π) asin √(p/p*), p* = π E* a/λ."""
     full = math.pi * modulus * amplitude / wave
     return np.asarray(2 / math.pi * np.arcsin(np.sqrt(np.clip(np.asarray(pressure) / full, 0, 1))))
-
-
-def egg_box_full_pressure(modulus: float, amplitude: float, wave: float) -> float:
-    """Mean pressure, Pa, at which a body fills amplitude·cos(2π x/wave)·cos(2π y/wave) wholly: √2 π E* a/λ."""
-    return math.sqrt(2) * math.pi * modulus * amplitude / wave

@@ -65,10 +65,10 @@ def contact_at(
             **scalars_of(scene, state),
         },
     )
-    said = (
+    warnings_of = (
         *cautions.of_tire(scene.tire),
         *cautions.of_numbers(scene.tire, rolling, scene.grid),
         *warnings,
         *cautions.of_fields(data),
     )
-    return Contact(data, scene.tire, scene.road, rolling, stats, said)
+    return Contact(data, scene.tire, scene.road, rolling, stats, warnings_of)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -11,9 +11,14 @@ import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact.rolling_state import Rolling
+from treadload.errors import InputError
+from treadload.materials import Orthotropic, Prony, TransverselyIsotropic
 from treadload.pavement import Pavement
+from treadload.rows import Place, Row, row
 from treadload.tire import Tire
-from treadload.units import stress_in_words
+
+_SCALARS = ("tractive_force", "lateral_force", "aligning_moment", "creepage_x", "creepage_y", "spin")
+_LOSSES = ("friction_work_total", "friction_power_total", "flash_temperature")
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,14 +29,24 @@ class Contact(BaseResult, group="contact"):
     stats: iterations, residuals, seconds. warnings: sentences for the user.
     """
 
+    title: ClassVar[str] = "Contact"
     holds: ClassVar[Holds] = Holds(
         {
             "pressure traction_x traction_y state": "y x",
             "approach normal_load tractive_force lateral_force aligning_moment creepage_x creepage_y spin": "",
         },
-        maybe={"friction_work_total friction_power_total": "", "flash_temperature road_height": "y x"},
+        maybe={
+            "friction_work_total friction_power_total friction pressure_centre_x rolling_resistance_moment": "",
+            "initial_gap gap displacement_x displacement_y displacement_z slip_x slip_y": "y x",
+            "friction_coefficient friction_work friction_power flash_temperature road_height": "y x",
+        },
+        finite="pressure traction_x traction_y approach spin normal_load tractive_force lateral_force",
+        bounded="initial_gap gap displacement_x displacement_y displacement_z",
+        codes={"state": 3},
         numbers="dx dy",
         positive="dx dy",
+        tree="x y pressure",
+        agree=lambda data: _check_slip(data),
         stats=("road_share layer_share layers_solved",),
     )
 
@@ -58,48 +73,88 @@ class Contact(BaseResult, group="contact"):
         state = self.dataset.state.values
         return float((state == 2).sum() / max(1, (state > 0).sum()))
 
-    def summary(self) -> str:
-        """A screenful: load, area, peaks, creepages, stick and slip, work lost by sliding."""
-        d = self.dataset
-        shear = np.hypot(d.traction_x, d.traction_y)
-        dx, dy = d.attrs["dx"] * 1e3, d.attrs["dy"] * 1e3
-        area = self.area
-        mean = float(d.normal_load) / area / 1e3 if area else np.nan
-        lines = [
-            f"contact       {self.rolling}",
-            f"grid          {d.sizes['x']} x {d.sizes['y']} cells of {dx:g} x {dy:g} mm",
-            f"normal load   {float(d.normal_load) / 1e3:.3f} kN at an approach of {float(d.approach) * 1e3:.2f} mm",
-            f"contact area  {area * 1e6:.0f} mm², mean pressure {mean:.0f} kPa",
-            f"peak pressure {stress_in_words(float(d.pressure.max()))}",
-            f"peak shear    {stress_in_words(float(shear.max()))}",
-            f"forces        Qx = {float(d.tractive_force):z.1f} N, Qy = {float(d.lateral_force):z.1f} N, "
-            f"aligning moment {float(d.aligning_moment):z.1f} N m",
-            f"creepage      x {float(d.creepage_x):z.5f}, y {float(d.creepage_y):z.5f}, spin {float(d.spin):g} rad/m",
-            f"slip zone     {100 * self.slip_fraction:.1f} % of the contact area",
-        ]
+    @property
+    def heading(self) -> str:
+        """Load, friction and rolling state."""
+        return str(self.rolling)
+
+    def rows(self) -> tuple[Row, ...]:
+        """Load, area, peaks, forces, creepages, stick and slip, energy lost by sliding."""
+        d, area = self.dataset, self.area
+        shear = xr.DataArray(np.hypot(d.traction_x, d.traction_y), d.pressure.coords, d.pressure.dims)
+        sizes = f"{d.sizes['x']} x {d.sizes['y']} cells of {d.attrs['dx'] * 1e3:g} x {d.attrs['dy'] * 1e3:g} mm"
+        # Pressure and shear grow without bound towards the wall of a rib.
+        at_wall = "depends on the cells at the walls of ribs" if self.tire.tread == "ribs" else ""
+        lines = [row("grid", sizes)]
+        if self.tire.fixed_grid is not None:
+            lines.insert(0, row("tread", str(self.tire.surface)))
         if "road_height" in d:
             low, high = float(d.road_height.min()) * 1e3, float(d.road_height.max()) * 1e3
-            lines.insert(1, f"road          no plane: {low:.3g} to {high:.3g} mm below the tread")
-        if self.tire.fixed_grid is not None:
-            lines.insert(1, f"tread         {self.tire.surface}")
-        if "road_share" in self.stats:
-            lines.append(self._road_line())
-        if "friction_work_total" in d:
-            power = f", {float(d.friction_power_total):.1f} W" if "friction_power_total" in d else ""
-            lines.append(f"sliding loses {float(d.friction_work_total):z.3f} J per m travelled{power}")
-        if "flash_temperature" in d:
-            lines.append(f"flash heat    {float(d.flash_temperature.max()):.1f} K at most")
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+            text = f"no plane: {low:.3g} to {high:.3g} mm below the tread"
+            lines.insert(0, row("road_height", text))
+        lines += [
+            *(row(name, float(d[name])) for name in ("normal_load", "approach")),
+            row("net_area", area),
+            row("mean_pressure", float(d.normal_load) / area if area else np.nan),
+            row("largest_pressure", float(d.pressure.max()), place=_peak(d.pressure), note=at_wall),
+            row("largest_traction", float(shear.max()), place=_peak(shear), note=at_wall),
+            *(row(name, float(d[name])) for name in _SCALARS),
+            row("slip_fraction", self.slip_fraction),
+            *self._road_rows(),
+            *(row(name, float(d[name].max())) for name in _LOSSES if name in d),
+        ]
+        return tuple(lines)
 
-    def _road_line(self) -> str:
-        share, change = 100 * self.stats["road_share"], 100 * self.stats["layer_share"]
-        line = f"road          gives {share:.3g} % of the compliance: {'negligible' if share < 1 else 'it matters'}"
-        if self.road.is_homogeneous:
-            return line
-        how = "they are in" if self.stats["layers_solved"] else "left out"
-        size = f"{change:+.2g}" if abs(change) < 10 else f"{change:+.0f}"
-        return f"{line}; its layers change it by {size} %, {how}"
+    def cites(self) -> tuple[str, ...]:
+        """Methods of the contact; those of friction, materials and splitting only where they were used."""
+        tire, road = self.tire.material, self.road.layers[0].material
+        methods = {
+            **dict.fromkeys(("influence", "convolution", "normal", "preconditioner", "rolling", "newton"), True),
+            "splitting": bool(self.stats.get("splitting_iterations")),
+            **dict.fromkeys(("coupling", "mixing"), self.stats.get("coupling_rounds", 1) > 1),
+            "falling": self.rolling.law.needs_speed,
+            "flash": "flash_temperature" in self.dataset,
+            "grain": isinstance(tire, Orthotropic) or isinstance(road, Orthotropic),
+            "upright contact": isinstance(road, TransverselyIsotropic),
+            **dict.fromkeys(("memory", "pivoting"), isinstance(tire, Prony)),
+        }
+        return tuple(key for key, is_used in methods.items() if is_used)
+
+    def _road_rows(self) -> Iterator[Row]:
+        if "road_share" in self.stats:
+            share = float(self.stats["road_share"])
+            yield row("road_share", share, note="negligible" if share < 0.01 else "it matters")
+            if not self.road.is_homogeneous:
+                how = "they are in" if self.stats["layers_solved"] else "left out"
+                yield row("layer_share", float(self.stats["layer_share"]), note=how)
 
     def __repr__(self) -> str:
         peak = float(self.dataset.pressure.max()) / 1e3
         return f"<Contact {self.rolling}: {self.area * 1e6:.0f} mm², {peak:.0f} kPa peak>"
+
+
+def _check_slip(data: xr.Dataset) -> None:
+    """Slip and creepage over a speed are numbers; they are NaN where a wheel stood, which slips by a distance."""
+    over_speed, over_distance = (
+        ("slip_x", "slip_y", "creepage_x", "creepage_y"),
+        ("slip_distance_x", "slip_distance_y"),
+    )
+    present = {name: data[name].to_numpy() for name in over_speed if name in data}
+    stood = set(over_distance) <= set(data.data_vars) and all(np.isnan(values).all() for values in present.values())
+    for name, values in present.items():
+        wrong = int((~np.isfinite(values)).sum())
+        if wrong and not stood:
+            raise InputError(
+                f"{name} has {wrong} of {values.size} values that are NaN or infinite; only a wheel that turned or "
+                f"was shifted on the spot has no {', '.join(over_speed)}, but {over_distance[0]}"
+            )
+
+
+def _peak(field: xr.DataArray) -> Place | None:
+    """Where a field is largest; None where nothing presses."""
+    if not float(field.max()) > 0:
+        return None
+    at = field.argmax(...)
+    assert isinstance(at, dict)
+    cell = field.isel(at)
+    return Place(float(cell["x"]), float(cell["y"]))

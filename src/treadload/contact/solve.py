@@ -6,6 +6,7 @@ import math
 import time
 from functools import partial
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -14,13 +15,13 @@ from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair, RoadCompliance
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.layers import RoadShare, half_space_share, road_share
-from treadload.contact.bounds import check_modulus, check_numbers, check_spacing
+from treadload.contact.bounds import check_modulus, check_numbers, check_ribs, check_spacing
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
 from treadload.contact.relief import above, check_step, doubts_of, heights_on
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
-from treadload.contact.solvers.coupling import Coupled, Progress, Start, solve_coupled
+from treadload.contact.solvers.coupling import Coupled, Progress, Start, Surfaces, solve_coupled
 from treadload.contact.solvers.normal import solve_normal
 from treadload.errors import GeometryError, InputError, positive
 from treadload.grid import Grid
@@ -41,6 +42,8 @@ _FINEST, _COARSEST = 1e-12, 1e-2
 _OTHERWISE = 0.1
 # A change of compliance by the layers that calls for a warning.
 _LAYERS_MATTER = 0.01
+# Of each tire in use the last place that was looked for, see `_reaches`.
+_REACHES: WeakKeyDictionary[Tire, tuple[tuple[object, ...], tuple[float, float]]] = WeakKeyDictionary()
 
 
 class BorderError(GeometryError):
@@ -110,6 +113,7 @@ def solve_contact(
         raise InputError("a start has its own cells, and offset moves them; leave one of the two out")
     else:
         grid, gap = _same_place(over, rolling, bodies.both, start, spacing)
+    check_ribs(tire, grid)
     if relief is not None:
         check_step(relief, max(grid.dx, grid.dy))
     near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start, rolling)
@@ -120,11 +124,9 @@ def solve_contact(
         try:
             pair = solve_coupled(
                 scene.influence,
-                grid,
-                gap,
+                Surfaces(grid, gap, tire.row_slip(grid)),
                 rolling,
                 check=check,
-                rows=tire.row_slip(grid),
                 start=near,
                 tolerance=tolerance,
                 tell=tell,
@@ -136,7 +138,7 @@ def solve_contact(
             # Shear of dissimilar bodies has carried the contact beyond its grid.
             grid, gap, near = wider, over.height_map(wider), None
         else:
-            return _contact(scene, rolling, pair, road_compliance, relief, time.perf_counter() - began)
+            return _contact(scene, rolling, pair, road_compliance, relief, tolerance, time.perf_counter() - began)
 
 
 def place(
@@ -176,19 +178,7 @@ def place(
             f"a spacing of {step * 1e3:g} mm leaves fewer than 8 cells across the tread of "
             f"{min(length, width) * 1e3:.0f} mm; use {min(length, width) / 64 * 1e3:.2g} mm or less"
         )
-    coarse = Grid.centred(length, width, max(step, max(length, width) / _LOCATING_CELLS))
-    shape = tire.height_map(coarse)
-    check_numbers(rolling, bodies, coarse, shape)
-    first = solve_normal(
-        Influence(coarse.shape, coarse.dx, coarse.dy, bodies.at_rest),
-        shape,
-        load=rolling.normal_load,
-        approach=rolling.approach,
-        tolerance=1e-2,
-    )
-    touching: BoolArray = first.pressure > 0
-    reach_x = _reach(coarse.x, np.any(touching, axis=0)) + coarse.dx
-    reach_y = _reach(coarse.y, np.any(touching, axis=1)) + coarse.dy
+    reach_x, reach_y = _reaches(tire, rolling, bodies, step)
     grid = Grid.on_lattice(
         min(length, 2 * (reach_x + _MARGIN)),
         min(width + 2 * _MARGIN, 2 * (reach_y + _MARGIN)),
@@ -196,6 +186,35 @@ def place(
         offset=offset,
     )
     return grid, tire.height_map(grid)
+
+
+def _reaches(tire: Tire, rolling: Rolling, bodies: Body, step: float) -> tuple[float, float]:
+    """How far from the middle the contact reaches along x and y, m, at most, as coarse cells show it.
+
+    step: of the cells that will be solved, m. Contacts of a tire that differ by their grid offset alone share it.
+    """
+    question = (rolling.normal_load, rolling.approach, bodies, step)
+    earlier = _REACHES.get(tire)
+    if earlier is not None and earlier[0] == question:
+        return earlier[1]
+    length, width = tire.extent
+    coarse = Grid.centred(length, width, max(step, max(length, width) / _LOCATING_CELLS))
+    shape = tire.height_map(coarse)
+    check_numbers(rolling, bodies, coarse, shape)
+    first = solve_normal(
+        Influence(coarse.shape, coarse.dx, coarse.dy, bodies.at_rest, coarse.y0),
+        shape,
+        load=rolling.normal_load,
+        approach=rolling.approach,
+        tolerance=1e-2,
+    )
+    touching: BoolArray = first.pressure > 0
+    reaches = (
+        _reach(coarse.x, np.any(touching, axis=0)) + coarse.dx,
+        _reach(coarse.y, np.any(touching, axis=1)) + coarse.dy,
+    )
+    _REACHES[tire] = question, reaches
+    return reaches
 
 
 def _widened(tire: Tire, grid: Grid, cut: BorderError, offset: tuple[float, float] = NO_OFFSET) -> Grid | None:
@@ -248,10 +267,10 @@ def _rolls_alike(rolling: Rolling, before: Rolling) -> bool:
         return True
     pairs = zip(rolling.forces, before.forces, strict=True)
     return all(
-        own is None
-        or other is None
-        or abs(own / rolling.normal_load - other / before.normal_load) <= _OTHERWISE * rolling.law.largest
-        for own, other in pairs
+        now is None
+        or last is None
+        or abs(now / rolling.normal_load - last / before.normal_load) <= _OTHERWISE * rolling.law.largest
+        for now, last in pairs
     )
 
 
@@ -284,11 +303,12 @@ def _contact(
     pair: Coupled,
     road_compliance: RoadCompliance,
     relief: Relief | None,
+    tolerance: float,
     seconds: float,
 ) -> Contact:
     tire, road, grid = scene.tire, scene.road, scene.grid
     normal, slipping, tangential = pair.normal, pair.slipping, pair.slipping.tangential
-    known = rolling.creepages
+    creepages = rolling.creepages
     pressure_moment = float((normal.pressure * grid.x[None, :]).sum()) * grid.cell_area
     load = float(normal.pressure.sum()) * grid.cell_area
     # The law opposes slip to shear, so that work is lost in every cell; below zero lies round-off only.
@@ -299,8 +319,8 @@ def _contact(
     planes = {"friction_coefficient": slipping.coefficient, "friction_work": work}
     scalars = {
         "approach": normal.approach,
-        "creepage_x": known[0] + tangential.rigid[0],
-        "creepage_y": known[1] + tangential.rigid[1],
+        "creepage_x": creepages[0] + tangential.rigid[0],
+        "creepage_y": creepages[1] + tangential.rigid[1],
         "spin": rolling.spin,
         "pressure_centre_x": pressure_moment / load,
         "rolling_resistance_moment": pressure_moment,
@@ -331,6 +351,7 @@ def _contact(
         "coupling_change": pair.change,
         "dundurs": scene.influence.dundurs,
         "cells": grid.nx * grid.ny,
+        "tolerance": tolerance,
         "seconds": seconds,
         **scene.bodies.both.stats,
     }

@@ -18,6 +18,7 @@ import xarray as xr
 from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
+from treadload.contact.bounds import check_ribs
 from treadload.contact.fields import Scene, tractions
 from treadload.contact.friction.laws import Interface
 from treadload.contact.rolling_state import Rolling
@@ -32,10 +33,12 @@ from treadload.errors import InputError, within
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
+from treadload.rows import Row, row
 from treadload.tables import finite_list
 from treadload.tire import Tire
 from treadload.variables import dataset
 
+_BY_STEP = ("distance", "tractive_force", "lateral_force", "creepage_x", "creepage_y", "slip_fraction")
 # Farther, the distances between cells are lost in round-off; shorter, a step is lost beside a cell.
 _FARTHEST, _SHORTEST = 1e6, 1e-12
 
@@ -48,6 +51,7 @@ class TransientResult(BaseResult, group="transient"):
     contact: the fields at the end. rolling: the state of every step. stats: iterations, seconds.
     """
 
+    title: ClassVar[str] = "Transient rolling"
     holds: ClassVar[Holds] = Holds(
         {"distance tractive_force lateral_force creepage_x creepage_y slip_fraction friction_energy": "step"}
     )
@@ -62,24 +66,19 @@ class TransientResult(BaseResult, group="transient"):
         """Sentences for the user, of the contact at the end."""
         return self.contact.warnings
 
-    def summary(self) -> str:
-        """A screenful: how far, what forces and creepages, how much slips at the end."""
-        d = self.dataset.isel(step=-1)
-        rows = self.dataset.isel(step=np.unique(np.linspace(0, self.dataset.sizes["step"] - 1, 8).astype(int)))
-        table = [
-            f"{float(r.distance) * 1e3:8.1f}  {float(r.tractive_force) / 1e3:z7.3f}"
-            f"  {float(r.lateral_force) / 1e3:z7.3f}"
-            f"  {float(r.creepage_x):z9.5f}  {float(r.creepage_y):z9.5f}  {100 * float(r.slip_fraction):5.1f}"
-            for r in (rows.isel(step=i) for i in range(rows.sizes["step"]))
-        ]
-        return "\n".join(
-            [
-                f"transient     {self.rolling[-1]}",
-                f"distance      {float(d.distance) * 1e3:.1f} mm in {self.dataset.sizes['step'] - 1} steps",
-                f"work          {float(self.dataset.friction_energy.sum()):.3f} J lost in friction",
-                "  travel  Qx (kN)  Qy (kN)  creep x    creep y    slip %",
-                *table,
-            ]
+    @property
+    def heading(self) -> str:
+        """The rolling state at the end."""
+        return str(self.rolling[-1])
+
+    def rows(self) -> tuple[Row, ...]:
+        """How far, and energy lost; forces, creepages and slip over the distance."""
+        d = self.dataset
+        chosen = np.unique(np.linspace(0, d.sizes["step"] - 1, 8).astype(int))
+        return (
+            row("distance", float(d.distance[-1]), note=f"{d.sizes['step'] - 1} steps"),
+            row("friction_energy", float(d.friction_energy.sum())),
+            *(row(name, float(d[name][k]), group=f"step {k}") for k in chosen for name in _BY_STEP),
         )
 
     def __repr__(self) -> str:
@@ -119,16 +118,18 @@ def solve_transient(
     tell("locating the contact")
     scene = set_scene(tire, road, wanted, spacing, road_compliance)
     stages = [standing(scene, wanted[0])]
-    for given, travel in zip(wanted, np.diff(ends, prepend=0.0), strict=True):
-        slip = rigid_slip(scene.grid.x, scene.grid.y, float(travel), given.creepages, given.spin)
+    for state_of_rolling, travel in zip(wanted, np.diff(ends, prepend=0.0), strict=True):
+        slip = rigid_slip(
+            scene.grid.x, scene.grid.y, float(travel), state_of_rolling.creepages, state_of_rolling.spin
+        )
         slip[0] += tire.row_slip(scene.grid)
-        stages.append(stage_of(scene, given, slip * travel, given.forces, float(travel)))
+        stages.append(stage_of(scene, state_of_rolling, slip * travel, state_of_rolling.forces, float(travel)))
     rows: list[dict[str, Any]] = []
     newton = products = 0
     for number, state in enumerate(run(scene, stages, tolerance)):
         tell(f"step {number} of {ends.size}")
-        given = wanted[max(0, number - 1)]
-        rows.append(_row(scene, state, given, float(ends[number - 1]) if number else 0.0, fields))
+        state_of_rolling = wanted[max(0, number - 1)]
+        rows.append(_row(scene, state, state_of_rolling, float(ends[number - 1]) if number else 0.0, fields))
         newton, products = newton + state.tangential.newton, products + state.tangential.products
     stats = {
         "steps": int(ends.size),
@@ -170,6 +171,7 @@ def set_scene(
     heaviest = max(rolling, key=lambda state: state.normal_load or state.approach or 0.0)
 
     grid, gap = place(tire, heaviest, bodies.both, spacing)
+    check_ribs(tire, grid)
     return Scene(tire, road, bodies, grid, gap)
 
 
@@ -198,17 +200,17 @@ def run(scene: Scene, stages: Sequence[Stage], tolerance: float) -> Iterator[Sta
         yield state
 
 
-def _row(scene: Scene, state: State, given: Rolling, distance: float, fields: bool) -> dict[str, Any]:
+def _row(scene: Scene, state: State, rolling: Rolling, distance: float, fields: bool) -> dict[str, Any]:
     travel = state.stage.travel
     rigid = state.stage.rigid.mean((1, 2)) + np.array(state.displaced)
     solved = np.array(state.displaced) / travel if travel > 0 else np.full(2, np.nan)
-    known = np.array(given.creepages)
-    creepages = np.where([force is None for force in state.stage.forces], known, solved) if travel > 0 else solved
+    imposed = np.array(rolling.creepages)
+    creepages = np.where([force is None for force in state.stage.forces], imposed, solved) if travel > 0 else solved
     row: dict[str, Any] = {
         "distance": distance,
         "creepage_x": float(creepages[0]),
         "creepage_y": float(creepages[1]),
-        "spin": given.spin if travel > 0 else np.nan,
+        "spin": rolling.spin if travel > 0 else np.nan,
         "shift_x": float(rigid[0]),
         "shift_y": float(rigid[1]),
         **scalars_of(scene, state),

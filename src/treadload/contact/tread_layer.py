@@ -71,10 +71,10 @@ class TreadRubber:
         return np.asarray(deep * shape)
 
     def __str__(self) -> str:
-        told = f"rubber of {self.modulus / 1e6:.3g} MPa, ν = {self.poisson:g}"
+        text = f"rubber of {self.modulus / 1e6:.3g} MPa, ν = {self.poisson:g}"
         if self.frequency is not None:
-            told += f" at {self.frequency:.3g} Hz"
-        return told if self.thickness is None else f"{told}, {self.thickness * 1e3:.3g} mm on a stiff belt"
+            text += f" at {self.frequency:.3g} Hz"
+        return text if self.thickness is None else f"{text}, {self.thickness * 1e3:.3g} mm on a stiff belt"
 
 
 def wave_that_matters(texture_wave: float, frequency_wave: float | None) -> float:

@@ -29,6 +29,7 @@ from treadload.contact.transient import run, set_scene, stage_of, standing
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
+from treadload.rows import Row, row
 from treadload.tables import finite_list
 from treadload.tire import Tire
 from treadload.variables import dataset
@@ -43,6 +44,7 @@ class TurnResult(BaseResult, group="turn"):
     friction. pivot: the point that was held, m, or None. stats: iterations, seconds.
     """
 
+    title: ClassVar[str] = "Turn on the spot"
     holds: ClassVar[Holds] = Holds(
         {"turn_angle steering_torque slip_fraction friction_energy": "step", "sliding_torque": ""},
         sizes={"step": (2, math.inf)},
@@ -66,25 +68,25 @@ class TurnResult(BaseResult, group="turn"):
         angle = float(d.turn_angle[1])
         return float(d.steering_torque[1]) / angle if angle else math.nan
 
-    def summary(self) -> str:
-        """A screenful: torque and slip over the angle."""
+    @property
+    def heading(self) -> str:
+        """Load, friction and pivot."""
+        about = "a free centre" if self.pivot is None else f"a pivot at {self.pivot[0]:g}, {self.pivot[1]:g} m"
+        return f"{self.rolling}, about {about}"
+
+    def rows(self) -> tuple[Row, ...]:
+        """Torque, stiffness and work; torque and slip over the angle."""
         d = self.dataset
         chosen = np.unique(np.linspace(0, d.sizes["step"] - 1, 9).astype(int))
-        about = "a free centre" if self.pivot is None else f"a pivot at {self.pivot[0]:g}, {self.pivot[1]:g} m"
-        table = [
-            f"{math.degrees(float(d.turn_angle[i])):9.2f}  {float(d.steering_torque[i]):11.1f}"
-            f"  {100 * float(d.slip_fraction[i]):5.1f}"
-            for i in chosen
-        ]
-        return "\n".join(
-            [
-                f"turn on spot  {self.rolling}, about {about}",
-                f"sliding       at {float(d.sliding_torque):.1f} N m the whole contact slides",
-                f"stiffness     {self.stiffness * math.pi / 180:.1f} N m per degree at first",
-                f"work          {float(d.friction_energy.sum()):.3f} J lost in friction",
-                "angle (°)  torque (Nm)  slip %",
-                *table,
-            ]
+        return (
+            row("sliding_torque", float(d.sliding_torque)),
+            row("turning_stiffness", self.stiffness),
+            row("friction_energy", float(d.friction_energy.sum())),
+            *(
+                row(name, float(d[name][k]), group=f"step {k}")
+                for k in chosen
+                for name in ("turn_angle", "steering_torque", "slip_fraction")
+            ),
         )
 
     def __repr__(self) -> str:
@@ -125,10 +127,10 @@ def turn_on_the_spot(
     ends = _checked_angles(angles)
     tell("locating the contact")
     scene = set_scene(tire, road, (rolling,), spacing, road_compliance)
-    held = (0.0, 0.0) if pivot is None else pivot
+    centre = (0.0, 0.0) if pivot is None else pivot
     arm = np.zeros((2, *scene.grid.shape))
-    arm[0] = held[1] - scene.grid.y[:, None]
-    arm[1] = scene.grid.x[None, :] - held[0]
+    arm[0] = centre[1] - scene.grid.y[:, None]
+    arm[1] = scene.grid.x[None, :] - centre[0]
     forces = rolling.forces if pivot is None else (None, None)
     turns = np.diff(ends, prepend=0.0)
     stages = [standing(scene, rolling), *(stage_of(scene, rolling, turn * arm, forces) for turn in turns)]
@@ -137,7 +139,7 @@ def turn_on_the_spot(
     for number, state in enumerate(run(scene, stages, tolerance)):
         tell(f"increment {number} of {ends.size}")
         before = float(ends[number - 2]) if number > 1 else 0.0
-        rows.append(_row(scene, state, before, float(ends[number - 1]) if number else 0.0, held))
+        rows.append(_row(scene, state, before, float(ends[number - 1]) if number else 0.0, centre))
         newton, products = newton + state.tangential.newton, products + state.tangential.products
     bound, axes, grid = state.stage.bound(state.pressure), state.stage.axes, scene.grid
     pole = sliding_pole(bound, grid.x, grid.y, axes) if pivot is None else pivot
@@ -154,15 +156,15 @@ def turn_on_the_spot(
     return TurnResult(_dataset(rows, limit), contact, rolling, pivot, stats)
 
 
-def _row(scene: Scene, state: State, before: float, angle: float, held: tuple[float, float]) -> dict[str, float]:
+def _row(scene: Scene, state: State, before: float, angle: float, centre: tuple[float, float]) -> dict[str, float]:
     scalars = scalars_of(scene, state)
     turned = angle - before
     shift = state.displaced
     about_pivot = (
-        scalars["aligning_moment"] - held[0] * scalars["lateral_force"] + held[1] * scalars["tractive_force"]
+        scalars["aligning_moment"] - centre[0] * scalars["lateral_force"] + centre[1] * scalars["tractive_force"]
     )
     # A turn about the pivot and a shift are a turn about another point.
-    pole = (held[0] - shift[1] / turned, held[1] + shift[0] / turned) if turned else (math.nan, math.nan)
+    pole = (centre[0] - shift[1] / turned, centre[1] + shift[0] / turned) if turned else (math.nan, math.nan)
     return {
         "turn_angle": angle,
         "steering_torque": 0.0 - about_pivot,

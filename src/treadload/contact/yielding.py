@@ -36,16 +36,18 @@ class Zone:
     end: tuple[int, int, int]
 
     @classmethod
-    def around(cls, some: BoolArray) -> Zone:
+    def around(cls, hardened: BoolArray) -> Zone:
         """Of cells (nz, ny, nx), with a margin; of their middle where there are none."""
-        if some.any():
-            found = np.argwhere(some)
-            low, high = found.min(axis=0), found.max(axis=0) + 1
+        if hardened.any():
+            places = np.argwhere(hardened)
+            low, high = places.min(axis=0), places.max(axis=0) + 1
         else:
-            low = np.array(some.shape) // 2
+            low = np.array(hardened.shape) // 2
             high = low + 1
         margin = np.maximum(_MARGIN, np.ceil(_PART * (high - low)).astype(int))
-        return cls(tuple(np.maximum(low - margin, 0).tolist()), tuple(np.minimum(high + margin, some.shape).tolist()))
+        return cls(
+            tuple(np.maximum(low - margin, 0).tolist()), tuple(np.minimum(high + margin, hardened.shape).tolist())
+        )
 
     @property
     def cut(self) -> Cut:
@@ -53,12 +55,12 @@ class Zone:
         rows, across, along = (slice(*ends) for ends in zip(self.first, self.end, strict=True))
         return rows, across, along
 
-    def ends_in(self, some: BoolArray) -> bool:
+    def ends_in(self, hardened: BoolArray) -> bool:
         """Whether one of some cells (nz, ny, nx) lies on a side of it that is no side of them all."""
-        part = some[self.cut]
+        part = hardened[self.cut]
         return any(
             (low > 0 and bool(part.take(0, axis).any())) or (high < whole and bool(part.take(-1, axis).any()))
-            for axis, (low, high, whole) in enumerate(zip(self.first, self.end, some.shape, strict=True))
+            for axis, (low, high, whole) in enumerate(zip(self.first, self.end, hardened.shape, strict=True))
         )
 
 
@@ -84,11 +86,11 @@ class Ground:
     @cached_property
     def stress(self) -> Below:
         """Stress (6, nz, ny, nx), Pa, of a pressure."""
-        grid, one = self.grid, np.zeros((3, 1, 1))
-        one[0] = 1.0
+        grid, unit_load = self.grid, np.zeros((3, 1, 1))
+        unit_load[0] = 1.0
         x, y = grid.dx * np.arange(1 - grid.nx, grid.nx), grid.dy * np.arange(1 - grid.ny, grid.ny)
         poisson = self.material.elastic.poisson
-        stress = fields_on_grid(one, grid.dx, grid.dy, self.depths, 1.0, poisson, x, y, moves=False)[0]
+        stress = fields_on_grid(unit_load, grid.dx, grid.dy, self.depths, 1.0, poisson, x, y, moves=False)[0]
         return Below.of(np.moveaxis(stress, 1, 0))
 
     def zone(self, pressure: Array) -> Zone:
@@ -105,7 +107,7 @@ class Yielding:
     zone: Zone
 
     @cached_property
-    def own(self) -> Any:
+    def stress_of_strain(self) -> Any:
         """Stress of plastic strain, both in the zone."""
         (rows, across, along), grid = self.zone.cut, self.ground.grid
         edges = self.ground.edges[rows.start : rows.stop + 1]
@@ -147,12 +149,12 @@ class Yielding:
             part[..., *self.zone.cut] = new
         return State(*parts)
 
-    def held(self, before: State, after: State) -> bool:
+    def spared_border(self, before: State, after: State) -> bool:
         """Whether no cell at the zone's border yielded between two states of the ground."""
         return not self.zone.ends_in(after.hardening > before.hardening)
 
     def grown(self, before: State, after: State) -> Yielding:
         """The zone with a margin around what it holds and what yielded."""
-        some = after.hardening > before.hardening
-        some[self.zone.cut] = True
-        return Yielding(self.ground, Zone.around(some))
+        hardened = after.hardening > before.hardening
+        hardened[self.zone.cut] = True
+        return Yielding(self.ground, Zone.around(hardened))

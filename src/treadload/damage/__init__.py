@@ -46,6 +46,7 @@ from treadload.damage.quantity import Quantity
 from treadload.damage.ratios import EnergyDemand, OctahedralRatio
 from treadload.damage.rutting import Rutting
 from treadload.damage.traffic import AxleClass, Traffic, Wander
+from treadload.damage.uniform import UniformComparison, compare_uniform
 from treadload.damage.verdict import Verdict, assess
 
 __all__ = [
@@ -99,6 +100,7 @@ __all__ = [
     "SurfaceExtension",
     "TimedStrength",
     "Traffic",
+    "UniformComparison",
     "Verdict",
     "VerticalCompression",
     "VerticalShear",
@@ -109,6 +111,7 @@ __all__ = [
     "asphalt_rut",
     "assess",
     "assess_bonds",
+    "compare_uniform",
     "compute_quantities",
     "crack_rose",
     "delaminate",

@@ -27,7 +27,7 @@ _DIVISORS = (1, 2, 3, 4, 6, 8, 12, 24)
 _YEAR = 8700.0
 # Strain over stiffness in asphalt, and a usual law over strain.
 _READING, _HARM = 0.8, 5.0
-_OTHERS = (3.0, 8.0)
+_POWERS = (3.0, 8.0)
 # Temperatures at which a mix is tabulated between its coldest and its warmest hour.
 _TABLE = 200
 
@@ -64,10 +64,10 @@ class Season:
     @property
     def temperatures(self) -> tuple[float, ...]:
         """All the temperatures that it names, °C, downwards."""
-        given = self.temperature
-        if isinstance(given, TemperatureProfile):
-            return given.temperatures
-        return given if isinstance(given, tuple) else (given,)
+        temperature = self.temperature
+        if isinstance(temperature, TemperatureProfile):
+            return temperature.temperatures
+        return temperature if isinstance(temperature, tuple) else (temperature,)
 
     @property
     def profile(self) -> TemperatureProfile | None:
@@ -107,16 +107,18 @@ class TypicalDays:
             )
 
     @classmethod
-    def of(cls, found: RoadTemperatures) -> TypicalDays:
+    def of(cls, road_temperatures: RoadTemperatures) -> TypicalDays:
         """Means of a year's temperatures over the days of each month."""
-        months, clock = found.months, found.hour_of_day
+        months, clock = road_temperatures.months, road_temperatures.hour_of_day
         whole = clock.astype(int)
         hours = np.unique(whole)
         means = [
-            [found.temperatures[(months == month) & (whole == hour)].mean(axis=0) for hour in hours]
+            [road_temperatures.temperatures[(months == month) & (whole == hour)].mean(axis=0) for hour in hours]
             for month in range(1, len(MONTHS) + 1)
         ]
-        return cls(np.array([clock[whole == hour].mean() for hour in hours]), found.depths, np.array(means))
+        return cls(
+            np.array([clock[whole == hour].mean() for hour in hours]), road_temperatures.depths, np.array(means)
+        )
 
 
 @dataclass(frozen=True)
@@ -161,20 +163,20 @@ class Climate:
 
     def within(self, sublayers: float | None, ageing: Ageing | None) -> Climate:
         """The same climate with the road's courses divided, see `Season`."""
-        parts = tuple(replace(one, sublayers=sublayers, ageing=ageing) for one in self.seasons)
-        return replace(self, seasons=parts, about=(*self.about, *_told(ageing)))
+        parts = tuple(replace(season, sublayers=sublayers, ageing=ageing) for season in self.seasons)
+        return replace(self, seasons=parts, about=(*self.about, *_ageing_caveat(ageing)))
 
     def warmer(self, degrees: float) -> Climate:
         """The climate with all its seasons warmer by so many degrees."""
         days = self.days
         warm = None if days is None else replace(days, temperatures=days.temperatures + degrees)
-        return replace(self, seasons=tuple(one.warmer(degrees) for one in self.seasons), days=warm)
+        return replace(self, seasons=tuple(season.warmer(degrees) for season in self.seasons), days=warm)
 
     @classmethod
     def of_road(
         cls,
         road: Pavement,
-        found: RoadTemperatures,
+        road_temperatures: RoadTemperatures,
         *,
         parts: int = PARTS,
         hours: Sequence[float] | None = None,
@@ -186,38 +188,49 @@ class Climate:
         At each depth in a mix it is the temperature at which E^-4 has its mean, strain taken as E^-0.8 and harm as
         its fifth power; else the mean.
 
-        road: whose mixes wait for their temperature. found: its temperatures over a year at least. parts: of the day,
+        road: whose mixes wait for their temperature. road_temperatures: over a year at least. parts: of the day,
         a divisor of 24, see `binning_error` for what they cost. hours: shares of the passes in the 24 hours of
         a day, from midnight; left out, all alike. sublayers, ageing: as of a Season. Days count alike.
         Raises InputError.
         """
-        labels, weights = _binned(found, parts, hours)
-        temperatures, total = found.temperatures, float(weights.sum())
-        soft = _softness(road, found)
+        labels, weights = _binned(road_temperatures, parts, hours)
+        temperatures, total = road_temperatures.temperatures, float(weights.sum())
+        soft = _softness(road, road_temperatures)
         seasons = []
         for label in np.unique(labels):
-            own = labels == label
-            share = float(weights[own].sum()) / total
+            rows = labels == label
+            share = float(weights[rows].sum()) / total
             if share == 0:
                 continue
-            mean = _equivalent(soft, temperatures[own], weights[own])
+            mean = _equivalent(soft, temperatures[rows], weights[rows])
             month, part = divmod(int(label), parts)
             wide = 24 // parts
             name = MONTHS[month] if parts == 1 else f"{MONTHS[month]}, {part * wide}-{(part + 1) * wide} h"
             seasons.append(
-                Season(name, share, TemperatureProfile(found.depths.tolist(), mean.tolist()), sublayers, ageing)
+                Season(
+                    name,
+                    share,
+                    TemperatureProfile(road_temperatures.depths.tolist(), mean.tolist()),
+                    sublayers,
+                    ageing,
+                )
             )
-        error = binning_error(road, found, parts=parts, hours=hours)
-        surface = found.temperatures[:, 0]
+        error = binning_error(road, road_temperatures, parts=parts, hours=hours)
+        surface = road_temperatures.temperatures[:, 0]
         about = (
-            f"temperatures by {found.method}: surface {surface.min():.0f} to {surface.max():.0f} °C, gathered into "
-            f"{len(seasons)} seasons by month and {parts} part(s) of the day, which moves damage as readings off by "
-            f"{100 * error:.2g} % would"
+            f"temperatures by {road_temperatures.method}: surface {surface.min():.0f} to {surface.max():.0f} °C, "
+            f"gathered into {len(seasons)} seasons by month and {parts} part(s) of the day, which moves damage as "
+            f"readings off by {100 * error:.2g} % would"
         )
-        return cls(tuple(seasons), (about, *_told(ageing)), found.assumed, TypicalDays.of(found))
+        return cls(
+            tuple(seasons),
+            (about, *_ageing_caveat(ageing)),
+            road_temperatures.assumed,
+            TypicalDays.of(road_temperatures),
+        )
 
 
-def _told(ageing: Ageing | None) -> tuple[str, ...]:
+def _ageing_caveat(ageing: Ageing | None) -> tuple[str, ...]:
     if ageing is None:
         return ()
     return (
@@ -226,7 +239,7 @@ def _told(ageing: Ageing | None) -> tuple[str, ...]:
 
 
 def binning_error(
-    road: Pavement, found: RoadTemperatures, *, parts: int = PARTS, hours: Sequence[float] | None = None
+    road: Pavement, road_temperatures: RoadTemperatures, *, parts: int = PARTS, hours: Sequence[float] | None = None
 ) -> float:
     """What seasons by month and part of the day miss of the year's hours, as an error of a reading.
 
@@ -234,16 +247,16 @@ def binning_error(
     n than that by which the bins were made, 3 and 8; the largest over the depths in mixes. Arguments as in
     `Climate.of_road`.
     """
-    labels, weights = _binned(found, parts, hours)
+    labels, weights = _binned(road_temperatures, parts, hours)
     bins = [labels == label for label in np.unique(labels) if weights[labels == label].sum() > 0]
-    shares = np.array([weights[own].sum() for own in bins])
+    shares = np.array([weights[rows].sum() for rows in bins])
     worst = 0.0
-    temperatures, soft = found.temperatures, _softness(road, found)
-    binned = np.array([_equivalent(soft, temperatures[own], weights[own]) for own in bins])
+    temperatures, soft = road_temperatures.temperatures, _softness(road, road_temperatures)
+    binned = np.array([_equivalent(soft, temperatures[rows], weights[rows]) for rows in bins])
     for number, curve in enumerate(soft):
         if curve is None:
             continue
-        for power in _OTHERS:
+        for power in _POWERS:
             rough, fine = (
                 float(np.average(np.exp(power * np.interp(warm, *curve)), weights=heavy))
                 for warm, heavy in ((binned[:, number], shares), (temperatures[:, number], weights))
@@ -252,17 +265,17 @@ def binning_error(
     return worst
 
 
-def _softness(road: Pavement, found: RoadTemperatures) -> list[tuple[Array, Array] | None]:
+def _softness(road: Pavement, road_temperatures: RoadTemperatures) -> list[tuple[Array, Array] | None]:
     """At each depth temperatures and ln of the strain there, but for a constant; None where there is no mix."""
     curves: list[tuple[Array, Array] | None] = []
-    for number, depth in enumerate(found.depths):
-        mix, column = road.layers[road.layer_at(float(depth))].material, found.temperatures[:, number]
+    for number, depth in enumerate(road_temperatures.depths):
+        mix, column = road.layers[road.layer_at(float(depth))].material, road_temperatures.temperatures[:, number]
         if not isinstance(mix, Mix) or np.ptp(column) == 0:
             curves.append(None)
             continue
-        known = np.linspace(column.min(), column.max(), _TABLE)
-        moduli = [mix.modulus(float(one), extrapolate=True) for one in known]
-        curves.append((known, -_READING * np.log(moduli)))
+        grid = np.linspace(column.min(), column.max(), _TABLE)
+        moduli = [mix.modulus(float(temperature), extrapolate=True) for temperature in grid]
+        curves.append((grid, -_READING * np.log(moduli)))
     return curves
 
 
@@ -277,15 +290,17 @@ def _equivalent(soft: Sequence[tuple[Array, Array] | None], temperatures: Array,
     return result
 
 
-def _binned(found: RoadTemperatures, parts: int, hours: Sequence[float] | None) -> tuple[np.ndarray, Array]:
+def _binned(
+    road_temperatures: RoadTemperatures, parts: int, hours: Sequence[float] | None
+) -> tuple[np.ndarray, Array]:
     """Month times part of the day of each row, and its weight."""
     if parts not in _DIVISORS:
         raise InputError(f"parts of the day must divide 24: {', '.join(map(str, _DIVISORS))}; got {parts}")
-    months, clock = found.months, found.hour_of_day
-    if len(months) * found.step < _YEAR or len(np.unique(months)) < 12:
+    months, clock = road_temperatures.months, road_temperatures.hour_of_day
+    if len(months) * road_temperatures.step < _YEAR or len(np.unique(months)) < 12:
         raise InputError(
-            f"a life needs a year of temperatures, 8760 hours, got {len(months) * found.step:g} from "
-            f"{found.start:%Y-%m-%d} on"
+            f"a life needs a year of temperatures, 8760 hours, got {len(months) * road_temperatures.step:g} from "
+            f"{road_temperatures.start:%Y-%m-%d} on"
         )
     if hours is None:
         share = np.full(24, 1 / 24)

@@ -136,7 +136,7 @@ def envelope(
         "crack_dip": (dims, dip),
         "crack_orientation": (dims, orientation(angle, dip, oblique_tolerance)),
     }
-    said = [
+    warnings = [
         f"{cut.sum()} of {cut.size} points have their largest extension at the first or last x of the response: the "
         "passage is cut short; solve it further out"
     ]
@@ -145,7 +145,7 @@ def envelope(
         {"depth": data["depth"].to_numpy(), "y": data["y"].to_numpy(), "component": ["x", "y", "z"]},
         strain=strain,
         oblique_tolerance=oblique_tolerance,
-        warnings=json.dumps(said if cut.any() else [], ensure_ascii=False),
+        warnings=json.dumps(warnings if cut.any() else [], ensure_ascii=False),
     )
 
 

@@ -89,10 +89,10 @@ class Criterion:
         if self.parts < 1:
             raise InputError(f"parts of the criterion {self.name!r} must be 1 or more, got {self.parts}")
         if self.reads is not None and (unlike := law.reads.differences(self.reads)):
-            own, given = (", ".join(f"{name} = {two[k]:g}" for name, two in unlike.items()) for k in (0, 1))
+            here, fitted = (", ".join(f"{name} = {two[k]:g}" for name, two in unlike.items()) for k in (0, 1))
             raise InputError(
-                f"the criterion {self.name!r} reads the {self.reads} with {given}, but the numbers of its law, "
-                f"{law}, were fitted with {own}; give {own} in reads, or a law fitted with {given}"
+                f"the criterion {self.name!r} reads the {self.reads} with {fitted}, but the numbers of its law, "
+                f"{law}, were fitted with {here}; give {here} in reads, or a law fitted with {fitted}"
             )
         if self.reads is not None and not law.reads.admits(self.reads):
             raise InputError(
@@ -251,8 +251,8 @@ class Criterion:
 
     def _uncut(self, data: xr.Dataset) -> tuple[Array, Array | None]:
         quantity = self.quantity
-        known = self.place == "top" and quantity.needs_tension and set(STRESS) <= set(data)
-        return quantity.values(data), tension(data) if known else None
+        uses_tension = self.place == "top" and quantity.needs_tension and set(STRESS) <= set(data)
+        return quantity.values(data), tension(data) if uses_tension else None
 
     def crack(self, data: xr.Dataset) -> tuple[Array, Array]:
         """Angle of the trace and dip (y, x), rad, of the crack across what it reads; NaN for none.

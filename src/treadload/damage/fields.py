@@ -25,9 +25,9 @@ def known_quantities() -> dict[str, Quantity]:
 
     Ours, and what this session registered; those of other packages are looked up by name.
     """
-    makers = (QUANTITIES.find(name).target for name in QUANTITIES.own())
-    made = [make() for make in makers if not _needs_more(make)]
-    return {one.name: one for one in made if one.where == ANYWHERE and not one.lacks}
+    makers = (QUANTITIES.find(name).target for name in QUANTITIES.built_in())
+    instances = [make() for make in makers if not _needs_more(make)]
+    return {quantity.name: quantity for quantity in instances if quantity.where == ANYWHERE and not quantity.lacks}
 
 
 def compute_quantities(response: Source, quantities: Sequence[str | Quantity] | None = None) -> xr.Dataset:
@@ -41,22 +41,22 @@ def compute_quantities(response: Source, quantities: Sequence[str | Quantity] | 
     """
     data = gridded(response)
     if quantities is None:
-        chosen = [one for one in known_quantities().values() if not one.missing(data)]
+        chosen = [quantity for quantity in known_quantities().values() if not quantity.missing(data)]
     else:
-        chosen = [_named(one) if isinstance(one, str) else one for one in quantities]
-    return xr.Dataset({one.name: one.field(data) for one in chosen})
+        chosen = [_named(quantity) if isinstance(quantity, str) else quantity for quantity in quantities]
+    return xr.Dataset({quantity.name: quantity.field(data) for quantity in chosen})
 
 
 def _named(name: str) -> Quantity:
     make = QUANTITIES.find(name).target
     if _needs_more(make):
         raise InputError(f"the quantity {name!r} needs more than its name; give it as an object, with its numbers")
-    made: Quantity = make()
-    return made
+    quantity: Quantity = make()
+    return quantity
 
 
 def _needs_more(make: Callable[..., Quantity]) -> bool:
-    return any(one.default is one.empty for one in inspect.signature(make).parameters.values())
+    return any(parameter.default is parameter.empty for parameter in inspect.signature(make).parameters.values())
 
 
 def peak(fields: xr.Dataset, name: str, *, deepest: float | None = None) -> dict[str, float]:

@@ -69,19 +69,19 @@ class LoadingFrequency:
         frequency only.
         """
         thicknesses = [layer.thickness for layer in road.layers if layer.thickness is not None]
-        known = [CONVENTION] * len(thicknesses)
+        frequencies = [CONVENTION] * len(thicknesses)
         for _ in range(_ROUNDS):
-            warm = _read_at(road, known).at_temperature(temperatures, extrapolate=True)
+            warm = _read_at(road, frequencies).at_temperature(temperatures, extrapolate=True)
             materials = [layer.resolved for layer in warm.layers]
-            if not all(isinstance(one, AnyElastic) for one in materials):
+            if not all(isinstance(material, AnyElastic) for material in materials):
                 raise InputError("loading frequencies are for elastic mixes: a viscoelastic layer knows the speed")
-            moduli = [upright(one)[0] for one in materials if isinstance(one, AnyElastic)]
-            found = self.frequencies(thicknesses, moduli, speed, radius)
-            settled = max(abs(math.log(a / b)) for a, b in zip(found, known, strict=True)) < _SETTLED
-            known = found
+            moduli = [upright(material)[0] for material in materials if isinstance(material, AnyElastic)]
+            updated = self.frequencies(thicknesses, moduli, speed, radius)
+            settled = max(abs(math.log(a / b)) for a, b in zip(updated, frequencies, strict=True)) < _SETTLED
+            frequencies = updated
             if settled:
                 break
-        return _read_at(road, known), known
+        return _read_at(road, frequencies), frequencies
 
     def __str__(self) -> str:
         angular = self.rule == "brown" if self.angular is None else self.angular

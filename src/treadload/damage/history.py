@@ -62,7 +62,7 @@ def residual_after(response: Source, *, spacing: float, passes: int) -> xr.Datas
         earliest = tail(np.maximum(places - number * spacing, x[0]))
         left += earliest
     largest = float(np.abs(left).max())
-    fields = {f"residual_{name}": (_DIMS, one) for name, one in zip(STRESS, left, strict=True)}
+    fields = {f"residual_{name}": (_DIMS, component) for name, component in zip(STRESS, left, strict=True)}
     fields["residual_tension"] = (_DIMS, tensors.in_plane_principal(left)[0])
     fields["total_tension"] = (_DIMS, tensors.in_plane_principal(left + stress[..., kept])[0])
     return variables.dataset(
@@ -131,13 +131,13 @@ def add_thermal_stress(response: Source, stress: ArrayLike) -> Response | xr.Dat
     where it solves the road again. Raises InputError.
     """
     data = gridded(response)
-    given = np.asarray(stress, dtype=float)
-    if given.shape not in ((), (data.sizes["depth"],)) or not np.isfinite(given).all():
+    stresses = np.asarray(stress, dtype=float)
+    if stresses.shape not in ((), (data.sizes["depth"],)) or not np.isfinite(stresses).all():
         raise InputError(
             f"stress must be one finite number of Pa or one for each of {data.sizes['depth']} depths, "
-            f"got shape {given.shape}"
+            f"got shape {stresses.shape}"
         )
-    each = np.broadcast_to(given, data.sizes["depth"])
+    each = np.broadcast_to(stresses, data.sizes["depth"])
     added = with_horizontal_stress(data, each)
     if not isinstance(response, Response):
         return added
@@ -150,10 +150,10 @@ def with_horizontal_stress(data: xr.Dataset, stress: Array) -> xr.Dataset:
     """Fields over (depth, y, x) with a stress, Pa, (depth,), added to both horizontal normal stresses."""
     total = np.stack([part(data, name) for name in STRESS])
     total[:2] += stress[:, None, None]
-    known = {
+    fields = {
         **dict(zip(STRESS, total, strict=True)),
         "von_mises_stress": tensors.von_mises(total),
         "octahedral_shear_stress": tensors.octahedral_shear(total),
         "mean_stress": tensors.mean(total),
     }
-    return data.assign({name: (_DIMS, one, variables.attributes(name)) for name, one in known.items()})
+    return data.assign({name: (_DIMS, values, variables.attributes(name)) for name, values in fields.items()})

@@ -87,8 +87,12 @@ def distortion_work(response: Source, road: Pavement) -> xr.DataArray:
     rows = []
     for top, bottom in itertools.pairwise(edges):
         # A depth at an interface is read from above: it belongs to the layer that ends there.
-        own = (depths > top) & (depths <= bottom) | (depths == 0.0) & (top == 0.0)
-        whole = np.trapezoid(energy[own], depths[own], axis=0) if own.sum() > 1 else np.full(energy.shape[1], np.nan)
+        within = (depths > top) & (depths <= bottom) | (depths == 0.0) & (top == 0.0)
+        whole = (
+            np.trapezoid(energy[within], depths[within], axis=0)
+            if within.sum() > 1
+            else np.full(energy.shape[1], np.nan)
+        )
         rows.append(whole)
     places = {"layer": np.arange(len(rows)), "y": data["y"].to_numpy()}
     return variables.dataset({"distortion_work": (("layer", "y"), np.array(rows))}, places)["distortion_work"]
@@ -112,15 +116,15 @@ def asphalt_rut(
     whole = bituminous_thickness(road, 0) if thickness is None else thickness
     positive("thickness", whole, "metres", "21 cm is 0.21")
     depths = data["depth"].to_numpy()
-    own = depths <= whole * (1 + 1e-9)
-    if own.sum() < _FEWEST:
+    within = depths <= whole * (1 + 1e-9)
+    if within.sum() < _FEWEST:
         raise InputError(
             f"the rut needs the response at {_FEWEST} depths or more in the {1e3 * whole:g} mm of asphalt, got "
-            f"{own.sum()}; solve it with more, from the surface to the bottom"
+            f"{within.sum()}; solve it with more, from the surface to the bottom"
         )
-    strain = np.maximum(VerticalCompression().values(data).max(axis=-1)[own], 0.0)
-    factor = depth_factor(depths[own], whole) * law.factor * passes**law.exponent
-    rut = np.trapezoid(strain * factor[:, None], depths[own], axis=0)
+    strain = np.maximum(VerticalCompression().values(data).max(axis=-1)[within], 0.0)
+    factor = depth_factor(depths[within], whole) * law.factor * passes**law.exponent
+    rut = np.trapezoid(strain * factor[:, None], depths[within], axis=0)
     field = _over(rut, data, "asphalt_rut")
     return field.assign_attrs(warnings=json.dumps([f"rut of the asphalt: {_DOUBTS}"], ensure_ascii=False))
 

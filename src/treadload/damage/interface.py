@@ -18,11 +18,12 @@ from treadload.damage.cracks import gridded
 from treadload.damage.criterion import interface_number
 from treadload.damage.laws.bond import BondStrength, ShearFatigue
 from treadload.damage.laws.fatigue import warnings_of
-from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import same_depth
 from treadload.pavement import FRICTIONLESS, BondLaw, Pavement
+from treadload.rows import Place, Row, row
+from treadload.units import repetitions_in_words
 
 _DIMS = ("interface", "y", "x")
 
@@ -82,14 +83,14 @@ def interface_fields(above: Source, below: Source | None = None) -> xr.Dataset:
 
 
 def _layer_names(data: xr.Dataset) -> list[str]:
-    given = json.loads(data.attrs.get("layer_names", "[]"))
-    return [name or f"layer {number}" for number, name in enumerate(given)]
+    names = json.loads(data.attrs.get("layer_names", "[]"))
+    return [name or f"layer {number}" for number, name in enumerate(names)]
 
 
 def _at_depths(data: xr.Dataset, depths: Array) -> xr.Dataset:
-    own = data["depth"].to_numpy()
-    rows = [int(np.argmin(np.abs(own - depth))) for depth in depths]
-    far = ~same_depth(own[rows], depths)
+    levels = data["depth"].to_numpy()
+    rows = [int(np.argmin(np.abs(levels - depth))) for depth in depths]
+    far = ~same_depth(levels[rows], depths)
     if far.any():
         raise InputError(
             f"the response lacks the interface at {depths[far][0]:g} m; solve it with depths=road.interfaces"
@@ -106,6 +107,7 @@ class BondVerdict(BaseResult, group="bonds"):
     strengths: one for each interface, None where not assessed. law: of fatigue, or None. warnings: for the user.
     """
 
+    title: ClassVar[str] = "Interface bonds"
     holds: ClassVar[Holds] = Holds(
         {
             "x": "x",
@@ -113,9 +115,9 @@ class BondVerdict(BaseResult, group="bonds"):
             "interface depth largest_utilisation parting_x parting_y": "interface",
             "interface_shear interface_pressure utilisation": "interface y x",
         },
-        known="largest_utilisation",
+        not_nan="largest_utilisation",
         maybe={"parting_passes": "interface", "bond_passes": "interface y x"},
-        asked={"law": "parting_passes"},
+        with_field={"law": "parting_passes"},
         labels={"between": "interface"},
         each={"interface": "strengths"},
     )
@@ -130,42 +132,42 @@ class BondVerdict(BaseResult, group="bonds"):
         """Number of the interface that fails first: the one with the largest utilisation."""
         return int(np.nanargmax(self.dataset["largest_utilisation"].to_numpy()))
 
-    def summary(self) -> str:
-        """Shear, pressure and utilisation at the worst place of every interface, and where and when bonds fail."""
-        data = self.dataset
-        lines = ["interfaces, from the surface down"]
+    def rows(self) -> tuple[Row, ...]:
+        """Strength, utilisation, shear and normal stress at the worst place of every interface, and the verdict."""
+        rows: list[Row] = []
         for k, strength in enumerate(self.strengths):
-            one = data.isel(interface=k)
+            data = self.dataset.isel(interface=k)
+            name = _named(data)
             if strength is None:
-                lines.append(f"  {_named(one)}: no strength given")
+                rows.append(row("bond_strength", "no strength given", group=name))
                 continue
-            worst = one.sel(x=one["parting_x"], y=one["parting_y"], method="nearest")
-            lines += [
-                f"  {_named(one)}: {strength}",
-                f"    utilisation {float(one['largest_utilisation']):.3g} at x = {_mm(one['parting_x'])} mm, "
-                f"y = {_mm(one['parting_y'])} mm: shear {float(worst['interface_shear']) / 1e6:.3f} MPa under "
-                f"{float(worst['interface_pressure']) / 1e6:.3f} MPa",
+            x, y = data["parting_x"], data["parting_y"]
+            worst, place = data.sel(x=x, y=y, method="nearest"), Place(float(x), float(y))
+            rows += [
+                row("bond_strength", str(strength), group=name),
+                row("largest_utilisation", data["largest_utilisation"], place=place, group=name),
+                row("interface_shear", worst["interface_shear"], group=name),
+                row("interface_pressure", worst["interface_pressure"], group=name),
             ]
-        lines += [f"warning: {text}" for text in self.warnings]
-        one = data.isel(interface=self.first)
-        used = float(one["largest_utilisation"])
-        if used >= 1:
-            lines.append(f"Verdict: {_named(one)} fails in the first pass.")
-        elif self.law is None:
-            lines.append(
-                f"Verdict: no bond fails at once; the utilisation of {_named(one)} is largest. "
-                "Give a law for its passes."
-            )
-        elif used == 0:
-            lines.append("Verdict: no bond carries any load.")
-        else:
-            lines.append(
-                f"Verdict: {_named(one)} fails first, after {float(one['parting_passes']):.2g} passes, "
-                f"from y = {_mm(one['parting_y'])} mm."
-            )
-        return "\n".join(lines)
+            if self.law is not None:
+                rows.append(row("parting_passes", data["parting_passes"], group=name))
+        return (*rows, row("verdict", self._verdict()))
 
-    __repr__ = first_line
+    def _verdict(self) -> str:
+        first = self.dataset.isel(interface=self.first)
+        used = float(first["largest_utilisation"])
+        if used >= 1:
+            return f"{_named(first)} fails in the first pass."
+        if self.law is None:
+            return (
+                f"no bond fails at once; the utilisation of {_named(first)} is largest. Give a law for its load "
+                "repetitions."
+            )
+        if used == 0:
+            return "no bond carries any load."
+        passes = repetitions_in_words(float(first["parting_passes"]))
+        y = round(1e3 * float(first["parting_y"]), 1) + 0.0
+        return f"{_named(first)} fails first, after {passes} load repetitions, from y = {y:.1f} mm."
 
 
 def assess_bonds(
@@ -184,34 +186,34 @@ def assess_bonds(
     x is where the worst place stands in the frame of the load: as a wheel rolls by, every point at that y sees it.
     Returns a BondVerdict. Raises InputError for a wrong number of strengths or temperatures, or one that is missing.
     """
-    told = dataset_of(fields)
-    fields = told if "interface_shear" in told else interface_fields(told)
+    source = dataset_of(fields)
+    fields = source if "interface_shear" in source else interface_fields(source)
     count = fields.sizes["interface"]
-    given = [strengths] * count if isinstance(strengths, BondStrength) else list(strengths)
-    if len(given) != count:
+    by_interface = [strengths] * count if isinstance(strengths, BondStrength) else list(strengths)
+    if len(by_interface) != count:
         raise InputError(
-            f"give a strength for each of the {count} interfaces, None to leave one out, got {len(given)}"
+            f"give a strength for each of the {count} interfaces, None to leave one out, got {len(by_interface)}"
         )
-    if all(strength is None for strength in given):
+    if all(strength is None for strength in by_interface):
         raise InputError("a verdict on bonds needs the strength of at least one interface, got none")
     warm = [temperature] * count if temperature is None or isinstance(temperature, int | float) else list(temperature)
     if len(warm) != count:
         raise InputError(f"give one temperature, or one for each of the {count} interfaces, got {len(warm)}")
     shear, pressed = (fields[f"interface_{name}"].transpose(*_DIMS).to_numpy() for name in ("shear", "pressure"))
     used = np.full(shear.shape, np.nan)
-    said: list[str] = json.loads(fields.attrs.get("warnings", "[]"))
+    warnings: list[str] = json.loads(fields.attrs.get("warnings", "[]"))
     warmed: list[BondStrength | None] = []
-    for k, (strength, degrees) in enumerate(zip(given, warm, strict=True)):
+    for k, (strength, degrees) in enumerate(zip(by_interface, warm, strict=True)):
         at = strength if strength is None or degrees is None else strength.at(float(degrees))
         warmed.append(at)
         if at is not None:
             used[k] = at.utilisation(shear[k], pressed[k])
-            said += [f"{_named(fields.isel(interface=k))}: {text}" for text in _doubts(at, pressed[k])]
+            warnings += [f"{_named(fields.isel(interface=k))}: {text}" for text in _doubts(at, pressed[k])]
     peaks = [_peak(part) for part in used]
     largest = np.array([part[peak] for part, peak in zip(used, peaks, strict=True)])
-    asked = ~np.isnan(largest)
+    assessed = ~np.isnan(largest)
     x, y = fields["x"].to_numpy(), fields["y"].to_numpy()
-    said += [
+    warnings += [
         f"{_named(fields.isel(interface=k))}: utilisation largest at the edge of the points; solve it further out"
         for k, peak in enumerate(peaks)
         if largest[k] > 0 and _on_edge(peak, used[k].shape)
@@ -219,15 +221,15 @@ def assess_bonds(
     added: dict[str, tuple[tuple[str, ...], Array]] = {
         "utilisation": (_DIMS, used),
         "largest_utilisation": (("interface",), largest),
-        "parting_x": (("interface",), np.where(asked, [x[column] for _, column in peaks], np.nan)),
-        "parting_y": (("interface",), np.where(asked, [y[row] for row, _ in peaks], np.nan)),
+        "parting_x": (("interface",), np.where(assessed, [x[column] for _, column in peaks], np.nan)),
+        "parting_y": (("interface",), np.where(assessed, [y[row] for row, _ in peaks], np.nan)),
     }
     if law is not None:
         added["bond_passes"] = (_DIMS, law.allowable_passes(used))
         added["parting_passes"] = (("interface",), law.allowable_passes(largest))
-        said += warnings_of(law, largest)
+        warnings += warnings_of(law, largest)
     dataset = fields.assign({name: (dims, data, variables.attributes(name)) for name, (dims, data) in added.items()})
-    return BondVerdict(dataset, tuple(warmed), law, tuple(dict.fromkeys(said)))
+    return BondVerdict(dataset, tuple(warmed), law, tuple(dict.fromkeys(warnings)))
 
 
 def _peak(used: Array) -> tuple[int, int]:
@@ -242,12 +244,12 @@ def _on_edge(peak: tuple[int, int], shape: tuple[int, ...]) -> bool:
 
 
 def _doubts(strength: BondStrength, pressed: Array) -> list[str]:
-    said = [strength.doubt] if strength.doubt else []
+    caveats = [strength.doubt] if strength.doubt else []
     tension = float(-pressed.min())
     # Tension that matters: a hundredth of what presses. Less stands everywhere around a load.
     if tension > 0.01 * float(np.abs(pressed).max()) and math.isinf(strength.tension_limit):
-        said.append(f"tension up to {tension / 1e3:.3g} kPa acts and is not assessed; give a tensile_strength")
-    return said
+        caveats.append(f"tension up to {tension / 1e3:.3g} kPa acts and is not assessed; give a tensile_strength")
+    return caveats
 
 
 def interface_in_words(interface: int, between: str) -> str:
@@ -255,10 +257,6 @@ def interface_in_words(interface: int, between: str) -> str:
     return f"interface {interface + 1}, below {between.split(' / ')[0]}"
 
 
-def _named(one: xr.Dataset) -> str:
-    name = interface_in_words(int(one["interface"]), str(one["between"].item()))
-    return f"{name} ({float(one['depth']) * 1e3:g} mm deep)"
-
-
-def _mm(metres: xr.DataArray) -> str:
-    return f"{round(float(metres) * 1e3, 1) + 0.0:.1f}"
+def _named(interface: xr.Dataset) -> str:
+    name = interface_in_words(int(interface["interface"]), str(interface["between"].item()))
+    return f"{name} ({float(interface['depth']) * 1e3:g} mm deep)"

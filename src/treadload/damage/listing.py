@@ -69,42 +69,42 @@ def _quantity(name: str, package: str) -> Listed:
     # What needs its numbers first tells what all of its kind have.
     kind: Any = made_by(target)[0] if asks_more else target()
     needs = kind.needs if isinstance(kind.needs, tuple) else ()
-    fields = " and ".join(words for start, words in _FIELDS if any(one.startswith(start) for one in needs))
-    asked = "; ".join(filter(None, (_numbers(QUANTITIES, name), fields)))
-    return Listed(name, _first(target), _unit(kind), asked, kind.source, kind.calibrated or UNCALIBRATED, "", package)
+    fields = " and ".join(words for start, words in _FIELDS if any(need.startswith(start) for need in needs))
+    fixed = "; ".join(filter(None, (_numbers(QUANTITIES, name), fields)))
+    return Listed(name, _first(target), _unit(kind), fixed, kind.source, kind.calibrated or UNCALIBRATED, "", package)
 
 
 def _law(name: str, package: str) -> Listed:
     target = CRITERIA.find(name).target
-    kinds = [one for one in made_by(target) if inspect.isclass(one)]
+    kinds = [text for text in made_by(target) if inspect.isclass(text)]
     kind: Any = kinds[0] if kinds else target
     reads = getattr(kind, "reads", None)
-    known = isinstance(reads, Quantity)
-    told = f"reads the {reads}" if known else "reads any quantity"
-    if known and "reads" in parameters(target, (OnLayer,)):
-        told += ", or another of its kind"
-    asked = "; ".join(filter(None, (told, _numbers(CRITERIA, name))))
+    has_quantity = isinstance(reads, Quantity)
+    reads_text = f"reads the {reads}" if has_quantity else "reads any quantity"
+    if has_quantity and "reads" in parameters(target, (OnLayer,)):
+        reads_text += ", or another of its kind"
+    arguments = "; ".join(filter(None, (reads_text, _numbers(CRITERIA, name))))
     source, ends = (_text(kind, key) for key in ("source", "end_of_life"))
-    unit = _unit(reads) if known else "any"
-    return Listed(name, _first(target), unit, asked, source, _text(kind, "calibrated") or USERS, ends, package)
+    unit = _unit(reads) if has_quantity else "any"
+    return Listed(name, _first(target), unit, arguments, source, _text(kind, "calibrated") or USERS, ends, package)
 
 
 def _numbers(registry: Registry, name: str) -> str:
     """Its numbers with their units; those in brackets may be left out."""
-    told = []
+    texts = []
     taken = parameters(registry.find(name).target, (OnLayer,))
     for key, (hint, default) in taken.items():
         if key in ("reads", "doubt"):
             continue
         units = [mark.si for mark in _marks(hint) if isinstance(mark, Unit)]
         text = f"{key} ({units[0]})" if units and units[0] else key
-        told.append(text if default is ... else f"[{text}]")
-    return ", ".join(told)
+        texts.append(text if default is ... else f"[{text}]")
+    return ", ".join(texts)
 
 
 def _marks(hint: Any) -> list[Any]:
     """All that stands in an annotation, at any depth."""
-    return [mark for one in get_args(hint) for mark in (one, *_marks(one))]
+    return [mark for member in get_args(hint) for mark in (member, *_marks(member))]
 
 
 def _first(target: Any) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
+from treadload.citations import SOLVED_WHOLE
 from treadload.composing import BaseResult, Holds
 from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
@@ -19,10 +20,21 @@ from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.thermal import DailyCycles, years_until
 from treadload.damage.traffic import Traffic, Wander
-from treadload.damage.words import RUT, asked_in_words, cautions, life_in_words, verdict_in_words
-from treadload.describing import first_line
+from treadload.damage.words import (
+    OF_SENSITIVITY,
+    PER_CRITERION,
+    RUT,
+    STEEPEST,
+    cautions,
+    check_life,
+    criteria_attributes,
+    heading_of,
+    life_rows,
+    verdict_in_words,
+)
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.rows import Row, row
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +59,7 @@ class Life(BaseResult, group="life"):
     stats: solves and errors behind the readings. warnings: sentences for the user.
     """
 
+    title: ClassVar[str] = "Service life"
     holds: ClassVar[Holds] = Holds(
         {
             "life_years life_passes worst_y largest_reading": "criterion",
@@ -64,7 +77,27 @@ class Life(BaseResult, group="life"):
             "year": "year",
             "weather_share weather_reading weather_stress": "criterion month",
             "day_tension": "month profile_depth",
+            "damage_per_year": "criterion y",
+            "design_damage design_utilisation first_crack_angle first_crack_dip read_depth": "criterion",
+            "orientation_damage": "criterion orientation",
+            "elasticity": "input",
         },
+        finite="damage_per_year damage_share worst_y largest_reading design_damage design_utilisation "
+        "orientation_damage elasticity",
+        largest={"elasticity": STEEPEST},
+        above_zero="life_years life_passes",
+        with_it={
+            "damage_per_year": "y",
+            "damage_share": "season",
+            "orientation": "orientation_damage",
+            "orientation_damage": "first_crack_angle",
+            "elasticity": "input",
+        },
+        maybe_numbers=f"design_years {' '.join(OF_SENSITIVITY)}",
+        positive="design_years",
+        json={"stats": dict, **dict.fromkeys(PER_CRITERION, list), "ends": list, "groups": list},
+        tree="criterion life_years life_passes worst_y largest_reading",
+        agree=lambda data: check_life(data),
         labels={"criterion": "criterion", "axle_class": "axle_class", "season": "season"},
         each={"criterion": "criteria"},
         stats=("contacts responses combinations interpolation_error",),
@@ -79,6 +112,10 @@ class Life(BaseResult, group="life"):
     stats: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     by_class: tuple[tuple[tuple[FatigueLaw, ...], ...], ...] = ()
+
+    def cites(self) -> tuple[str, ...]:
+        """Methods of the contacts and responses, and of the sum."""
+        return (*SOLVED_WHOLE, "miner")
 
     @property
     def class_laws(self) -> tuple[tuple[tuple[FatigueLaw, ...], ...], ...]:
@@ -114,19 +151,28 @@ class Life(BaseResult, group="life"):
         share = float(self.dataset["weather_share"][number].sum())
         return share * float(self.dataset["damage_per_year"][number].max())
 
-    def summary(self) -> str:
-        """Life of every criterion, the governing one, and what does most of its damage."""
-        lines = life_in_words(self.dataset, self.criteria, self.traffic, self.climate)
-        lines.append(verdict_in_words(self.governing, self.years(self.governing)))
-        if self.stats:
-            lines.append(
-                "solved: {contacts} contacts and {responses} responses for {combinations} combinations; what is "
-                "interpolated over the climate moves damage no more than readings off by {interpolation_error:.1g} "
-                "would".format(**self.stats)
-            )
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+    @property
+    def heading(self) -> str:
+        """Traffic and climate."""
+        return heading_of(self.traffic, self.climate)
 
-    __repr__ = first_line
+    def rows(self) -> tuple[Row, ...]:
+        """Every criterion with what does most of its damage, the rut, what governs, and the verdict."""
+        years = self.years(self.governing)
+        rows = life_rows(self.dataset, self.criteria, self.traffic)
+        if self.stats:
+            solved = (
+                "{contacts} contacts and {responses} responses for {combinations} combinations; interpolation over "
+                "the climate changes the damage by no more than an error of {interpolation_error:.1g} of the largest "
+                "evaluated value".format(**self.stats)
+            )
+            rows.append(row("solved", solved))
+        return (
+            *rows,
+            row("governing", self.governing),
+            row("governing_years", years),
+            row("verdict", verdict_in_words(self.dataset, self.governing, years)),
+        )
 
 
 def miner(
@@ -170,8 +216,8 @@ def miner(
     if layer_temperatures is None:
         if any(len(season.temperatures) > 1 for season in climate.seasons):
             raise InputError("seasons with several temperatures need layer_temperatures (criterion, season)")
-        one = [season.temperatures[0] for season in climate.seasons]
-        layer_temperatures = np.tile(one, (len(criteria), 1))
+        temperatures = [season.temperatures[0] for season in climate.seasons]
+        layer_temperatures = np.tile(temperatures, (len(criteria), 1))
     if laws is None:
         warm = zip(criteria, layer_temperatures, strict=True)
         laws = [[[c.law_at(float(t)) for t in row]] * len(traffic.classes) for c, row in warm]
@@ -183,9 +229,11 @@ def miner(
     wide = at[0] + spacing * (np.arange(wandering.shape[-1]) - margin)
     still = np.pad(still, [(0, 0), (margin, margin)])
     firsts = [row[0][0] for row in laws]
-    wanders = [wander_of(one, traffic) for one in firsts]
+    wanders = [wander_of(passage, traffic) for passage in firsts]
     yearly = np.where([[wander != traffic.wander] for wander in wanders], still, wandering)
-    worst = np.array([_worst(one, read, margin) for one, read in zip(yearly, values, strict=True)])
+    worst = np.array(
+        [_worst(yearly_damage, read, margin) for yearly_damage, read in zip(yearly, values, strict=True)]
+    )
     busy = np.take_along_axis(yearly, worst[:, None], axis=-1)[:, 0]
     days = np.zeros(len(criteria)) if weather is None else weather.yearly
     peak = busy + days
@@ -201,7 +249,7 @@ def miner(
     shares = np.stack(here)
     with np.errstate(divide="ignore", invalid="ignore"):
         passes = np.where(peak > 0, traffic.passes_per_year / peak, math.inf)
-    years = [traffic.years_to(float(one)) for one in passes]
+    years = [traffic.years_to(float(count)) for count in passes]
     for k in np.flatnonzero(days):
         years[k] = years_until(traffic, float(busy[k]), float(days[k]))
         passes[k] = traffic.passes(years[k])
@@ -255,10 +303,10 @@ def miner(
         growth_kind=traffic.kind,
         wander=str(traffic.wander),
         **({} if traffic.years is None else {"design_years": traffic.years}),
-        **asked_in_words(criteria, firsts),
+        **criteria_attributes(criteria, firsts),
     )
     twice = [wander != traffic.wander for wander in wanders]
-    said = cautions(dataset, criteria, laws, values, shares, twice)
+    caveats = cautions(dataset, criteria, laws, values, shares, twice)
     dims = ("criterion", "axle_class", "season", "turn", "y")
     places = {name: coordinates[name] for name in ("criterion", "axle_class", "season")}
     kept = xr.DataArray(values, dims=dims, coords={**places, "y": at})
@@ -269,9 +317,9 @@ def miner(
         climate,
         kept,
         tuple(tuple(row[0]) for row in laws),
-        warnings=said,
+        warnings=caveats,
         by_class=tuple(tuple(map(tuple, row)) for row in laws)
-        if any(row[0] != one for row in laws for one in row)
+        if any(row[0] != law for row in laws for law in row)
         else (),
     )
 
@@ -296,8 +344,8 @@ def _utilisation(laws: Sequence[Sequence[FatigueLaw]], readings: Array, traffic:
     return float(
         max(
             value / law.allowable_strain(passes)
-            for own, row in zip(laws, largest, strict=True)
-            for law, value in zip(own, row, strict=True)
+            for law_of_row, row in zip(laws, largest, strict=True)
+            for law, value in zip(law_of_row, row, strict=True)
         )
     )
 
@@ -358,11 +406,11 @@ def _cracks(
     codes = orientation(angle, dip, OBLIQUE_TOLERANCE)
     shares = np.zeros((len(damage), len(ORIENTATIONS)))
     first = np.empty((2, len(damage)))
-    for k, (one, column, top) in enumerate(zip(damage, columns, peak, strict=True)):
+    for k, (share, column, top) in enumerate(zip(damage, columns, peak, strict=True)):
         for code in range(len(ORIENTATIONS)):
-            part = np.where(codes[k] == code, one, 0.0).sum(axis=(0, 1))
+            part = np.where(codes[k] == code, share, 0.0).sum(axis=(0, 1))
             shares[k, code] = _over(float(wanders[k].spread_at(part, spacing, column)), top)
-        most = np.unravel_index(int(one.argmax()), one.shape)
+        most = np.unravel_index(int(share.argmax()), share.shape)
         first[:, k] = angle[k][most], dip[k][most]
     return {
         "first_crack_angle": (("criterion",), first[0]),

@@ -371,8 +371,8 @@ class DissipatedEnergy(Quantity):
     def values(self, data: xr.Dataset) -> Array:
         """What the response gives, at every x."""
         self.check(data)
-        told, dims = data[self.name], ordered(data)
-        whole = told.expand_dims({dim: data.sizes[dim] for dim in dims if dim not in told.dims})
+        energy, dims = data[self.name], ordered(data)
+        whole = energy.expand_dims({dim: data.sizes[dim] for dim in dims if dim not in energy.dims})
         return np.asarray(whole.transpose(*dims).to_numpy())
 
     def crack(self, data: xr.Dataset) -> None:

@@ -149,28 +149,30 @@ class Quantity(ABC):
         """Itself, in space ("principal") or in the horizontal plane ("in-plane") where it knows both."""
         return self
 
-    def admits(self, other: Quantity) -> bool:
+    def admits(self, peer: Quantity) -> bool:
         """True if the numbers of a law that reads this one hold for another too: the same with its details given."""
-        return isinstance(other, type(self)) and not self.differences(other)
+        return isinstance(peer, type(self)) and not self.differences(peer)
 
-    def differences(self, other: Quantity) -> dict[str, tuple[float, float]]:
+    def differences(self, peer: Quantity) -> dict[str, tuple[float, float]]:
         """Numbers of this quantity, and of another of its class, that are not the same, by name.
 
         Not of a quantity whose details follow the temperature or the wheel, and not those that this one leaves
         open or at their usual values.
         """
         follows = type(self).at is not Quantity.at or type(self).passing is not Quantity.passing
-        if follows or not is_dataclass(self) or not isinstance(other, type(self)):
+        if follows or not is_dataclass(self) or not isinstance(peer, type(self)):
             return {}
         pairs = {
-            one.name: (getattr(self, one.name), getattr(other, one.name))
-            for one in fields(self)
-            if getattr(self, one.name) != one.default
+            field.name: (getattr(self, field.name), getattr(peer, field.name))
+            for field in fields(self)
+            if getattr(self, field.name) != field.default
         }
         return {
-            name: (own, given)
-            for name, (own, given) in pairs.items()
-            if isinstance(own, int | float) and isinstance(given, int | float) and not math.isclose(own, given)
+            name: (value, reference)
+            for name, (value, reference) in pairs.items()
+            if isinstance(value, int | float)
+            and isinstance(reference, int | float)
+            and not math.isclose(value, reference)
         }
 
     def values(self, data: xr.Dataset) -> Array:
@@ -196,8 +198,8 @@ class Quantity(ABC):
     @property
     def attributes(self) -> dict[str, str]:
         """Attributes `units` and `long_name` of a variable that holds it."""
-        known = self.name in variables.VARIABLES
-        return variables.attributes(self.name) if known else {"units": self.unit, "long_name": self.words}
+        registered = self.name in variables.VARIABLES
+        return variables.attributes(self.name) if registered else {"units": self.unit, "long_name": self.words}
 
     def missing(self, data: xr.Dataset) -> list[str]:
         """Variables that it needs and a dataset lacks."""

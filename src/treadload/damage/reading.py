@@ -40,6 +40,7 @@ _CHEBYSHEV = 5
 _ROUGH = 1e-5
 # Readings nearer to each other than this are the same.
 _SAME = 1e-6
+_TENSORS = {*STRESS, *STRAIN}
 _PRINCIPAL = "principal_strain_1", "in_plane_strain_1"
 
 
@@ -109,17 +110,20 @@ def local_field(response: Source, line: PowerLaw, depth: float) -> xr.Dataset:
     depths = data["depth"].to_numpy()
     nearest = int(np.argmin(np.abs(depths - depth)))
     if not same_depth(depths[nearest], depth):
-        known = ", ".join(f"{d:g}" for d in depths)
-        raise InputError(f"the response has no depth {depth:g} m, it has {known} m; solve it with that depth")
+        listed = ", ".join(f"{d:g}" for d in depths)
+        raise InputError(f"the response has no depth {depth:g} m, it has {listed} m; solve it with that depth")
     _check_place(data, line, float(depths[nearest]))
     return data.isel(depth=[nearest])
 
 
-def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Dataset, list[str], Means | None]:
+def mean_field(
+    response: Source, line: PowerLaw, length: float, solved: Source
+) -> tuple[xr.Dataset, list[str], Means | None]:
     """Means over a length, m, at the depths of a response that the law applies to; and what to say of the others.
 
-    A response that is a mean is taken as it is. Returns as well the means anywhere else, None where the road cannot
-    be solved again. Raises InputError for a response of points without its road.
+    solved: the response itself, or that which `under_both` put under more loads. A response that is a mean is taken
+    as it is. Returns as well the means anywhere else, None where the road cannot be solved again. Raises InputError
+    for a response of points without its road.
     """
     data = gridded(response)
     if line.reads.where.at_bottom:
@@ -127,19 +131,21 @@ def mean_field(response: Source, line: PowerLaw, length: float) -> tuple[xr.Data
             f"{line} reads the {line.reads}; give depth= of that bottom, an interface of the road, solved from above"
         )
     if "mean_over" in data.attrs:
-        depths, said = _asked(data, line)
+        depths, caveats = _depths_of(data, line)
         means = None
         if isinstance(response, Response) and response.road is not None:
             means = Means.of(response, float(data.attrs["mean_over"]))
-        return data.isel(depth=np.flatnonzero(np.isin(data["depth"], depths)).tolist()), said, means
+        return data.isel(depth=np.flatnonzero(np.isin(data["depth"], depths)).tolist()), caveats, means
     if not isinstance(response, Response) or response.road is None:
         raise InputError(
             "a mean over the road needs a response of solve_response, whose road can be solved again; give depth= "
             "to read the points of this one as they are"
         )
-    depths, said = _asked(data, line)
+    depths, caveats = _depths_of(data, line)
     means = Means.of(response, length)
-    return _read(means, line.reads, depths, x=data["x"].to_numpy(), y=data["y"].to_numpy()), said, means
+    if set(line.reads.needs) <= _TENSORS and not response.restrained and isinstance(solved, Response):
+        return means.at_points_of(solved, depths), caveats, means
+    return _read(means, line.reads, depths, x=data["x"].to_numpy(), y=data["y"].to_numpy()), caveats, means
 
 
 def under_both(response: Source, shifted: Sequence[PlacedLoad], depth: float | None) -> Response:
@@ -165,17 +171,17 @@ def closer(means: Means, field: Field) -> tuple[Field, dict[str, float]] | None:
     enough to find the point; it is then read in full.
     """
     if not means.road.is_viscoelastic:
-        found = _worst_between(means, field, rough=True)
-        if found is None:
+        better = _worst_between(means, field, rough=True)
+        if better is None:
             return None
-        row, j, i = found.worst
-        depth, y, x = (found.data[name].to_numpy()[k : k + 1] for name, k in (("depth", row), ("y", j), ("x", i)))
-        exact = replace(found, data=_read(means, found.quantity, depth, x=x, y=y))
+        row, j, i = better.worst
+        depth, y, x = (better.data[name].to_numpy()[k : k + 1] for name, k in (("depth", row), ("y", j), ("x", i)))
+        exact = replace(better, data=_read(means, better.quantity, depth, x=x, y=y))
         # Beside the line where tension ends either of them may lie beyond it.
-        if abs(_largest(exact) / _largest(found) - 1) < _ROUGH:
-            return exact, found.largest
-    found = _worst_between(means, field, rough=False)
-    return None if found is None else (found, found.largest)
+        if abs(_largest(exact) / _largest(better) - 1) < _ROUGH:
+            return exact, better.largest
+    better = _worst_between(means, field, rough=False)
+    return None if better is None else (better, better.largest)
 
 
 def _worst_between(means: Means, field: Field, *, rough: bool) -> Field | None:
@@ -204,7 +210,7 @@ def _deeper(means: Means, field: Field, best: Field, *, rough: bool) -> Field:
         return best
     _, j, i = best.worst
     here = {"y": best.data["y"].to_numpy()[j : j + 1], "x": best.data["x"].to_numpy()[i : i + 1]}
-    most, own = _worst_below(means, best, depths, here, rough=rough)
+    most, depth = _worst_below(means, best, depths, here, rough=rough)
     # Cubes less than half a length deep are one and the same.
     if not most > _largest(best) * (1 + _SAME):
         return best
@@ -213,7 +219,7 @@ def _deeper(means: Means, field: Field, best: Field, *, rough: bool) -> Field:
         name: at + (step / _FINER * np.arange(-_FINER, _FINER + 1) if len(step) else np.zeros(1))
         for (name, at), step in zip(here.items(), apart.values(), strict=True)
     }
-    return replace(best, data=_read(means, best.quantity, np.array([own]), rough=rough, **around))
+    return replace(best, data=_read(means, best.quantity, np.array([depth]), rough=rough, **around))
 
 
 def _worst_below(
@@ -223,16 +229,16 @@ def _worst_below(
 
     here: y and x of the place, (1,) each.
     """
-    known = {means.reads(float(best.data["depth"][best.worst[0]])): _largest(best)}
+    largest_by_read = {means.reads(float(best.data["depth"][best.worst[0]])): _largest(best)}
 
     def readings(at: Array) -> Array:
         """Of cubes around depths; those that reach as far are read once."""
         reads = [means.reads(float(depth)) for depth in at]
-        new = {read: depth for read, depth in zip(reads, at, strict=True) if read not in known}
+        new = {read: depth for read, depth in zip(reads, at, strict=True) if read not in largest_by_read}
         if new:
             column = replace(best, data=_read(means, best.quantity, np.array([*new.values()]), rough=rough, **here))
-            known.update(zip(new, column.value[:, 0, 0].tolist(), strict=True))
-        return np.array([known[read] for read in reads])
+            largest_by_read.update(zip(new, column.value[:, 0, 0].tolist(), strict=True))
+        return np.array([largest_by_read[read] for read in reads])
 
     parts = np.arange(1, _DEPTHS + 1) / (_DEPTHS + 1)
     between = (depths[:-1, None] + np.diff(depths)[:, None] * parts).ravel()
@@ -269,10 +275,10 @@ def _nearer(means: Means, field: Field, at: tuple[int, int, int], *, rough: bool
     """The field up to the neighbours of a point of its map; None where they are too far."""
     row, *place = at
     plane = (field.data[name].to_numpy() for name in ("y", "x"))
-    around = [_around(one, k, field.length) for one, k in zip(plane, place, strict=True)]
-    if any(one is None for one in around):
+    around = [_around(axis, k, field.length) for axis, k in zip(plane, place, strict=True)]
+    if any(bounds is None for bounds in around):
         return None
-    y, x = (np.asarray(one) for one in around)
+    y, x = (np.asarray(bounds) for bounds in around)
     depth = field.data["depth"].to_numpy()[row : row + 1]
     return replace(field, data=_read(means, field.quantity, depth, x=x, y=y, rough=rough))
 
@@ -288,7 +294,7 @@ def _between(at: Array, k: int) -> Array:
 def _read(means: Means, quantity: Quantity, depths: Array, *, x: Array, y: Array, rough: bool = False) -> xr.Dataset:
     """Means at depths, over (depth, y, x), with the thermal stress that was added to the response."""
     response = means.response
-    if set(quantity.needs) <= {*STRESS, *STRAIN}:
+    if set(quantity.needs) <= _TENSORS:
         data = means.at(depths, x, y, rough=rough)
     else:
         data = solve_response(
@@ -297,8 +303,8 @@ def _read(means: Means, quantity: Quantity, depths: Array, *, x: Array, y: Array
         ).dataset  # fmt: skip
     if not response.restrained:
         return data
-    own = np.asarray(response.dataset["depth"].to_numpy())
-    stress = [response.restrained[int(np.argmin(np.abs(own - depth)))] for depth in depths]
+    levels = np.asarray(response.dataset["depth"].to_numpy())
+    stress = [response.restrained[int(np.argmin(np.abs(levels - depth)))] for depth in depths]
     return with_horizontal_stress(data, np.array(stress))
 
 
@@ -309,12 +315,12 @@ def _read_between(means: Means, quantity: Quantity, depths: Array, *, x: Array, 
     as these reach; polynomials through n of Chebyshev's points then err as 10^-n.
     """
     (from_x, at_x), (from_y, at_y) = (_chebyshev(at) for at in (x, y))
-    few = _read(means, quantity, depths, x=at_x, y=at_y, rough=rough)
+    sampled = _read(means, quantity, depths, x=at_x, y=at_y, rough=rough)
     fields = {
-        str(name): (("depth", "y", "x"), np.einsum("ya,zab,xb->zyx", from_y, few[name].to_numpy(), from_x))
-        for name in few.data_vars
+        str(name): (("depth", "y", "x"), np.einsum("ya,zab,xb->zyx", from_y, sampled[name].to_numpy(), from_x))
+        for name in sampled.data_vars
     }
-    return variables.dataset(fields, {"depth": depths, "y": y, "x": x}, **few.attrs)
+    return variables.dataset(fields, {"depth": depths, "y": y, "x": x}, **sampled.attrs)
 
 
 def _chebyshev(at: Array) -> tuple[Array, Array]:
@@ -324,10 +330,10 @@ def _chebyshev(at: Array) -> tuple[Array, Array]:
     unit = np.cos(np.pi * (np.arange(_CHEBYSHEV) + 0.5) / _CHEBYSHEV)
     middle, half = 0.5 * (at.max() + at.min()), 0.5 * np.ptp(at)
     # Lagrange's polynomials.
-    others = ~np.eye(_CHEBYSHEV, dtype=bool)
+    off_diagonal = ~np.eye(_CHEBYSHEV, dtype=bool)
     away = ((at - middle) / half)[:, None, None] - unit
-    apart = np.where(others, np.subtract.outer(unit, unit), 1.0)
-    return np.where(others, away, 1.0).prod(axis=2) / apart.prod(axis=1), middle + half * unit
+    apart = np.where(off_diagonal, np.subtract.outer(unit, unit), 1.0)
+    return np.where(off_diagonal, away, 1.0).prod(axis=2) / apart.prod(axis=1), middle + half * unit
 
 
 def _around(at: Array, k: int, length: float) -> Array | None:
@@ -342,7 +348,7 @@ def _around(at: Array, k: int, length: float) -> Array | None:
     return around
 
 
-def _asked(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
+def _depths_of(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
     """Depths that a law applies to: the surface, or the top layer."""
     depths = data["depth"].to_numpy()
     if line.reads.where.at_surface:
@@ -350,16 +356,16 @@ def _asked(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
         if not surface.any():
             raise InputError(f"{line} reads the {line.reads}; solve the response with depth 0")
         return depths[surface], []
-    own = data["layer"].to_numpy() == 0
-    if not own.any():
+    inner = data["layer"].to_numpy() == 0
+    if not inner.any():
         raise InputError(
             "no depth of the response lies in the top layer, to which the law applies; give depth= to read "
             "another layer with its own law"
         )
-    if own.all():
+    if inner.all():
         return depths, []
-    left = ", ".join(f"{1e3 * z:g}" for z in depths[~own])
-    return depths[own], [
+    left = ", ".join(f"{1e3 * z:g}" for z in depths[~inner])
+    return depths[inner], [
         f"the depths {left} mm lie below the top layer, to which the law applies, and are not read; give depth= "
         "for one of them and the law of its layer"
     ]
@@ -374,8 +380,8 @@ def _check_place(data: xr.Dataset, line: PowerLaw, depth: float) -> None:
     interfaces = np.atleast_1d(data.attrs.get("interfaces", []))
     side = data.attrs.get("side", "above")
     if side != "above" or not on_interface([depth], interfaces)[0]:
-        known = ", ".join(f"{z:g}" for z in interfaces) or "no interface"
+        listed = ", ".join(f"{z:g}" for z in interfaces) or "no interface"
         raise InputError(
-            f"{line} reads the {line.reads}, got depth {depth:g} m from {side}; the road has {known} m: give the "
+            f"{line} reads the {line.reads}, got depth {depth:g} m from {side}; the road has {listed} m: give the "
             "depth of the asphalt's bottom, and solve it from above"
         )

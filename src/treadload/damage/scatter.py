@@ -39,8 +39,8 @@ class Scatter:
             ("traffic", _MOST_SHARE, "", "15 % is 0.15"),
             ("temperature", _MOST_DEGREES, " K", "1 to 2 K is usual"),
         ):
-            given = getattr(self, name)
-            for key, value in given.items() if isinstance(given, Mapping) else [("", given)]:
+            entry = getattr(self, name)
+            for key, value in entry.items() if isinstance(entry, Mapping) else [("", entry)]:
                 if value is not None and not (math.isfinite(value) and 0 <= value <= most):
                     of = f" of {key!r}" if key else ""
                     raise InputError(
@@ -50,13 +50,13 @@ class Scatter:
 
 def check_risks(risks: Sequence[float]) -> tuple[float, ...]:
     """Risks, rising, each once. Raises InputError for one that is not in (0, 1)."""
-    told = tuple(sorted({float(risk) for risk in risks}))
-    if not told:
+    levels = tuple(sorted({float(risk) for risk in risks}))
+    if not levels:
         raise InputError("a reliability needs at least one risk, got none; 5 % is 0.05")
-    wrong = next((risk for risk in told if not 0 < risk < 1), None)
+    wrong = next((risk for risk in levels if not 0 < risk < 1), None)
     if wrong is not None:
         raise InputError(
             f"a risk must lie between 0 and 1, got {wrong:g}: no thickness and no year makes failure impossible or "
             "certain; 5 % is 0.05"
         )
-    return told
+    return levels

@@ -69,12 +69,12 @@ class Thermal:
         if isinstance(material, Thermorheological):
             return material, expansion, 0.0
         if self.relaxation is not None:
-            own = published[self.relaxation].material
-            assert isinstance(own, Thermorheological)
-            return own, expansion, 0.0
+            asphalt = published[self.relaxation].material
+            assert isinstance(asphalt, Thermorheological)
+            return asphalt, expansion, 0.0
         if isinstance(material, Mix):
-            found = relaxation_of(material)
-            return found.material, expansion, found.misfit
+            fitted = relaxation_of(material)
+            return fitted.material, expansion, fitted.misfit
         raise InputError(f"{material} does not say how it relaxes; name a material with a shift as relaxation")
 
 
@@ -126,5 +126,5 @@ def passes_until(traffic: Traffic, damage: Array, weather: float) -> Array:
     if not weather > 0:
         with np.errstate(divide="ignore", over="ignore"):
             return np.where(damage > 0, traffic.passes_per_year / damage, np.inf)
-    years = [years_until(traffic, float(one), weather) for one in np.ravel(damage)]
-    return np.array([traffic.passes(one) for one in years]).reshape(np.shape(damage))
+    years = [years_until(traffic, float(total), weather) for total in np.ravel(damage)]
+    return np.array([traffic.passes(year) for year in years]).reshape(np.shape(damage))

@@ -31,18 +31,19 @@ def bright_spot(response: Source, strain_of: Reading, evaluated: float, mean_ove
     data = gridded(response)
     if "mean_over" in data.attrs:
         return []
-    strain = np.nan_to_num(data["principal_strain_1"].transpose("depth", "y", "x").to_numpy(), nan=-np.inf)
+    strain = data["principal_strain_1"].transpose("depth", "y", "x").to_numpy()
+    strain = np.where(np.isnan(strain), -np.inf, strain)
     row, j, i = (int(k) for k in np.unravel_index(int(strain.argmax()), strain.shape))
     most = float(strain[row, j, i])
     if not most > _NOTABLE * max(evaluated, 0.0) or most < _STRAIN:
         return []
-    here = data.isel(depth=row, y=j, x=i)
-    side = layer_in_words(data.isel(depth=row))
-    depth = f"depth {1e3 * float(here['depth']):g} mm{f' ({side})' if side else ''}"
-    way = direction_in_words(here["principal_direction_1"].to_numpy())
-    if not bool(in_tension(data.isel(depth=[row], y=[j], x=[i]))[0, 0, 0]):
+    plane = data[["principal_direction_1"]].isel(depth=row)
+    side = layer_in_words(plane)
+    depth = f"depth {1e3 * float(plane['depth']):g} mm{f' ({side})' if side else ''}"
+    way = direction_in_words(plane["principal_direction_1"].isel(y=j, x=i).to_numpy())
+    if not in_tension(data[[name for name in STRESS if name in data]].isel(depth=[row], y=[j], x=[i])).all():
         why = "no principal stress is tensile there, so that this criterion does not evaluate it"
-    elif "layer" in data.coords and int(here["layer"]) > 0 and mean_over is not None:
+    elif "layer" in data.coords and int(plane["layer"]) > 0 and mean_over is not None:
         why = "it lies below the top layer, which this criterion evaluates"
     elif mean_over is not None:
         why = f"this criterion evaluates the {_kind(strain_of)} as means over {1e3 * mean_over:g} mm"
@@ -50,7 +51,8 @@ def bright_spot(response: Source, strain_of: Reading, evaluated: float, mean_ove
         why = f"this criterion evaluates the {_kind(strain_of)} at another depth or in another direction"
     return [
         f"the largest principal strain of the map, {most * 1e6:.3g} microstrain at "
-        f"x = {1e3 * float(here['x']):.0f} mm, y = {1e3 * float(here['y']):.0f} mm, {depth}, is {_along(way)}: {why}"
+        f"x = {1e3 * float(data['x'][i]):.0f} mm, y = {1e3 * float(data['y'][j]):.0f} mm, {depth}, "
+        f"is {_along(way)}: {why}"
     ]
 
 
@@ -66,23 +68,23 @@ def bottoms_without_depth(response: Source) -> list[str]:
     missing = [k for k, z in enumerate(road.interfaces) if not same_depth(depths, float(z)).any()]
     if not missing or "mean_over" in data.attrs:
         return []
-    at = {name: _few(data[name].to_numpy()) for name in ("x", "y")}
+    at = {name: _thinned(data[name].to_numpy()) for name in ("x", "y")}
     question = Question(cells_of(response.loads), road, road.interfaces[missing])
     solved = tensors_of_many([question], at["x"], at["y"], needs=(*STRESS, *STRAIN), speed=response.speed)
     assert solved is not None
-    said = []
+    warnings = []
     for row, k in enumerate(missing):
         strain = _tensile_strain(solved[0].isel(depth=[row]))
         if strain < _STRAIN:
             continue
         z = 1e3 * float(road.interfaces[k])
         name = road.layers[k].name or f"layer {k + 1}"
-        said.append(
+        warnings.append(
             f"the bottom of {name} at {z:g} mm is in tension, with a horizontal strain of about "
             f'{strain * 1e6:.2g} microstrain, and no depth covers it; add "{z:g} mm" to depths'
             + ("" if k == 0 else ", and assess it with the law of its layer")
         )
-    return said
+    return warnings
 
 
 def _tensile_strain(data: xr.Dataset) -> float:
@@ -92,7 +94,7 @@ def _tensile_strain(data: xr.Dataset) -> float:
     return float(values.max())
 
 
-def _few(at: Array) -> Array:
+def _thinned(at: Array) -> Array:
     """Coordinates from the first to the last, few of them."""
     return at if len(at) <= _POINTS else np.linspace(at.min(), at.max(), _POINTS)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, replace
+from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
@@ -18,6 +18,7 @@ from treadload.damage.cracks import (
     ORIENTATIONS,
     check_tolerance,
     first_to_expect,
+    in_a_cell,
     nothing_opens,
     opens_down,
     orientation,
@@ -25,15 +26,18 @@ from treadload.damage.cracks import (
 from treadload.damage.laws.fatigue import PowerLaw, warnings_of
 from treadload.damage.quantity import READINGS, Reading, check_reading
 from treadload.damage.reading import Field, check_law, closer, local_field, mean_field, under_both
+from treadload.damage.two_grids import COARSER, cell_of, coarser, shifted_contacts
 from treadload.damage.unevaluated import bottoms_without_depth, bright_spot
-from treadload.describing import first_line
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.loads import Load, gather
+from treadload.rows import Place, Row, row
+from treadload.units import repetitions_in_words
 
 # A local reading less deep than this, m, feels the cells of the contact.
 _FELT = 2 * MATERIAL_LENGTH
 # An extension this many times the one that is read is worth a sentence.
 _NOTABLE = 1.1
+_LARGEST = ("largest_principal_strain", "largest_in_plane_strain")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,13 +50,21 @@ class Verdict(BaseResult, group="damage"):
     strain: the strain that the verdict reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
     """
 
+    title: ClassVar[str] = "Fatigue"
     holds: ClassVar[Holds] = Holds(
         {"depth": "depth", "worst_x worst_y worst_depth worst_strain worst_passes": "",
          "worst_crack_angle worst_crack_dip worst_crack_orientation": ""},
+        maybe={"extension_strain allowable_passes crack_angle crack_dip crack_orientation": "y x"},
+        finite="worst_x worst_y worst_depth worst_strain",
+        bounded="extension_strain",
+        above_zero="allowable_passes worst_passes",
+        positive="epsilon_6",
+        codes={"crack_orientation": 5, "worst_crack_orientation": 5},
+        tree="x y worst_strain worst_passes worst_x worst_y worst_depth worst_crack_orientation",
         numbers="largest_principal_strain largest_in_plane_strain largest_unread",
         texts="reading",
         lists="warnings",
-        maybe_numbers="coarse_strain coarse_spacing spacing lattices",
+        maybe_numbers="coarse_strain coarse_spacing spacing lattices epsilon_6 slope depth oblique_tolerance",
         together=("coarse_strain coarse_spacing spacing",),
     )  # fmt: skip
 
@@ -73,66 +85,75 @@ class Verdict(BaseResult, group="damage"):
         """Sentences for the user: what is not read, numbers of the law without a source, extrapolation."""
         return tuple(json.loads(self.dataset.attrs["warnings"]))
 
-    def summary(self) -> str:
-        """What is read, both strains, the worst point, passes, the orientation of the crack, and a verdict."""
-        data = self.dataset
-        strain, passes = float(data["worst_strain"]), float(data["worst_passes"])
-        depths = ", ".join(f"{1e3 * float(z):g}" for z in data["depth"])
-        lines = [
-            f"{self.line}, read with the {READINGS[self.strain]} strain, {data.attrs['reading']}, at depth "
-            f"{depths} mm",
-            f"largest extension, three-dimensional: {data.attrs['largest_principal_strain'] * 1e6:.1f} microstrain",
-            f"largest extension, horizontal plane:  {data.attrs['largest_in_plane_strain'] * 1e6:.1f} microstrain",
-        ]
-        if not strain > 0:
-            lines += [*self._lattices(), *(f"warning: {text}" for text in self.warnings)]
-            return "\n".join([*lines, f"Verdict: {nothing_opens(float(data.attrs['largest_unread']))}"])
-        angle, dip = float(data["worst_crack_angle"]), float(data["worst_crack_dip"])
-        against = f"{strain * 1e6:.1f} microstrain is {strain / self.line.at_a_million:.2f} of {self.line.symbol}"
-        lines += [
-            f"worst point: x = {float(data['worst_x']) * 1e3:.1f} mm, y = {float(data['worst_y']) * 1e3:.1f} mm, "
-            f"depth {float(data['worst_depth']) * 1e3:g} mm; {against}",
-            _plane_in_words(self.orientation, angle, dip),
-            f"allowable passes: {passes:.3g}",
-            *self._error_estimate(),
-            *self._lattices(),
-            *(f"warning: {text}" for text in self.warnings),
-        ]
-        few = "fewer" if passes < 1e6 else "more"
-        lines.append(
-            f"Verdict: the {self.line.noun} allows {passes:.2g} passes at the worst point, {few} than a million; "
-            f"{first_to_expect(self.orientation)}."
-        )
-        return "\n".join(lines)
+    def rows(self) -> tuple[Row, ...]:
+        """What is evaluated, both tensile strains, the worst point with its crack, load repetitions, the verdict."""
+        line = self.line
+        *before, verdict = rows_of(self.dataset, str(line), self.strain, line.at_a_million)
+        return (*before, *self._error_estimate(), verdict)
 
-    def _error_estimate(self) -> list[str]:
-        """What coarser cells change, where that was asked for, see `treadload.assess_on_two_grids`."""
-        about = self.dataset.attrs
-        if "coarse_strain" not in about:
+    def _error_estimate(self) -> list[Row]:
+        """What coarser cells change, where that was asked for, see `treadload.assess`."""
+        about, strain = self.dataset.attrs, float(self.dataset["worst_strain"])
+        if "coarse_strain" not in about or not strain > 0:
             return []
-        read = float(self.dataset["worst_strain"])
         cells, wide = (1e3 * float(about[name]) for name in ("spacing", "coarse_spacing"))
         coarse = float(about["coarse_strain"])
-        error = abs(coarse - read)
-        fewest, most = (self.line.allowable_passes(read + part) for part in (error, -error))
-        return [
-            f"error estimate: {coarse * 1e6:.1f} microstrain on cells of {wide:g} mm, {read * 1e6:.1f} on cells of "
-            f"{cells:g} mm: they differ by {100 * error / read:.2g} %, {fewest:.2g} to {most:.2g} passes",
-            "    (no bound: where cells lie at the edges of ribs may do more, see `shifted` of `assess`)",
-        ]
+        error = abs(coarse - strain)
+        fewest, most = (repetitions_in_words(self.line.allowable_passes(strain + part)) for part in (error, -error))
+        note = (
+            f"cells of {wide:g} mm in place of {cells:g} mm, a difference of {100 * error / strain:.2g} %; no bound: "
+            f"the grid offset may change more, see `shifted` of `assess`; load repetitions: {fewest} to {most}"
+        )
+        return [row("coarse_strain", coarse, note=note)]
 
-    def _lattices(self) -> list[str]:
-        """That it reads two lattices of cells, where it does."""
-        return [f"read under {under(self.dataset)}"] if self.dataset.attrs.get("lattices") == 2 else []
 
-    __repr__ = first_line
+def rows_of(data: xr.Dataset, law: str, strain_read: str, at_a_million: float) -> tuple[Row, ...]:
+    """Rows of a verdict.
+
+    data: its dataset, or the group of a file. law: in words. strain_read: "principal" or "in-plane". at_a_million:
+    strain that the law allows a million times.
+    """
+    about, strain = data.attrs, float(data["worst_strain"])
+    depths = ", ".join(f"{1e3 * float(z):g}" for z in np.atleast_1d(data["depth"].to_numpy()))
+    what = f"{READINGS[strain_read]} strain, {about.get('reading', 'local')}, at depth {depths} mm"
+    rows = [
+        row("law", law),
+        row("evaluation", what),
+        row("contacts_evaluated", under(data)),
+        *(row(name, float(about.get(name, math.nan))) for name in _LARGEST),
+    ]
+    if not strain > 0:
+        return (*rows, row("verdict", nothing_opens(float(about.get("largest_unread", 0.0)))))
+    x, y, depth, passes = (float(data[f"worst_{name}"]) for name in ("x", "y", "depth", "passes"))
+    word = ORIENTATIONS[int(data["worst_crack_orientation"])]
+    comparison = "fewer" if passes < 1e6 else "more"
+    return (
+        *rows,
+        row("worst_strain", strain, place=Place(x, y, depth)),
+        row("strain_ratio", strain / at_a_million),
+        row("worst_crack_orientation", in_a_cell(word), label="" if opens_down(word) else "plane"),
+        *_plane(word, float(data["worst_crack_angle"]), float(data["worst_crack_dip"])),
+        row("worst_passes", passes),
+        row(
+            "verdict",
+            f"the fatigue law allows {repetitions_in_words(passes)} load repetitions at the worst point, "
+            f"{comparison} than a million; {first_to_expect(word)}.",
+        ),
+    )
+
+
+def _plane(word: str, angle: float, dip: float) -> list[Row]:
+    """How a crack lies. angle: of its trace, dip: of its plane, rad."""
+    trace = [row("worst_crack_angle", angle, note="positive to the right")] if opens_down(word) else []
+    return [*trace, row("worst_crack_dip", dip, note="from the horizontal")]
 
 
 def assess(
     response: Source,
     line: PowerLaw,
     *,
-    shifted: Load | Sequence[Load] | None = None,
+    shifted: Load | Sequence[Load] | Literal[True] | None = None,
+    error_estimate: bool = False,
     depth: float | None = None,
     strain: Reading | None = None,
     mean_over: float = MATERIAL_LENGTH,
@@ -150,10 +171,15 @@ def assess(
     is a mean is read as it is.
     line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
     bottom needs `depth`.
-    shifted: the same contact on cells half a cell beside, solved with `offset=(0.5, 0.5)`; of several wheels all. A
+    shifted: True solves the contacts of the response once more, on cells half a cell beside, and reads both; where
+    they are not its own, those contacts, solved with `offset=(0.5, 0.5)`, of several wheels all. A
     cell is in contact as a whole or not at all, so that the edge of a rib stands up to half a cell from its place:
     outwards on one of two such lattices, inwards on the other. The mean of both loads is read then, which hardly
     depends on where the cells lie.
+    error_estimate: True also solves the contacts on cells twice as large, and the summary states by how much the
+    reading differs: the error of the finer ones where that is of first order, three times that where it is of second.
+    Both are left out by default: each solves a contact again, which takes longer than all that an assessment does
+    besides, and a response that was opened from a file or measured has no contact to solve.
     depth: one of the response's depths, m, whose points are read as they are; a response from elsewhere, with
     principal_strain_1, principal_direction_1, in_plane_strain_1 and in_plane_angle_1 over (depth, y, x), needs it.
     Such a local reading has no limit under finer cells near the surface: at the edges of ribs and at the rear of the
@@ -170,34 +196,40 @@ def assess(
         check_reading(strain)
     check_tolerance(oblique_tolerance)
     check_law(line)
+    coarse = None
+    if error_estimate:
+        both: Literal[True] | None = None if shifted is None else True
+        coarse = assess(coarser(response), line, shifted=both, depth=depth, strain=strain, mean_over=mean_over)
     alone = response
+    if shifted is True:
+        shifted = shifted_contacts(response)
     if shifted is not None:
         response = under_both(response, gather(shifted), depth)
     if depth is None:
-        data, said, means = mean_field(response, line, mean_over)
+        data, caveats, means = mean_field(response, line, mean_over, alone)
         reading = f"mean over {float(data.attrs['mean_over']) * 1e3:g} mm"
     else:
-        data, said, means = local_field(response, line, depth), [], None
+        data, caveats, means = local_field(response, line, depth), [], None
         reading = "local, depends on the cells" if depth < _FELT else "local"
     quantity = line.reads if strain is None else line.reads.with_strain(strain)
     field = Field(data, quantity)
-    row = field.worst[0]
-    deep = float(data["depth"][row])
-    found = closer(means, field) if means is not None and field.value[field.worst] > 0 else None
-    near, around = (field, field.largest) if found is None else found
+    level = field.worst[0]
+    deep = float(data["depth"][level])
+    closer_values = closer(means, field) if means is not None and field.value[field.worst] > 0 else None
+    near, around = (field, field.largest) if closer_values is None else closer_values
     at = near.worst
     if near is not field:
         deep = float(near.data["depth"][at[0]])
         # Fields are drawn at the depth of the response that is nearest to it.
-        row = int(np.abs(data["depth"].to_numpy() - deep).argmin())
+        level = int(np.abs(data["depth"].to_numpy() - deep).argmin())
     opens = bool(near.value[at] > 0)
-    angle, dip = (part[0] for part in field.crack_at(slice(row, row + 1)))
+    angle, dip = (part[0] for part in field.crack_at(slice(level, level + 1)))
     worst_angle, worst_dip = (float(part[at]) for part in near.crack)
     codes = orientation(np.append(angle, worst_angle), np.append(dip, worst_dip), oblique_tolerance)
     dims, none = ("y", "x"), ()
-    passes = line.allowable_passes(field.value[row])
+    passes = line.allowable_passes(field.value[level])
     fields: dict[str, tuple[tuple[str, ...], object]] = {
-        "extension_strain": (dims, field.extension[row]),
+        "extension_strain": (dims, field.extension[level]),
         "allowable_passes": (dims, passes),
         "crack_angle": (dims, angle),
         "crack_dip": (dims, dip),
@@ -215,17 +247,17 @@ def assess(
     largest = {name: max(value, around[name]) for name, value in field.largest.items()}
     unread = float(field.extension.max())
     if opens and unread > _NOTABLE * float(near.value[at]):
-        said.append(
+        caveats.append(
             f"the largest extension, {unread * 1e6:.1f} microstrain, lies where no principal stress is tensile: no "
             f"crack opens there, and it is not read; it would allow {float(line.allowable_passes(unread)):.2g} passes"
         )
     evaluated = float(near.value[at]) if opens else 0.0
-    said += bright_spot(alone, quantity.strain, evaluated, data.attrs.get("mean_over"))
-    said += bottoms_without_depth(alone)
+    caveats += bright_spot(alone, quantity.strain, evaluated, data.attrs.get("mean_over"))
+    caveats += bottoms_without_depth(alone)
     dataset = variables.dataset(
         fields,
         {"depth": data["depth"].to_numpy(), "y": data["y"].to_numpy(), "x": data["x"].to_numpy()},
-        depth=float(data["depth"][row]),
+        depth=float(data["depth"][level]),
         reading=reading,
         **{name: data.attrs[name] for name in ("mean_over",) if depth is None},
         strain=quantity.strain,
@@ -237,21 +269,24 @@ def assess(
         largest_principal_strain=largest["principal_strain_1"],
         largest_in_plane_strain=largest["in_plane_strain_1"],
         largest_unread=unread,
-        warnings=json.dumps([*said, *warnings_of(line, near.value[at])], ensure_ascii=False),
+        warnings=json.dumps([*caveats, *warnings_of(line, near.value[at])], ensure_ascii=False),
     )
-    return Verdict(dataset, line, quantity.strain)
+    verdict = Verdict(dataset, line, quantity.strain)
+    return verdict if coarse is None else with_error(verdict, coarse, cell_of(alone))
+
+
+def with_error(verdict: Verdict, coarse: Verdict, spacing: float) -> Verdict:
+    """A verdict on cells of `spacing`, m, that states what it reads on coarser ones."""
+    about = {
+        "spacing": spacing,
+        "coarse_spacing": COARSER * spacing,
+        "coarse_strain": float(coarse.dataset["worst_strain"]),
+    }
+    return replace(verdict, dataset=verdict.dataset.assign_attrs(about))
 
 
 def under(data: xr.Dataset) -> str:
     """The contacts that a verdict reads, in words, see `shifted` of `assess`. data: of a `Verdict`."""
     if data.attrs.get("lattices") == 2:
-        return "the mean of two contacts whose cells lie half a cell apart"
+        return "the mean of two contacts whose grids are offset by half a cell"
     return "one contact"
-
-
-def _plane_in_words(name: str, angle: float, dip: float) -> str:
-    if not opens_down(name):
-        return f"split: closer to horizontal than to vertical, as when layers separate (dip {math.degrees(dip):.0f}°)"
-    side = "right" if angle > 0 else "left"
-    turned = f"{abs(math.degrees(angle)):.0f}° from travel" + (f" to the {side}" if name == "oblique" else "")
-    return f"crack: {name}, its trace {turned}, its plane {math.degrees(dip):.0f}° from the horizontal"

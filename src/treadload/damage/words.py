@@ -1,4 +1,4 @@
-"""The words of a life: each criterion's line, who does its damage, the rut, the verdict, and cautions."""
+"""Rows and words of a life: each criterion, what does most of its damage, the rut, the verdict, and cautions."""
 
 from __future__ import annotations
 
@@ -12,117 +12,188 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.climate import MONTHS, Climate
-from treadload.damage.cracks import HORIZONTAL, ORIENTATIONS
+from treadload.damage.cracks import HORIZONTAL, NONE, ORIENTATIONS, opens_down
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw, warnings_of
 from treadload.damage.traffic import Traffic
+from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.rows import Row, row
+from treadload.units import years_in_words
+from treadload.variables import Display, display_of
 
 # Damage across flat planes above this share of a criterion's is worth a sentence.
 _MOSTLY = 0.2
-# Years beyond which no road is known and no number of a law is meant, a; files keep the number.
-LASTS = 1000.0
 RUT = "rut"
 """What a life calls its rut among what ends it."""
 
 
-def life_in_words(data: xr.Dataset, criteria: Sequence[Criterion], traffic: Traffic, climate: Climate) -> list[str]:
-    """Lines on what was asked, on every criterion, on groups of axles and on the rut. data: of a `Life`."""
-    lines = [
-        f"life under {traffic.passes_per_year:.4g} passes in the first year, growth "
-        f"{100 * traffic.growth:g} % per year, {traffic.wander}, {len(climate.seasons)} season(s)"
-    ]
-    years = traffic.years
-    allowed = "the passes of a year" if years is None else f"the passes of {years:g} years"
-    between = json.loads(data.attrs.get("between", "{}"))
-    for criterion in criteria:
-        row = data.sel(criterion=criterion.name)
-        law = criterion.law_at(15.0)
-        used = ""
-        if "design_utilisation" in row:
-            used = f", {float(row['design_utilisation']):.2g} of what is allowed for {allowed}"
-        lines.append(
-            f"  {criterion.name}{_of(between.get(criterion.name))}: {years_in_words(float(row['life_years']))}, "
-            f"{float(row['life_passes']):.3g} passes; "
-            f"largest {criterion.quantity} {criterion.quantity.in_words(float(row['largest_reading']))} at "
-            f"y = {float(row['worst_y']) * 1e3:z.0f} mm{used}; {by_whom(row)}; "
-            f"damage 1 means {law.end_of_life}"
-        )
-    lines += [f"  {text}" for text in json.loads(data.attrs.get("groups", "[]"))]
-    rut = rut_in_words(data)
-    return lines + ([f"  {rut}"] if rut else [])
+PER_CRITERION = ("laws", "sources", "doubts", "reads")
+"""Attributes of a life with an entry for each criterion, JSON."""
+OF_SENSITIVITY = ("sensitivity_contacts", "sensitivity_responses", "sensitivity_coverage")
+"""Attributes of a life that holds its sensitivities, too: all or none."""
+STEEPEST = 500.0
+"""Largest elasticity: a life that changes by e⁵⁰⁰ is none, and the percentage shown of it overflows at e⁷⁰⁹."""
+_STATS = ("contacts", "responses", "combinations", "seconds", "interpolation_error")
 
 
-def verdict_in_words(governing: str, years: float) -> str:
-    """What ends a road first, a criterion or `RUT`, and after how many years."""
-    if governing == RUT:
-        return f"Verdict: the rut governs, after {years_in_words(years)}."
-    if math.isinf(years):
-        return "Verdict: no criterion ever fails under this traffic."
-    return f"Verdict: {governing} governs, after {years_in_words(years)}."
+def check_life(data: xr.Dataset) -> None:
+    """Raise InputError where what a life holds of its criteria does not fit them. data: with attributes of JSON."""
+    count = data.sizes.get("criterion", 0)
+    if not count:
+        raise InputError("it has no criterion")
+    texts = {name: json.loads(data.attrs.get(name, "[]")) for name in (*PER_CRITERION, "ends")}
+    for name in (*PER_CRITERION, *(["ends"] if texts["ends"] else [])):
+        if len(texts[name]) != count:
+            raise InputError(f"the attribute {name} must have {count} entries, one per criterion")
+    stats = json.loads(data.attrs.get("stats", "{}"))
+    lacking = next((key for key in _STATS if stats and type(stats.get(key)) not in (int, float)), None)
+    if lacking is not None:
+        raise InputError(f"the attribute stats has no number for {lacking!r}")
+    if 0 < sum(name in data.attrs for name in OF_SENSITIVITY) < len(OF_SENSITIVITY):
+        raise InputError(f"it has some of the attributes {', '.join(OF_SENSITIVITY)}, and needs all or none")
+    if ("design_damage" in data) != ("design_years" in data.attrs):
+        raise InputError("it has one of design_damage and the attribute design_years, and needs both or none")
 
 
-def by_whom(row: xr.Dataset) -> str:
-    """The class and season that do most of a criterion's damage, and what the weather does."""
-    share = row["damage_share"].to_numpy()
-    worst = np.unravel_index(int(np.argmax(share)), share.shape)
-    by = (
-        f"most by {row['axle_class'].to_numpy()[worst[0]]}, {row['season'].to_numpy()[worst[1]]} "
-        f"({100 * share[worst]:.0f} %)"
+def heading_of(traffic: Traffic, climate: Climate) -> str:
+    """Traffic and climate of a life in a line."""
+    return (
+        f"{traffic.passes_per_year:.4g} load repetitions in the first year, growth {100 * traffic.growth:g} % per "
+        f"year, {traffic.wander}, {len(climate.seasons)} season(s)"
     )
-    told = [by] if share[worst] > 0 else []
-    told += filter(None, [weather_in_words(row)])
-    return ", ".join(told) or "no damage"
 
 
-def weather_in_words(row: xr.Dataset) -> str:
+def criterion_rows(data: xr.Dataset, criterion: Criterion, traffic: Traffic) -> list[Row]:
+    """Rows of a criterion: service life, largest value with its place, utilisation, what does most of its damage.
+
+    data: of a `Life`.
+    """
+    name, quantity = criterion.name, criterion.quantity
+    interface = json.loads(data.attrs.get("between", "{}")).get(name)
+    at = data.sel(criterion=name)
+    span = "a year" if traffic.years is None else f"{traffic.years:g} years"
+    value = Display(display_of("largest_reading").label, "", quantity.in_words)
+    rows = [
+        row("life_years", at["life_years"], group=name, note=f"damage 1 means {criterion.law_at(15.0).end_of_life}"),
+        row("life_passes", at["life_passes"], group=name),
+        row(
+            "largest_reading", at["largest_reading"], group=name, display=value,
+            note=f"largest {str(quantity).removeprefix('largest ')}{f', {interface}' if interface else ''}",
+        ),
+        *(row(key, at[key], group=name) for key in ("read_depth", "worst_y") if key in at),
+    ]  # fmt: skip
+    rows += [
+        row(key, at[key], group=name, label=f"{display_of(key).label} in {span}")
+        for key in ("design_utilisation", "design_damage")
+        if key in at
+    ]
+    rows.append(row("damage_by", by_whom(at), group=name))
+    if "orientation_damage" in at:
+        rows.append(row("first_crack", which_way(at, quantity.harm), group=name))
+    return rows
+
+
+def life_rows(data: xr.Dataset, criteria: Sequence[Criterion], traffic: Traffic) -> list[Row]:
+    """Rows on every criterion, on groups of axles and on the rut. data: of a `Life`."""
+    rows = [criterion_row for criterion in criteria for criterion_row in criterion_rows(data, criterion, traffic)]
+    rows += [row("group_factor", text) for text in json.loads(data.attrs.get("groups", "[]"))]
+    return rows + rut_rows(data)
+
+
+def verdict_in_words(data: xr.Dataset, governing: str, years: float) -> str:
+    """What ends a road first, a criterion or `RUT`, and how that compares with the design life. data: of a `Life`."""
+    if math.isinf(years):
+        return "no criterion ever fails under this traffic."
+    what = "the rut" if governing == RUT else governing
+    sentence = f"{what} governs and ends the service life after {years_in_words(years)}"
+    if "design_years" not in data.attrs:
+        return f"{sentence}."
+    design = float(data.attrs["design_years"])
+    if years < design:
+        early = years_in_words(design - years)
+        return f"{sentence}, {early} before the end of its design life of {design:g} years."
+    if governing == RUT or "design_damage" not in data:
+        return f"{sentence}."
+    used = 100 * float(data["design_damage"].sel(criterion=governing))
+    return f"{sentence}: a design life of {design:g} years uses up {used:.0f} % of it."
+
+
+def by_whom(data: xr.Dataset) -> str:
+    """The class and season that do most of a criterion's damage, and what the weather does."""
+    share = data["damage_share"].to_numpy()
+    worst = np.unravel_index(int(np.argmax(share)), share.shape)
+    classes = f"{data['axle_class'].to_numpy()[worst[0]]}, {data['season'].to_numpy()[worst[1]]}"
+    most = [f"{classes} ({100 * share[worst]:.0f} %)"] if share[worst] > 0 else []
+    return ", ".join([*most, *filter(None, [weather_in_words(data)])]) or "no damage"
+
+
+def which_way(data: xr.Dataset, harm: str) -> str:
+    """Orientation that does most of a criterion's damage, with the angle of the first trace.
+
+    harm: what to say where no crack opens.
+    """
+    if "orientation_damage" not in data:
+        return "–"
+    shares = data["orientation_damage"]
+    most = int(np.argmax(shares.to_numpy()))
+    word, part = str(shares["orientation"].to_numpy()[most]), f"{100 * float(shares[most]):.0f} % of the damage"
+    if not float(shares[most]) > 0 or word == ORIENTATIONS[NONE]:
+        return harm
+    if not opens_down(word):
+        return f"parallel to the surface ({part})"
+    angle = float(data["first_crack_angle"])
+    trace = "" if math.isnan(angle) else f", first trace {_degrees(angle)}° from travel"
+    return f"{word} ({part}){trace}"
+
+
+def weather_in_words(data: xr.Dataset) -> str:
     """What daily thermal stress does of a criterion's damage, in words; empty where it does nothing."""
-    if "weather_share" not in row or not float(row["weather_share"].sum()) > 0:
+    if "weather_share" not in data or not float(data["weather_share"].sum()) > 0:
         return ""
-    share = row["weather_share"].to_numpy()
+    share = data["weather_share"].to_numpy()
     month = int(share.argmax())
     return (
         f"by the weather alone {100 * share.sum():.2g} %, most in {MONTHS[month]}, "
-        f"{float(row['weather_stress'][month]) / 1e6:.2g} MPa"
+        f"{float(data['weather_stress'][month]) / 1e6:.2g} MPa"
     )
 
 
-def rut_in_words(data: xr.Dataset) -> str:
-    """The rut of a life, layer by layer, and when it reaches its limit; empty without one."""
+def rut_rows(data: xr.Dataset) -> list[Row]:
+    """The rut of a life, layer by layer, and when it reaches its limit; none without one."""
     if "rut_depth" not in data:
-        return ""
-    last = 1e3 * data["rut_depth"].to_numpy()[:, -1]
+        return []
+    last = data["rut_depth"].to_numpy()[:, -1]
     names = json.loads(data.attrs["rut_names"])
-    by = ", ".join(f"{name} {depth:.2g}" for name, depth in zip(names, last, strict=True) if depth > 0)
-    told = f"rut after {float(data['year'][-1]):g} years: {last.sum():.3g} mm ({by})"
-    if "rut_limit" not in data.attrs:
-        return told
-    when = float(data.attrs["rut_years"])
-    reached = "is never reached" if math.isinf(when) else f"is reached after {years_in_words(when)}"
-    return f"{told}; the limit of {1e3 * float(data.attrs['rut_limit']):g} mm {reached}"
+    layers = ", ".join(f"{name} {1e3 * depth:.2g}" for name, depth in zip(names, last, strict=True) if depth > 0)
+    label = f"{display_of('rut_depth').label} after {float(data['year'][-1]):g} years"
+    rows = [row("rut_depth", last.sum(), label=label, note=layers)]
+    if "rut_limit" in data.attrs:
+        label = f"rut of {1e3 * float(data.attrs['rut_limit']):g} mm reached after"
+        rows.append(row("rut_years", float(data.attrs["rut_years"]), label=label))
+    return rows
 
 
-def years_in_words(years: float) -> str:
-    """Years with three digits, that they are more than roads last, or that they never end."""
-    if math.isinf(years):
-        return "never"
-    return f"{years:.3g} years" if years <= LASTS else f"more than {LASTS:g} years"
+def rut_in_words(data: xr.Dataset) -> str:
+    """The rut of a life in a sentence; empty without one."""
+    return "; ".join(f"{rut_row.label} {rut_row.sentence}" for rut_row in rut_rows(data))
 
 
-def asked_in_words(criteria: Sequence[Criterion], laws: Sequence[FatigueLaw]) -> dict[str, str]:
-    """What a file says of criteria and their laws, a law for each: attributes, JSON."""
-    said: dict[str, list[Any]] = {
-        "laws": [str(one.law_at(15.0)) for one in criteria],
-        "sources": [one.law_at(15.0).source for one in criteria],
+def criteria_attributes(criteria: Sequence[Criterion], laws: Sequence[FatigueLaw]) -> dict[str, str]:
+    """Attributes of a file on criteria and their laws, a law for each, JSON."""
+    texts_by_name: dict[str, list[Any]] = {
+        "laws": [str(criterion.law_at(15.0)) for criterion in criteria],
+        "sources": [criterion.law_at(15.0).source for criterion in criteria],
         "doubts": [
-            "; ".join(filter(None, (law.doubt, one.quantity.doubt))) for law, one in zip(laws, criteria, strict=True)
+            "; ".join(filter(None, (law.doubt, criterion.quantity.doubt)))
+            for law, criterion in zip(laws, criteria, strict=True)
         ],
         "ends": [law.end_of_life for law in laws],
-        "reads": [one.quantity.about for one in criteria],
-        "proposed": [_proposed(one, law) for one, law in zip(criteria, laws, strict=True)],
-        "places": [one.place for one in criteria],
+        "reads": [criterion.quantity.about for criterion in criteria],
+        "proposed": [_proposed(criterion, law) for criterion, law in zip(criteria, laws, strict=True)],
+        "places": [criterion.place for criterion in criteria],
     }
-    return {name: json.dumps(texts, ensure_ascii=name == "places") for name, texts in said.items()}
+    return {name: json.dumps(texts, ensure_ascii=name == "places") for name, texts in texts_by_name.items()}
 
 
 def cautions(
@@ -138,25 +209,29 @@ def cautions(
     laws: (criterion, axle_class, season). readings: (criterion, axle_class, season, turn, y). shares: of the damage,
     (criterion, axle_class, season). twice: of each criterion, whether its law includes the wander of the traffic.
     """
-    said = [
+    warnings = [
         f"{criterion.name}: {text}"
         for k, criterion in enumerate(criteria)
         for text in _warnings(laws[k], readings[k], shares[k])
     ]
-    said += [f"{one.name}: {one.quantity}: {one.quantity.doubt}" for one in criteria if one.quantity.doubt]
-    said += [
-        f"{one.name}: its law was calibrated on roads on which wheels wander, so that the traffic's wander is left "
-        f"out here and the life is {years_in_words(years)}; counted twice it would be "
+    warnings += [
+        f"{criterion.name}: {criterion.quantity}: {criterion.quantity.doubt}"
+        for criterion in criteria
+        if criterion.quantity.doubt
+    ]
+    warnings += [
+        f"{criterion.name}: its law was calibrated on roads on which wheels wander, so that the traffic's wander is "
+        f"left out here and the life is {years_in_words(years)}; counted twice it would be "
         f"{data['life_years_with_wander'].item(k) / years:.3g} times as long"
-        for k, (one, years) in enumerate(zip(criteria, data["life_years"].to_numpy().tolist(), strict=True))
+        for k, (criterion, years) in enumerate(zip(criteria, data["life_years"].to_numpy().tolist(), strict=True))
         if twice[k] and math.isfinite(years)
     ]
-    return tuple(dict.fromkeys(said + _flat(data, criteria)))
+    return tuple(dict.fromkeys(warnings + _flat(data, criteria)))
 
 
 def _proposed(criterion: Criterion, law: FatigueLaw) -> str:
     """Who proposed a criterion: of a law of any quantity whoever proposed that, else the law's source."""
-    any_quantity = dataclasses.is_dataclass(law) and any(one.name == "reads" for one in dataclasses.fields(law))
+    any_quantity = dataclasses.is_dataclass(law) and any(field.name == "reads" for field in dataclasses.fields(law))
     return criterion.quantity.source if any_quantity else law.source
 
 
@@ -168,9 +243,9 @@ def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
     return [
         f"{name}: {100 * share:.0f} % of its damage is read across planes closer to horizontal than 45°, which "
         "split the road parallel to its surface: no crack from the surface down, nor from the bottom up; read "
-        + ('strain = "in-plane" for those' if one.quantity.extends else "in_plane_extension for those")
-        for name, share, one in zip(data["criterion"].to_numpy(), shares, criteria, strict=True)
-        if share > _MOSTLY and not one.quantity.between_layers
+        + ('strain = "in-plane" for those' if criterion.quantity.extends else "in_plane_extension for those")
+        for name, share, criterion in zip(data["criterion"].to_numpy(), shares, criteria, strict=True)
+        if share > _MOSTLY and not criterion.quantity.between_layers
     ]
 
 
@@ -181,5 +256,6 @@ def _warnings(laws: Sequence[Sequence[FatigueLaw]], values: Array, shares: Array
     return [text for season in seasons for text in warnings_of(laws[heaviest][season], values[:, season])]
 
 
-def _of(place: str | None) -> str:
-    return f" ({place})" if place else ""
+def _degrees(angle: float) -> str:
+    """An angle in rad as whole degrees with a true minus."""
+    return f"{math.degrees(angle):z.0f}".replace("-", "\u2212")

@@ -15,7 +15,7 @@ from treadload.files import write_whole
 from treadload.plots import compare_pressure, compare_strain, fatigue_line, save
 from treadload.reporting import write_report
 from treadload.results import save_results
-from treadload.study import Result, run_case
+from treadload.steps import Result, run
 
 CASES = ("free", "tractive")
 
@@ -57,7 +57,7 @@ def run_demo(folder: Path, progress: Progress | None = None) -> Demo:
         text = resources.files("treadload.demo").joinpath(f"{name}.toml").read_text(encoding="utf-8")
         write_whole(folder / f"{name}.toml", text)
         case = Case.from_text(text, name=f"{name}.toml")
-        result = run_case(case, progress=lambda stage, title=case.title: tell(f"{title}: {stage}"))  # type: ignore[misc]
+        result = run(case, progress=lambda stage, title=case.title: tell(f"{title}: {stage}"))  # type: ignore[misc]
         results[name] = result
         files += [folder / f"{name}.toml", save_results(result, folder / f"{name}.nc")]
     tell("figures")

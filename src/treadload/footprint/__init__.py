@@ -7,6 +7,7 @@ from treadload.footprint.measured import Measured, Unknown
 from treadload.footprint.measures import Measures
 from treadload.footprint.reading import is_sensor_file, read_footprint
 from treadload.footprint.registration import Registration, register
+from treadload.footprint.tire_card import TireCard, tire_card
 
 __all__ = [
     "Footprint",
@@ -15,9 +16,11 @@ __all__ = [
     "Measured",
     "Measures",
     "Registration",
+    "TireCard",
     "Unknown",
     "compare",
     "is_sensor_file",
     "read_footprint",
     "register",
+    "tire_card",
 ]

@@ -14,7 +14,6 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, HasDataset, Holds
-from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.footprint.footprint import Footprint
 from treadload.footprint.measures import Measures, check_ribs, find_ribs, measure, shares, turn
@@ -23,6 +22,7 @@ from treadload.footprint.registration import Registration, cut_off, laid, overla
 from treadload.footprint.spelling import KGF_CM2
 from treadload.kernels.arrays import Array
 from treadload.response import GridLoad
+from treadload.rows import Row, row
 from treadload.units import PSI
 
 MAPS = ("computed", "seen", "measured")
@@ -51,6 +51,7 @@ class FootprintComparison(BaseResult, group="comparison"):
     registration: how. warnings: sentences for the user.
     """
 
+    title: ClassVar[str] = "Computed and measured footprint"
     holds: ClassVar[Holds] = Holds(
         {
             "print_load net_area gross_area print_length print_width mean_pressure largest_pressure": "map",
@@ -79,44 +80,35 @@ class FootprintComparison(BaseResult, group="comparison"):
         row = self.dataset[name]
         return float(row.sel(map="seen") / row.sel(map="measured")) - 1
 
-    def summary(self) -> str:
-        """Measures side by side, shares of the ribs, agreement, and the judgement."""
+    @property
+    def heading(self) -> str:
+        """The footprint's source."""
+        return self.footprint.source or "footprint of arrays"
+
+    def rows(self) -> tuple[Row, ...]:
+        """Measures by map, shares of the ribs, agreement, and the judgement."""
         d = self.dataset
-        lines = [
-            f"footprint      {self.footprint.source or 'of arrays'}",
-            f"registration   {self.registration}",
-            f"{'':15}{'computed':>12}{'through sensor':>16}{'measured':>12}{'difference':>12}",
-        ]
-        for name, (words, scale, digits) in _ROWS.items():
-            cells = [f"{scale * float(d[name].sel(map=one)):.{digits}f}" for one in MAPS]
-            lines.append(
-                f"{words:15}{cells[0]:>12}{cells[1]:>16}{cells[2]:>12}{100 * self.difference(name):>+z10.1f} %"
-            )
-        for number, rib in enumerate(d["rib"].to_numpy() if d.sizes["rib"] > 1 else ()):
-            one = 100 * d["rib_share"].isel(rib=number).sel(map=list(MAPS)).to_numpy()
-            lines.append(
-                f"{f'rib {rib}, %':15}{one[0]:>12.1f}{one[1]:>16.1f}{one[2]:>12.1f}{one[1] - one[2]:>+z10.1f} pt"
-            )
-        lines.append(
-            f"overlap        {100 * float(d.overlap_of_pressure):.1f} % of the pressure, "
-            f"{100 * float(d.overlap_of_area):.1f} % of the area; rms difference "
-            f"{float(d.rms_difference) / 1e3:.0f} kPa, correlation {float(d.correlation):.3f}"
-        )
-        return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings), f"Verdict: {self.sentence}"])
-
-    __repr__ = first_line
+        lines = [row("registration", str(self.registration))]
+        ribs = 100 * d["rib_share"].sel(map=list(MAPS)).to_numpy()
+        for number, (name, words) in enumerate(zip(MAPS, ("computed", "through sensor", "measured"), strict=True)):
+            lines += [row(key, float(d[of].sel(map=name)), group=words) for of, key in _ROWS.items()]
+            if d.sizes["rib"] > 1:
+                lines.append(row("rib_share", _percent(ribs[number]), group=words))
+        lines += [row(key, f"{100 * self.difference(of):+z.1f} %", group="difference") for of, key in _ROWS.items()]
+        if d.sizes["rib"] > 1:
+            points = " / ".join(f"{difference:+z.1f}" for difference in ribs[1] - ribs[2]) + " pt"
+            lines.append(row("rib_share", points, group="difference"))
+        lines += [row(name, float(d[name])) for name in _AGREEMENT]
+        return (*lines, row("verdict", self.sentence))
 
 
-# Words, factor and digits of the measures in a summary.
-_ROWS: Mapping[str, tuple[str, float, int]] = {
-    "print_load": ("load, kN", 1e-3, 2),
-    "net_area": ("net area, mm²", 1e6, 0),
-    "gross_area": ("gross area, mm²", 1e6, 0),
-    "print_length": ("length, mm", 1e3, 0),
-    "print_width": ("width, mm", 1e3, 0),
-    "mean_pressure": ("mean, kPa", 1e-3, 0),
-    "largest_pressure": ("peak, kPa", 1e-3, 0),
-}
+# Measure of the dataset → row, and how well both agree.
+_ROWS: Mapping[str, str] = {
+    name: name
+    for name in ("print_load", "net_area", "gross_area", "print_length", "print_width", "mean_pressure",
+                 "largest_pressure")
+} | {"print_load": "normal_load"}  # fmt: skip
+_AGREEMENT = ("overlap_of_pressure", "overlap_of_area", "rms_difference", "correlation")
 _MEASURES = {
     "print_load": "load", "net_area": "net_area", "gross_area": "gross_area", "print_length": "length",
     "print_width": "width", "mean_pressure": "mean", "largest_pressure": "peak", "print_centre_x": "centre_x",
@@ -155,19 +147,19 @@ def compare(
     sensor = sensor.moved(pose.shift_x, pose.shift_y)
     data, more = _maps(load, sensor, pose, ribs)
     warnings += [*_pose_doubts(pose), *more]
-    told = replace(sensor, warnings=())
-    return FootprintComparison(data, told, pose, {"candidates": dict(pose.candidates)}, tuple(warnings))
+    print_ = replace(sensor, warnings=())
+    return FootprintComparison(data, print_, pose, {"candidates": dict(pose.candidates)}, tuple(warnings))
 
 
 def _load(result: Any) -> GridLoad:
-    one = getattr(result, "contact", None)
-    given = result if one is None else one
-    load = given.load if isinstance(given, Footprint) else given
+    contact = getattr(result, "contact", None)
+    load_of = result if contact is None else contact
+    load = load_of.load if isinstance(load_of, Footprint) else load_of
     if not isinstance(load, GridLoad):
         if not isinstance(load, xr.Dataset | HasDataset):
             raise InputError(
                 f"compare takes a contact or a result that has one, got {type(result).__name__}; give what "
-                "solve_contact or run_case returned, or open_results of a file"
+                "solve_contact or run returned, or open_results of a file"
             )
         load = GridLoad.from_dataset(load)
     if not load.normal_load > 0:
@@ -175,14 +167,16 @@ def _load(result: Any) -> GridLoad:
     return load
 
 
-def _footprint(given: Any) -> Footprint:
-    if isinstance(given, str | os.PathLike):
-        given = read_footprint(given)
-    if isinstance(given, xr.Dataset | HasDataset) and not isinstance(given, Footprint):
-        given = GridLoad.from_dataset(given)
-    sensor = Footprint(given) if isinstance(given, GridLoad) else given
+def _footprint(footprint: Any) -> Footprint:
+    if isinstance(footprint, str | os.PathLike):
+        footprint = read_footprint(footprint)
+    if isinstance(footprint, xr.Dataset | HasDataset) and not isinstance(footprint, Footprint):
+        footprint = GridLoad.from_dataset(footprint)
+    sensor = Footprint(footprint) if isinstance(footprint, GridLoad) else footprint
     if not isinstance(sensor, Footprint):
-        raise InputError(f"compare takes a footprint, a GridLoad or the path of a file, got {type(given).__name__}")
+        raise InputError(
+            f"compare takes a footprint, a GridLoad or the path of a file, got {type(footprint).__name__}"
+        )
     if not sensor.normal_load > 0:
         raise InputError("the footprint carries no load, so that there is nothing to compare")
     return sensor
@@ -194,26 +188,26 @@ def _check_loads(load: GridLoad, sensor: Footprint, tolerance: float) -> list[st
     off = abs(ratio - 1)
     if off <= _LOAD_TOLD:
         return []
-    said = (
+    forces = (
         f"the footprint carries {sensor.normal_load / 1e3:.4g} kN and the contact {load.normal_load / 1e3:.4g} kN, "
         f"{abs(100 * (ratio - 1)):.3g} % {'more' if ratio > 1 else 'less'}"
     )
     full = int(sensor.saturated.sum())
     if full:
-        said += f"; {full} of its sensels are saturated"
+        forces += f"; {full} of its sensels are saturated"
     if off <= tolerance:
-        return [f"{said}; areas and pressures differ for that alone"]
+        return [f"{forces}; areas and pressures differ for that alone"]
     fits = {
-        f"{name} and not {other}": abs(ratio * worth / was - 1)
+        f"{name} and not {unit}": abs(ratio * worth / was - 1)
         for name, worth in _UNITS.items()
-        for other, was in _UNITS.items()
+        for unit, was in _UNITS.items()
         if abs(math.log(worth / was)) > 1
     }
     meant = sorted((pair for pair, error in fits.items() if error < _UNIT_FITS), key=fits.__getitem__)
     hint = f"; it would fit if its pressures were in {' or in '.join(meant[:2])}" if meant else ""
     raise InputError(
-        f"{said}, and at most {100 * tolerance:g} % will do{hint}; compute at its load, scale it to a load that you "
-        "know, read_footprint(…, load=), or raise load_tolerance"
+        f"{forces}, and at most {100 * tolerance:g} % will do{hint}; compute at its load, scale it to a load that "
+        "you know, read_footprint(…, load=), or raise load_tolerance"
     )
 
 
@@ -224,61 +218,61 @@ def _registered(load: GridLoad, sensor: Footprint, how: str) -> Registration:
 
 
 def _pose_doubts(pose: Registration) -> list[str]:
-    said = []
+    caveats = []
     if pose.quarter_turns or pose.mirrored:
         as_is = pose.candidates.get("as it stands")
-        other = f", {100 * as_is:.0f} % as it stands" if as_is is not None else ""
+        before_turn = f", {100 * as_is:.0f} % as it stands" if as_is is not None else ""
         remedy = 'seen_from="below"' if pose.mirrored else "travel="
-        said.append(
-            f"the footprint was {pose.words}: so {100 * pose.overlap:.0f} % of the pressure overlaps{other}; if "
-            f"that is how it was taken, read it with {remedy}, else the computed tire is the wrong way round"
+        caveats.append(
+            f"the footprint was {pose.words}: so {100 * pose.overlap:.0f} % of the pressure overlaps{before_turn}; "
+            f"if that is how it was taken, read it with {remedy}, else the computed tire is the wrong way round"
         )
     if abs(pose.angle) > _ASKEW:
-        said.append(
+        caveats.append(
             f"the footprint lies askew by {abs(math.degrees(pose.angle)):.1f}°; length, width and ribs are read "
             "along travel, the maps along the sensor"
         )
-    return said
+    return caveats
 
 
 def _maps(
     load: GridLoad, sensor: Footprint, pose: Registration, ribs: Sequence[float] | None
 ) -> tuple[xr.Dataset, list[str]]:
     grid, there, measured = sensor.grid, sensor.sensels, np.maximum(sensor.pressure, 0.0)
-    own = np.maximum(load.array[0], 0.0)
+    pressure = np.maximum(load.array[0], 0.0)
     whole = seen(load, grid, pose.angle)
-    told = np.where(there, cut_off(whole, sensor.threshold, sensor.saturation), 0.0)
-    if not (told * measured).any():
+    computed = np.where(there, cut_off(whole, sensor.threshold, sensor.saturation), 0.0)
+    if not (computed * measured).any():
         raise InputError(
             'the footprint does not meet the computed contact anywhere; compare with registration="full", or move it'
         )
     cells = (grid.x, grid.y, grid.dx, grid.dy)
     of_maps = [
-        measure(own, load.grid.x, load.grid.y, load.grid.dx, load.grid.dy),
-        measure(told, *cells, pose.angle),
+        measure(pressure, load.grid.x, load.grid.y, load.grid.dx, load.grid.dy),
+        measure(computed, *cells, pose.angle),
         measure(measured, *cells, pose.angle),
     ]
-    edges = find_ribs(own, load.grid.y, load.grid.dy) if ribs is None else check_ribs(ribs)
+    edges = find_ribs(pressure, load.grid.y, load.grid.dy) if ribs is None else check_ribs(ribs)
     _, across = turn(*np.meshgrid(grid.x, grid.y), pose.angle)
     share = [
-        shares(own, np.broadcast_to(load.grid.y[:, None], own.shape), edges),
-        shares(told, across, edges),
+        shares(pressure, np.broadcast_to(load.grid.y[:, None], pressure.shape), edges),
+        shares(computed, across, edges),
         shares(measured, across, edges),
     ]
-    difference = told - measured
-    both, either = (told > 0) & (measured > 0), (told > 0) | (measured > 0)
+    difference = computed - measured
+    both, either = (computed > 0) & (measured > 0), (computed > 0) | (measured > 0)
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
-        "computed_pressure": (("y", "x"), np.where(there, told, np.nan)),
+        "computed_pressure": (("y", "x"), np.where(there, computed, np.nan)),
         "measured_pressure": (("y", "x"), np.where(there, measured, np.nan)),
         "pressure_difference": (("y", "x"), np.where(there, difference, np.nan)),
-        **{name: (("map",), [getattr(one, key) for one in of_maps]) for name, key in _MEASURES.items()},
+        **{name: (("map",), [getattr(values, key) for values in of_maps]) for name, key in _MEASURES.items()},
         "rib_share": (("map", "rib"), np.array(share)),
         "rib_left": (("rib",), edges[:-1]),
         "rib_right": (("rib",), edges[1:]),
-        "overlap_of_pressure": ((), overlap(told[there], measured[there])),
+        "overlap_of_pressure": ((), overlap(computed[there], measured[there])),
         "overlap_of_area": ((), float(both.sum() / either.sum())),
         "rms_difference": ((), float(np.sqrt(np.mean(difference[either] ** 2)))),
-        "correlation": ((), _correlation(told[there], measured[there])),
+        "correlation": ((), _correlation(computed[there], measured[there])),
         "registered_x": ((), pose.shift_x),
         "registered_y": ((), pose.shift_y),
         "registered_angle": ((), pose.angle),
@@ -305,24 +299,28 @@ def _correlation(first: Array, second: Array) -> float:
 
 def _judgement(maps: Sequence[Measures], share: Array, fields: Mapping[str, tuple[Any, Any]]) -> str:
     """One sentence: how well they agree, area, peak, overlap, and where they differ most."""
-    _, told, measured = maps
-    common, area = float(fields["overlap_of_pressure"][1]), told.net_area / measured.net_area - 1
-    peak = told.peak / measured.peak - 1
+    _, computed, measured = maps
+    common, area = float(fields["overlap_of_pressure"][1]), computed.net_area / measured.net_area - 1
+    peak = computed.peak / measured.peak - 1
     if common >= _AGREES[0] and abs(area) <= _AGREES[1]:
         word = "agrees with"
     elif common >= _ROUGHLY[0] and abs(area) <= _ROUGHLY[1]:
         word = "agrees roughly with"
     else:
         word = "differs from"
-    said = (
-        f"the computed contact {word} the footprint: area {told.net_area * 1e6:.0f} against "
-        f"{measured.net_area * 1e6:.0f} mm² ({100 * area:+z.1f} %), peak {told.peak / 1e3:.0f} against "
+    text = (
+        f"the computed contact {word} the footprint: area {computed.net_area * 1e6:.0f} against "
+        f"{measured.net_area * 1e6:.0f} mm² ({100 * area:+z.1f} %), peak {computed.peak / 1e3:.0f} against "
         f"{measured.peak / 1e3:.0f} kPa ({100 * peak:+z.1f} %), {100 * common:.0f} % of the pressure overlaps"
     )
     if share.shape[1] > 1:
         rib = int(np.abs(share[1] - share[2]).argmax())
-        said += (
+        text += (
             f"; of the ribs number {rib + 1} is off most, {100 * share[1, rib]:.1f} against "
             f"{100 * share[2, rib]:.1f} % of the load"
         )
-    return f"{said}."
+    return f"{text}."
+
+
+def _percent(shares: Array) -> str:
+    return " / ".join(f"{share:.1f}" for share in shares) + " %"

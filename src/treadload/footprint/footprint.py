@@ -6,12 +6,12 @@ import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 
 from treadload.composing import BaseResult
-from treadload.describing import first_line
 from treadload.errors import InputError
 from treadload.footprint.measures import Measures, check_ribs, find_ribs, measure, shares
 from treadload.grid import Grid
@@ -19,8 +19,15 @@ from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.gridding.overlap import means_over_cells
 from treadload.pavement import Pavement, road_in_words
 from treadload.response import GridLoad
+from treadload.rows import Row, row
 from treadload.units import quantity
 from treadload.variables import dataset
+
+# Row → measure.
+_MEASURES = {
+    "print_length": "length", "print_width": "width", "net_area": "net_area", "gross_area": "gross_area",
+    "mean_pressure": "mean", "largest_pressure": "peak",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +39,8 @@ class Footprint(BaseResult, group="contact"):
     (ny, nx), True where there is no sensel or a dead one; None for none. warnings: sentences for the user.
     Raises InputError for a wrong value.
     """
+
+    title: ClassVar[str] = "Recorded footprint"
 
     load: GridLoad
     road: Pavement | None = None
@@ -176,7 +185,7 @@ class Footprint(BaseResult, group="contact"):
         size, old = quantity(spacing, "m"), self.grid
         edges = edges_of(old)
         grid = Grid.centred(old.nx * old.dx, old.ny * old.dy, size)
-        middle_x, middle_y = (0.5 * float(one[0] + one[-1]) for one in edges)
+        middle_x, middle_y = (0.5 * float(edge[0] + edge[-1]) for edge in edges)
         grid = replace(grid, x0=grid.x0 + middle_x, y0=grid.y0 + middle_y)
         new = edges_of(grid)
         stress = [means_over_cells(part, *edges, *new) for part in self.load.array]
@@ -201,37 +210,35 @@ class Footprint(BaseResult, group="contact"):
         }
         words = {} if self.road is None else {"road": road_in_words(self.road)}
         cell = {"dx": load.grid.dx, "dy": load.grid.dy}
-        told = f"recorded footprint{f', read from {load.source}' if load.source else ''}: {load}"
-        return dataset(fields, {"x": load.grid.x, "y": load.grid.y}, **cell, tire=told, **words)
+        title = f"recorded footprint{f', read from {load.source}' if load.source else ''}: {load}"
+        return dataset(fields, {"x": load.grid.x, "y": load.grid.y}, **cell, tire=title, **words)
 
-    def summary(self) -> str:
+    @property
+    def heading(self) -> str:
+        """What presses, and where it was read."""
+        return str(self.load)
+
+    def rows(self) -> tuple[Row, ...]:
         """What presses where, what it measures, and where it was read."""
         load, measures = self.load, self.measures
-        lines = [
-            f"recorded footprint: {load}",
-            f"tractive force {load.tractive_force / 1e3:z.2f} kN, lateral force {load.lateral_force / 1e3:z.2f} kN",
-        ]
+        lines = [row(name, getattr(load, name)) for name in ("normal_load", "tractive_force", "lateral_force")]
         if measures.net_area > 0:
+            lines += [row(key, getattr(measures, name)) for key, name in _MEASURES.items()]
             ribs = self.rib_shares()
-            lines += [
-                f"length {measures.length * 1e3:.0f} mm, width {measures.width * 1e3:.0f} mm; net area "
-                f"{measures.net_area * 1e6:.0f} mm², gross {measures.gross_area * 1e6:.0f} mm², mean pressure "
-                f"{measures.mean / 1e3:.0f} kPa",
-                f"ribs carry {' / '.join(f'{100 * share:.1f}' for share in ribs)} % of the load"
-                if len(ribs) > 1
-                else "no groove along travel divides it into ribs",
-            ]
-        sensor = [f"threshold {self.threshold / 1e3:.3g} kPa"] if self.threshold else []
+            shares = f"{' / '.join(f'{100 * share:.1f}' for share in ribs)} %"
+            text = shares if len(ribs) > 1 else "no groove along travel divides it into ribs"
+            lines.append(row("rib_share", text))
+        if self.threshold:
+            lines.append(row("threshold", f"{self.threshold / 1e3:.3g} kPa"))
         if math.isfinite(self.saturation):
-            full = int(self.saturated.sum())
-            sensor.append(f"saturation {self.saturation / 1e3:.4g} kPa, reached by {full} sensels")
+            text = f"{self.saturation / 1e3:.4g} kPa, reached by {int(self.saturated.sum())} sensels"
+            lines.append(row("saturation", text))
         if self.missing is not None:
-            sensor.append(f"{int(self.missing.sum())} cells without a working sensel")
-        lines += ["sensor: " + ", ".join(sensor)] if sensor else []
-        lines += [f"read from {load.source}"] if load.source else []
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
-
-    __repr__ = first_line
+            text = f"{int(self.missing.sum())} cells without a working sensel"
+            lines.append(row("missing", text))
+        if load.source:
+            lines.append(row("source", load.source))
+        return tuple(lines)
 
 
 def edges_of(grid: Grid) -> tuple[Array, Array]:

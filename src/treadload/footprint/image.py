@@ -10,11 +10,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from treadload.accessors import offered
 from treadload.errors import InputError
 from treadload.footprint.frames import Frames
 from treadload.footprint.spelling import pressure_factor
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.registry import COLOUR_MAPS
 from treadload.units import leading_number, quantity
 
 # Distance of two colours, of 255 a channel, within which they are taken for one: what JPEG leaves of a smooth scale.
@@ -89,10 +89,12 @@ def read(
         )
     values = np.where(wrong, np.nan, pressures[which])
     dx, dy = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
-    told = f"{path.name}: picture of {chart.shape[1]} x {chart.shape[0]} pixels, {len(legend.colours)} colours from "
-    told += f"{legend.pressures[0] / 1e3:g} to {legend.pressures[-1] / 1e3:g} kPa"
+    source = (
+        f"{path.name}: picture of {chart.shape[1]} x {chart.shape[0]} pixels, {len(legend.colours)} colours from "
+    )
+    source += f"{legend.pressures[0] / 1e3:g} to {legend.pressures[-1] / 1e3:g} kPa"
     top = float(legend.pressures[-1])
-    return Frames(values[None], quantity(dy, "m"), quantity(dx, "m"), (1.0, 1.0), saturation=top, source=told)
+    return Frames(values[None], quantity(dy, "m"), quantity(dx, "m"), (1.0, 1.0), saturation=top, source=source)
 
 
 def _pixels(path: Path) -> Array:
@@ -134,7 +136,7 @@ def _scale(path: Path, pixels: Array, colours: Any, scale: Any, bar: Box | None,
         return Scale(np.array([_colour(pair[0]) for pair in pairs], dtype=float), values, steps)
     if scale is None or len(scale) != 2:
         raise InputError('give scale=("0 kPa", "1000 kPa"), the pressures at both ends of the colours')
-    low, high = (_pressure(one) for one in scale)
+    low, high = (_pressure(number) for number in scale)
     if not 0 <= low < high:
         raise InputError(f"scale must increase from 0 Pa or more, got {low:g} to {high:g} Pa")
     if bar is not None:
@@ -144,16 +146,10 @@ def _scale(path: Path, pixels: Array, colours: Any, scale: Any, bar: Box | None,
         if len(line) < 2:
             raise InputError(f"the colour bar {bar} has {len(line)} pixel; give its box")
         return Scale(line, np.linspace(low, high, len(line)), steps)
-    samples: Array = np.asarray(_named(str(colours))(np.linspace(0, 1, _SAMPLES)), dtype=np.float64)
+    # matplotlib belongs to the figures' room.
+    named = COLOUR_MAPS.find("matplotlib").target(str(colours))
+    samples: Array = np.asarray(named(np.linspace(0, 1, _SAMPLES)), dtype=np.float64)
     return Scale(255 * samples[:, :3], np.linspace(low, high, _SAMPLES), steps)
-
-
-def _named(name: str) -> Any:
-    try:
-        # matplotlib belongs to the figures' room.
-        return offered("colour_map", name)
-    except AttributeError as error:
-        raise InputError("no room brings colour maps by name; give pairs of colour and pressure") from error
 
 
 def _pressure(value: Any) -> float:
@@ -163,17 +159,17 @@ def _pressure(value: Any) -> float:
     return quantity(value, "Pa")
 
 
-def _colour(given: Any) -> tuple[int, int, int]:
-    if isinstance(given, str) and _HEX.fullmatch(given):
-        return int(given[1:3], 16), int(given[3:5], 16), int(given[5:7], 16)
-    if not isinstance(given, str) and len(given) == 3 and all(0 <= part <= 255 for part in given):
-        return int(given[0]), int(given[1]), int(given[2])
-    raise InputError(f'a colour is "#rrggbb" or (red, green, blue) of 0 to 255, got {given!r}')
+def _colour(colour: Any) -> tuple[int, int, int]:
+    if isinstance(colour, str) and _HEX.fullmatch(colour):
+        return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
+    if not isinstance(colour, str) and len(colour) == 3 and all(0 <= part <= 255 for part in colour):
+        return int(colour[0]), int(colour[1]), int(colour[2])
+    raise InputError(f'a colour is "#rrggbb" or (red, green, blue) of 0 to 255, got {colour!r}')
 
 
 def _cut(path: Path, pixels: Array, box: Box, what: str) -> Array:
     rows, columns = pixels.shape[:2]
-    whole = len(box) == 4 and all(isinstance(one, int | np.integer) for one in box)
+    whole = len(box) == 4 and all(isinstance(number, int | np.integer) for number in box)
     if not whole or not (0 <= box[0] < box[2] <= columns and 0 <= box[1] < box[3] <= rows):
         raise InputError(
             f"{what} must be left, top, right, bottom within the {columns} x {rows} pixels of {path}, got {box!r}"

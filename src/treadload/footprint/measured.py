@@ -158,8 +158,8 @@ class Measured:
             raise InputError("rib_shares and ribs, their edges across the tread in m, go together")
         if self.rib_shares is None or self.ribs is None:
             return
-        object.__setattr__(self, "rib_shares", tuple(float(one) for one in self.rib_shares))
-        object.__setattr__(self, "ribs", tuple(float(one) for one in check_ribs(self.ribs)))
+        object.__setattr__(self, "rib_shares", tuple(float(share) for share in self.rib_shares))
+        object.__setattr__(self, "ribs", tuple(float(rib) for rib in check_ribs(self.ribs)))
         if len(self.rib_shares) != len(self.ribs) - 1:
             raise InputError(f"{len(self.rib_shares)} rib_shares need one edge more, got {len(self.ribs)} in ribs")
         total = sum(self.rib_shares)
@@ -178,7 +178,7 @@ class Measured:
     @classmethod
     def load_deflection(cls, rows: Iterable[Iterable[float | str]]) -> list[Measured]:
         """Rows of (load, deflection) or (load, deflection, inflation pressure): SI, or texts with their units."""
-        found = []
+        points = []
         for row in rows:
             values = list(row)
             if len(values) not in (2, 3):
@@ -186,22 +186,22 @@ class Measured:
                     f"a row of load_deflection is [load, deflection] or with the pressure behind, got {values!r}; "
                     'write ["10 kN", "14.1 mm", "8 bar"]'
                 )
-            told = [quantity(value, unit) for value, unit in zip(values, ("N", "m", "Pa"), strict=False)]
-            pressure = told[2] if len(told) == 3 else None
-            found.append(cls(load=told[0], deflection=told[1], inflation_pressure=pressure))
-        return found
+            numbers = [quantity(value, unit) for value, unit in zip(values, ("N", "m", "Pa"), strict=False)]
+            pressure = numbers[2] if len(numbers) == 3 else None
+            points.append(cls(load=numbers[0], deflection=numbers[1], inflation_pressure=pressure))
+        return points
 
     @property
     def readings(self) -> tuple[str, ...]:
         """Names of what was measured."""
         return tuple(name for name in READINGS if getattr(self, name) is not None)
 
-    def error(self, name: str, value: float, others: Mapping[str, float | str]) -> tuple[float, bool]:
-        """Standard deviation of a reading of a value, SI, and whether it was given. others: for rows without it."""
-        given = (self.errors or {}).get(name, others.get(name))
+    def error(self, name: str, value: float, defaults: Mapping[str, float | str]) -> tuple[float, bool]:
+        """Standard deviation of a reading of a value, SI, and whether it was given. defaults: for rows without it."""
+        error = (self.errors or {}).get(name, defaults.get(name))
         row = READINGS[name]
-        size, relative = (row.doubt, row.relative) if given is None else _error(name, given)
-        return size * abs(value) if relative else size, given is not None
+        size, relative = (row.doubt, row.relative) if error is None else _error(name, error)
+        return size * abs(value) if relative else size, error is not None
 
     def loaded(self, folder: str | os.PathLike[str] = ".") -> Measured:
         """The same with its footprint read and its load known. folder: that paths start from.
@@ -210,19 +210,19 @@ class Measured:
         """
         if self.footprint is None:
             return self
-        told = self.footprint
-        if isinstance(told, str | os.PathLike):
-            told = {"file": told}
-        if isinstance(told, Mapping):
-            options = dict(told)
+        recorded = self.footprint
+        if isinstance(recorded, str | os.PathLike):
+            recorded = {"file": recorded}
+        if isinstance(recorded, Mapping):
+            options = dict(recorded)
             if "file" not in options:
                 raise InputError("a footprint of the data needs its file")
-            told = read_footprint(Path(folder) / str(options.pop("file")), **options)
-        elif isinstance(told, GridLoad):
-            told = Footprint(told)
-        if not isinstance(told, Footprint):
-            raise InputError(f"the footprint of a row of data must be a Footprint or a file, got {told!r}")
-        carried = told.normal_load
+            recorded = read_footprint(Path(folder) / str(options.pop("file")), **options)
+        elif isinstance(recorded, GridLoad):
+            recorded = Footprint(recorded)
+        if not isinstance(recorded, Footprint):
+            raise InputError(f"the footprint of a row of data must be a Footprint or a file, got {recorded!r}")
+        carried = recorded.normal_load
         if not carried > 0:
             raise InputError("a footprint of the data carries no load, so that it says nothing")
         load = self.load if self.load is not None else carried
@@ -232,7 +232,7 @@ class Measured:
                 f"{100 * (carried / load - 1):+.3g} %, and at most {100 * _SAME_LOAD:g} % will do; give the "
                 "load that it was taken under, or its unit"
             )
-        return replace(self, load=load, footprint=told)
+        return replace(self, load=load, footprint=recorded)
 
     __repr__ = as_call
 
@@ -274,10 +274,10 @@ class Unknown:
     def on(self, tire: Tire, friction: float) -> tuple[float, float, float]:
         """Start, low and high on a tire, SI. friction: that is there before. Raises InputError."""
         if self.name == FRICTION:
-            own, (low, high) = friction, _FRICTION_BOUNDS
+            friction_start, (low, high) = friction, _FRICTION_BOUNDS
         else:
-            own, (low, high) = NUMBERS[self.name].of(tire), NUMBERS[self.name].bounds(tire)
-        start = own if self.start is None else float(self.start)
+            friction_start, (low, high) = NUMBERS[self.name].of(tire), NUMBERS[self.name].bounds(tire)
+        start = friction_start if self.start is None else float(self.start)
         low = low if self.low is None else max(low, float(self.low))
         high = high if self.high is None else min(high, float(self.high))
         if not low < high:
@@ -292,18 +292,19 @@ class Unknown:
     __repr__ = as_call
 
 
-def unknowns(given: Iterable[str | Unknown]) -> tuple[Unknown, ...]:
+def unknowns(wanted: Iterable[str | Unknown]) -> tuple[Unknown, ...]:
     """What is sought, by names or as it is. Raises InputError for none, and for a name that stands twice."""
-    found = tuple(
-        one if isinstance(one, Unknown) else Unknown(one) for one in ([given] if isinstance(given, str) else given)
+    sought = tuple(
+        name if isinstance(name, Unknown) else Unknown(name)
+        for name in ([wanted] if isinstance(wanted, str) else wanted)
     )
-    names = [one.name for one in found]
+    names = [unknown.name for unknown in sought]
     if not names:
         raise InputError(f"a calibration needs something to seek; known are {', '.join([*NUMBERS, FRICTION])}")
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InputError(f"{twice} is sought twice; name it once")
-    return found
+    return sought
 
 
 def _error(name: str, error: float | str) -> tuple[float, bool]:

@@ -125,20 +125,20 @@ def check_ribs(edges: Sequence[float] | Array) -> Array:
     return ribs
 
 
-def lone(pressure: Array, known: BoolArray) -> tuple[BoolArray, BoolArray]:
+def lone(pressure: Array, valid: BoolArray) -> tuple[BoolArray, BoolArray]:
     """Cells (ny, nx) that read nothing amid eight that are loaded, and those that are loaded amid eight that are not.
 
-    known: cells that there are; the others are no neighbours, and a cell without eight is neither.
+    valid: cells that there are; the others are no neighbours, and a cell without eight is neither.
     """
-    loaded = (pressure > 0) & known
+    loaded = (pressure > 0) & valid
     count = _around(loaded.astype(int))
-    there = _around(known.astype(int)) == 8
-    return known & ~loaded & there & (count == 8), loaded & there & (count == 0)
+    there = _around(valid.astype(int)) == 8
+    return valid & ~loaded & there & (count == 8), loaded & there & (count == 0)
 
 
-def filled(pressure: Array, holes: BoolArray, known: BoolArray) -> Array:
+def filled(pressure: Array, holes: BoolArray, valid: BoolArray) -> Array:
     """Pressure with the mean of the known neighbours in the holes; zero where there are none."""
-    sound = known & ~holes
+    sound = valid & ~holes
     count = _around(sound.astype(float))
     means = np.divide(_around(np.where(sound, pressure, 0.0)), count, out=np.zeros(pressure.shape), where=count > 0)
     return np.where(holes, means, pressure)

@@ -14,10 +14,10 @@ import numpy as np
 
 from treadload.errors import InputError, nearest
 from treadload.footprint import image, tekscan, text
-from treadload.footprint.doubts import dead_in_words, doubts_of, peak_doubt
 from treadload.footprint.footprint import Footprint
 from treadload.footprint.frames import Frames
 from treadload.footprint.measures import filled, lone
+from treadload.footprint.sensor_caveats import dead_in_words, doubts_of, peak_doubt
 from treadload.footprint.spelling import pressure_factor
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
@@ -88,25 +88,31 @@ def read_footprint(
         if value not in choices:
             raise InputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
     sign = measured.shear_sign(shear_on)
-    asked = {"pressure": units} if isinstance(units, str) else dict(units or {})
-    given = {"spacing": spacing, "units": asked, "noise": 0.0 if threshold is None else _pressure(threshold)}
-    given["counts"] = calibration is not None or load is not None
-    frames, told = _frames(path, _format_of(path, format), given, options)
-    frames = _with_units(path, frames, None if told else asked.get("pressure"), calibration, load is not None)
+    units_by_name = {"pressure": units} if isinstance(units, str) else dict(units or {})
+    options_of_file = {
+        "spacing": spacing,
+        "units": units_by_name,
+        "noise": 0.0 if threshold is None else _pressure(threshold),
+    }
+    options_of_file["counts"] = calibration is not None or load is not None
+    frames, has_units = _frames(path, _format_of(path, format), options_of_file, options)
+    frames = _with_units(
+        path, frames, None if has_units else units_by_name.get("pressure"), calibration, load is not None
+    )
     frames = _with_spacing(path, frames, spacing)
     pressure, number = _frame(path, frames, frame)
     least = _limit(threshold, frames.threshold, frames, 0.0)
     most = _limit(saturation, frames.saturation, frames, math.inf)
-    known = ~np.isnan(pressure)
-    pressure = _checked(path, np.where(known, pressure, 0.0), least, most)
-    doubts = [*frames.warnings, *doubts_of(path, pressure, known, most, travel)]
-    holes, stuck = lone(pressure, known)
-    doubts += dead_in_words(path, holes, stuck, dead, float(pressure[known].sum()))
+    valid = ~np.isnan(pressure)
+    pressure = _checked(path, np.where(valid, pressure, 0.0), least, most)
+    doubts = [*frames.warnings, *doubts_of(path, pressure, valid, most, travel)]
+    holes, stuck = lone(pressure, valid)
+    doubts += dead_in_words(path, holes, stuck, dead, float(pressure[valid].sum()))
     if dead == "fill":
-        pressure = filled(pressure, holes, known)
+        pressure = filled(pressure, holes, valid)
     else:
-        known = known & ~holes
-    footprint = _turned(path, frames, pressure, ~known, sign, travel, seen_from, number)
+        valid = valid & ~holes
+    footprint = _turned(path, frames, pressure, ~valid, sign, travel, seen_from, number)
     assert frames.law is not None
     doubts += peak_doubt(footprint, frames.law[0]) if load is None else []
     footprint = replace(footprint, threshold=least, saturation=most, warnings=tuple(doubts))
@@ -153,9 +159,9 @@ def _text(path: Path) -> str:
         return content.decode("latin-1")
 
 
-def _format_of(path: Path, asked: str | None) -> str:
-    if asked is not None:
-        return asked
+def _format_of(path: Path, name: str | None) -> str:
+    if name is not None:
+        return name
     suffix = path.suffix.lower()
     # Another package may read what is closed to this one.
     if suffix[1:] in FOOTPRINTS.names():
@@ -172,17 +178,17 @@ def _format_of(path: Path, asked: str | None) -> str:
     return "tekscan" if tekscan.looks_like(_text(path)) else "text"
 
 
-def _frames(path: Path, name: str, given: dict[str, Any], options: dict[str, Any]) -> tuple[Frames, bool]:
+def _frames(path: Path, name: str, common: dict[str, Any], options: dict[str, Any]) -> tuple[Frames, bool]:
     """What the reader of a format makes of the file, and whether it was told the units."""
     entry = FOOTPRINTS.find(name)
     takes = list(inspect.signature(entry.target).parameters)[1:]
-    own = [one for one in takes if one not in _COMMON]
+    extra = [name for name in takes if name not in _COMMON]
     for option in options:
-        if option not in own:
-            hint = nearest(option, own, "it takes") if own else "it takes none"
+        if option not in extra:
+            hint = nearest(option, extra, "it takes") if extra else "it takes none"
             raise InputError(f"the {name} reader of footprints knows no option {option!r}; {hint}")
-    told = {key: value for key, value in given.items() if key in takes}
-    frames = entry.target(path, **told, **options)
+    accepted = {key: value for key, value in common.items() if key in takes}
+    frames = entry.target(path, **accepted, **options)
     if not isinstance(frames, Frames):
         raise InputError(
             f"{entry.package} brings the {FOOTPRINTS.noun} {name!r}, which returned {type(frames).__name__} and no "
@@ -203,15 +209,15 @@ def _with_units(
             "scale to a known load"
         )
     if calibration is not None:
-        one = _pressure(calibration)
-        if not one > 0:
+        factor = _pressure(calibration)
+        if not factor > 0:
             raise InputError(f"calibration must be the pressure of one count, above 0 Pa, got {calibration!r}")
-        return replace(frames, law=(one, 1.0))
+        return replace(frames, law=(factor, 1.0))
     if unit is not None:
         worth = pressure_factor(unit)
         if frames.law is not None and not (frames.calibrated and math.isclose(frames.law[0], worth)):
-            told = f"in a unit of {frames.law[0]:g} Pa" if frames.calibrated else "counts with a calibration"
-            raise InputError(f"{path} says that its values are {told}, and units= {unit!r}; leave units= out")
+            meaning = f"in a unit of {frames.law[0]:g} Pa" if frames.calibrated else "counts with a calibration"
+            raise InputError(f"{path} says that its values are {meaning}, and units= {unit!r}; leave units= out")
         return replace(frames, law=(worth, 1.0))
     if frames.law is None and not scaled:
         raise InputError(
@@ -229,7 +235,7 @@ def _with_spacing(path: Path, frames: Frames, spacing: Any) -> Frames:
     both = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
     if len(both) != 2:
         raise InputError(f"spacing must be one length or (columns, rows), got {len(both)} values")
-    dx, dy = (quantity(one, "m") for one in both)
+    dx, dy = (quantity(step, "m") for step in both)
     return replace(frames, row_spacing=dy, column_spacing=dx)
 
 
@@ -241,13 +247,13 @@ def _pressure(value: float | str) -> float:
     return number * pressure_factor(unit) if unit else quantity(value, "Pa")
 
 
-def _limit(asked: float | str | None, told: float | None, frames: Frames, otherwise: float) -> float:
+def _limit(limit: float | str | None, limit_in_file: float | None, frames: Frames, otherwise: float) -> float:
     """A threshold or a saturation, Pa: of the caller, else of the file, in its unit."""
-    if asked is not None:
-        return _pressure(asked)
-    if told is None or frames.law is None:
+    if limit is not None:
+        return _pressure(limit)
+    if limit_in_file is None or frames.law is None:
         return otherwise
-    return float(frames.law[0] * told ** frames.law[1])
+    return float(frames.law[0] * limit_in_file ** frames.law[1])
 
 
 def _frame(path: Path, frames: Frames, frame: int | str) -> tuple[Array, str]:
@@ -273,9 +279,9 @@ def _frame(path: Path, frames: Frames, frame: int | str) -> tuple[Array, str]:
         return pressure[0], ""
     if frame == "mean":
         # Where no frame has a sensel there is none.
-        known = ~np.isnan(pressure)
-        count = known.sum(axis=0)
-        total = np.where(known, pressure, 0.0).sum(axis=0)
+        valid = ~np.isnan(pressure)
+        count = valid.sum(axis=0)
+        total = np.where(valid, pressure, 0.0).sum(axis=0)
         return np.where(count > 0, total / np.maximum(count, 1), np.nan), f"mean of {len(pressure)} frames"
     best = int(np.nansum(pressure, axis=(1, 2)).argmax())
     return pressure[best], f"frame {numbers[best]} of {len(pressure)}, which carries most"

@@ -91,8 +91,8 @@ def seen(load: GridLoad, sensels: Grid, angle: float) -> Array:
 
 def cut_off(pressure: Array, threshold: float, saturation: float) -> Array:
     """Pressure as a sensor tells it: none below its threshold, no more than its saturation."""
-    told: Array = np.where(pressure < threshold, 0.0, np.minimum(pressure, saturation))
-    return told
+    clipped: Array = np.where(pressure < threshold, 0.0, np.minimum(pressure, saturation))
+    return clipped
 
 
 def overlap(first: Array, second: Array) -> float:
@@ -113,18 +113,18 @@ def register(load: GridLoad, footprint: Footprint, *, turns: bool = True) -> Reg
     windows: dict[tuple[float, float, float], tuple[Grid, Array]] = {}
     starts = {pose: _start(coarse, laid(rough, *pose), windows) for pose in poses}
     best = max(score for score, _ in starts.values())
-    found: dict[tuple[int, bool], tuple[float, Array]] = {}
+    refined: dict[tuple[int, bool], tuple[float, Array]] = {}
     for pose, (score, start) in starts.items():
         if score >= best - _PROMISING or pose == (0, False):
-            found[pose] = _refined(coarse, laid(rough, *pose), start, *_RUGGED)
-    chosen = max(found, key=lambda pose: found[pose][0])
-    if found[chosen][0] < found[0, False][0] + CLEAR:
+            refined[pose] = _refined(coarse, laid(rough, *pose), start, *_RUGGED)
+    chosen = max(refined, key=lambda pose: refined[pose][0])
+    if refined[chosen][0] < refined[0, False][0] + CLEAR:
         chosen = (0, False)
     fine = laid(_coarsened(footprint, _ENOUGH), *chosen)
-    share, pose_at = _refined(_coarse(load, footprint, _ENOUGH), fine, found[chosen][1], *_FINE)
-    told = {pose_in_words(*pose): value for pose, (value, _) in found.items()}
-    x, y, angle = (float(one) for one in pose_at)
-    return Registration(*chosen, x, y, angle, share, told)
+    share, pose_at = _refined(_coarse(load, footprint, _ENOUGH), fine, refined[chosen][1], *_FINE)
+    candidates = {pose_in_words(*pose): value for pose, (value, _) in refined.items()}
+    x, y, angle = (float(value) for value in pose_at)
+    return Registration(*chosen, x, y, angle, share, candidates)
 
 
 def _coarse(load: GridLoad, footprint: Footprint, most: int) -> GridLoad:
@@ -204,8 +204,8 @@ def _refined(load: GridLoad, print_: Footprint, start: Array, accuracy: float, m
         x, y, angle = start + pose * scale
         computed = seen(load, replace(grid, x0=grid.x0 + x, y0=grid.y0 + y), angle)
         by = _ratio(computed, measured, there & ~full)
-        told = np.maximum(np.minimum(by * computed, print_.saturation), floor)
-        difference: Array = ((told - wanted)[there]) / size
+        clipped = np.maximum(np.minimum(by * computed, print_.saturation), floor)
+        difference: Array = ((clipped - wanted)[there]) / size
         return difference
 
     def slopes(pose: Array) -> Array:
@@ -213,12 +213,12 @@ def _refined(load: GridLoad, print_: Footprint, start: Array, accuracy: float, m
         columns: Array = np.stack([(residual(pose + s) - residual(pose - s)) / (2 * _STEP) for s in steps], axis=1)
         return columns
 
-    found = least_squares(residual, np.zeros(3), jac=slopes, xtol=accuracy, ftol=accuracy**2, max_nfev=most)
-    x, y, angle = start + found.x * scale
+    solution = least_squares(residual, np.zeros(3), jac=slopes, xtol=accuracy, ftol=accuracy**2, max_nfev=most)
+    x, y, angle = start + solution.x * scale
     computed = seen(load, replace(grid, x0=grid.x0 + x, y0=grid.y0 + y), angle)
     by = _ratio(computed, measured, there & ~full)
-    told = cut_off(by * computed, floor, print_.saturation)
-    return overlap(told[there], measured[there]), np.array([x, y, angle])
+    clipped = cut_off(by * computed, floor, print_.saturation)
+    return overlap(clipped[there], measured[there]), np.array([x, y, angle])
 
 
 def _ratio(computed: Array, measured: Array, where: BoolArray) -> float:

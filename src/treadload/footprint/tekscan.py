@@ -54,11 +54,12 @@ def read(path: Path, text: str) -> Frames:
     if not frames:
         raise InputError(f"{path} has no frame behind {_DATA}; export the frames with the header")
     maps = [_values(path, frame, header) for frame in frames]
-    for frame, one in zip(frames, maps, strict=True):
-        if one.shape != maps[0].shape:
+    for frame, sensels in zip(frames, maps, strict=True):
+        if sensels.shape != maps[0].shape:
             raise InputError(
-                f"{path}, line {frame.line}: frame {frame.number} has {one.shape[0]} x {one.shape[1]} values, the "
-                f"first frame {maps[0].shape[0]} x {maps[0].shape[1]}; the file is cut or was edited: export it again"
+                f"{path}, line {frame.line}: frame {frame.number} has {sensels.shape[0]} x {sensels.shape[1]} "
+                f"values, the first frame {maps[0].shape[0]} x {maps[0].shape[1]}; the file is cut or was edited: "
+                "export it again"
             )
     return _assembled(path, header, frames, np.stack(maps))
 
@@ -91,34 +92,34 @@ class _Header:
 
     def whole(self, key: str) -> int | None:
         """A whole number."""
-        said = self.text(key)
-        if said is None:
+        text = self.text(key)
+        if text is None:
             return None
-        if not re.fullmatch("[0-9]{1,9}", said):
-            raise self.fault(key, f"is {said!r}, not a whole number; correct the header")
-        return int(said)
+        if not re.fullmatch("[0-9]{1,9}", text):
+            raise self.fault(key, f"is {text!r}, not a whole number; correct the header")
+        return int(text)
 
     def number(self, key: str) -> float | None:
         """A pure number."""
-        said = self.text(key)
-        if said is None:
+        text = self.text(key)
+        if text is None:
             return None
         try:
-            return quantity(said, "")
+            return quantity(text, "")
         except InputError as error:
-            raise self.fault(key, f"is {said!r}, not a number; correct the header") from error
+            raise self.fault(key, f"is {text!r}, not a number; correct the header") from error
 
     def length(self, key: str) -> float | None:
         """A length, m, with its unit."""
-        said = self.text(key)
-        if said is None:
+        text = self.text(key)
+        if text is None:
             return None
         try:
-            metres = length(said)
+            metres = length(text)
         except InputError as error:
-            raise self.fault(key, f"is {said!r}, which needs a number and a unit such as mm or cm") from error
+            raise self.fault(key, f"is {text!r}, which needs a number and a unit such as mm or cm") from error
         if not metres > 0:
-            raise self.fault(key, f"is {said!r} and must be above 0; correct the header or give spacing=")
+            raise self.fault(key, f"is {text!r} and must be above 0; correct the header or give spacing=")
         return metres
 
 
@@ -166,9 +167,9 @@ def _values(path: Path, frame: _Frame, header: _Header) -> Array:
     """Values (rows, columns) of a frame, NaN where there is no sensel."""
     wanted = (header.whole("ROWS"), header.whole("COLS"))
     if wanted[0] == 0 or wanted[1] == 0 or not frame.rows:
-        said = len(frame.rows) if frame.rows or wanted[0] is None else wanted[0]
+        count = len(frame.rows) if frame.rows or wanted[0] is None else wanted[0]
         raise InputError(
-            f"{path}, line {frame.line}: frame {frame.number} has {said} rows"
+            f"{path}, line {frame.line}: frame {frame.number} has {count} rows"
             + (f" of {wanted[1]} values" if wanted[1] is not None else "")
             + "; export a sensor with rows and columns"
         )
@@ -239,38 +240,38 @@ def _assembled(path: Path, header: _Header, frames: Sequence[_Frame], values: Ar
     threshold = header.number("NOISE_THRESHOLD")
     if threshold is not None and not counts:
         # It is in counts; what a count is worth only the law of the sensor tells.
-        own = _law(header)
-        threshold = None if own is None or law is None else own[0] * threshold ** own[1] / law[0]
+        own_law = _law(header)
+        threshold = None if own_law is None or law is None else own_law[0] * threshold ** own_law[1] / law[0]
     if counts and law is None:
         warnings.append("its values are raw counts without a calibration that the header tells")
-    told = [f"{path.name}: Tekscan ASCII", *([f"sensor {kind}"] if (kind := header.text("SENSOR_TYPE")) else [])]
-    told.append(f"values in {unit}" if unit is not None else "values without a unit")
+    notes = [f"{path.name}: Tekscan ASCII", *([f"sensor {kind}"] if (kind := header.text("SENSOR_TYPE")) else [])]
+    notes.append(f"values in {unit}" if unit is not None else "values without a unit")
     if law is not None and counts:
-        told.append(f"pressure = {law[0]:g} Pa x raw^{law[1]:g}, as its header says")
+        notes.append(f"pressure = {law[0]:g} Pa x raw^{law[1]:g}, as its header says")
     turned = [key for key in ("MIRROR_ROW", "MIRROR_COL") if header.text(key) not in (None, "0")]
     if turned:
-        told.append(f"exported with {' and '.join(turned)}")
+        notes.append(f"exported with {' and '.join(turned)}")
     return Frames(
         values, rows, columns, law, not counts and unit is not None, saturation, threshold,
-        numbers=tuple(frame.number for frame in frames), source=", ".join(told), warnings=tuple(warnings),
+        numbers=tuple(frame.number for frame in frames), source=", ".join(notes), warnings=tuple(warnings),
     )  # fmt: skip
 
 
 def _check_area(header: _Header, rows: float | None, columns: float | None) -> None:
     """Refuse an area of the sensels that is not that of their spacing."""
-    said = header.text("SENSEL_AREA")
-    if said is None or rows is None or columns is None:
+    text = header.text("SENSEL_AREA")
+    if text is None or rows is None or columns is None:
         return
     try:
-        area = quantity(said.replace("²", "2"), "m^2")
+        area = quantity(text.replace("²", "2"), "m^2")
     except InputError as error:
         raise header.fault(
-            "SENSEL_AREA", f"is {said!r}, which needs a number and a unit such as mm2 or cm2"
+            "SENSEL_AREA", f"is {text!r}, which needs a number and a unit such as mm2 or cm2"
         ) from error
     if abs(area - rows * columns) > _DIGITS * rows * columns:
         raise header.fault(
             "SENSEL_AREA",
-            f"is {said}, and ROW_SPACING times COL_SPACING {rows * columns * 1e6:.5g} mm2; correct the one that is "
+            f"is {text}, and ROW_SPACING times COL_SPACING {rows * columns * 1e6:.5g} mm2; correct the one that is "
             "wrong, the load depends on it",
         )
 
@@ -300,21 +301,21 @@ def _law(header: _Header) -> tuple[float, float] | None:
 
 def _saturation(header: _Header, factor: float, values: Array) -> float | None:
     """Largest value that the sensor can read, in the unit of the values."""
-    said = header.text("SATURATION_PRESSURE")
-    if said is None:
+    text = header.text("SATURATION_PRESSURE")
+    if text is None:
         return None
     try:
-        number, unit = leading_number(said)
+        number, unit = leading_number(text)
         full = number * pressure_factor(unit) / factor
     except InputError as error:
         raise header.fault(
-            "SATURATION_PRESSURE", f"is {said!r}, which needs a number and a unit of pressure"
+            "SATURATION_PRESSURE", f"is {text!r}, which needs a number and a unit of pressure"
         ) from error
     top = float(np.nanmax(values, initial=0.0))
     if top > full * (1 + _DIGITS):
         raise header.fault(
             "SATURATION_PRESSURE",
-            f"is {said}, and the data hold {top / full:.3g} times as much; UNITS says {header.text('UNITS')}: one of "
+            f"is {text}, and the data hold {top / full:.3g} times as much; UNITS says {header.text('UNITS')}: one of "
             "them is wrong",
         )
     return full if full > 0 else None

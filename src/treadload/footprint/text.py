@@ -32,18 +32,18 @@ def read(
     names no unit of. noise: as `measured.read_csv` takes it. counts: a matrix may have no unit, its values are to be
     calibrated. Raises InputError for a unit that nothing tells, and as `measured.read_csv`.
     """
-    asked = dict(units or {})
+    units_by_name = dict(units or {})
     for name in _STRESSES:
-        if name in asked:
+        if name in units_by_name:
             # Spelled as sensors do, "kg/cm2".
-            asked[name] = f"{pressure_factor(asked[name])!r} Pa"
+            units_by_name[name] = f"{pressure_factor(units_by_name[name])!r} Pa"
     is_table = read_table(path, decimal=decimal).has_header
-    bare = counts and "pressure" not in asked and not is_table
+    bare = counts and "pressure" not in units_by_name and not is_table
     try:
         recorded = measured.read_csv(
             path,
             spacing=spacing,
-            units=asked,
+            units=units_by_name,
             missing="keep",
             noise=0.0 if bare else noise,
             decimal=decimal,
@@ -55,7 +55,7 @@ def read(
         raise InputError(str(error).replace("noise= says", "threshold= says")) from error
     grid, source = recorded.grid, recorded.source
     if units and "pressure" in units:
-        source = source.replace(asked["pressure"], units["pressure"])
+        source = source.replace(units_by_name["pressure"], units["pressure"])
     return Frames(
         recorded.pressure[None],
         grid.dy,

@@ -39,12 +39,12 @@ def strain_by_compliance(stress: Array, compliance: Array) -> Array:
     stress: (6, ...), Pa. compliance: (6, 6), 1/Pa, engineering strain in Voigt's order xx, yy, zz, yz, xz, xy.
     Returns (6, ...), extension positive, tensor shear.
     """
-    own = compliance[np.ix_(_VOIGT, _VOIGT)]
-    own[3:] *= 0.5
+    voigt = compliance[np.ix_(_VOIGT, _VOIGT)]
+    voigt[3:] *= 0.5
     strain = np.zeros_like(stress)
-    for row, column in zip(*np.nonzero(own), strict=True):
+    for row, column in zip(*np.nonzero(voigt), strict=True):
         # What a component does not take may be unknown.
-        strain[row] += own[row, column] * stress[column]
+        strain[row] += voigt[row, column] * stress[column]
     return strain
 
 

@@ -68,13 +68,13 @@ def periodic_stress(strain: Array, reduced: Array, moduli: Array, times: Array, 
         ratio = reduced / time
         gone = -np.expm1(-ratio)
         gain = rises * np.divide(gone, ratio, out=np.ones_like(gone), where=ratio > 0)
-        own = np.zeros_like(strain)
+        within_step = np.zeros_like(strain)
         last = np.zeros(strain.shape[1:])
         for step in range(len(strain)):
-            own[step] = last
+            within_step[step] = last
             last = last * (1 - gone[step]) + gain[step]
         whole = total / time
         start = np.divide(last, -np.expm1(-whole), out=np.zeros_like(last), where=whole > 0)
         kept = np.exp(-np.concatenate([np.zeros((1, *last.shape)), np.cumsum(ratio, axis=0)[:-1]]))
-        stress = stress + modulus * np.where(whole > _NEVER, own + start * kept, apart)
+        stress = stress + modulus * np.where(whole > _NEVER, within_step + start * kept, apart)
     return stress

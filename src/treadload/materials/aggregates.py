@@ -128,12 +128,13 @@ class Scanned:
     spacing: tuple[float, float, float]
 
     def __post_init__(self) -> None:
-        given = np.asarray(self.numbers)
-        if given.ndim != 3 or given.dtype.kind not in "biuf" or not given.size:
+        numbers = np.asarray(self.numbers)
+        if numbers.ndim != 3 or numbers.dtype.kind not in "biuf" or not numbers.size:
             raise InputError(
-                f"voxels must be an array (nz, ny, nx) of numbers of stones, got shape {given.shape} of {given.dtype}"
+                f"voxels must be an array (nz, ny, nx) of numbers of stones, got shape {numbers.shape} of "
+                f"{numbers.dtype}"
             )
-        whole = given.astype(float)
+        whole = numbers.astype(float)
         if not np.isfinite(whole).all() or (whole < 0).any() or (whole != np.round(whole)).any():
             raise InputError("voxels must be whole numbers >= 0: 0 for mortar, else the number of the stone")
         if not whole.any():
@@ -183,14 +184,14 @@ class Aggregates:
         packing. gap: least distance between stones, m. cover: least of mortar above and below them, m.
         Raises InputError here for a wrong value, and where it is drawn for a packing that cannot be reached.
         """
-        given = list(radii) if isinstance(radii, Sequence) and not isinstance(radii, str) else []
-        pairs = [one if isinstance(one, tuple | list) else (one, 1.0) for one in given]
+        entries = list(radii) if isinstance(radii, Sequence) and not isinstance(radii, str) else []
+        pairs = [entry if isinstance(entry, tuple | list) else (entry, 1.0) for entry in entries]
         if not pairs or any(len(pair) != 2 for pair in pairs):
             raise InputError(f"radii of stones must be a list of metres, or of (radius, share), got {radii!r}")
-        if len({isinstance(one, tuple | list) for one in given}) > 1:
+        if len({isinstance(entry, tuple | list) for entry in entries}) > 1:
             raise InputError("radii of stones have shares of the volume all or none; give each as (radius, share)")
         # Sizes without shares have the same.
-        even = 1.0 if isinstance(given[0], tuple | list) else 1 / len(pairs)
+        even = 1.0 if isinstance(entries[0], tuple | list) else 1 / len(pairs)
         return cls(
             Drawn(fraction, tuple(sorted(((r, s * even) for r, s in pairs), reverse=True)), seed, gap, cover),
             material,
@@ -238,17 +239,17 @@ class Aggregates:
         nz, ny, nx = self.packing.numbers.shape
         return (nz, ny, nx), self.packing.spacing
 
-    def spheres(self, window: Window, others: Sequence[Spheres] = ()) -> Spheres | None:
+    def spheres(self, window: Window, present: Sequence[Spheres] = ()) -> Spheres | None:
         """The stones in a window, drawn if they are drawn; None of a scan.
 
-        others: stones that are there already. Raises InputError for a packing that cannot be reached, a stone larger
+        present: stones that are there already. Raises InputError for a packing that cannot be reached, a stone larger
         than the window or beyond it.
         """
         if isinstance(self.packing, Scanned):
             return None
         if isinstance(self.packing, Spheres):
             return _inside(self.packing, window)
-        return _drawn(self.packing, window, others)
+        return _drawn(self.packing, window, present)
 
     def numbers(self, spheres: Spheres | None, x: Array, y: Array, z: Array) -> Any:
         """Number of the stone, from 1, of each cell, 0 for none, (nz, ny, nx). x, y, z: centres, m."""
@@ -270,8 +271,8 @@ class Aggregates:
 
 def check_apart(*groups: Spheres) -> None:
     """Raise InputError where spheres overlap."""
-    at = np.concatenate([np.stack([one.x, one.y, one.z], axis=1) for one in groups])
-    radius = np.concatenate([one.radius for one in groups])
+    at = np.concatenate([np.stack([group.x, group.y, group.z], axis=1) for group in groups])
+    radius = np.concatenate([group.radius for group in groups])
     pairs = cKDTree(at).query_pairs(2 * float(radius.max()), output_type="ndarray")
     if not len(pairs):
         return
@@ -279,10 +280,11 @@ def check_apart(*groups: Spheres) -> None:
     depth = reach - np.linalg.norm(at[pairs[:, 0]] - at[pairs[:, 1]], axis=1)
     wrong = depth > _TOUCH * reach
     if wrong.any():
-        one, other = pairs[np.argmax(depth)]
+        first, second = pairs[np.argmax(depth)]
         raise InputError(
-            f"{int(wrong.sum())} pair(s) of stones overlap, stones {min(one, other) + 1} and {max(one, other) + 1} "
-            f"by {depth.max() * 1e3:.3g} mm; stones are solid: move them apart or give smaller radii"
+            f"{int(wrong.sum())} pair(s) of stones overlap, stones {min(first, second) + 1} and "
+            f"{max(first, second) + 1} by {depth.max() * 1e3:.3g} mm; stones are solid: move them apart or give "
+            "smaller radii"
         )
 
 
@@ -314,11 +316,11 @@ def _check_size(radius: float, window: Window) -> None:
         )
 
 
-def _drawn(packing: Drawn, window: Window, others: Sequence[Spheres]) -> Spheres:
+def _drawn(packing: Drawn, window: Window, present: Sequence[Spheres]) -> Spheres:
     """Spheres in a window, see `Aggregates.random`."""
     _check_size(packing.radii[0][0] + packing.cover, window)
-    one = packing.fraction * window.volume / (4 / 3 * math.pi)
-    counts = [round(one * share / radius**3) for radius, share in packing.radii]
+    single = packing.fraction * window.volume / (4 / 3 * math.pi)
+    counts = [round(single * share / radius**3) for radius, share in packing.radii]
     if not sum(counts):
         least = 4 / 3 * math.pi * packing.radii[-1][0] ** 3 / window.volume
         raise InputError(
@@ -334,7 +336,7 @@ def _drawn(packing: Drawn, window: Window, others: Sequence[Spheres]) -> Spheres
     sizes = np.repeat([radius for radius, _ in packing.radii], counts)
     most = 0
     for _ in range(_STARTS):
-        places = _placed(generator, sizes, packing, window, others)
+        places = _placed(generator, sizes, packing, window, present)
         if len(places) == len(sizes):
             return Spheres(places[:, 0], places[:, 1], places[:, 2], sizes)
         most = max(most, len(places))
@@ -343,10 +345,10 @@ def _drawn(packing: Drawn, window: Window, others: Sequence[Spheres]) -> Spheres
     raise InputError(_no_room(packing, sizes[:most], planned, window))
 
 
-def _placed(generator: Any, sizes: Array, packing: Drawn, window: Window, others: Sequence[Spheres]) -> Array:
+def _placed(generator: Any, sizes: Array, packing: Drawn, window: Window, present: Sequence[Spheres]) -> Array:
     """Places (n, 3) of the first n spheres of these sizes, as many as find room."""
-    known = [np.stack([one.x, one.y, one.z, one.radius], axis=1) for one in others]
-    placed = np.concatenate([*known, np.empty((0, 4))])
+    rows = [np.stack([spheres.x, spheres.y, spheres.z, spheres.radius], axis=1) for spheres in present]
+    placed = np.concatenate([*rows, np.empty((0, 4))])
     first = len(placed)
     for radius in sizes:
         low = np.array([radius - window.length / 2, radius - window.width / 2, radius + packing.cover])
@@ -368,8 +370,8 @@ def _room(generator: Any, placed: Array, reach: float, low: Array, high: Array) 
             apart = ((places[:, None] - placed[:, :3]) ** 2).sum(axis=-1)
             free = (apart >= (placed[:, 3] + reach) ** 2).all(axis=1)
         if free.any():
-            found: Array = places[int(np.argmax(free))]
-            return found
+            roomiest: Array = places[int(np.argmax(free))]
+            return roomiest
     return None
 
 

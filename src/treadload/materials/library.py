@@ -110,25 +110,25 @@ def _bituminous(common: _AllBituminous | None) -> list[Mix]:
     if common is None:
         return []
     mixes = []
-    for name, own in common.mixes.items():
+    for name, mix in common.mixes.items():
         try:
-            rows = _moduli(own.moduli, common.frequency, _ratios(own, common))
+            rows = _moduli(mix.moduli, common.frequency, _ratios(mix, common))
         except InputError as error:
             raise InputError(f"bituminous.mixes.{name}: {error}") from error
-        fatigue = own.epsilon_6, common.slope, own.scatter, own.calibration
+        fatigue = mix.epsilon_6, common.slope, mix.scatter, mix.calibration
         moduli = tuple(rows), tuple(rows.values())
         at = common.poisson, common.frequency
-        mixes.append(Mix(name, common.temperatures, *moduli, *at, *fatigue, doubts=own.doubts))
+        mixes.append(Mix(name, common.temperatures, *moduli, *at, *fatigue, doubts=mix.doubts))
     return mixes
 
 
-def _ratios(own: _Bituminous, common: _AllBituminous) -> Mapping[str, tuple[float, ...]]:
-    if own.ratios is None:
+def _ratios(mix: _Bituminous, common: _AllBituminous) -> Mapping[str, tuple[float, ...]]:
+    if mix.ratios is None:
         return {}
-    known = common.ratios or {}
-    if own.ratios not in known:
-        raise InputError(f"no table of ratios {own.ratios!r}; known are {', '.join(known)}")
-    return known[own.ratios]
+    tables = common.ratios or {}
+    if mix.ratios not in tables:
+        raise InputError(f"no table of ratios {mix.ratios!r}; known are {', '.join(tables)}")
+    return tables[mix.ratios]
 
 
 def _moduli(
@@ -144,8 +144,10 @@ def _moduli(
         raise InputError(f"a table of ratios needs one for each of the {len(moduli)} moduli, got {len(long)}")
     here = by_frequency[frequency]
     return {
-        other: tuple(modulus * (there / one) for modulus, there, one in zip(moduli, row, here, strict=True))
-        for other, row in sorted(by_frequency.items())
+        frequency: tuple(
+            modulus * (there / at_reference) for modulus, there, at_reference in zip(moduli, row, here, strict=True)
+        )
+        for frequency, row in sorted(by_frequency.items())
     }
 
 
@@ -156,9 +158,9 @@ def _in_hertz(key: str) -> str:
 
 def _hydraulic(tables: Mapping[str, _Hydraulic]) -> list[HydraulicMix]:
     mixes = []
-    for name, own in tables.items():
-        given = {field.name: getattr(own, field.name) for field in fields(own) if field.name != "inverse_slope"}
-        mixes.append(HydraulicMix(name=name, slope=-1 / own.inverse_slope, **given))
+    for name, row in tables.items():
+        columns = {field.name: getattr(row, field.name) for field in fields(row) if field.name != "inverse_slope"}
+        mixes.append(HydraulicMix(name=name, slope=-1 / row.inverse_slope, **columns))
     return mixes
 
 

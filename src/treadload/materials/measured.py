@@ -157,10 +157,10 @@ def _read(path: str | PathLike[str]) -> dict[str, Array]:
         raise InputError(f"{path} holds a cell that is not a number: {error}; the second row is for units") from error
     table = {}
     for name, unit, values in zip(names, units, numbers.T, strict=True):
-        known = _UNITS.get(name)
-        if known is not None and unit not in known:
-            raise InputError(f"{path} gives {name} in {unit!r}; use one of {', '.join(known)}")
-        table[name] = values * (known[unit] if known else 1.0) - (273.15 if (name, unit) == ("T", "K") else 0.0)
+        factors = _UNITS.get(name)
+        if factors is not None and unit not in factors:
+            raise InputError(f"{path} gives {name} in {unit!r}; use one of {', '.join(factors)}")
+        table[name] = values * (factors[unit] if factors else 1.0) - (273.15 if (name, unit) == ("T", "K") else 0.0)
     return table
 
 
@@ -176,9 +176,9 @@ def _length(table: dict[str, Array]) -> int:
     return next(iter(table.values())).size
 
 
-def _columns(**given: ArrayLike) -> Sequence[Array]:
+def _columns(**table: ArrayLike) -> Sequence[Array]:
     """Arrays of one length in the order of the first; all but a third finite and positive. Raises InputError."""
-    arrays = {name: np.asarray(values, dtype=float) for name, values in given.items()}
+    arrays = {name: np.asarray(values, dtype=float) for name, values in table.items()}
     lengths = {values.shape for values in arrays.values()}
     if len(lengths) != 1 or any(values.ndim != 1 or values.size < 2 for values in arrays.values()):
         raise InputError(f"{', '.join(arrays)} must be lists of one length, 2 or more, got {sorted(lengths)}")

@@ -228,7 +228,7 @@ def _power(f: float, frequencies: Sequence[float], moduli: Sequence[float]) -> f
     """Modulus, with ln E linear in ln f between the tabulated ones and beyond."""
     if len(moduli) == 1:
         return moduli[0]
-    i, part = _segment(math.log(f), [math.log(one) for one in frequencies])
+    i, part = _segment(math.log(f), [math.log(knot) for knot in frequencies])
     return float(moduli[i] * (moduli[i + 1] / moduli[i]) ** part)
 
 

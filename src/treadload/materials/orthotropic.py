@@ -80,9 +80,9 @@ class Orthotropic(Anisotropic):
 
     def stiffer(self, factor: float) -> Orthotropic:
         """As in `Anisotropic`."""
-        one, two, three = (factor * value for value in self.moduli)
+        first, two, three = (factor * value for value in self.moduli)
         g_12, g_13, g_23 = (factor * value for value in self.shear_moduli)
-        return replace(self, moduli=(one, two, three), shear_moduli=(g_12, g_13, g_23))
+        return replace(self, moduli=(first, two, three), shear_moduli=(g_12, g_13, g_23))
 
     @property
     def rotation(self) -> Array:
@@ -92,34 +92,36 @@ class Orthotropic(Anisotropic):
     @property
     def stiffness(self) -> Array:
         """(6, 6), Pa, in x, y, z: up to 21 constants, in the order xx, yy, zz, yz, xz, xy of engineering shears."""
-        own = np.linalg.inv(self._own_compliance())
-        own = 0.5 * (own + own.T)
+        inverse = np.linalg.inv(self._own_compliance())
+        inverse = 0.5 * (inverse + inverse.T)
         if (self.yaw, self.pitch, self.roll) == (0.0, 0.0, 0.0):
-            return np.asarray(own)
-        return turning.rotated(own, self.rotation)
+            return np.asarray(inverse)
+        return turning.rotated(inverse, self.rotation)
 
     @property
     def _most(self) -> tuple[float, ...]:
-        one, two, three = self.moduli
-        return math.sqrt(one / two), math.sqrt(one / three), math.sqrt(two / three)
+        first, two, three = self.moduli
+        return math.sqrt(first / two), math.sqrt(first / three), math.sqrt(two / three)
 
     def _own_compliance(self) -> Array:
         """(6, 6), 1/Pa, along its own axes."""
-        (one, two, three), (g_12, g_13, g_23) = self.moduli, self.shear_moduli
-        result = np.diag([1 / one, 1 / two, 1 / three, 1 / g_23, 1 / g_13, 1 / g_12])
-        for (i, j), ratio, modulus in zip(((0, 1), (0, 2), (1, 2)), self.poisson, (one, one, two), strict=True):
+        (first, two, three), (g_12, g_13, g_23) = self.moduli, self.shear_moduli
+        result = np.diag([1 / first, 1 / two, 1 / three, 1 / g_23, 1 / g_13, 1 / g_12])
+        for (i, j), ratio, modulus in zip(((0, 1), (0, 2), (1, 2)), self.poisson, (first, first, two), strict=True):
             result[i, j] = result[j, i] = -ratio / modulus
         return result
 
     def __str__(self) -> str:
-        said = ", ".join(f"{name} = {value / 1e6:g} MPa" for name, value in
+        moduli = ", ".join(f"{name} = {value / 1e6:g} MPa" for name, value in
                          zip(_MODULI + _SHEARS, self.moduli + self.shear_moduli, strict=True))  # fmt: skip
         turned = ", ".join(
             f"{name} {math.degrees(value):.4g}°"
             for name, value in (("yaw", self.yaw), ("pitch", self.pitch), ("roll", self.roll))
             if value
         )
-        return f"orthotropic, {said}, {_listed(_RATIOS, self.poisson)}" + (f", turned by {turned}" if turned else "")
+        return f"orthotropic, {moduli}, {_listed(_RATIOS, self.poisson)}" + (
+            f", turned by {turned}" if turned else ""
+        )
 
     __repr__ = as_call
 
@@ -139,10 +141,10 @@ def _listed(names: tuple[str, ...], values: tuple[float, ...]) -> str:
 
 def _three(name: str, values: Any, words: tuple[str, ...]) -> tuple[float, ...]:
     """Three numbers. Raises InputError."""
-    given = () if isinstance(values, str) else tuple(np.atleast_1d(np.asarray(values, object)))
-    if len(given) != 3 or any(isinstance(one, bool | str) or not np.isscalar(one) for one in given):
+    entries = () if isinstance(values, str) else tuple(np.atleast_1d(np.asarray(values, object)))
+    if len(entries) != 3 or any(isinstance(entry, bool | str) or not np.isscalar(entry) for entry in entries):
         raise InputError(f"{name} must be three numbers, {', '.join(words)}, got {values!r}")
-    numbers = tuple(float(one) for one in given)
-    if not all(math.isfinite(one) for one in numbers):
+    numbers = tuple(float(entry) for entry in entries)
+    if not all(math.isfinite(number) for number in numbers):
         raise InputError(f"{name} must be three finite numbers, {', '.join(words)}, got {values!r}")
     return numbers

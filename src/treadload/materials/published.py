@@ -57,15 +57,15 @@ def read_materials(path: str | os.PathLike[str]) -> list[PublishedMaterial]:
     from treadload.read import Choice, read
 
     def publish(material: Any, table: Any, folder: Path) -> PublishedMaterial:
-        made: Any = shifted(material, table, folder)
+        law: Any = shifted(material, table, folder)
         doubts = tuple(map(sentence, table.doubts or ()))
-        return PublishedMaterial("", made, table.temperature, sentence(table.source or ""), doubts)
+        return PublishedMaterial("", law, table.temperature, sentence(table.source or ""), doubts)
 
     more = {"temperature": Celsius, "source": str, "doubts": tuple[str, ...]}
     kinds = Choice(MATERIALS, more=lambda target: {**shift_of(target), **more}, finish=publish)
     file = Path(path)
     by_name = read(dict[str, Annotated[Any, kinds]], read_tables(file), str(file))
-    return [replace(one, name=name) for name, one in by_name.items()]
+    return [replace(material, name=name) for name, material in by_name.items()]
 
 
 def _words(entry: PublishedMaterial) -> str:

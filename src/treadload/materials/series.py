@@ -33,9 +33,9 @@ def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance
     """
     if not 0 < lowest < highest < math.inf:
         raise InputError(f"a range of frequencies needs 0 < lowest < highest, rad/s, got {lowest:g} and {highest:g}")
-    own = material if isinstance(material, Prony) else getattr(material, "prony", None)
-    if isinstance(own, Prony):
-        return own
+    prony = material if isinstance(material, Prony) else getattr(material, "prony", None)
+    if isinstance(prony, Prony):
+        return prony
     try:
         long_term = material.rubbery.modulus
     except InputError:

@@ -8,12 +8,12 @@ from typing import Annotated, Any
 
 from treadload.materials.kinds import Material, TemperatureDependent
 from treadload.materials.temperature import Thermorheological
-from treadload.read import Choice, Made, made_by
+from treadload.read import Choice, TargetTable, made_by
 from treadload.registry import MATERIALS, SHIFTS
 from treadload.units import Celsius
 
 
-def _tested(law: Any, table: Made, folder: Path) -> tuple[Any, tuple[float, float] | None]:
+def _tested(law: Any, table: TargetTable, folder: Path) -> tuple[Any, tuple[float, float] | None]:
     """A law of shift, and the temperatures of the tests behind it, °C."""
     return law, getattr(table, "tested", None)
 
@@ -29,17 +29,17 @@ SHIFT = Choice(
 
 def shift_of(target: Callable[..., Any]) -> Mapping[str, Any]:
     """Times of a viscoelastic material may shift with temperature."""
-    viscoelastic = any(hasattr(one, "complex_modulus") for one in made_by(target) if isinstance(one, type))
+    viscoelastic = any(hasattr(kind, "complex_modulus") for kind in made_by(target) if isinstance(kind, type))
     # A protocol stands for a material of which the maker knows more.
-    concrete = not any(getattr(one, "_is_protocol", False) for one in made_by(target))
+    concrete = not any(getattr(kind, "_is_protocol", False) for kind in made_by(target))
     return {"shift": Annotated[Any, SHIFT]} if viscoelastic and concrete else {}
 
 
-def shifted(material: Any, table: Made, folder: Path) -> Material | TemperatureDependent:
+def shifted(material: Any, table: TargetTable, folder: Path) -> Material | TemperatureDependent:
     """The material, or one that waits for its temperature."""
     shift = getattr(table, "shift", None)
-    made: Material | TemperatureDependent = material
-    return made if shift is None else Thermorheological(material, *SHIFT.build(shift, folder))
+    shifted_material: Material | TemperatureDependent = material
+    return shifted_material if shift is None else Thermorheological(material, *SHIFT.build(shift, folder))
 
 
 ROAD_MATERIAL = Choice(

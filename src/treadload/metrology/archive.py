@@ -47,27 +47,29 @@ def check_x3p(content: bytes, name: str) -> tuple[int, int]:
 
 def _members(archive: zipfile.ZipFile, name: str) -> dict[str, zipfile.ZipInfo]:
     """Members by name, once all of them are bounded."""
-    found = archive.infolist()
-    if len(found) > _MOST_MEMBERS:
-        raise InputError(f"{name!r} has {len(found)} members, an X3P file has at most {_MOST_MEMBERS}")
-    total = sum(one.file_size for one in found)
+    entries = archive.infolist()
+    if len(entries) > _MOST_MEMBERS:
+        raise InputError(f"{name!r} has {len(entries)} members, an X3P file has at most {_MOST_MEMBERS}")
+    total = sum(member.file_size for member in entries)
     if total > _MOST_UNPACKED:
         raise InputError(
             f"{name!r} unpacks to {total} bytes, more than {_MOST_UNPACKED}; cut a piece of the surface, or do not "
             "trust the file"
         )
-    for one in found:
-        if _UNSAFE.search(one.filename):
-            raise InputError(f"{name!r} has a member outside its archive, {one.filename!r}; do not trust the file")
-        if one.flag_bits & 1 or one.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-            raise InputError(f"{one.filename!r} in {name!r} is encrypted or packed as no X3P file is; export again")
-        if one.file_size > _SMALL and one.file_size > _MOST_RATIO * one.compress_size:
+    for member in entries:
+        if _UNSAFE.search(member.filename):
+            raise InputError(f"{name!r} has a member outside its archive, {member.filename!r}; do not trust the file")
+        if member.flag_bits & 1 or member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
             raise InputError(
-                f"{one.filename!r} in {name!r} unpacks from {one.compress_size} to {one.file_size} bytes, more than "
-                f"{_MOST_RATIO} times; nothing measured packs so small, do not trust the file"
+                f"{member.filename!r} in {name!r} is encrypted or packed as no X3P file is; export again"
             )
-    members = {one.filename: one for one in found}
-    if len(members) < len(found):
+        if member.file_size > _SMALL and member.file_size > _MOST_RATIO * member.compress_size:
+            raise InputError(
+                f"{member.filename!r} in {name!r} unpacks from {member.compress_size} to {member.file_size} bytes, "
+                f"more than {_MOST_RATIO} times; nothing measured packs so small, do not trust the file"
+            )
+    members = {member.filename: member for member in entries}
+    if len(members) < len(entries):
         raise InputError(f"{name!r} has two members of one name; export it again")
     return members
 

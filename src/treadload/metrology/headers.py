@@ -73,14 +73,14 @@ def _check_text_sdf(content: bytes, name: str) -> tuple[int, int]:
             "types 0 to 7: export it plain"
         )
     counts = [fields[key] for key in ("NumProfiles", "NumPoints")]
-    if not all(re.fullmatch("[0-9]{1,9}", one) for one in counts):
+    if not all(re.fullmatch("[0-9]{1,9}", count) for count in counts):
         raise InputError(f"{name!r} tells of {one_line(' x '.join(counts))} points; both must be whole numbers")
     rows, columns = checked_shape(int(counts[0]), int(counts[1]), name)
     body = content[sum(len(line) + 1 for line in lines[: end + 1]) :]
-    found = sum(1 for _ in re.finditer(rb"\S+", body.partition(b"*")[0]))
-    if found != rows * columns:
+    count = sum(1 for _ in re.finditer(rb"\S+", body.partition(b"*")[0]))
+    if count != rows * columns:
         raise InputError(
-            f"{name!r} tells of {rows} x {columns} points and has {found} heights; it is truncated or damaged, "
+            f"{name!r} tells of {rows} x {columns} points and has {count} heights; it is truncated or damaged, "
             "export or copy it again"
         )
     return rows, columns
@@ -132,7 +132,7 @@ def check_al3d(content: bytes, name: str) -> tuple[int, int]:
     while len(tags) < count:
         _check_length(content, at, _TAG, name, "its tags")
         key, value, end = struct.unpack_from("20s30s2s", content, at)
-        key, value = (one.split(b"\0")[0].decode("latin-1").strip() for one in (key, value))
+        key, value = (field.split(b"\0")[0].decode("latin-1").strip() for field in (key, value))
         if end != b"\r\n" or key in tags:
             raise InputError(f"{name!r} has a broken tag at byte {at}; it is damaged, export or copy it again")
         tags[key] = value
@@ -149,7 +149,7 @@ def check_al3d(content: bytes, name: str) -> tuple[int, int]:
     if missing:
         raise InputError(f"{name!r} lacks the tag {missing[0]}; export a depth map again")
     numbers = [tags[key] for key in needed[:3]]
-    if not all(re.fullmatch("[0-9]{1,10}", one) for one in numbers):
+    if not all(re.fullmatch("[0-9]{1,10}", number) for number in numbers):
         raise InputError(f"{name!r} tells of Rows, Cols, offset {one_line(', '.join(numbers))}; all must be whole")
     _check_scales(name, **{key: _float(tags[key]) for key in needed[3:5]})
     mark = tags["InvalidPixelValue"]

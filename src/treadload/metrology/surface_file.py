@@ -41,10 +41,10 @@ class SurfaceMap:
     source: str
 
 
-def read_surface_map(path: str | os.PathLike[str], *, given: Iterable[object] = ()) -> SurfaceMap:
+def read_surface_map(path: str | os.PathLike[str], *, options: Iterable[object] = ()) -> SurfaceMap:
     """Heights of a surface from X3P (ISO 25178-72), SDF (ISO 25178-71), SUR (Digital Surf) or AL3D (Alicona).
 
-    given: spacing, units and the like that the caller named, None or none: these files bring their own. Raises
+    options: spacing, units and the like that the caller named, None or none: these files bring their own. Raises
     InputError for a file that is missing, damaged, a bomb, no single surface on even cells, or has no measured point,
     and without SurfaceTopography.
     """
@@ -53,7 +53,7 @@ def read_surface_map(path: str | os.PathLike[str], *, given: Iterable[object] = 
     path = Path(path)
     if not os.path.isfile(path):
         raise InputError(f"no file {str(path)!r}: give the path of an X3P, SDF, SUR or AL3D surface")
-    named = [one for one in given if one is not None]
+    named = [option for option in options if option is not None]
     if named:
         raise InputError(
             f"{path.name!r} brings its own spacing and units, and {named[0]!r} was given; leave spacing, cell, units "
@@ -86,14 +86,14 @@ def read_surface_map(path: str | os.PathLike[str], *, given: Iterable[object] = 
         )
     if not (0 < dx < np.inf and 0 < dy < np.inf):
         raise InputError(f"{path.name!r} has points {dx:g} x {dy:g} m apart; a spacing must be a positive length")
-    known = int(np.isfinite(heights).sum())
-    if not known:
+    finite = int(np.isfinite(heights).sum())
+    if not finite:
         raise InputError(f"none of the {heights.size} points of {path.name!r} was measured; export it again")
     heights[~np.isfinite(heights)] = np.nan
-    told = f"{path.name}, {kind.upper()} of {shape[1]} x {shape[0]} points"
-    if known < heights.size:
-        told += f", {heights.size - known} of them not measured"
-    return SurfaceMap(np.ascontiguousarray(heights), dx, dy, told)
+    source = f"{path.name}, {kind.upper()} of {shape[1]} x {shape[0]} points"
+    if finite < heights.size:
+        source += f", {heights.size - finite} of them not measured"
+    return SurfaceMap(np.ascontiguousarray(heights), dx, dy, source)
 
 
 def _library(suffix: str) -> Any:

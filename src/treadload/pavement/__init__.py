@@ -6,6 +6,7 @@ from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, Bo
 from treadload.pavement.catalogue import Structure
 from treadload.pavement.heating import Heat, RoadTemperatures, bells, road_temperatures
 from treadload.pavement.layer import Layer
+from treadload.pavement.methods import methods_of
 from treadload.pavement.obstacles import RoadJoint, RoadPlate, RoadStep
 from treadload.pavement.relief import Relief
 from treadload.pavement.rows import LayerRow, layer_rows, road_in_words
@@ -45,6 +46,7 @@ __all__ = [
     "is_bituminous",
     "layer_rows",
     "lift_below",
+    "methods_of",
     "read_weather",
     "road_in_words",
     "road_temperatures",

@@ -25,11 +25,13 @@ def bituminous_thickness(road: Pavement, layer: int) -> float:
     layer that is not bituminous or is semi-infinite.
     """
     number = _number(road, layer)
-    own = road.layers[number]
-    if own.thickness is None or is_bituminous(elastic_part(own.material)) is False:
-        why = "is semi-infinite" if own.thickness is None else f"is not asphalt ({own.material})"
-        raise InputError(f"layer {number + 1} {own.name!r} {why}; ask for a bituminous layer, or give the thickness")
-    total = own.thickness
+    course = road.layers[number]
+    if course.thickness is None or is_bituminous(elastic_part(course.material)) is False:
+        why = "is semi-infinite" if course.thickness is None else f"is not asphalt ({course.material})"
+        raise InputError(
+            f"layer {number + 1} {course.name!r} {why}; ask for a bituminous layer, or give the thickness"
+        )
+    total = course.thickness
     for step in (-1, 1):
         at = number + step
         while 0 <= at < len(road.layers) and _counts(road.layers[at], at):
@@ -54,8 +56,8 @@ def lift_below(road: Pavement, layer: int) -> bool:
     number = _number(road, layer)
     if number + 1 >= len(road.layers):
         return False
-    own, below = road.layers[number], road.layers[number + 1]
-    return isinstance(own.material, Mix) and own.material == below.material and own.bond != FRICTIONLESS
+    upper, below = road.layers[number], road.layers[number + 1]
+    return isinstance(upper.material, Mix) and upper.material == below.material and upper.bond != FRICTIONLESS
 
 
 def _number(road: Pavement, layer: int) -> int:

@@ -159,17 +159,17 @@ class TestedBond(BondLaw):
             )
         if not (np.diff(self.temperatures) > 0).all():
             raise InputError(f"the temperatures of a tested bond must rise, got {list(self.temperatures)} °C")
-        for one in self.stiffnesses:
-            positive("the stiffness of a tested bond", one, "Pa/m", "1000 MPa/m is 1e9")
+        for stiffness in self.stiffnesses:
+            positive("the stiffness of a tested bond", stiffness, "Pa/m", "1000 MPa/m is 1e9")
 
     @classmethod
     def of(cls, tests: Iterable[ShearTest]) -> Self:
         """Through shear tests: the geometric mean of those at one temperature. Raises InputError."""
-        found: dict[float, list[float]] = {}
-        for one in tests:
-            found.setdefault(one.temperature, []).append(math.log(one.stiffness))
-        rising = sorted(found)
-        return cls(tuple(rising), tuple(math.exp(float(np.mean(found[warm]))) for warm in rising))
+        logarithms: dict[float, list[float]] = {}
+        for test in tests:
+            logarithms.setdefault(test.temperature, []).append(math.log(test.stiffness))
+        rising = sorted(logarithms)
+        return cls(tuple(rising), tuple(math.exp(float(np.mean(logarithms[warm]))) for warm in rising))
 
     @property
     def stiffness(self) -> float:  # type: ignore[override]

@@ -80,8 +80,8 @@ def find_structure(name: str) -> Structure:
             layers = notation.read_layers(name)
         except InputError as error:
             raise InputError(f"{unknown}; as layers it cannot be read: {error}") from error
-    held = notation.bonds([material for material, _ in layers])
-    courses = tuple(Course(one.name, deep, bond) for (one, deep), bond in zip(layers, held, strict=True))
+    interfaces = notation.bonds([material for material, _ in layers])
+    courses = tuple(Course(course.name, deep, bond) for (course, deep), bond in zip(layers, interfaces, strict=True))
     return Structure(notation.in_words(layers), "layers as written", courses)
 
 
@@ -92,8 +92,14 @@ def read_structures(path: str | os.PathLike[str]) -> list[Structure]:
 
     tables: _File = read(_File, read_tables(Path(path)), str(Path(path)))
     return [
-        Structure(one.name, one.title, one.layers, sentence(one.source), tuple(map(sentence, one.doubts)))
-        for one in tables.structures
+        Structure(
+            structure.name,
+            structure.title,
+            structure.layers,
+            sentence(structure.source),
+            tuple(map(sentence, structure.doubts)),
+        )
+        for structure in tables.structures
     ]
 
 

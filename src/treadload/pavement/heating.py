@@ -117,40 +117,40 @@ def road_temperatures(
     Sources: h of Vehrencamp (1953) as in NCHRP 1-37A; where the sky is not measured its emissivity 0.77 - 0.28·
     10^(-0.074 p), p the vapour's pressure in mmHg (Geiger); both as coded in ProductOneME (commit c89fe2b).
     """
-    own = Heat() if heat is None else heat
-    k, c = own.of(road)
+    exchange = Heat() if heat is None else heat
+    k, c = exchange.of(road)
     bottoms = road.interfaces[: len(road.layers) - 1]
     cells = graded(bottoms, k, c, first=_FIRST, growth=_GROWTH, depth=_DEPTH)
     # Two steps of a weather of hours instead of one would move no temperature by more than 0.06 K.
     step, count = weather.step * 3600, len(weather.air_temperature) - 1
     assumed: list[str] = []
     if weather.surface_temperature is not None:
-        held = weather.surface_temperature.tolist()
+        surface_temperatures = weather.surface_temperature.tolist()
 
         def surface(at: float) -> float:
-            return _between(held, at / step)
+            return _between(surface_temperatures, at / step)
 
         def run(start: Array) -> Array:
             return conducted(cells, start, step, count, surface=surface)
 
         mean, method = float(weather.surface_temperature.mean()), "heat conduction below the measured surface"
     else:
-        flux = _Balance(weather, own, assumed)
+        flux = _Balance(weather, exchange, assumed)
 
         def run(start: Array) -> Array:
             return conducted(cells, start, step, count, flux=flux)
 
         mean, method = float(weather.air_temperature.mean()), "heat conduction below a balance at the surface"
     first = run(np.full(len(cells.thickness), mean))
-    found = run(first[-1, 1:])
-    if not np.isfinite(found).all():
+    cycle = run(first[-1, 1:])
+    if not np.isfinite(cycle).all():
         raise ConvergenceError("the surface found no temperature that balances what it takes up and gives off")
-    asked = np.unique(np.append(np.asarray(depths, dtype=float), 0.0))
+    levels = np.unique(np.append(np.asarray(depths, dtype=float), 0.0))
     return RoadTemperatures(
         weather.start,
         weather.step,
-        asked,
-        read_at(cells, found, asked),
+        levels,
+        read_at(cells, cycle, levels),
         weather.air_temperature,
         method,
         tuple(assumed),
@@ -185,7 +185,7 @@ class _Balance:
                 )
             humidity = np.full(count, HUMIDITY) if weather.humidity is None else weather.humidity
             sky = sky_emissivity(weather.air_temperature, humidity) * _BOLTZMANN * air**4
-        self.given = (heat.absorptivity * weather.radiation + heat.emissivity * sky).tolist()
+        self.absorbed = (heat.absorptivity * weather.radiation + heat.emissivity * sky).tolist()
         self.air = weather.air_temperature.tolist()
         self.blown = (_FORCED * wind**0.7).tolist()
         self.emissivity = heat.emissivity
@@ -193,7 +193,7 @@ class _Balance:
     def __call__(self, at: float) -> Callable[[float], tuple[float, float]]:
         """At a time, s: the flux, W/m², and its slope, over the surface temperature, °C."""
         row = at / self.seconds
-        air, given = _between(self.air, row), _between(self.given, row)
+        air, radiation = _between(self.air, row), _between(self.absorbed, row)
         blown = _between(self.blown, row)
         radiates = self.emissivity * _BOLTZMANN
 
@@ -201,7 +201,7 @@ class _Balance:
             kelvin, warmer = top + _KELVIN, top - air
             forced = blown * (kelvin - 0.5 * warmer) ** 0.3
             free = _FREE * abs(warmer) ** 0.3
-            into = given - radiates * kelvin**4 - (forced + free) * warmer
+            into = radiation - radiates * kelvin**4 - (forced + free) * warmer
             # The film's own slope with the mean temperature is a thousandth of the rest.
             return into, -4 * radiates * kelvin**3 - forced - 1.3 * free
 
@@ -228,7 +228,7 @@ def bells(
     script for deflections codes them, the source's page was not had to its end.
     """
     positive("depth", depth, "metres", "BELLS holds inside the asphalt")
-    ir, air, at = (np.asarray(one, dtype=float) for one in (surface, mean_air_before, hour))
+    ir, air, at = (np.asarray(series, dtype=float) for series in (surface, mean_air_before, hour))
 
     def sine(shift: float, first: float, last: float) -> Array:
         clock = np.where(at < first, at + 24, at)

@@ -45,10 +45,10 @@ def layer_rows(road: Pavement, temperatures: Sequence[float | None] = ()) -> tup
     road: at its temperature. temperatures: °C, one per layer, those that chose its materials.
     Raises InputError for a layer that still needs a temperature.
     """
-    known = [*temperatures, *[None] * (len(road.layers) - len(temperatures))]
+    known_temperatures = [*temperatures, *[None] * (len(road.layers) - len(temperatures))]
     return tuple(
         _row(layer, temperature, _bond_below(road, number))
-        for number, (layer, temperature) in enumerate(zip(road.layers, known, strict=True))
+        for number, (layer, temperature) in enumerate(zip(road.layers, known_temperatures, strict=True))
     )
 
 

@@ -36,7 +36,7 @@ def stack_of(road: Pavement, materials: Sequence[Solid] | None = None, *, sticki
         tuple(math.inf if layer.thickness is None else layer.thickness for layer in layers),
         tuple(springs),
         road.rigid_base,
-        () if all(isinstance(one, Elastic) for one in materials) else tuple(map(upright_of, materials)),
+        () if all(isinstance(material, Elastic) for material in materials) else tuple(map(upright_of, materials)),
     )
 
 

@@ -195,14 +195,14 @@ class Pavement:
 
         Raises InputError for several.
         """
-        found = [k for k, layer in enumerate(self.layers) if isinstance(layer.bond, Parted)]
-        if len(found) > 1:
-            names = " and ".join(str(k + 1) for k in found)
+        debonded = [k for k, layer in enumerate(self.layers) if isinstance(layer.bond, Parted)]
+        if len(debonded) > 1:
+            names = " and ".join(str(k + 1) for k in debonded)
             raise InputError(
                 f"interfaces {names} are both parted with friction, and a response follows one such face; give the "
                 "others FRICTIONLESS or Bond(stiffness=...)"
             )
-        return found[0] if found else None
+        return debonded[0] if debonded else None
 
     @property
     def sticking(self) -> Pavement:
@@ -263,7 +263,7 @@ class Pavement:
 
     def _with_materials(self, materials: Sequence[Material | TemperatureDependent]) -> Pavement:
         pairs = zip(self.layers, materials, strict=True)
-        return Pavement([replace(layer, material=one) for layer, one in pairs], rigid_base=self.rigid_base)
+        return Pavement([replace(layer, material=material) for layer, material in pairs], rigid_base=self.rigid_base)
 
     __repr__ = as_call
 

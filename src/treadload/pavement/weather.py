@@ -59,9 +59,9 @@ class Weather:
         if not 0 < self.step <= _LONGEST:
             raise InputError(f"rows of a climate must stand at most {_LONGEST:g} hours apart, got {self.step:g}")
         for name in _COLUMNS:
-            given = getattr(self, name)
-            if given is not None:
-                object.__setattr__(self, name, np.asarray(given, dtype=float))
+            series = getattr(self, name)
+            if series is not None:
+                object.__setattr__(self, name, np.asarray(series, dtype=float))
         count = len(self.air_temperature)
         if count * self.step < 24:
             raise InputError(f"a climate needs a day of hours at least, got {count} rows {self.step:g} h apart")
@@ -168,12 +168,12 @@ def _read_table(path: Path) -> Weather:
         raise InputError(f"{path}: no column {missing!r}; it has {', '.join(names)}")
     if len(table.rows) < 3:
         raise InputError(f"{path}: {len(table.rows) - 1} rows are no climate; it needs a day of hours at least")
-    known = {column: at for column, at in places.items() if at is not None}
+    columns = {column: at for column, at in places.items() if at is not None}
     clock = names.index("time")
     times = [_stamp(path, line, row[clock]) for line, row in zip(table.lines[1:], table.rows[1:], strict=True)]
     step = _step(path, times)
-    values, _ = table.values(list(known.values()), first=1, name=lambda column: names[column])
-    return _made(path, times[0], step, dict(zip(known, values.T, strict=True)))
+    values, _ = table.values(list(columns.values()), first=1, name=lambda column: names[column])
+    return _weather_of(path, times[0], step, dict(zip(columns, values.T, strict=True)))
 
 
 def _read_epw(path: Path) -> Weather:
@@ -186,20 +186,22 @@ def _read_epw(path: Path) -> Weather:
             month, day, hour = (int(float(cell)) for cell in row[1:4])
             # Months of a typical year come from different years; the hour that ends at 1 is the first.
             times.append(datetime(2000 if leap else 2001, month, day) + timedelta(hours=hour - 0.5))
-            found = [float(row[at]) for at, _ in _EPW.values()]
+            numbers = [float(row[at]) for at, _ in _EPW.values()]
         except (ValueError, IndexError, OverflowError) as error:
             raise InputError(
                 f"{path}, line {number}: not an hour of an EPW file ({error}); its second to fourth number are "
                 "month, day and hour"
             ) from error
-        values.append([np.nan if one >= none else one for one, (_, none) in zip(found, _EPW.values(), strict=True)])
+        values.append(
+            [np.nan if number >= none else number for number, (_, none) in zip(numbers, _EPW.values(), strict=True)]
+        )
     if len(rows) < 24:
         raise InputError(f"{path}: an EPW file has {_EPW_HEAD} lines and then 8760 hours, got {len(rows)}")
     step = _step(path, times)
     columns = dict(zip(_EPW, np.array(values).T, strict=True))
     # What a road can do without is left out where an hour lacks it.
     optional = ("humidity", "sky", "wind")
-    return _made(
+    return _weather_of(
         path, times[0], step, {k: v for k, v in columns.items() if k not in optional or not np.isnan(v).any()}
     )
 
@@ -212,7 +214,7 @@ def _lines(path: Path) -> list[list[str]]:
     return [line.split(",") for line in text.splitlines() if line.strip()]
 
 
-def _made(path: Path, start: datetime, step: float, columns: Mapping[str, Any]) -> Weather:
+def _weather_of(path: Path, start: datetime, step: float, columns: Mapping[str, Any]) -> Weather:
     try:
         return Weather(start, step, **columns, source=path.name)
     except InputError as error:

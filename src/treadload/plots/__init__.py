@@ -1,10 +1,11 @@
 """Figures of contact, response and verdict: functions of datasets that return a matplotlib Figure."""
 
-from treadload.plots.accessors import ContactPlots, ResponsePlots, VerdictPlots
+from treadload.plots import interactive as interactive
 from treadload.plots.bowl import deflection_bowl
 from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.climate import day_temperatures, season_moduli
 from treadload.plots.compare import compare_pressure, compare_strain
+from treadload.plots.contact import height_map, pressure, shear, stick_slip
 from treadload.plots.crossing import crossing_contacts, crossing_history
 from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
@@ -23,39 +24,16 @@ from treadload.plots.kit.layers import both_sides
 from treadload.plots.kit.places import places_under
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
-from treadload.plots.others import (
-    BondComparisonPlots,
-    BondVerdictPlots,
-    CalibrationPlots,
-    CreepCurvePlots,
-    CrossingPlots,
-    EnvelopedPlots,
-    EquivalentsPlots,
-    FieldsPlots,
-    FootprintComparisonPlots,
-    GrowthPlots,
-    HeterogeneousPlots,
-    IndentationPlots,
-    LifePlots,
-    PassesPlots,
-    ReliabilityPlots,
-    RollingResistancePlots,
-    SensitivityPlots,
-    TexturePlots,
-    ThicknessDesignPlots,
-    TireCardPlots,
-    TransientPlots,
-    TurnPlots,
-    UniformPlots,
-)
+from treadload.plots.panels import strain_panels
 from treadload.plots.passes import drum_contact, plastic_strain, residual_stress, rut_profile, shakedown_map
 from treadload.plots.plain import losses, plain_map
+from treadload.plots.profile import strain_profiles
 from treadload.plots.reliability import reliability_inputs, reliability_years
+from treadload.plots.response import depth_slice, strain_directions
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.ruts import life_rut
 from treadload.plots.stones import stones_in_mortar
-from treadload.plots.sweeps.accessors import MorrisPlots, SobolPlots, SweepPlots, TornadoPlots
 from treadload.plots.sweeps.curves import study_curve, study_curves, study_slip_curve
 from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
@@ -63,42 +41,11 @@ from treadload.plots.tearing import tearing
 from treadload.plots.texture import enveloped_pressure, texture_contact
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
-from treadload.plots.verdict import fatigue_line
-from treadload.plots.wear import WearPlots, tread_wear
+from treadload.plots.verdict import cracks, fatigue_line
+from treadload.plots.wear import tread_wear
 from treadload.plots.works import life_works
 
 __all__ = [
-    "BondComparisonPlots",
-    "BondVerdictPlots",
-    "CalibrationPlots",
-    "ContactPlots",
-    "CreepCurvePlots",
-    "CrossingPlots",
-    "EnvelopedPlots",
-    "EquivalentsPlots",
-    "FieldsPlots",
-    "FootprintComparisonPlots",
-    "GrowthPlots",
-    "HeterogeneousPlots",
-    "IndentationPlots",
-    "LifePlots",
-    "MorrisPlots",
-    "PassesPlots",
-    "ReliabilityPlots",
-    "ResponsePlots",
-    "RollingResistancePlots",
-    "SensitivityPlots",
-    "SobolPlots",
-    "SweepPlots",
-    "TexturePlots",
-    "ThicknessDesignPlots",
-    "TireCardPlots",
-    "TornadoPlots",
-    "TransientPlots",
-    "TurnPlots",
-    "UniformPlots",
-    "VerdictPlots",
-    "WearPlots",
     "black_diagram",
     "bond_utilisation",
     "bonded_and_parted",
@@ -114,11 +61,13 @@ __all__ = [
     "comparison_maps",
     "crack_depth",
     "crack_intensity",
+    "cracks",
     "creep_curves",
     "crossing_contacts",
     "crossing_history",
     "day_temperatures",
     "deflection_bowl",
+    "depth_slice",
     "design_thicknesses",
     "dissipated_energy",
     "drum_contact",
@@ -126,6 +75,7 @@ __all__ = [
     "fatigue_line",
     "first_places",
     "fringe_scan",
+    "height_map",
     "indentation",
     "life_damage",
     "life_inputs",
@@ -142,6 +92,7 @@ __all__ = [
     "plain_map",
     "plastic_strain",
     "png",
+    "pressure",
     "reliability_inputs",
     "reliability_years",
     "residual_stress",
@@ -150,11 +101,16 @@ __all__ = [
     "save",
     "season_moduli",
     "shakedown_map",
+    "shear",
     "shift_factors",
     "sliding",
     "sobol_bars",
     "standard_axles",
+    "stick_slip",
     "stones_in_mortar",
+    "strain_directions",
+    "strain_panels",
+    "strain_profiles",
     "study_curve",
     "study_curves",
     "study_map",

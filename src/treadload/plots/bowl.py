@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import Drawing, figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.places import load_centre
 from treadload.plots.kit.plan import MM, X_LABEL, fields_of
 from treadload.plots.kit.style import CASES, INK, MUTED, headline, measure, plain, signed, styled, travel_arrow
 from treadload.plots.profile import nearest
+from treadload.response.fields import kind_of_points
 
 # Deflections below so many mm are given in µm.
 _FINE = 0.1
@@ -113,6 +116,26 @@ def deflection_bowl(
     line = float(data["y"].to_numpy()[nearest(data, "y", y)]) * MM
     headline(ax, "Deflection bowl", f"along travel at y = {signed(line)} mm; triangles: the lowest points", 60)
     return figure
+
+
+def _bowls(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
+    if kind_of_points(data) == "bowl":
+        caption = "Deflection of the surface along travel under the wheel."
+        if "speed" in beside.get("response", data).attrs:
+            caption += " A viscoelastic road is still deflected behind the wheel: its lowest point lags."
+        yield Drawing({"label": str(beside["case"].attrs["label"])} if "case" in beside else {}, caption=caption)
+
+
+@figure("Response", name="bowl", title="Deflection bowl", when=_bowls, wide=True, order=3)
+def bowl_of(response: Source, *, y: float | None = None, label: str = "load") -> Figure:
+    """Deflection along travel under one load that moves, with its lowest point and its lag.
+
+    response: with displacement_z over (depth, y, x), m. y: of the line, m, the nearest there is; left out, its only
+    one, or the middle. label: of the load. Returns the figure. Raises InputError as `deflection_bowl`.
+    """
+    data = fields_of(response, "displacement_z")
+    line = y if y is not None else float(data["y"][0]) if data.sizes.get("y", 1) == 1 else 0.0
+    return deflection_bowl([response], [label], y=line, load=data.attrs.get("load_x"))
 
 
 def _vertex(x: Array, values: Array, k: int) -> tuple[float, float]:

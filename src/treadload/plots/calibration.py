@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, MUTED, RULE, headline, open_axes, styled
@@ -18,6 +19,10 @@ _TWO = 1.96
 _OF_KINDS = {"rib_shares": "shares of ribs", "footprint": "shares of blocks"}
 
 
+@figure(
+    "Calibration", name="fit", main=True, title="Data and fitted tire", wide=True, order=0,
+    caption="Dots: measured, lines: fitted; residuals are counted in standard deviations of the readings.",
+)  # fmt: skip
 @styled
 def calibration_fit(calibration: Source) -> Figure:
     """Load against deflection, measured and fitted, beside the residuals of all readings by their kind.
@@ -91,6 +96,10 @@ def _residuals(ax: Axes, data: xr.Dataset) -> None:
     headline(ax, "Residuals", "band: 95 % of readings with the errors that were taken")
 
 
+@figure(
+    "Calibration", name="numbers", title="Numbers and their error bars", wide=True, order=1,
+    caption="95 % intervals of the fitted numbers, and their correlations.",
+)  # fmt: skip
 @styled
 def calibration_numbers(calibration: Source) -> Figure:
     """How sure the fitted numbers are, and which of them go together.
@@ -98,7 +107,7 @@ def calibration_numbers(calibration: Source) -> Figure:
     calibration: a Calibration or its dataset. Returns the figure. Raises InputError if variables are missing.
     """
     data = fields_of(calibration, "fitted_value", "standard_deviation", "number_correlation", "start_value")
-    names = [str(one).replace("_", " ") for one in data["unknown"].to_numpy()]
+    names = [str(name).replace("_", " ") for name in data["unknown"].to_numpy()]
     count = len(names)
     figure = new_figure(10.2, max(3.0, 1.6 + 0.55 * count))
     left, right = figure.subplots(1, 2, width_ratios=[1.5, 1])
@@ -107,13 +116,13 @@ def calibration_numbers(calibration: Source) -> Figure:
     parts = _TWO * data["standard_deviation"].to_numpy() / size
     before = (data["start_value"].to_numpy() - value) / size
     left.axvline(0, color=MUTED, lw=0.8)
-    known = np.isfinite(parts)
+    finite = np.isfinite(parts)
     places = np.arange(count)
     left.errorbar(
-        np.zeros(count)[known], places[known], xerr=100 * parts[known], fmt="o", ms=5, capsize=3, color=CASES[0]
+        np.zeros(count)[finite], places[finite], xerr=100 * parts[finite], fmt="o", ms=5, capsize=3, color=CASES[0]
     )
     left.plot(100 * before, places, ls="", marker="|", ms=11, mew=1.6, color=MUTED, label="before")
-    for place in places[~known]:
+    for place in places[~finite]:
         left.annotate("not told by these data", (0, place), xytext=(8, 6), textcoords="offset points", color=CASES[1])
     left.set_yticks(places, names)
     left.set_ylim(count - 0.5, -0.5)
@@ -125,9 +134,9 @@ def calibration_numbers(calibration: Source) -> Figure:
     right.imshow(matrix, cmap="RdBu_r", vmin=-1, vmax=1)
     for i in range(count):
         for j in range(count):
-            told = f"{matrix[i, j]:+.2f}" if np.isfinite(matrix[i, j]) else "–"
+            text = f"{matrix[i, j]:+.2f}" if np.isfinite(matrix[i, j]) else "–"
             dark = np.isfinite(matrix[i, j]) and abs(matrix[i, j]) > 0.6
-            right.text(j, i, told, ha="center", va="center", color="white" if dark else INK, fontsize=8.5)
+            right.text(j, i, text, ha="center", va="center", color="white" if dark else INK, fontsize=8.5)
     right.set_xticks(places, names, rotation=30, ha="right")
     right.set_yticks(places, names if count > 1 else [""])
     right.tick_params(length=0)

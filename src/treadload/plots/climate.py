@@ -12,6 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import DEPTH_LABEL, fields_of
@@ -24,6 +25,12 @@ _COLD, _WARM = "#0b6fae", "#d55e00"
 _APART = 20.0
 
 
+@figure(
+    "Life", name="temperatures", title="Temperature of the road", wide=True, order=6,
+    caption="Mean day of four months over depth and hour, by heat conduction below the weather; dashed: interfaces "
+    "of layers.",
+    when=lambda data: "day_temperature" in data,
+)  # fmt: skip
 @styled
 def day_temperatures(life: Source, months: Sequence[int] = (1, 4, 7, 10)) -> Figure:
     """Maps of the road's temperature over depth and hour on the mean day of months, with interfaces of layers.
@@ -69,6 +76,12 @@ def day_temperatures(life: Source, months: Sequence[int] = (1, 4, 7, 10)) -> Fig
     return figure
 
 
+@figure(
+    "Life", name="moduli", title="Modulus over depth", wide=True, order=7,
+    caption="Temperature and Young's modulus of the parts that courses are divided into, in the coldest and the "
+    "warmest season, at the frequency at which mixes are given.",
+    when=lambda data: "sublayer_modulus" in data,
+)  # fmt: skip
 @styled
 def season_moduli(life: Source) -> Figure:
     """Temperature and modulus over depth in the coldest and the warmest season; with ageing also of the young mix.

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import Drawing, comparison
 from treadload.plots.contact import pressure_in_numbers
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import (
@@ -29,7 +31,18 @@ from treadload.plots.kit.plan import (
     plane,
 )
 from treadload.plots.kit.style import MUTED, headline, measure, sequential, styled, travel_arrow
-from treadload.plots.response import NAMES, Strain, draw_strain, place_in_words, strain_in_numbers, strain_plane
+from treadload.plots.response import (
+    DRAWN,
+    NAMES,
+    STRAINS,
+    VARIABLE,
+    WHAT,
+    Strain,
+    draw_strain,
+    place_in_words,
+    strain_in_numbers,
+    strain_plane,
+)
 
 _MOST_COLUMNS = 3
 # Width of a panel, inches.
@@ -38,30 +51,10 @@ _PANEL = 4.3
 _LETTERS = 38
 
 
-@styled
-def compare_strain(
-    responses: Sequence[Source], labels: Sequence[str], *, depth: float = 0.0, strain: Strain = "principal"
-) -> Figure:
-    """Strain maps of several cases side by side on one colour scale.
-
-    responses: with the strain and its direction over (depth, y, x). labels: a name each. depth: m.
-    strain: "principal" (three-dimensional) or "in-plane". Returns the figure with one colour bar.
-    Raises InputError for missing variables or depths, or labels that do not match.
-    """
-    _check(responses, labels)
-    planes = [strain_plane(response, depth, strain) for response in responses]
-    name = "principal_strain_1" if strain == "principal" else "in_plane_strain_1"
-    scale = limits(*(plane(data, name) * MICRO for data in planes))
-
-    def draw(ax: Axes, number: int) -> QuadMesh:
-        mesh = draw_strain(ax, planes[number], strain, scale, responses[number])
-        headline(ax, labels[number], strain_in_numbers(planes[number], strain, Limits(0, scale.high)), _LETTERS)
-        return mesh
-
-    label = f"largest extension {place_in_words(depth)}, {NAMES[strain]} (microstrain)"
-    return _side_by_side([Plan.of(data) for data in planes], draw, label, scale)
-
-
+@comparison(
+    "Contact", title="Contact pressure, side by side",
+    caption="One colour scale for all cases, seen from above; rings mark the largest pressure.",
+)  # fmt: skip
 @styled
 def compare_pressure(contacts: Sequence[Source], labels: Sequence[str]) -> Figure:
     """Contact pressures of several cases side by side on one colour scale, kPa.
@@ -86,6 +79,47 @@ def compare_pressure(contacts: Sequence[Source], labels: Sequence[str]) -> Figur
         return mesh
 
     return _side_by_side(plans, draw, "contact pressure (kPa)", scale)
+
+
+def _strains(cases: Sequence[xr.Dataset]) -> Iterator[Drawing]:
+    """Both strains at the shallowest depth that all cases have."""
+    depths = [{round(float(depth), 9) for depth in np.atleast_1d(data["depth"].to_numpy())} for data in cases]
+    for depth in sorted(set.intersection(*depths))[:1]:
+        for strain in STRAINS:
+            if all(VARIABLE[strain] in data for data in cases):
+                yield Drawing(
+                    {"depth": depth, "strain": strain},
+                    f"Largest extension strain, {NAMES[strain]}, side by side",
+                    f"Drawn: {DRAWN[strain]}, {place_in_words(depth)}, on one colour scale; rings mark the peaks. "
+                    f"{WHAT[strain]}",
+                )
+
+
+@comparison(
+    "Response", title="Largest extension strain, side by side", caption="", when=_strains
+)  # fmt: skip
+@styled
+def compare_strain(
+    responses: Sequence[Source], labels: Sequence[str], *, depth: float = 0.0, strain: Strain = "principal"
+) -> Figure:
+    """Strain maps of several cases side by side on one colour scale.
+
+    responses: with the strain and its direction over (depth, y, x). labels: a name each. depth: m.
+    strain: "principal" (three-dimensional) or "in-plane". Returns the figure with one colour bar.
+    Raises InputError for missing variables or depths, or labels that do not match.
+    """
+    _check(responses, labels)
+    planes = [strain_plane(response, depth, strain) for response in responses]
+    name = "principal_strain_1" if strain == "principal" else "in_plane_strain_1"
+    scale = limits(*(plane(data, name) * MICRO for data in planes))
+
+    def draw(ax: Axes, number: int) -> QuadMesh:
+        mesh = draw_strain(ax, planes[number], strain, scale, responses[number])
+        headline(ax, labels[number], strain_in_numbers(planes[number], strain, Limits(0, scale.high)), _LETTERS)
+        return mesh
+
+    label = f"largest extension {place_in_words(depth)}, {NAMES[strain]} (microstrain)"
+    return _side_by_side([Plan.of(data) for data in planes], draw, label, scale)
 
 
 def _check(sources: Sequence[Source], labels: Sequence[str]) -> None:

@@ -14,6 +14,7 @@ from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import (
@@ -54,6 +55,11 @@ from treadload.units import stress_in_words
 _ARROWS = 22
 
 
+@figure(
+    "Contact", "Footprint", main=True, title="Contact pressure",
+    caption="Seen from above, at true scale. The ring marks the largest pressure; pressure rises at the edges of "
+    "ribs and blocks, and the more so the finer the grid.",
+)  # fmt: skip
 @styled
 def pressure(contact: Source, *, ax: Axes | None = None) -> Figure:
     """Contact pressure in plan, true scale, kPa.
@@ -78,6 +84,12 @@ def pressure(contact: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Contact", "Footprint", title="Tread before loading",
+    caption="Distance of the tread from the road at first contact; the line is the border of the contact under load.",
+    # A footprint that was recorded has no tread and no friction.
+    when=lambda data: "initial_gap" in data,
+)  # fmt: skip
 @styled
 def height_map(contact: Source, *, ax: Axes | None = None) -> Figure:
     """Separation of tread and road before loading, in plan, mm.
@@ -103,6 +115,7 @@ def height_map(contact: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure("Contact", "Footprint")
 @styled
 def stick_slip(contact: Source, *, ax: Axes | None = None) -> Figure:
     """Shear in plan with the zones that stick and slip, kPa.
@@ -119,6 +132,12 @@ def stick_slip(contact: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Contact", "Footprint", title="Shear, stick and slip", wide=True,
+    caption="Left: size of the shear in space. Right: the same from above; hatched cells slip, there the shear has "
+    "reached friction times pressure. Arrows: shear exerted by the tire on the road.",
+    when=lambda data: "state" in data,
+)  # fmt: skip
 @styled
 def shear(contact: Source) -> Figure:
     """Shear as a surface in space, beside its plan with the zones that stick and slip, kPa.
@@ -126,7 +145,7 @@ def shear(contact: Source) -> Figure:
     contact: with traction_x, traction_y (y, x), Pa, and state (y, x). Returns the figure.
     """
     data = fields_of(contact, "traction_x", "traction_y", "state")
-    if "shear_round_off" in data.attrs:
+    if "negligible_shear" in data.attrs:
         return stick_slip(contact)
     plan, values = Plan.of(data), _shear(data)
     scale = limits(values)
@@ -157,6 +176,10 @@ def shear(contact: Source) -> Figure:
     return figure
 
 
+@figure(
+    "Contact", "Footprint", title="Sections through the largest pressure", wide=True,
+    caption="Where the shear lies on the dashed line, friction times pressure, the tire slips.",
+)  # fmt: skip
 @styled
 def profile(contact: Source) -> Figure:
     """Pressure and shear along travel and across it, through the largest pressure, kPa.
@@ -203,7 +226,7 @@ def _section(ax: Axes, data: xr.Dataset, at: Array, cut: tuple[int | slice, int 
         ax.step(at, bound, where="mid", color=MUTED, lw=0.9, ls=(0, (3, 2)), label="friction × pressure")
     if "traction_x" in data and "traction_y" in data:
         q = _shear(data)[cut]
-    if "traction_x" in data and "traction_y" in data and "shear_round_off" not in data.attrs:
+    if "traction_x" in data and "traction_y" in data and "negligible_shear" not in data.attrs:
         ax.step(at, q, where="mid", color=STICK, lw=1.4, label="shear, where it sticks")
         if "state" in data:
             slipping = np.where(plane(data, "state")[cut] == 2, q, np.nan)
@@ -218,10 +241,10 @@ def _section(ax: Axes, data: xr.Dataset, at: Array, cut: tuple[int | slice, int 
 def draw_stick_slip(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> None:
     """Draw shear, kPa, with its arrows and the zones that stick and slip, a colour bar and a legend."""
     values, state = _shear(data), plane(data, "state")
-    if said := data.attrs.get("shear_round_off"):
+    if note := data.attrs.get("negligible_shear"):
         draw_cells(ax, plan, np.full_like(values, np.nan), sequential("shear"), scale)
         draw_outline(ax, state > 0, plan, MUTED, 1.0)
-        empty_note(ax, textwrap.fill(said, 32))
+        empty_note(ax, textwrap.fill(note, 32))
         return
     mesh = draw_cells(ax, plan, _where(state > 0, values), sequential("shear"), scale)
     colour_bar(mesh, ax, "shear (kPa)", scale)
@@ -247,9 +270,9 @@ def draw_stick_slip(ax: Axes, data: xr.Dataset, plan: Plan, scale: Limits) -> No
 
 def _hatch(ax: Axes, mask: BoolArray, plan: Plan) -> None:
     """Hatch the cells of a mask: one path of a rectangle for each run of cells along x."""
-    held = np.pad(mask, ((0, 0), (1, 1))).astype(int)
-    rows, starts = np.nonzero(np.diff(held) == 1)
-    _, ends = np.nonzero(np.diff(held) == -1)
+    filled = np.pad(mask, ((0, 0), (1, 1))).astype(int)
+    rows, starts = np.nonzero(np.diff(filled) == 1)
+    _, ends = np.nonzero(np.diff(filled) == -1)
     x, y = plan.x_edges, plan.y_edges
     corners = [(x[starts], y[rows]), (x[ends], y[rows]), (x[ends], y[rows + 1]), (x[starts], y[rows + 1])]
     corners.append(corners[0])
@@ -282,8 +305,8 @@ def _shear(data: xr.Dataset) -> Array:
 
 def shear_in_numbers(data: xr.Dataset) -> str:
     """Largest shear and the forces along the road in one line."""
-    if "shear_round_off" in data.attrs:
-        return "none above round-off"
+    if "negligible_shear" in data.attrs:
+        return "too small to draw"
     parts = [f"peak {measure(float(np.nanmax(_shear(data))))} kPa"]
     for name, symbol in (("tractive_force", "tractive"), ("lateral_force", "lateral")):
         if name in data and abs(float(data[name])) >= 0.5:

@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import KPA, MM, Limits, colour_bar, fields_of, limits
@@ -18,6 +19,10 @@ _GROUND = "#e4e7ec"
 _SHOWN = 5
 
 
+@figure(
+    "Crossing", name="history", main=True, title="Along the way", wide=True,
+    caption="Peak pressures, shares of the load, and the work that each place of the road takes.",
+)  # fmt: skip
 @styled
 def crossing_history(crossing: Source) -> Figure:
     """Largest pressure, at an edge and anywhere, the shares of the load, and work per place of the road.
@@ -79,6 +84,7 @@ def _off_the_road_before(data: xr.Dataset) -> Array:
     return np.asarray(borders[changes].reshape(-1, 2))
 
 
+@figure("Crossing", name="contacts", title="Contacts", caption="Each where it stands on the road.", wide=True)
 @styled
 def crossing_contacts(crossing: Source) -> Figure:
     """A strip of contacts from the first position to the last, kPa, each where it stands on the road.
@@ -88,7 +94,7 @@ def crossing_contacts(crossing: Source) -> Figure:
     data = fields_of(crossing, "pressure", "position", "x", "y", "road_x", "road_height")
     x, y = data["x"].to_numpy() * MM, data["y"].to_numpy() * MM
     at = data["position"].to_numpy() * MM
-    shown = sorted({round(one) for one in np.linspace(0, len(at) - 1, min(_SHOWN, len(at)))})
+    shown = sorted({round(number) for number in np.linspace(0, len(at) - 1, min(_SHOWN, len(at)))})
     values = data["pressure"].transpose("position", "y", "x").to_numpy()[shown] * KPA
     scale: Limits = limits(values)
     obstacle = _off_the_road_before(data) * MM

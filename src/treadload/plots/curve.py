@@ -10,8 +10,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from treadload.composing import Source
+from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
@@ -56,6 +57,23 @@ def creep_curves(curves: Sequence[Source], labels: Sequence[str], *, along: str 
     if len(cases) > 1:
         left.legend()
     return figure
+
+
+@figure(
+    "CreepCurve", main=True, title="Force against creepage", wide=True,
+    caption="Force over friction times load, and the share of the contact that slips, against creepage.",
+)  # fmt: skip
+def forces(curve: Source, *, along: str = "") -> Figure:
+    """Force and slip of one curve against creepage.
+
+    curve: a CreepCurve or its dataset. along: "x" or "y"; left out, that of the curve. Returns the figure. Raises
+    InputError as `creep_curves`.
+    """
+    data = dataset_of(curve)
+    prescribed = data["creepage_y"].to_numpy() if "creepage_y" in data else np.empty(0)
+    sideways = prescribed.size and bool((abs(prescribed - data["creepage"].to_numpy()) < 1e-12).all())
+    direction = along or str(getattr(curve, "along", "")) or ("y" if sideways else "x")
+    return creep_curves([curve], [f"along {direction}"], along=direction)
 
 
 def _look(number: int, count: int) -> dict[str, Any]:

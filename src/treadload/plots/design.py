@@ -9,11 +9,16 @@ from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from treadload.composing import Source
 from treadload.damage.words import RUT
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, PAPER, headline, legend_below, measure, open_axes, plain, styled
 
 
+@figure(
+    "ThicknessDesign", name="lives", main=True, title="How thick it must be", wide=True,
+    caption="Years that every criterion lasts with each thickness that was solved, and those asked for.",
+)  # fmt: skip
 @styled
 def design_thicknesses(design: Source, *, ax: Axes | None = None) -> Figure:
     """Years by criterion against thickness, the years that are asked for, and the thickness that lasts them.
@@ -29,9 +34,9 @@ def design_thicknesses(design: Source, *, ax: Axes | None = None) -> Figure:
         row = np.where(np.isfinite(years[:, k]), years[:, k], np.nan)
         (line,) = ax.plot(thickness, row, "-o", ms=5, mec=PAPER, color=colour, label=plain(str(name)))
         handles.append(line)
-    asked, chosen = float(data["asked_years"]), 1e3 * float(data["design_thickness"])
-    ax.axhline(asked, color=INK, lw=1.0, ls=(0, (4, 2)))
-    ax.annotate(f"{asked:g} years", (0, asked), xycoords=("axes fraction", "data"), xytext=(4, 4),
+    target, chosen = float(data["asked_years"]), 1e3 * float(data["design_thickness"])
+    ax.axhline(target, color=INK, lw=1.0, ls=(0, (4, 2)))
+    ax.annotate(f"{target:g} years", (0, target), xycoords=("axes fraction", "data"), xytext=(4, 4),
                 textcoords="offset points", fontsize=8.5)  # fmt: skip
     ax.axvline(chosen, color=INK, lw=1.0)
     ax.annotate(f"{chosen:.0f} mm", (chosen, 0), xycoords=("data", "axes fraction"), xytext=(-4, 5),
@@ -39,10 +44,14 @@ def design_thicknesses(design: Source, *, ax: Axes | None = None) -> Figure:
     ax.set_yscale("log")
     finite = years[np.isfinite(years)]
     low, high = (
-        (min(finite.min(), asked) / 1.4, max(finite.max(), asked) * 1.4) if finite.size else (asked / 2, 2 * asked)
+        (min(finite.min(), target) / 1.4, max(finite.max(), target) * 1.4)
+        if finite.size
+        else (target / 2, 2 * target)
     )
     ax.set_ylim(low, high)
-    ax.set_yticks([t for t in (one * 10.0**power for power in range(-3, 7) for one in (1, 2, 5)) if low <= t <= high])
+    ax.set_yticks(
+        [t for t in (digit * 10.0**power for power in range(-3, 7) for digit in (1, 2, 5)) if low <= t <= high]
+    )
     ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     ax.yaxis.set_minor_formatter(NullFormatter())
     open_axes(ax)
@@ -55,7 +64,7 @@ def design_thicknesses(design: Source, *, ax: Axes | None = None) -> Figure:
     at = "" if risk is None else f" at a risk of {measure(100 * float(risk))} %"
     needs = "" if exact > 1e3 * float(data.attrs["lower_bound"]) * (1 + 1e-9) else "at most "
     headline(
-        ax, "How thick it must be", f"{asked:g} years{at} need {needs}{exact:.1f} mm; dots: lives that were solved"
+        ax, "How thick it must be", f"{target:g} years{at} need {needs}{exact:.1f} mm; dots: lives that were solved"
     )
     legend_below(ax, handles, columns=min(3, len(handles)))
     return figure

@@ -8,12 +8,20 @@ from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.layers import Layers, draw_interfaces, hatch_unknown, name_layers
 from treadload.plots.kit.plan import DEPTH_LABEL, MM, Y_LABEL, colour_bar, fields_of, limits, mark_peak, peak_of
 from treadload.plots.kit.style import headline, measure, sequential, styled
+from treadload.response.fields import kind_of_points
 
 
+@figure(
+    "Response", title="Energy dissipated in one passage", wide=True, order=4,
+    caption="What the wheel leaves in the viscoelastic layers as heat and damage, per unit volume, in a section "
+    "across travel; hatched: not computed.",
+    when=lambda data: kind_of_points(data) == "slice_across" and "dissipated_energy" in data,
+)  # fmt: skip
 @styled
 def dissipated_energy(response: Source, *, ax: Axes | None = None) -> Figure:
     """Energy per unit volume that one passage dissipates, J/m³, across travel, down to the last lossy layer.
@@ -38,11 +46,11 @@ def dissipated_energy(response: Source, *, ax: Axes | None = None) -> Figure:
     for (_, top, end), rows in zip(layers.spans(bottom), layers.pieces(down), strict=False):
         kept = down[rows] <= bottom
         depths, field = down[rows][kept], energy[rows][kept]
-        known = np.isfinite(field).all(axis=1)
-        if known.sum() < 2:
+        complete = np.isfinite(field).all(axis=1)
+        if complete.sum() < 2:
             hatch_unknown(ax, top, end)
             continue
-        depths, field = depths[known], field[known]
+        depths, field = depths[complete], field[complete]
         if depths[0] - top > 0.01:
             hatch_unknown(ax, top, float(depths[0]))
         mesh = ax.pcolormesh(

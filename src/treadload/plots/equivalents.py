@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, PAPER, headline, legend_below, open_axes, plain, styled
@@ -19,6 +20,11 @@ _LETTERS = 26
 _FRENCH = 130e3
 
 
+@figure(
+    "Equivalents", name="axles", main=True, title="In standard axles", wide=True,
+    caption=lambda data: f"Passes of the standard axle ({data.attrs['standard_axle']}) that do as much damage as one "
+    "passage of a class, by every criterion; crosses: by the load alone.",
+)  # fmt: skip
 @styled
 def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
     """Dots of what one passage of each class does, in standard axles, by every criterion; crosses by its load alone.
@@ -49,8 +55,8 @@ def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
     ax.axvline(1.0, color=INK, lw=1.0, ls=(0, (4, 2)))
     ax.set_xscale("log")
     low, high = ax.get_xlim()
-    ticks = [one * 10.0**power for power in range(-4, 6) for one in ((1, 2, 5) if high < 300 * low else (1,))]
-    ax.set_xticks([one for one in ticks if low <= one <= high])
+    ticks = [digit * 10.0**power for power in range(-4, 6) for digit in ((1, 2, 5) if high < 300 * low else (1,))]
+    ax.set_xticks([tick for tick in ticks if low <= tick <= high])
     ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     ax.xaxis.set_minor_formatter(NullFormatter())
     ax.set_yticks(rows, names)

@@ -9,6 +9,7 @@ from matplotlib.patches import Patch
 
 from treadload.composing import Source
 from treadload.damage.cracks import opens_down
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
@@ -23,6 +24,12 @@ _SHALLOW = 0.02
 _NUMBERS = 3
 
 
+@figure(
+    "Life", name="first", title="All criteria side by side", wide=True, order=8,
+    caption="Left: where each is worst, by its number in the order of failing. Right: its largest reading over what "
+    "its law allows; beyond the dashed line it fails within the passes counted.",
+    when=lambda data: {"design_utilisation", "read_depth"} <= set(data) and "proposed" in data.attrs,
+)  # fmt: skip
 @styled
 def first_places(life: Source) -> Figure:
     """Where each criterion is worst, in a section across the road, and its reading over what its law allows.
@@ -68,7 +75,7 @@ def _section(ax: Axes, y: Array, depth: Array, kinds: list[str], read: BoolArray
     """
     shared: list[list[int]] = []
     for k in np.flatnonzero(read):
-        apart = [np.hypot(y[one[0]] - y[k], depth[one[0]] - depth[k]) for one in shared]
+        apart = [np.hypot(y[pair[0]] - y[k], depth[pair[0]] - depth[k]) for pair in shared]
         if apart and min(apart) < 1e3 * _NEAR:
             shared[int(np.argmin(apart))].append(int(k))
         else:
@@ -76,13 +83,13 @@ def _section(ax: Axes, y: Array, depth: Array, kinds: list[str], read: BoolArray
     ax.axhline(0.0, color=INK, lw=1.2)
     wide = 1.25 * max(float(np.abs(y[read]).max(initial=0.0)), 100.0)
     last, level = -np.inf, 0
-    for one in sorted(shared, key=lambda one: y[one[0]]):
-        at = (y[one[0]], depth[one[0]])
+    for pair in sorted(shared, key=lambda pair: y[pair[0]]):
+        at = (y[pair[0]], depth[pair[0]])
         # Numbers of neighbours stand below each other.
         level = (level + 1) % 4 if at[0] - last < 0.3 * wide else 0
         last = at[0]
-        text = ", ".join(str(k + 1) for k in one[:_NUMBERS]) + (" …" if len(one) > _NUMBERS else "")
-        ax.plot(*at, "o", ms=9, color=_COLOURS[kinds[one[0]]], mec=PAPER, zorder=4, clip_on=False)
+        text = ", ".join(str(k + 1) for k in pair[:_NUMBERS]) + (" …" if len(pair) > _NUMBERS else "")
+        ax.plot(*at, "o", ms=9, color=_COLOURS[kinds[pair[0]]], mec=PAPER, zorder=4, clip_on=False)
         ax.annotate(
             text, at, xytext=(0, -8 - 11 * level), textcoords="offset points", fontsize=8.5, ha="center", va="top",
             path_effects=halo(2), zorder=5,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import xarray as xr
@@ -12,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import Drawing, figure
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import (
@@ -52,6 +54,13 @@ _OF_RIBS = ("rib_share", "rib_left", "rib_right")
 _QUIET = 0.995
 
 
+_MEANS = "Means over the sensels of the sensor, on one scale; red: more was computed than measured."
+
+
+@figure(
+    "FootprintComparison", name="maps", main=True, title="Computed, measured, and their difference", wide=True,
+    caption=_MEANS,
+)  # fmt: skip
 @styled
 def comparison_maps(comparison: Source) -> Figure:
     """The computed contact through the sensor and the footprint on one scale, and their difference, kPa.
@@ -61,7 +70,7 @@ def comparison_maps(comparison: Source) -> Figure:
     data = fields_of(comparison, "computed_pressure", "measured_pressure", "pressure_difference")
     plan = Plan.of(data)
     values = [plane(data, name) * KPA for name in ("computed_pressure", "measured_pressure")]
-    scale = limits(*(np.nan_to_num(one) for one in values))
+    scale = limits(*(np.nan_to_num(field) for field in values))
     loaded = np.nan_to_num(values[0] + values[1]) > 0
     view = _view(loaded, plan)
     aspect = float((view[3] - view[2]) / (view[1] - view[0]))
@@ -93,6 +102,32 @@ def comparison_maps(comparison: Source) -> Figure:
     return figure
 
 
+def _compared(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
+    within = beside.get("comparison")
+    if within is not None and "part_of" in within.attrs:
+        yield Drawing({"comparison": within})
+
+
+@figure(
+    "Calibration", name="comparison", title="Computed, measured, and their difference", wide=True, order=2,
+    caption=_MEANS, when=_compared,
+)  # fmt: skip
+def calibrated_footprint(calibration: Source, comparison: Source | None = None) -> Figure:
+    """The contact of the fitted tire and the first footprint that it was fitted to, and their difference, kPa.
+
+    calibration: a Calibration. comparison: of it; needed of a dataset. Returns the figure. Raises InputError where
+    there is no footprint.
+    """
+    comparison = comparison or next(iter(getattr(calibration, "comparisons", ())), None)
+    if comparison is None:
+        raise InputError("this calibration has no footprint to compare with; fit one, or give comparison=")
+    return comparison_maps(comparison)
+
+
+@figure(
+    "FootprintComparison", name="cuts", title="Cuts", wide=True,
+    caption="Pressure along travel and across it, sensel by sensel.",
+)  # fmt: skip
 @styled
 def comparison_cuts(comparison: Source, *, x: float | None = None, y: float | None = None) -> Figure:
     """Computed and measured pressure along travel at y and across it at x, kPa, sensel by sensel.
@@ -133,6 +168,11 @@ def comparison_cuts(comparison: Source, *, x: float | None = None, y: float | No
     return figure
 
 
+@figure(
+    "FootprintComparison", name="ribs", title="Ribs",
+    caption="Share of the load that each rib carries, from left to right.",
+    when=lambda data: data.sizes.get("rib", 0) > 1,
+)  # fmt: skip
 @styled
 def rib_shares(comparison: Source, *, ax: Axes | None = None) -> Figure:
     """Share of the load on each rib, %, computed and measured. ax: axes to draw into. Returns the figure."""
@@ -195,10 +235,10 @@ def _heaviest(data: xr.Dataset) -> float:
 def _of_map(data: xr.Dataset, name: str, which: str) -> Array:
     """Values of a measure for one of the maps. Raises InputError if they are not there."""
     row = fields_of(data, name)[name]
-    known = [str(one) for one in row["map"].to_numpy()] if "map" in row.coords else []
-    if which not in known:
-        raise InputError(f"{name} is not told of the map {which!r}, only of {', '.join(known) or 'none'}")
-    return np.asarray(row.isel(map=known.index(which)).to_numpy(), dtype=float)
+    names = [str(name) for name in row["map"].to_numpy()] if "map" in row.coords else []
+    if which not in names:
+        raise InputError(f"{name} is not told of the map {which!r}, only of {', '.join(names) or 'none'}")
+    return np.asarray(row.isel(map=names.index(which)).to_numpy(), dtype=float)
 
 
 def _nearest(at: Array, wanted: float, name: str) -> int:

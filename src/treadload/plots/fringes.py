@@ -33,9 +33,9 @@ def fringe_scan(pixels: Source) -> Figure:
     least = float(data.attrs.get("least_modulation", 0.0))
     kept = float(np.isfinite(height).mean())
     top = Limits(0.0, float(np.nanmax(modulation)) or 1.0)
-    known = np.isfinite(phase)
+    finite = np.isfinite(phase)
     turns = phase / (2 * np.pi)
-    count = f"{np.nanmin(turns):.1f} to {np.nanmax(turns):.1f} fringes" if known.any() else "none known"
+    count = f"{np.nanmin(turns):.1f} to {np.nanmax(turns):.1f} fringes" if finite.any() else "none known"
     noise = deviation[np.isfinite(deviation)]
     middle = f"median {np.median(noise) * 1e6:.3g} µm" if noise.size else "noise unknown"
     dim = np.where(modulation >= least, modulation, np.nan)
@@ -59,10 +59,10 @@ def fringe_scan(pixels: Source) -> Figure:
 
 def _limits(values: np.ndarray, low: float | None = None) -> Limits:
     """A scale that covers all but what stands at walls."""
-    known = values[np.isfinite(values)]
-    if not known.size:
+    finite = values[np.isfinite(values)]
+    if not finite.size:
         return Limits(0.0, 1.0)
-    ends = np.quantile(known, _MOST)
+    ends = np.quantile(finite, _MOST)
     bottom = float(ends[0]) if low is None else low
     high = max(float(ends[1]), bottom + 1e-9)
-    return Limits(bottom, high, bool(known.max() > high))
+    return Limits(bottom, high, bool(finite.max() > high))

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, headline, legend_below, open_axes, plain, styled
@@ -16,6 +17,11 @@ _GROWS, _SCATTERS = "#d55e00", "#f3c39b"
 _NAMES = {"I": "opening (mode I)", "II": "sliding (mode II)", "III": "tearing (mode III)"}
 
 
+@figure(
+    "Growth", name="depth", main=True, title="Depth of the crack against years", wide=True,
+    caption="The first crack of the wheel path, from its initiation to the end of its way; the band holds what "
+    "scatters in initiation and in growth.",
+)  # fmt: skip
 @styled
 def crack_depth(growth: Source, *, ax: Axes | None = None) -> Figure:
     """Depth of the first crack against years, with what scatters and the end of the design life.
@@ -27,8 +33,8 @@ def crack_depth(growth: Source, *, ax: Axes | None = None) -> Figure:
     spread, risks = data["risk_years"].to_numpy(), data["risk"].to_numpy()
     figure, ax = figure_and_axes(ax, 7.0, 4.0)
     design = data.attrs.get("design_years")
-    known = [*spread[np.isfinite(spread)], *years[np.isfinite(years)], *([float(design)] if design else [])]
-    end = 1.15 * max(known) if known else 1.0
+    dates = [*spread[np.isfinite(spread)], *years[np.isfinite(years)], *([float(design)] if design else [])]
+    end = 1.15 * max(dates) if dates else 1.0
     low, high = np.minimum(spread[0], end), np.minimum(spread[-1], end)
     ax.fill_betweenx(depth, low, high, color=_SCATTERS, lw=0)
     middle = int(np.abs(risks - 0.5).argmin())
@@ -59,6 +65,11 @@ def crack_depth(growth: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Growth", name="intensity", title="Stress intensity", wide=True,
+    caption="Range of the stress intensity in a passage at the worst place with no wander, in the season where it is "
+    "largest; faces close under pressure and rub.",
+)  # fmt: skip
 @styled
 def crack_intensity(growth: Source) -> Figure:
     """Range of the stress intensity against depth by class of axles, mode by mode.

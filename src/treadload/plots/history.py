@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.errors import InputError
+from treadload.figure_registry import Drawing, figure
+from treadload.plots.contact import shear
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, MUTED, headline, open_axes, styled
 
 
+@figure(
+    "TransientResult", name="history", main=True, title="Against the distance", wide=True,
+    caption="Forces, and the share of the contact that slips.",
+)  # fmt: skip
 @styled
 def transient_history(transient: Source) -> Figure:
     """Forces of the road on the tire, and the share of the contact that slips, against the distance rolled.
@@ -32,6 +42,10 @@ def transient_history(transient: Source) -> Figure:
     return left.figure  # type: ignore[return-value]
 
 
+@figure(
+    "TurnResult", name="history", main=True, title="Against the angle", wide=True,
+    caption="Forces, and the share of the contact that slips.",
+)  # fmt: skip
 @styled
 def turn_history(turn: Source) -> Figure:
     """Torque that turns a standing wheel, and the share of the contact that slips, against its angle.
@@ -52,6 +66,28 @@ def turn_history(turn: Source) -> Figure:
     right.plot(angle, 100 * data["slip_fraction"].to_numpy(), color=CASES[1])
     headline(right, "Slip zone")
     return left.figure  # type: ignore[return-value]
+
+
+def _at_the_end(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
+    contact = beside.get("contact")
+    if contact is not None and "part_of" in contact.attrs:
+        yield Drawing({"contact": contact})
+
+
+@figure(
+    "TransientResult", "TurnResult", title="Shear at the end", wide=True,
+    caption="Shear in plan; hatched cells slip.", when=_at_the_end,
+)  # fmt: skip
+def shear_at_the_end(history: Source, contact: Source | None = None) -> Figure:
+    """Shear after the last step as a surface in space, beside its plan with the zones that stick and slip, kPa.
+
+    history: a TransientResult or a TurnResult. contact: at its end; needed of a dataset. Returns the figure. Raises
+    InputError where the contact is missing.
+    """
+    contact = contact or getattr(history, "contact", None)
+    if contact is None:
+        raise InputError("the contact at the end is not in this dataset; give it as contact=")
+    return shear(contact)
 
 
 def _panels(label: str) -> tuple[Axes, Axes]:

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import MM, fields_of
 from treadload.plots.kit.style import MUTED, headline, measure, sequential, styled
@@ -14,6 +15,10 @@ from treadload.plots.kit.style import MUTED, headline, measure, sequential, styl
 _SHOWN = 6
 
 
+@figure(
+    "Indentation", name="dent", main=True, title="Pressure and dent", wide=True,
+    caption="Pressure under the body, and what the surface keeps of it, step by step.",
+)  # fmt: skip
 @styled
 def indentation(result: Source) -> Figure:
     """Pressure and dent on the line along x through the middle, step by step.

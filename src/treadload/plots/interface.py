@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from treadload.composing import Source
 from treadload.damage.interface import interface_in_words
 from treadload.errors import InputError
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import (
@@ -56,6 +57,10 @@ _ALONG, _SIGNIFICANT, _LONGEST = 22, 0.1, 0.95
 _BAR, _ROOM = 0.26, 0.9
 
 
+@figure(
+    "BondVerdict", name="utilisation", main=True, title="Utilisation of the bonds", wide=True,
+    caption="Share of the strength that the load uses up; arrows: shear of the upper layer on the lower.",
+)  # fmt: skip
 @styled
 def bond_utilisation(verdict: Source, *, contact: Source | None = None) -> Figure:
     """Utilisation of the bond of every interface, in plan, with arrows of the shear.
@@ -67,24 +72,26 @@ def bond_utilisation(verdict: Source, *, contact: Source | None = None) -> Figur
     Returns the figure. Raises InputError for what is missing.
     """
     data = fields_of(verdict, "utilisation", "interface_shear_x", "interface_shear_y")
-    asked = [k for k in range(data.sizes["interface"]) if not np.isnan(data["utilisation"].isel(interface=k)).all()]
-    if not asked:
+    assessed = [
+        k for k in range(data.sizes["interface"]) if not np.isnan(data["utilisation"].isel(interface=k)).all()
+    ]
+    if not assessed:
         raise InputError("this figure needs the utilisation of at least one interface; assess the bonds first")
     plan = Plan.of(data)
-    size = (len(asked) * (_MAP + 1.35), min(9.0, _MAP * plan.aspect + 1.5))
+    size = (len(assessed) * (_MAP + 1.35), min(9.0, _MAP * plan.aspect + 1.5))
     figure = new_figure(*size, "compressed")
     scale = limits(data["utilisation"].to_numpy())
-    for ax, k in zip(np.atleast_1d(figure.subplots(1, len(asked))), asked, strict=True):
+    for ax, k in zip(np.atleast_1d(figure.subplots(1, len(assessed))), assessed, strict=True):
         mesh = _map(ax, data.isel(interface=k), plan, scale, contact)
-        if k != asked[0]:
+        if k != assessed[0]:
             ax.set_ylabel("")
-        if k == asked[-1]:
+        if k == assessed[-1]:
             colour_bar(mesh, ax, "utilisation of the bond", scale)
     return figure
 
 
-def _map(ax: Axes, one: xr.Dataset, plan: Plan, scale: Limits, contact: Source | None) -> QuadMesh:
-    used = plane(one, "utilisation")
+def _map(ax: Axes, interface: xr.Dataset, plan: Plan, scale: Limits, contact: Source | None) -> QuadMesh:
+    used = plane(interface, "utilisation")
     mesh = draw_cells(ax, plan, np.where(np.isinf(used), 2 * scale.high, used), sequential("shear"), scale)
     if contact is not None:
         mask = contact_mask(fields_of(contact))
@@ -92,25 +99,25 @@ def _map(ax: Axes, one: xr.Dataset, plan: Plan, scale: Limits, contact: Source |
             draw_outline(ax, mask, Plan.of(fields_of(contact)), MUTED, 0.6)
     row, column = peak_of(used)
     peak = float(used[row, column])
-    _arrows(ax, one, plan)
+    _arrows(ax, interface, plan)
     if peak > 0:
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), "parted" if math.isinf(peak) else f"{peak:.2g}")
     else:
         empty_note(ax, "no shear and no tension here")
     travel_arrow(ax)
-    title = interface_in_words(int(one["interface"]), str(one["between"].item()))
-    headline(ax, title[:1].upper() + title[1:], _in_numbers(one, plan, row, column), _LETTERS)
+    title = interface_in_words(int(interface["interface"]), str(interface["between"].item()))
+    headline(ax, title[:1].upper() + title[1:], _in_numbers(interface, plan, row, column), _LETTERS)
     return mesh
 
 
-def _in_numbers(one: xr.Dataset, plan: Plan, row: int, column: int) -> str:
+def _in_numbers(interface: xr.Dataset, plan: Plan, row: int, column: int) -> str:
     place = f"x = {signed(plan.x[column])}, y = {signed(plan.y[row])} mm"
-    shear, pressed = (plane(one, f"interface_{name}")[row, column] / 1e3 for name in ("shear", "pressure"))
-    text = f"{float(one['depth']) * MM:g} mm deep; highest at {place}:\n"
+    shear, pressed = (plane(interface, f"interface_{name}")[row, column] / 1e3 for name in ("shear", "pressure"))
+    text = f"{float(interface['depth']) * MM:g} mm deep; highest at {place}:\n"
     side = f"under {pressed:.0f} kPa" if pressed >= 0 else f"with {-pressed:.0f} kPa of tension"
     text += f"shear {shear:.0f} kPa {side}"
-    if "parting_passes" in one:
-        text += f"; fails after {power_of_ten(float(one['parting_passes']))} passes"
+    if "parting_passes" in interface:
+        text += f"; fails after {power_of_ten(float(interface['parting_passes']))} passes"
     return text
 
 
@@ -131,20 +138,20 @@ def sliding(fields: Source, *, contact: Source | None = None) -> Figure:
     plan = Plan.of(data)
     figure = new_figure(len(slid) * (_MAP + 1.35), min(9.0, _MAP * plan.aspect + 1.5), "compressed")
     for ax, k in zip(np.atleast_1d(figure.subplots(1, len(slid))), slid, strict=True):
-        one, microns = data.isel(interface=k), 1e6 * size[k]
+        interface, microns = data.isel(interface=k), 1e6 * size[k]
         scale = limits(microns)
         mesh = draw_cells(ax, plan, microns, sequential("shear"), scale)
         mask = None if contact is None else contact_mask(fields_of(contact))
         if contact is not None and mask is not None:
             draw_outline(ax, mask, Plan.of(fields_of(contact)), MUTED, 0.6)
-        _strokes(ax, plan, -plane(one, "jump_x"), -plane(one, "jump_y"), "sliding")
+        _strokes(ax, plan, -plane(interface, "jump_x"), -plane(interface, "jump_y"), "sliding")
         row, column = peak_of(microns)
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), f"{microns[row, column]:.2g} µm")
         travel_arrow(ax)
-        title = interface_in_words(int(one["interface"]), str(one["between"].item()))
-        shear, pressed = (float(plane(one, f"interface_{name}").max()) / 1e3 for name in ("shear", "pressure"))
+        title = interface_in_words(int(interface["interface"]), str(interface["between"].item()))
+        shear, pressed = (float(plane(interface, f"interface_{name}").max()) / 1e3 for name in ("shear", "pressure"))
         text = (
-            f"{float(one['depth']) * MM:g} mm deep; the upper layer slides on the lower along the arrows;\n"
+            f"{float(interface['depth']) * MM:g} mm deep; the upper layer slides on the lower along the arrows;\n"
             f"largest shear {shear:.0f} kPa, largest pressure {pressed:.0f} kPa"
         )
         headline(ax, title[:1].upper() + title[1:], text, _LETTERS)
@@ -152,9 +159,9 @@ def sliding(fields: Source, *, contact: Source | None = None) -> Figure:
     return figure
 
 
-def _arrows(ax: Axes, one: xr.Dataset, plan: Plan) -> None:
+def _arrows(ax: Axes, interface: xr.Dataset, plan: Plan) -> None:
     # The upper layer's shear on the lower: the traction on the plane that faces up.
-    _strokes(ax, plan, -plane(one, "interface_shear_x"), -plane(one, "interface_shear_y"), "shear")
+    _strokes(ax, plan, -plane(interface, "interface_shear_x"), -plane(interface, "interface_shear_y"), "shear")
 
 
 def _strokes(ax: Axes, plan: Plan, along: Array, across: Array, name: str) -> None:
@@ -173,6 +180,10 @@ def _strokes(ax: Axes, plan: Plan, along: Array, across: Array, name: str) -> No
     arrows.set_gid(name)
 
 
+@figure(
+    "BondComparison", name="lives", main=True, title="Life with and without the bond", wide=True,
+    caption="Life by every criterion with the bond, without it, and with it until it fails.",
+)  # fmt: skip
 @styled
 def bonded_and_parted(comparison: Source) -> Figure:
     """Bars of the life by every criterion: with the bond, without it, and with it until it fails.

@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import (
@@ -30,7 +31,7 @@ from treadload.plots.kit.style import (
     styled,
 )
 
-_GOVERNS, _OTHERS = "#d55e00", "#0b6fae"
+_GOVERNS, _REMAINING = "#d55e00", "#0b6fae"
 # A life that is longer than this many times the design life, or than this many years, is drawn as so long.
 _FAR, _LONG = 100.0, 1000.0
 # Damage below this part of the largest is not drawn.
@@ -40,6 +41,17 @@ _PART = 5.0
 _LETTERS = 22
 
 
+_ELASTICITIES = (
+    "How the governing life changes as each input grows by 5 %, temperature by 1 °C; the three that weigh most are "
+    "bold. Strength: the strain or stress that the law allows."
+)
+
+
+@figure(
+    "Life", name="years", main=True, title="Life by criterion", order=0,
+    caption="Years from opening until Miner's sum is 1 at the worst place, or the rut is at its limit. Orange: what "
+    "governs.",
+)  # fmt: skip
 @styled
 def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of the years that every criterion lasts, and until the rut's limit, with the design life.
@@ -57,7 +69,7 @@ def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
     figure, ax = figure_and_axes(ax, 5.4, 1.5 + 0.55 * len(names))
     rows = np.arange(len(names))[::-1]
     first = int(np.argmin(years))
-    colours = [_GOVERNS if k == first else _OTHERS for k in range(len(names))]
+    colours = [_GOVERNS if k == first else _REMAINING for k in range(len(names))]
     ax.barh(rows, shown, height=0.62, color=colours)
     # Bars on a logarithmic axis have no beginning: take it only where a linear one shows nothing of the shortest.
     largest = max(shown.max(), float(design or 0))
@@ -87,6 +99,11 @@ def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Life", name="damage", title="Damage across the wheel path", wide=True, order=2,
+    caption="Miner's sum of every criterion, with lateral wander unless the law includes it; dots mark the worst "
+    "places. Full lines are read at the surface, dashed ones below.",
+)  # fmt: skip
 @styled
 def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
     """Damage across the wheel path by every criterion, with wander where it applies, at the end of the design life or
@@ -136,6 +153,10 @@ def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Life", name="shares", title="Who does the damage, and when", wide=True, order=3,
+    caption="Shares of the governing damage at its worst place by class of axles and season; blank: below 0.5 %.",
+)  # fmt: skip
 @styled
 def life_shares(life: Source, criterion: str | None = None) -> Figure:
     """Map of the damage that every class of axles does in every season, at the worst place.
@@ -186,6 +207,11 @@ def life_shares(life: Source, criterion: str | None = None) -> Figure:
     return figure
 
 
+@figure("Sensitivity", name="inputs", main=True, title="What the life depends on", caption=_ELASTICITIES)
+@figure(
+    "Life", name="inputs", title="What the life depends on", order=1, caption=_ELASTICITIES,
+    when=lambda data: "elasticity" in data,
+)  # fmt: skip
 @styled
 def life_inputs(life: Source, *, ax: Axes | None = None, most: int = 10) -> Figure:
     """Bars of how much longer the governing criterion lasts as an input grows by 5 %, temperature by 1 °C.
@@ -199,7 +225,7 @@ def life_inputs(life: Source, *, ax: Axes | None = None, most: int = 10) -> Figu
     names = names[:most]
     figure, ax = figure_and_axes(ax, 5.4, 1.5 + 0.29 * len(names))
     rows = np.arange(len(names))[::-1]
-    ax.barh(rows, change, height=0.66, color=[_GOVERNS if v < 0 else _OTHERS for v in change])
+    ax.barh(rows, change, height=0.66, color=[_GOVERNS if v < 0 else _REMAINING for v in change])
     for row, value in zip(rows, change, strict=True):
         side = 1 if value >= 0 else -1
         ax.annotate(f"{signed(value)} %", (value, row), xytext=(4 * side, 0), textcoords="offset points",
@@ -217,7 +243,7 @@ def life_inputs(life: Source, *, ax: Axes | None = None, most: int = 10) -> Figu
     ax.set_xlabel("change of the life as the input grows by 5 % (%)")
     headline(ax, "What the life depends on")
     ax.legend(
-        handles=[Patch(color=_OTHERS, label="longer"), Patch(color=_GOVERNS, label="shorter")], loc="lower right"
+        handles=[Patch(color=_REMAINING, label="longer"), Patch(color=_GOVERNS, label="shorter")], loc="lower right"
     )
     return figure
 

@@ -95,12 +95,12 @@ def master_curve(
     the colour of their temperature, and in grey where they were measured.
     Returns the figure. Raises InputError, also for sweeps and relaxation tests in one figure.
     """
-    given = _listed(curves)
-    if any(isinstance(_data(curve), RelaxationTest) for curve in given):
-        return _relaxation(given, labels)
+    curves_drawn = _listed(curves)
+    if any(isinstance(_data(curve), RelaxationTest) for curve in curves_drawn):
+        return _relaxation(curves_drawn, labels)
     figure = new_figure(7.6, 6.0)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-    for curve in _in_frequency(given, labels, frequencies):
+    for curve in _in_frequency(curves_drawn, labels, frequencies):
         for ax, value in ((upper, _norm), (lower, _phase)):
             if curve.unshifted is not None:
                 ax.plot(curve.unshifted[0], value(curve.unshifted[1]), ".", ms=3, color=RULE, zorder=1)
@@ -110,8 +110,8 @@ def master_curve(
     upper.set_ylabel("|E*| (MPa)")
     lower.set_ylabel("phase angle (°)")
     lower.set_ylim(bottom=0)
-    lower.set_xlabel(_reduced("frequency", "$f\\,a_T$ (Hz)", given))
-    headline(upper, "Master curve", _reference(given))
+    lower.set_xlabel(_reduced("frequency", "$f\\,a_T$ (Hz)", curves_drawn))
+    headline(upper, "Master curve", _reference(curves_drawn))
     lower.grid(True)
     lower.spines[["top", "right"]].set_visible(False)
     return _finish(figure, upper)
@@ -131,14 +131,14 @@ def shift_factors(
     drawn, as far as they hold; those of the data if left out. ax: axes to draw into. Returns the figure.
     Raises InputError.
     """
-    given = _listed(curves)
-    names = _names(given, labels)
-    measured = [t for curve in given if isinstance(curve, MasterCurve) for t in curve.temperatures]
+    listed = _listed(curves)
+    names = _names(listed, labels)
+    measured = [t for curve in listed if isinstance(curve, MasterCurve) for t in curve.temperatures]
     if temperatures is None and not measured:
         raise InputError("without measured shift factors give temperatures, °C, over which to draw the laws")
     low, high = temperatures or (min(measured), max(measured))
     figure, ax = figure_and_axes(ax, 6.6, 4.4)
-    for number, (curve, name) in enumerate(zip(given, names, strict=True)):
+    for number, (curve, name) in enumerate(zip(listed, names, strict=True)):
         colour = CASES[number % len(CASES)]
         if isinstance(curve, MasterCurve):
             ax.plot(curve.temperatures, curve.log_factors, "o", ms=4, color=colour, label=name, zorder=3)
@@ -176,16 +176,16 @@ class _Curve:
 def _in_frequency(
     curves: Shown | Sequence[Shown], labels: Sequence[str] | None, frequencies: tuple[float, float] | None
 ) -> Iterator[_Curve]:
-    given = _drawable(curves)
-    names = _names(given, labels)
-    if any(isinstance(_data(curve), RelaxationTest) for curve in given):
+    drawable = _drawable(curves)
+    names = _names(drawable, labels)
+    if any(isinstance(_data(curve), RelaxationTest) for curve in drawable):
         raise InputError("a relaxation test has no complex modulus; draw it with master_curve, or fit a model to it")
     if frequencies is not None and not 0 < frequencies[0] < frequencies[1] < math.inf:
         raise InputError(f"frequencies must be (lowest, highest), Hz, > 0, got {frequencies}")
-    sweeps = [data.omega for data in map(_data, given) if isinstance(data, FrequencySweep)]
+    sweeps = [data.omega for data in map(_data, drawable) if isinstance(data, FrequencySweep)]
     ends = (min(w[0] for w in sweeps), max(w[-1] for w in sweeps)) if sweeps else None
-    inks = iter(CASES * len(given))
-    for curve, name in zip(given, names, strict=True):
+    inks = iter(CASES * len(drawable))
+    for curve, name in zip(drawable, names, strict=True):
         data = _data(curve)
         if isinstance(data, FrequencySweep):
             temperatures, unshifted = None, None
@@ -199,14 +199,14 @@ def _in_frequency(
             yield _Curve(omega / math.tau, curve.complex_modulus(omega), name, next(inks), False)
 
 
-def _relaxation(given: Sequence[Shown], labels: Sequence[str] | None) -> Figure:
-    tests = [data for data in map(_data, given) if isinstance(data, RelaxationTest)]
-    if any(isinstance(_data(curve), FrequencySweep) for curve in given):
+def _relaxation(curves: Sequence[Shown], labels: Sequence[str] | None) -> Figure:
+    tests = [data for data in map(_data, curves) if isinstance(data, RelaxationTest)]
+    if any(isinstance(_data(curve), FrequencySweep) for curve in curves):
         raise InputError("sweeps of frequency and relaxation tests have no common axis; draw them in two figures")
     figure, ax = figure_and_axes(None, 7.6, 4.4)
     first, last = min(t.time[0] for t in tests), max(t.time[-1] for t in tests)
-    inks = iter(CASES * len(given))
-    for curve, name in zip(given, _names(given, labels), strict=True):
+    inks = iter(CASES * len(curves))
+    for curve, name in zip(curves, _names(curves, labels), strict=True):
         if isinstance(curve, MasterCurve):
             parts = [part for part in curve.isotherms if isinstance(part, RelaxationTest)]
             for part in parts:
@@ -224,9 +224,9 @@ def _relaxation(given: Sequence[Shown], labels: Sequence[str] | None) -> Figure:
             ax.plot(time, relaxation(time) * _MPA, color=next(inks), label=name)
     ax.set_xscale("log")
     ax.set_yscale("log")
-    ax.set_xlabel(_reduced("time", "$t/a_T$ (s)", given))
+    ax.set_xlabel(_reduced("time", "$t/a_T$ (s)", curves))
     ax.set_ylabel("relaxation modulus (MPa)")
-    headline(ax, "Master curve", _reference(given))
+    headline(ax, "Master curve", _reference(curves))
     return _finish(figure, ax)
 
 
@@ -249,8 +249,8 @@ def _isotherms(ax: Axes, x: Array, y: Array, temperatures: Array, label: str) ->
     norm = Normalize(float(temperatures.min()), float(temperatures.max()))
     ax.scatter(x, y, s=13, c=temperatures, cmap=_warmth(), norm=norm, linewidths=0, label=label, zorder=3)
     figure = figure_of(ax)
-    if not any(other.get_label() == "<colorbar>" for other in figure.axes):
-        beside = [other for other in figure.axes if other.get_subplotspec() is not None]
+    if not any(axes.get_label() == "<colorbar>" for axes in figure.axes):
+        beside = [axes for axes in figure.axes if axes.get_subplotspec() is not None]
         bar = figure.colorbar(ScalarMappable(norm, _warmth()), ax=beside or [ax], pad=0.02, aspect=30)
         bar.set_label("temperature of the test (°C)")
         bar.outline.set_visible(False)
@@ -292,17 +292,17 @@ def _data(curve: object) -> object:
     return curve.data if isinstance(curve, MasterCurve) else curve
 
 
-def _reference(given: Sequence[Shown]) -> str:
-    at = {curve.reference for curve in given if isinstance(curve, MasterCurve)}
+def _reference(curves: Sequence[Shown]) -> str:
+    at = {curve.reference for curve in curves if isinstance(curve, MasterCurve)}
     if len(at) > 1:
         temperatures = " and ".join(f"{t:g}" for t in sorted(at))
         raise InputError(f"master curves at {temperatures} °C share no axis; shift them to one reference")
     return f"reduced to {at.pop():g} °C; grey: where it was measured" if at else "each curve at one temperature"
 
 
-def _reduced(name: str, symbol: str, given: Sequence[Shown]) -> str:
+def _reduced(name: str, symbol: str, curves: Sequence[Shown]) -> str:
     plain_symbol = {"frequency": "frequency (Hz)", "time": "time (s)"}[name]
-    return f"reduced {name} {symbol}" if any(isinstance(c, MasterCurve) for c in given) else plain_symbol
+    return f"reduced {name} {symbol}" if any(isinstance(c, MasterCurve) for c in curves) else plain_symbol
 
 
 def _listed(curves: Any) -> list[Any]:
@@ -310,19 +310,19 @@ def _listed(curves: Any) -> list[Any]:
 
 
 def _drawable(curves: Any) -> list[Any]:
-    given = _listed(curves)
-    for one in given:
+    listed = _listed(curves)
+    for curve in listed:
         # An empty figure would say nothing of it.
-        if not isinstance(one, Viscoelastic | FrequencySweep | RelaxationTest | MasterCurve):
-            remedy = "take it at a temperature: .at(15)" if hasattr(one, "at") else "draw a viscoelastic material"
-            raise InputError(f"{one} has no modulus over frequency by itself; {remedy}")
-    return given
+        if not isinstance(curve, Viscoelastic | FrequencySweep | RelaxationTest | MasterCurve):
+            remedy = "take it at a temperature: .at(15)" if hasattr(curve, "at") else "draw a viscoelastic material"
+            raise InputError(f"{curve} has no modulus over frequency by itself; {remedy}")
+    return listed
 
 
-def _names(given: Sequence[Any], labels: Sequence[str] | None) -> list[str]:
-    if not given or (labels is not None and len(labels) != len(given)):
-        raise InputError(f"give a label for each curve: got {len(labels or ())} labels for {len(given)} curves")
-    return [plain(label) for label in labels] if labels is not None else [""] * len(given)
+def _names(curves: Sequence[Any], labels: Sequence[str] | None) -> list[str]:
+    if not curves or (labels is not None and len(labels) != len(curves)):
+        raise InputError(f"give a label for each curve: got {len(labels or ())} labels for {len(curves)} curves")
+    return [plain(label) for label in labels] if labels is not None else [""] * len(curves)
 
 
 def _finish(figure: Figure, ax: Axes) -> Figure:

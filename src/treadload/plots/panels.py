@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 
 from treadload.composing import Source
 from treadload.damage.cracks import OBLIQUE_TOLERANCE
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import (
@@ -54,9 +55,10 @@ _DIRECTIONS = (
 )
 
 
+@figure("Response")
 @styled
 def strain_panels(
-    response: Source, *, depth: float = 0.0, strain: Strain = "principal", contact: Source | None = None
+    response: Source, depth: float = 0.0, strain: Strain = "principal", *, contact: Source | None = None
 ) -> Figure:
     """Largest extension strain in plan above, microstrain; below, the direction of that extension.
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.errors import InputError, nearest
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import DEPTH_LABEL, MM, Y_LABEL, colour_bar, fields_of, limits, mark_peak, peak_of
 from treadload.plots.kit.style import CASES, INK, MUTED, headline, measure, sequential, styled
@@ -22,6 +24,14 @@ _SHOWN = 6
 _WORDS = {"xx": "along travel", "yy": "across travel", "zz": "vertical"}
 
 
+def _has_yielded(data: xr.Dataset) -> bool:
+    return bool(data["equivalent_plastic_strain"].any())
+
+
+@figure(
+    "Passes", name="rut", main=True, title="Rut across travel", wide=True, order=1,
+    caption="Displacement of the surface that passes leave, down; the same all along travel.",
+)  # fmt: skip
 @styled
 def rut_profile(passes: Source, *, ax: Axes | None = None) -> Figure:
     """Shape of the surface across travel that passes leave, pass by pass, down positive.
@@ -36,8 +46,8 @@ def rut_profile(passes: Source, *, ax: Axes | None = None) -> Figure:
     rows = _rows(len(numbers))
     shades = sequential("strain")(np.linspace(0.25, 0.85, len(rows)))
     for row, shade in zip(rows, shades, strict=True):
-        told = f"{numbers[row]:g} pass{'' if numbers[row] == 1 else 'es'}"
-        ax.plot(across, profile[row] * factor, color=shade, label=told)
+        label = f"{numbers[row]:g} pass{'' if numbers[row] == 1 else 'es'}"
+        ax.plot(across, profile[row] * factor, color=shade, label=label)
     ax.axhline(0, color=MUTED, lw=0.7)
     ax.invert_yaxis()
     ax.set_xlim(across[0], across[-1])
@@ -51,6 +61,11 @@ def rut_profile(passes: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Passes", name="drum", title="Drum on its own track", wide=True, order=0,
+    caption="Pressure along travel below the drum's middle, and its depth below the first surface.",
+    when=lambda data: "pressure" in data,
+)  # fmt: skip
 @styled
 def drum_contact(passes: Source) -> Figure:
     """A drum on its own track: its pressure along travel through its middle, and how deep it stands, pass by pass.
@@ -75,7 +90,7 @@ def drum_contact(passes: Source) -> Figure:
     left.set_ylabel(f"pressure ({unit})")
     left.legend(title="pass")
     depths = {"drum below the first surface": data["approach"], "rut": data["rut_depth"]}
-    small = max(float(one.max()) for one in depths.values()) * MM < _FINE
+    small = max(float(depth.max()) for depth in depths.values()) * MM < _FINE
     for (name, depth), colour in zip(depths.items(), CASES, strict=False):
         right.plot(numbers, depth.to_numpy() * (1e6 if small else MM), color=colour, marker="o", ms=4, label=name)
     right.set_ylim(bottom=0)
@@ -93,6 +108,10 @@ def drum_contact(passes: Source) -> Figure:
     return figure
 
 
+@figure(
+    "Passes", name="strain", title="Plastic strain", wide=True, order=2,
+    caption="Equivalent plastic strain after the last pass.", when=_has_yielded,
+)  # fmt: skip
 @styled
 def plastic_strain(passes: Source, *, ax: Axes | None = None) -> Figure:
     """Accumulated equivalent plastic strain after the last pass, in a section across travel, %.
@@ -129,6 +148,10 @@ def plastic_strain(passes: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Passes", name="stress", title="Residual stress", order=3,
+    caption="Along travel, below the wheel's line, tension positive.", when=_has_yielded,
+)  # fmt: skip
 @styled
 def residual_stress(
     passes: Source, component: Literal["xx", "yy", "zz"] = "xx", *, y: float = 0.0, ax: Axes | None = None

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import Drawing, figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import Limits, Plan, at_depth, colour_bar, draw_cells, fields_of, plane
 from treadload.plots.kit.style import CASES, headline, measure, sequential, styled, travel_arrow
@@ -15,6 +19,17 @@ from treadload.plots.kit.style import CASES, headline, measure, sequential, styl
 _LETTERS = 44
 
 
+# Maps of one report.
+_MOST = 6
+
+
+def _maps(data: xr.Dataset) -> Iterator[Drawing]:
+    maps = [str(name) for name, field in data.data_vars.items() if {"x", "y"} <= set(field.dims)]
+    for name in maps[:_MOST]:
+        yield Drawing({"name": name}, name.replace("_", " "))
+
+
+@figure("Fields", name="map", title="Map", caption="In plan.", when=_maps)
 @styled
 def plain_map(fields: Source, name: str, *, depth: float | None = None, ax: Axes | None = None) -> Figure:
     """A variable in plan, at true scale, in its own unit.
@@ -26,13 +41,13 @@ def plain_map(fields: Source, name: str, *, depth: float | None = None, ax: Axes
     if not {"x", "y"} <= set(data[name].dims):
         over = ", ".join(map(str, data[name].dims)) or "no dimension"
         raise InputError(f"a map is drawn of a variable over y and x, {name} is over {over}")
-    one = data[[name]] if depth is None else at_depth(data[[name]], depth)
-    rest = [dim for dim in one[name].dims if dim not in ("x", "y")]
-    said = [_place(one, str(dim)) for dim in rest]
-    one = one.isel(dict.fromkeys(rest, 0))
-    values, plan = plane(one, name), Plan.of(one)
-    known = values[np.isfinite(values)]
-    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    sheet = data[[name]] if depth is None else at_depth(data[[name]], depth)
+    rest = [dim for dim in sheet[name].dims if dim not in ("x", "y")]
+    notes = [_place(sheet, str(dim)) for dim in rest]
+    sheet = sheet.isel(dict.fromkeys(rest, 0))
+    values, plan = plane(sheet, name), Plan.of(sheet)
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     figure, ax = figure_and_axes(ax, 6.4, min(8.0, 1.6 + 4.6 * plan.aspect))
     scale = Limits(low, high if high > low else low + 1.0)
     mesh = draw_cells(ax, plan, values, sequential("strain"), scale)
@@ -40,10 +55,14 @@ def plain_map(fields: Source, name: str, *, depth: float | None = None, ax: Axes
     colour_bar(mesh, ax, f"{name.replace('_', ' ')} ({'–' if unit == '1' else unit})", scale)
     travel_arrow(ax)
     words = str(data[name].attrs.get("long_name", name))
-    headline(ax, words[:1].upper() + words[1:], ", ".join(said), _LETTERS)
+    headline(ax, words[:1].upper() + words[1:], ", ".join(notes), _LETTERS)
     return figure
 
 
+@figure(
+    "RollingResistance", main=True, title="Rolling resistance",
+    caption="The force that resists, and the energy that the materials lose per metre.",
+)  # fmt: skip
 @styled
 def losses(resistance: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of the force that resists rolling and of what the materials lose per length, N.

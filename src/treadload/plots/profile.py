@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -14,12 +14,14 @@ from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import Drawing, figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.layers import Layers, draw_interfaces, name_layers
 from treadload.plots.kit.places import places_under
 from treadload.plots.kit.plan import DEPTH_LABEL, MICRO, MM, fields_of, peak_of, plane
 from treadload.plots.kit.style import CASES, INK, MUTED, halo, headline, legend_below, signed, styled
+from treadload.response.fields import kind_of_points
 
 Component = Literal["xx", "yy", "zz", "in-plane", "principal"]
 COMPONENTS: dict[str, tuple[str, str, str]] = {
@@ -37,11 +39,42 @@ _WORST: dict[str, tuple[str, str]] = {
 _MARKED = 15
 
 
+def _epsilon_6(beside: Mapping[str, xr.Dataset]) -> float | None:
+    """Strain at a million passes of the verdict of a case, where it has one."""
+    damage = beside.get("damage")
+    return float(damage.attrs["epsilon_6"]) if damage is not None and "epsilon_6" in damage.attrs else None
+
+
+def _layered(data: xr.Dataset | None) -> bool:
+    return data is not None and bool(Layers.of(data).interfaces)
+
+
+def _under_one_place(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
+    """Of the section along travel, or of the map without one, where layers need no places across the tire."""
+    kinds = ("slice_along",) if "slice_along" in beside else ("response",)
+    layered = _layered(beside.get("slice_across"))
+    if kind_of_points(data) in kinds and not layered and data.sizes.get("depth", 1) > 2:
+        yield Drawing({"epsilon_6": _epsilon_6(beside)})
+
+
+def _under_places(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
+    if kind_of_points(data) == "slice_across" and _layered(data):
+        # The section has the stress of the surface, but perhaps not that under the load's centre.
+        response = beside.get("response")
+        load = response if response is not None and 0.0 in response["depth"] else data
+        yield Drawing({"contact": load, "epsilon_6": _epsilon_6(beside)})
+
+
+@figure(
+    "Response", title="Strain against depth", order=2,
+    caption="Both strains under the worst point of the surface; dashed: the largest anywhere in the section.",
+    when=_under_one_place,
+)  # fmt: skip
 @styled
 def profile(
     response: Source,
-    *,
     strain: Literal["principal", "in-plane"] = "principal",
+    *,
     epsilon_6: float | None = None,
     ax: Axes | None = None,
 ) -> Figure:
@@ -80,6 +113,12 @@ def profile(
     return figure
 
 
+@figure(
+    "Response", title="Strain against depth", wide=True, order=2,
+    caption="Extension along travel, across it and the largest in space, under places across the tire; strain jumps "
+    "where a layer ends.",
+    when=_under_places,
+)  # fmt: skip
 @styled
 def strain_profiles(
     response: Source,

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import (
@@ -32,6 +33,10 @@ _NUMBERED, _LEAST = 0.06, 0.002
 _INPUTS = (*CASES[:5], "#7a8793", "#4b9cd3", "#e0a458", "#6aa84f")
 
 
+@figure(
+    "Reliability", name="years", main=True, title="When the road fails", wide=True,
+    caption="Probability that a criterion has failed by a year; dotted: the first of them.",
+)  # fmt: skip
 @styled
 def reliability_years(reliability: Source, *, ax: Axes | None = None) -> Figure:
     """Probability of failure against years by criterion: draws in full, the first order in dashes.
@@ -63,8 +68,8 @@ def reliability_years(reliability: Source, *, ax: Axes | None = None) -> Figure:
     ax.set_xscale("log")
     ax.set_xlim(years[0], years[-1])
     ax.set_ylim(0, 100)
-    ticks = [one * 10.0**power for power in range(-2, 5) for one in (1, 2, 5)]
-    ax.set_xticks([one for one in ticks if years[0] <= one <= years[-1]])
+    ticks = [digit * 10.0**power for power in range(-2, 5) for digit in (1, 2, 5)]
+    ax.set_xticks([tick for tick in ticks if years[0] <= tick <= years[-1]])
     ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     ax.xaxis.set_minor_formatter(NullFormatter())
     open_axes(ax)
@@ -76,6 +81,10 @@ def reliability_years(reliability: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Reliability", name="inputs", title="What the years scatter by", wide=True,
+    caption="Share of each input in the scatter of a criterion's years at the smallest risk.",
+)  # fmt: skip
 @styled
 def reliability_inputs(reliability: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of what the scatter of each criterion is made of: α² of the first order.
@@ -93,9 +102,9 @@ def reliability_inputs(reliability: Source, *, ax: Axes | None = None) -> Figure
     handles = []
     for number, k in enumerate(order):
         colour = _INPUTS[min(number, len(_INPUTS) - 1)]
-        told = "" if words[k] in ("", "SN") else f", {words[k]}"
+        law = "" if words[k] in ("", "SN") else f", {words[k]}"
         ax.barh(rows, shares[:, k], left=left, height=0.62, color=colour, edgecolor=PAPER, linewidth=0.8)
-        handles.append(Patch(color=colour, label=plain(f"{data['input'].to_numpy()[k]}{told}")))
+        handles.append(Patch(color=colour, label=plain(f"{data['input'].to_numpy()[k]}{law}")))
         for row, start, share in zip(rows, left, shares[:, k], strict=True):
             if share >= _NUMBERED:
                 ax.text(start + share / 2, row, f"{100 * share:.0f}", ha="center", va="center", color=PAPER,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 import numpy as np
@@ -12,6 +13,7 @@ from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import Drawing, figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.layers import name_layers
@@ -43,6 +45,7 @@ from treadload.plots.kit.style import (
     styled,
     travel_arrow,
 )
+from treadload.response.fields import kind_of_points, layer_in_words
 
 Strain = Literal["principal", "in-plane"]
 VARIABLE = {"principal": "principal_strain_1", "in-plane": "in_plane_strain_1"}
@@ -52,12 +55,73 @@ NAMES = {"principal": "three-dimensional", "in-plane": "in the horizontal plane"
 _SIGNIFICANT = 0.2
 
 
+STRAINS: tuple[Strain, ...] = ("principal", "in-plane")
+_HOLDS = ", which at the surface includes the shear of the tire itself"
+DRAWN = {"principal": "the three-dimensional strain", "in-plane": "the strain in the horizontal plane"}
+WHAT = {
+    "principal": "Strokes lie along the largest extension; where a principal stress is tensile a crack opens across "
+    "them. A stroke shortens to a point where the extension turns out of the page. White: no extension.",
+    "in-plane": "Strokes lie along the extension; where a principal stress is tensile, vertical cracks open across "
+    "them. White: no extension in the plane.",
+}
+
+
+def _planes(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
+    """A map for each depth, two at the surface."""
+    if kind_of_points(data) != "response":
+        return
+    for depth in np.atleast_1d(data["depth"].to_numpy()).tolist():
+        # Without the tire's shear on it the plane's strain adds little: below the surface one map is enough.
+        side = layer_in_words(at_depth(data, depth))
+        deep = f"{place_in_words(depth)}, {side}" if side else place_in_words(depth)
+        for strain in STRAINS if depth == 0 else STRAINS[:1]:
+            holds = _HOLDS if depth == 0 and strain == "principal" else ""
+            yield Drawing(
+                {"depth": depth, "strain": strain, "contact": beside.get("contact")},
+                f"Largest extension strain {deep}, {NAMES[strain]}",
+                f"Drawn: {DRAWN[strain]}{holds}. {WHAT[strain]}",
+            )
+
+
+def _sections(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
+    words = {"slice_along": "along travel", "slice_across": "across travel"}.get(kind_of_points(data))
+    if words is not None:
+        deep = assessed_depth(assessed_plane(beside.get("response"), beside.get("damage")))
+        caption = (
+            f"Drawn: the three-dimensional strain through the worst point {deep}; black bars: the tire touches. "
+            "Strokes show the part of the direction that lies in the section."
+        )
+        yield Drawing(title=f"Vertical section {words}", caption=caption)
+
+
+def assessed_plane(response: xr.Dataset | None, damage: xr.Dataset | None) -> xr.Dataset | None:
+    """The map of a response at the depth of a verdict, or at its shallowest depth; None without a response."""
+    if response is None:
+        return None
+    depths = np.atleast_1d(response["depth"].to_numpy())
+    wanted = float(damage.attrs.get("depth", depths.min())) if damage is not None else float(depths.min())
+    nearest = int(np.argmin(np.abs(depths - wanted)))
+    return response.isel(depth=nearest) if "depth" in response.dims else response
+
+
+def assessed_depth(plane: xr.Dataset | None) -> str:
+    """Where the strains of a map at one depth are evaluated, in words."""
+    if plane is None or "depth" not in plane.coords or float(plane["depth"]) == 0:
+        return "at the surface"
+    side = layer_in_words(plane)
+    return f"{float(plane['depth']) * MM:g} mm deep{f', {side}' if side else ''}"
+
+
+@figure(
+    "Response", main=True, title="Largest extension strain", order=0,
+    when=_planes,
+)  # fmt: skip
 @styled
 def strain_directions(
     response: Source,
-    *,
     depth: float = 0.0,
     strain: Strain = "principal",
+    *,
     contact: Source | None = None,
     ax: Axes | None = None,
 ) -> Figure:
@@ -95,9 +159,9 @@ def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outli
     row, column = peak_of(values)
     peak = float(values[row, column])
     if peak > 0:
-        own = limits(values)
+        span = limits(values)
         along_x, along_y = horizontal(data, strain)
-        draw_strokes(ax, strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * own.high))
+        draw_strokes(ax, strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * span.high))
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(peak))
     else:
         empty_note(ax, "no extension here")
@@ -120,12 +184,15 @@ def place_in_words(depth: float) -> str:
     return "at the surface" if depth == 0 else f"{depth * MM:g} mm deep"
 
 
+@figure(
+    "Response", title="Vertical section", order=1, when=_sections
+)  # fmt: skip
 @styled
 def depth_slice(
     response: Source,
-    *,
     along: Literal["travel", "across"] | None = None,
     at: float | None = None,
+    *,
     ax: Axes | None = None,
 ) -> Figure:
     """Largest extension strain in a vertical section, microstrain, with strokes along its direction.

@@ -49,7 +49,7 @@ def compare_roads(
 
     responses: of the same load, with principal_strain_1 and principal_direction_1 over (depth, y, x), two depths or
     more; `both_sides` shows what happens at an interface. labels: a name each. along, at: the section, as for
-    `ResponsePlots.depth_slice`. strain: of the profile, "xx", "yy", "zz", "in-plane" or "principal"; if left out
+    `depth_slice`. strain: of the profile, "xx", "yy", "zz", "in-plane" or "principal"; if left out
     the horizontal one in the section. place: of the profile along the section, m; if left out under the centre of
     the first road's load. Returns the figure, microstrain.
     Raises InputError for missing variables, sections in different directions or labels that do not match.

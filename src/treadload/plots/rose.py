@@ -15,6 +15,7 @@ from matplotlib.projections.polar import PolarAxes
 from treadload.composing import Source
 from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, crack_rose, orientation
 from treadload.errors import InputError
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import MICRO, fields_of
@@ -67,6 +68,7 @@ def trace_rose(roses: Source | Sequence[Source], labels: Sequence[str] | None = 
     return figure
 
 
+@figure("Verdict", name="rose")
 def rose_of(verdict: Source, *, threshold: float | None = None, classes: int = 18) -> Figure:
     """The rose of a verdict's cracks, by area of road.
 

@@ -9,11 +9,19 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.damage.words import rut_in_words
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import MM, fields_of
 from treadload.plots.kit.style import INK, headline, legend_below, measure, plain, sequential, styled
 
 
+@figure(
+    "Life", name="rut", title="Rut against years", wide=True, order=5,
+    caption=lambda data: f"R{rut_in_words(data)[1:]}. Where it is deepest, with lateral wander; what was not read in "
+    "its source stands in the warnings.",
+    when=lambda data: "rut_depth" in data,
+)  # fmt: skip
 @styled
 def life_rut(life: Source) -> Figure:
     """Rut against years where it is deepest, mm, layers on each other from the surface down; dashed: its limit.
@@ -35,11 +43,11 @@ def life_rut(life: Source) -> Figure:
         under = over
     ax.plot(years, under, color=INK, lw=1.2)
     limit, when = data.attrs.get("rut_limit"), float(data.attrs.get("rut_years", math.inf))
-    told = f"{measure(float(under[-1]))} mm after {years[-1]:g} years"
+    text = f"{measure(float(under[-1]))} mm after {years[-1]:g} years"
     if limit is not None:
         ax.axhline(float(limit) * MM, color=INK, ls="--", lw=0.9)
         reached = "not reached" if math.isinf(when) else f"reached after {measure(when)} years"
-        told += f"; limit of {float(limit) * MM:g} mm, dashed, {reached}"
+        text += f"; limit of {float(limit) * MM:g} mm, dashed, {reached}"
     ax.set_xlim(0, years[-1])
     ax.set_ylim(0, 1.08 * max(float(under[-1]), 0.0 if limit is None else float(limit) * MM, 1e-6))
     ax.invert_yaxis()
@@ -48,5 +56,5 @@ def life_rut(life: Source) -> Figure:
     ax.grid(True)
     handles, _ = ax.get_legend_handles_labels()
     legend_below(ax, handles, columns=min(3, len(handles)))
-    headline(ax, "Rut", told)
+    headline(ax, "Rut", text)
     return figure

@@ -102,8 +102,8 @@ def _gap(ax: Axes, data: xr.Dataset) -> None:
     ax.set_aspect("equal")
     ax.set(xlabel="x (mm)", ylabel="y (mm)")
     ax.invert_yaxis()
-    told = f"outlined: {signed(100 * share)} % filled from the rest of the turn".replace("+", "")
-    headline(ax, "Over the road", told if share else "nothing was filled")
+    outline = f"outlined: {signed(100 * share)} % filled from the rest of the turn".replace("+", "")
+    headline(ax, "Over the road", outline if share else "nothing was filled")
 
 
 def _seen(data: xr.Dataset) -> tuple[float, float]:

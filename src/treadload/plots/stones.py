@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import (
@@ -37,6 +38,11 @@ _NOTHING = 1e-3
 _SHOWN = 99.5
 
 
+@figure(
+    "Heterogeneous", name="section", main=True, title="Stones in mortar", wide=True,
+    caption="Largest tension in a section with stones, which are outlined, and of the mortar alone; right: the share "
+    "of the mastic, and of the stones' faces, that bears more.",
+)  # fmt: skip
 @styled
 def stones_in_mortar(
     window: Source, *, along: Literal["travel", "across"] = "across", at: float | None = None
@@ -53,12 +59,12 @@ def stones_in_mortar(
     )
     if along not in ("travel", "across"):
         raise InputError(f'along must be "travel" or "across", got {along!r}')
-    name, other = ("x", "y") if along == "travel" else ("y", "x")
+    name, across = ("x", "y") if along == "travel" else ("y", "x")
     if min(data.sizes[axis] for axis in ("depth", name)) < 2:
         raise InputError("a section needs at least two depths and two cells across")
-    place = nearest(data, other, at) if at is not None else _worst(data, other)
-    cut = data.isel({other: place})
-    with_stones, alone = (cut[one].to_numpy() * _MEGA for one in ("principal_stress_1", "tension_without_stones"))
+    place = nearest(data, across, at) if at is not None else _worst(data, across)
+    cut = data.isel({across: place})
+    with_stones, alone = (cut[name].to_numpy() * _MEGA for name in ("principal_stress_1", "tension_without_stones"))
     high = float(np.nanpercentile(np.concatenate([with_stones, alone]), _SHOWN))
     scale = Limits(0.0, max(high, 1e-9), bool(max(with_stones.max(), alone.max()) > high))
     aspect = float(np.ptp(data["depth"].to_numpy()) / np.ptp(data[name].to_numpy()))
@@ -71,7 +77,7 @@ def stones_in_mortar(
         ("alone", alone, "Mortar alone"),
     ):
         mesh = _section(axes[key], cut, name, values, scale, outlined=key == "with")
-        where = f"{other} = {signed(float(cut[other]) * MM)} mm"
+        where = f"{across} = {signed(float(cut[across]) * MM)} mm"
         highest = float(np.max(values))
         pulled = highest > _NOTHING * scale.high
         if not pulled:
@@ -83,10 +89,10 @@ def stones_in_mortar(
     return figure
 
 
-def _worst(data: xr.Dataset, other: str) -> int:
+def _worst(data: xr.Dataset, across: str) -> int:
     """Where across the section the mastic is pulled most, away from the window's sides."""
     tension = data["principal_stress_1"].where(data["phase"] == 0)
-    line = tension.max([axis for axis in ("depth", "x", "y") if axis != other]).to_numpy()
+    line = tension.max([axis for axis in ("depth", "x", "y") if axis != across]).to_numpy()
     border = len(line) // 4
     inner = line[border : len(line) - border]
     return border + int(np.nanargmax(inner)) if np.isfinite(inner).any() else len(line) // 2

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import (
@@ -43,6 +44,11 @@ _CELLS = 400
 _SHOWN = 99.0
 
 
+@figure(
+    "TextureContact", name="patch", main=True, title="Rubber on texture", wide=True,
+    caption="A patch that stands for the road: its heights, the pressure on its peaks, how much of it touches, and "
+    "which pressures carry the load.",
+)  # fmt: skip
 @styled
 def texture_contact(result: Source) -> Figure:
     """The patch of texture, the pressure on its peaks, real area against mean pressure, and who carries the load.
@@ -122,9 +128,9 @@ def _area(ax: Axes, data: xr.Dataset) -> None:
 
 
 def _shares(ax: Axes, data: xr.Dataset) -> None:
-    one = data.sel(mean_pressure=float(data["reference_pressure"]), method="nearest")
+    at_reference = data.sel(mean_pressure=float(data["reference_pressure"]), method="nearest")
     local = data["local_pressure"].to_numpy() * _MEGA
-    load, area = (100 * one[name].to_numpy() for name in ("load_share_above", "area_share_above"))
+    load, area = (100 * at_reference[name].to_numpy() for name in ("load_share_above", "area_share_above"))
     handles = [
         *ax.plot(local, load, color=CASES[1], label="of the load"),
         *ax.plot(local, area, color=CASES[0], label="of the area"),
@@ -145,6 +151,10 @@ def _last(local: Array, share: Array) -> float:
     return float(left[-1] if left.size else local[-1])
 
 
+@figure(
+    "Enveloped", name="pressure", main=True, title="Enveloped pressure",
+    caption="The pressure on peaks, filtered over the enveloping length, with the same load.",
+)  # fmt: skip
 @styled
 def enveloped_pressure(enveloped: Source, before: Source | None = None) -> Figure:
     """The enveloped pressure in plan, and the contact's own beside it.
@@ -159,9 +169,9 @@ def enveloped_pressure(enveloped: Source, before: Source | None = None) -> Figur
     plan = Plan.of(after)
     figure = new_figure(0.6 + 5.4 * len(shown), min(8.0, 1.6 + 4.6 * plan.aspect))
     for ax, (title, data) in zip(figure.subplots(1, len(shown), squeeze=False)[0], shown, strict=True):
-        values, own = plane(data, "pressure") * _KILO, Plan.of(data)
+        values, patch_plan = plane(data, "pressure") * _KILO, Plan.of(data)
         scale = limits(values)
-        mesh = draw_cells(ax, own, np.where(values > 0, values, np.nan), sequential("pressure"), scale)
+        mesh = draw_cells(ax, patch_plan, np.where(values > 0, values, np.nan), sequential("pressure"), scale)
         frame_plan(ax, plan)
         colour_bar(mesh, ax, "kPa", scale)
         length = after.attrs.get("enveloping_length")

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
@@ -15,6 +16,10 @@ from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
 _NEEDED = ("approach", "net_area", "gross_area", "shoulder_over_centre", "rib_share")
 
 
+@figure(
+    "TireCard", name="card", main=True, title="What the tire shows", wide=True,
+    caption="Deflection, footprint, load of the outer ribs and slip stiffness of the freely rolling tire.",
+)  # fmt: skip
 @styled
 def tire_card(card: Source) -> Figure:
     """Panels over the wheel's load: deflection, area, load of the shoulders, and what sticks to the road.

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, headline, styled
@@ -17,6 +18,10 @@ _PANELS = {
 }
 
 
+@figure(
+    "UniformComparison", name="strains", main=True, title="What uniform loads miss", wide=True,
+    caption="Largest strains at every depth under the computed contact and under uniform loads of the same force.",
+)  # fmt: skip
 @styled
 def uniform_comparison(comparison: Source) -> Figure:
     """Three panels of the largest strain at each depth, a line for each load.

@@ -15,7 +15,9 @@ from matplotlib.lines import Line2D
 from treadload.composing import Source
 from treadload.damage.cracks import HORIZONTAL, ORIENTATIONS
 from treadload.damage.laws.fatigue import FatigueLine
+from treadload.damage.verdict import under
 from treadload.errors import InputError
+from treadload.figure_registry import comparison, figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import (
     MICRO,
@@ -47,6 +49,7 @@ from treadload.plots.kit.style import (
     styled,
     travel_arrow,
 )
+from treadload.plots.response import DRAWN
 
 _READS = {"principal": "three-dimensional", "in-plane": "horizontal-plane"}
 _MILLION = 1e6
@@ -61,6 +64,20 @@ _DECADES = 6
 _DRAWN = (1e-30, 1e30)
 
 
+def _drawn(data: xr.Dataset) -> str:
+    """The strain of a verdict in words."""
+    return DRAWN["in-plane" if data.attrs.get("strain") == "in-plane" else "principal"]
+
+
+@comparison(
+    "Verdict", title="Fatigue line, all cases",
+    caption="Each case stands where its worst strain meets its line; below it, the passes that the line allows.",
+)  # fmt: skip
+@figure(
+    "Verdict", title="Fatigue line", wide=True,
+    caption=lambda data: f"The case stands where {_drawn(data)} at its worst meets the line; below it, the passes "
+    "allowed.",
+)  # fmt: skip
 @styled
 def fatigue_line(
     verdicts: Source | Sequence[Source],
@@ -115,6 +132,11 @@ def fatigue_line(
     return figure
 
 
+@figure(
+    "Verdict", main=True, title="Allowable passes",
+    caption=lambda data: f"From {_drawn(data)}, under {under(data)}. The darkest places bear the fewest passes; "
+    "white ones a million times more, or have no extension.",
+)  # fmt: skip
 @styled
 def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     """Passes that the fatigue line allows, in plan, on a logarithmic scale.
@@ -147,6 +169,13 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Verdict", title="Cracks to expect",
+    caption=lambda data: f"Traces on the surface of cracks across the largest extension, read from {_drawn(data)}: "
+    "longitudinal along travel, transverse across it, oblique between; planes nearer to the horizontal than 45° as "
+    "points, where the road splits and no crack runs down. Drawn where a principal stress is tensile and the strain "
+    "is significant; the ring marks the largest such strain.",
+)  # fmt: skip
 @styled
 def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
     """Traces of the cracks that the largest extension opens, in plan, coloured by their orientation.

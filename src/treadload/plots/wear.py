@@ -6,17 +6,20 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from treadload.accessors import offers
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
-from treadload.plots.kit.offered import Figures
 from treadload.plots.kit.plan import MM, fields_of
 from treadload.plots.kit.style import INK, SLIP, STICK, figure_of, headline, open_axes, sequential, styled
 
 _NOTHING = "#f3c9b0"
 
 
+@figure(
+    "Wear", name="wear", main=True, title="Worn off since the earlier scan", wide=True,
+    caption="Unrolled from the place over the road; across: the tread then and now, and the median wear.",
+)  # fmt: skip
 @styled
 def tread_wear(wear: Source) -> Figure:
     """Wear unrolled over the turn; right, across: its median, and the tread then and now.
@@ -74,19 +77,8 @@ def _across(ax: Axes, across: Array, now: Array, then: Array) -> None:
 
 def wear_range(worn: Array) -> tuple[float, float]:
     """Where the wear, mm, lies, single points aside; a millimetre wide or more, so that noise is seen as such."""
-    known = worn[np.isfinite(worn)]
-    low, high = np.quantile(known, [0.02, 0.98]) if known.size else (0.0, 1.0)
+    finite = worn[np.isfinite(worn)]
+    low, high = np.quantile(finite, [0.02, 0.98]) if finite.size else (0.0, 1.0)
     wide = max(float(high - low), 1.0)
     middle = 0.5 * float(low + high)
     return middle - 0.5 * wide, middle + 0.5 * wide
-
-
-@offers("plot", "Wear")
-class WearPlots(Figures):
-    """Figures of what was worn off a tread."""
-
-    main = "wear"
-
-    def wear(self) -> Figure:
-        """Wear unrolled over the turn, and across beside the tread then and now."""
-        return tread_wear(self._result)

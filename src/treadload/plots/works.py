@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from treadload.composing import Source
 from treadload.damage.indices import NO_WORK
 from treadload.errors import InputError
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import INK, PAPER, RULE, headline, plain, sequential, styled
@@ -24,6 +25,12 @@ _LEAST = 1e-4
 _MANY = 16
 
 
+@figure(
+    "Life", name="works", title="What polishes and tears the surface", wide=True, order=4,
+    caption="Work of sliding, and elastic work of the shear in the skin, of one wheel's passage at its worst place, "
+    "by class of axles and season. Indices that rank, not calibrated; 0: below a ten-thousandth of the largest.",
+    when=lambda data: shears(data),
+)  # fmt: skip
 @styled
 def life_works(life: Source) -> Figure:
     """Bars of the work of sliding of every class of axles, and a map of its work of tearing in every season, J/m².

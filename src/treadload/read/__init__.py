@@ -16,14 +16,14 @@ a registry makes (`treadload.registry`) a table told apart by its kind. pydantic
 
 from treadload.read.choice import REFERENCE, As, Choice, choice_named, read, readable, reader, table_of
 from treadload.read.signature import made_by, parameters
-from treadload.read.table import Made, Table, arms, by_key, guarded, in_words, sentences
+from treadload.read.table import Table, TargetTable, arms, by_key, guarded, in_words, sentences
 
 __all__ = [
     "REFERENCE",
     "As",
     "Choice",
-    "Made",
     "Table",
+    "TargetTable",
     "arms",
     "by_key",
     "choice_named",

@@ -17,7 +17,7 @@ from pydantic_core import core_schema
 from treadload import registry as registries
 from treadload.errors import InputError, nearest
 from treadload.read.signature import makes, parameters
-from treadload.read.table import HERE, File, Made, Mark, Table, in_words, settled
+from treadload.read.table import HERE, File, Mark, Table, TargetTable, in_words, settled
 from treadload.registry import OURS, Entry, Registry
 from treadload.units import Number, Unit
 
@@ -41,17 +41,17 @@ class Choice(Mark):
     only: tuple[type, ...] = ()
     more: Callable[[Callable[..., Any]], Mapping[str, Any]] | None = None
     needed: tuple[str, ...] = ()
-    finish: Callable[[Any, Made, Path], Any] | None = None
+    finish: Callable[[Any, TargetTable, Path], Any] | None = None
     lenient: bool = False
     keeps_number: bool = False
     hidden: tuple[Any, ...] = ()
     about: str = ""
-    base: type[Made] = Made
+    base: type[TargetTable] = TargetTable
 
     def read(self, value: Any) -> Any:
         """The table, or the number or word that stands for one. Raises ValueError and ValidationError."""
         registry = self.registry
-        if isinstance(value, Made):
+        if isinstance(value, TargetTable):
             return value
         if isinstance(value, Mapping):
             return self.table(self._kind(value)).model_validate(value)
@@ -62,18 +62,18 @@ class Choice(Mark):
             self.table(value).model_validate({registry.key: value})
             return value
         if registry.words:
-            plain = [name for name in registry.own() if not parameters(registry.find(name).target, self.hidden)]
+            plain = [name for name in registry.built_in() if not parameters(registry.find(name).target, self.hidden)]
             listed = ", ".join(map(repr, plain))
             raise ValueError(f"a {registry.noun} is {listed} or {registry.example}, got {value!r}")
         raise ValueError(f"a {registry.noun} is a table, got {value!r}")
 
-    def table(self, kind: str) -> type[Made]:
+    def table(self, kind: str) -> type[TargetTable]:
         """The table of a kind. Raises InputError for one that is not known, or whose package is broken."""
         entry = self.registry.find(kind)
         if not self.will_do(kind):
             raise InputError(self.registry.unknown(kind, self.names()))
         try:
-            return _made(self, entry)
+            return _table_class(self, entry)
         except InputError as error:
             if entry.package == OURS:
                 raise
@@ -82,8 +82,8 @@ class Choice(Mark):
 
     def names(self) -> tuple[str, ...]:
         """Names that are accepted; all those of other packages, which are not loaded."""
-        own = self.registry.own()
-        return tuple(name for name in self.registry.names() if name not in own or self.will_do(name))
+        built_in = self.registry.built_in()
+        return tuple(name for name in self.registry.names() if name not in built_in or self.will_do(name))
 
     def will_do(self, name: str) -> bool:
         """True if what has this name, perhaps of another package, which is loaded, is one of those wanted."""
@@ -91,9 +91,9 @@ class Choice(Mark):
 
     def knows(self, key: str) -> bool:
         """True if one of our kinds has this key."""
-        return any(key in self.table(name).model_fields for name in self.names() if name in self.registry.own())
+        return any(key in self.table(name).model_fields for name in self.names() if name in self.registry.built_in())
 
-    def table_for(self, table: Mapping[str, Any]) -> type[Made] | None:
+    def table_for(self, table: Mapping[str, Any]) -> type[TargetTable] | None:
         """The table that a kind names, if it is known and can be loaded; for whoever shows it."""
         try:
             return self.table(self._kind(table))
@@ -102,19 +102,19 @@ class Choice(Mark):
 
     def build(self, value: Any, folder: Path = HERE) -> Any:
         """What a value that was read stands for."""
-        if isinstance(value, Made):
+        if isinstance(value, TargetTable):
             return value.build(folder)
         if isinstance(value, str):
             return self.table(value).model_validate({self.registry.key: value}).build(folder)
         return value if value is None or self.keeps_number else self.registry.find(self.registry.number).target(value)
 
-    def check(self, made: Any, entry: Entry) -> None:
+    def check(self, product: Any, entry: Entry) -> None:
         """Refuse what another package makes if it is not one of the registry's. Raises InputError."""
         faces = self.only or self.registry.faces
-        if entry.package != OURS and faces and not isinstance(made, faces):
+        if entry.package != OURS and faces and not isinstance(product, faces):
             kinds = ", ".join(face.__name__ for face in faces)
             raise InputError(
-                f"the {self.registry.noun} {entry.name!r} of {entry.package} must be {kinds}, got {made!r}"
+                f"the {self.registry.noun} {entry.name!r} of {entry.package} must be {kinds}, got {product!r}"
             )
 
     def _kind(self, table: Mapping[str, Any]) -> str:
@@ -181,9 +181,9 @@ class _ByShape(Mark):
         return {"anyOf": [_adapter(arm).json_schema(ref_template=f"{REFERENCE}{{model}}") for arm in self.arms]}
 
 
-def table_of(target: Callable[..., Any]) -> type[Made]:
+def table_of(target: Callable[..., Any]) -> type[TargetTable]:
     """The table that a dataclass or a function reads its arguments from. Raises InputError for one it cannot."""
-    return _made(None, Entry("", target))
+    return _table_class(None, Entry("", target))
 
 
 def read(hint: Any, value: Any, place: str, *, folder: Path = HERE) -> Any:
@@ -195,7 +195,7 @@ def read(hint: Any, value: Any, place: str, *, folder: Path = HERE) -> Any:
 
 
 @functools.cache
-def _made(choice: Choice | None, entry: Entry) -> type[Made]:
+def _table_class(choice: Choice | None, entry: Entry) -> type[TargetTable]:
     """The table of what an entry makes, as one of a choice."""
     target = entry.target
     fields: dict[str, Any] = {}
@@ -205,28 +205,28 @@ def _made(choice: Choice | None, entry: Entry) -> type[Made]:
         fields = dict.fromkeys(choice.needed)
         fields[key] = (Literal[entry.name], entry.name if entry.name == default else ...)
         besides = dict(choice.more(target)) if choice.more is not None else {}
-        own = parameters(target, choice.hidden)
-        besides = {name: hint for name, hint in besides.items() if name not in own}
+        arguments = parameters(target, choice.hidden)
+        besides = {name: hint for name, hint in besides.items() if name not in arguments}
         for name, hint in besides.items():
             fields[name] = (readable(hint), ... if name in choice.needed else None)
     for name, (hint, default) in parameters(target, choice.hidden if choice is not None else ()).items():
-        told = readable(hint, f"{name} of {entry.name or getattr(target, '__name__', target)!r}")
-        fields[name] = (told | None, None) if choice is not None and choice.lenient else (told, default)
+        hint_read = readable(hint, f"{name} of {entry.name or getattr(target, '__name__', target)!r}")
+        fields[name] = (hint_read | None, None) if choice is not None and choice.lenient else (hint_read, default)
     name = f"{choice.title or choice.registry.noun}, {entry.name}" if choice is not None else _called(target)
     make: Any = create_model  # the types of pydantic's plug-in know the table by its fields alone
-    made = make(
+    model = make(
         "".join(letter if letter.isalnum() else "_" for letter in name),
-        __base__=Made if choice is None else choice.base,
+        __base__=TargetTable if choice is None else choice.base,
         __doc__=inspect.getdoc(target) or "",
         **fields,
     )
-    made.target = staticmethod(target)
-    made.entry, made.kinds = entry, choice
+    model.target = staticmethod(target)
+    model.entry, model.kinds = entry, choice
     not_own = {*besides, choice.registry.key} if choice is not None else set()
-    made.hints = {name: told for name, (told, _) in fields.items() if name not in not_own}
+    model.hints = {name: hint for name, (hint, _) in fields.items() if name not in not_own}
     if choice is not None and choice.finish is not None:
-        made.finish = staticmethod(choice.finish)
-    table: type[Made] = made
+        model.finish = staticmethod(choice.finish)
+    table: type[TargetTable] = model
     return table
 
 
@@ -240,8 +240,8 @@ def reader(hint: Any) -> TypeAdapter[Any]:
 
 
 @functools.cache
-def _adapter(told: Any) -> TypeAdapter[Any]:
-    return TypeAdapter(told)
+def _adapter(hint: Any) -> TypeAdapter[Any]:
+    return TypeAdapter(hint)
 
 
 @functools.cache
@@ -263,22 +263,22 @@ def readable(hint: Any, where: str = "") -> Any:
             return hint
         return Annotated[(readable(inner, where), *marks)]
     options = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
-    registry = next((one for one in registries.ALL for arm in options if arm in one.faces), None)
+    registry = next((registry for registry in registries.ALL for arm in options if arm in registry.faces), None)
     if registry is not None:
         keeps = float in options
         chosen = Annotated[Any, _choice(registry, keeps)]
         return chosen | None if type(None) in options else chosen
     if len(options) > 1:
-        told = [readable(arm, where) for arm in options if arm is not type(None)]
-        if len(told) > 1 and any(_shape(arm) != "one" for arm in told):
-            told = [Annotated[Any, _ByShape(tuple(told))]]
-        together = (*told, type(None)) if type(None) in options else tuple(told)
+        readables = [readable(arm, where) for arm in options if arm is not type(None)]
+        if len(readables) > 1 and any(_shape(arm) != "one" for arm in readables):
+            readables = [Annotated[Any, _ByShape(tuple(readables))]]
+        together = (*readables, type(None)) if type(None) in options else tuple(readables)
         return Union[together]  # noqa: UP007  # of a tuple
     if get_origin(hint) in (tuple, list) or getattr(get_origin(hint), "__name__", "") == "Sequence":
         within = get_args(hint)
         if get_origin(hint) is not tuple:
             within = (*within, ...)
-        return tuple[tuple(one if one is ... else readable(one, where) for one in within)]  # type: ignore[misc]
+        return tuple[tuple(member if member is ... else readable(member, where) for member in within)]  # type: ignore[misc]
     if inspect.isclass(hint) and dataclasses.is_dataclass(hint):
         return table_of(hint)
     if inspect.isclass(hint):
@@ -291,13 +291,13 @@ def _choice(registry: Registry, keeps_number: bool) -> Choice:
     return Choice(registry, keeps_number=keeps_number)
 
 
-def _shape(told: Any) -> str:
+def _shape(hint: Any) -> str:
     """What a type is in TOML: "list", "table" or "one"."""
-    if get_origin(told) is tuple:
+    if get_origin(hint) is tuple:
         return "list"
-    marks = get_args(told)[1:] if get_origin(told) is Annotated else ()
-    table = inspect.isclass(told) and issubclass(told, Table)
-    return "table" if table or get_origin(told) is dict or any(isinstance(one, Choice) for one in marks) else "one"
+    marks = get_args(hint)[1:] if get_origin(hint) is Annotated else ()
+    table = inspect.isclass(hint) and issubclass(hint, Table)
+    return "table" if table or get_origin(hint) is dict or any(isinstance(mark, Choice) for mark in marks) else "one"
 
 
 _CHOICES: dict[str, Choice] = {}

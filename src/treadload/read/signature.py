@@ -26,16 +26,18 @@ def parameters(target: Callable[..., Any], hidden: tuple[Any, ...] = ()) -> dict
         raise InputError(f"the annotations of {who} cannot be read: {error}") from error
     fields = dataclasses.fields(target) if dataclasses.is_dataclass(target) else ()
     # The signature shows a mark in place of what a factory makes.
-    made = {one.name: one.default_factory for one in fields if one.default_factory is not dataclasses.MISSING}
+    factories = {
+        field.name: field.default_factory for field in fields if field.default_factory is not dataclasses.MISSING
+    }
     taken: dict[str, tuple[Any, Any]] = {}
-    for name, one in signature.parameters.items():
-        if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD):
+    for name, parameter in signature.parameters.items():
+        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
             continue
         if name not in hints:
             raise InputError(f"the parameter {name} of {who} has no annotation; give it one, as Length or Number")
         if hints[name] not in hidden:
-            default = ... if one.default is one.empty else one.default
-            taken[name] = hints[name], made[name]() if name in made else default
+            default = ... if parameter.default is parameter.empty else parameter.default
+            taken[name] = hints[name], factories[name]() if name in factories else default
     return taken
 
 
@@ -49,7 +51,7 @@ def made_by(target: Callable[..., Any]) -> tuple[Any, ...]:
 
 def makes(target: Callable[..., Any], only: tuple[type, ...]) -> bool:
     """True if a maker returns one of these types."""
-    return any(inspect.isclass(one) and issubclass(one, only) for one in made_by(target))
+    return any(inspect.isclass(kind) and issubclass(kind, only) for kind in made_by(target))
 
 
 def words_of(target: Any) -> str:
@@ -60,13 +62,13 @@ def words_of(target: Any) -> str:
 
 def descriptions(text: str, names: Collection[str]) -> dict[str, str]:
     """What a docstring says of names: of each the words behind "name: " or "name, other: ", up to the next."""
-    known = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
-    if not known:
+    alternatives = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
+    if not alternatives:
         return {}
     words_by_name: dict[str, str] = {}
     for paragraph in re.split(r"\n\s*\n", text):
         line = " ".join(paragraph.split())
-        heads = list(re.finditer(rf"(?:^|(?<=[.;:?)`] ))((?:(?:{known}), )*(?:{known})): ", line))
+        heads = list(re.finditer(rf"(?:^|(?<=[.;:?)`] ))((?:(?:{alternatives}), )*(?:{alternatives})): ", line))
         ends = [*(head.start() for head in heads[1:]), len(line)]
         for head, end in zip(heads, ends, strict=False):
             words = line[head.end() : end]

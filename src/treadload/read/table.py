@@ -16,7 +16,7 @@ from treadload.read.signature import descriptions, words_of
 from treadload.registry import OURS, Entry, Registry
 
 # Errors reported at once: a reader repairs the first, and the rest may follow from it.
-_TOLD = 4
+_MOST_ERRORS = 4
 HERE = Path(".")
 _KINDS = {
     "tuple_type": "a list",
@@ -58,38 +58,38 @@ class Table(BaseModel):
     @classmethod
     def about(cls) -> dict[str, str]:
         """What the keys are, in the words of the docstring."""
-        own = (kind for kind in cls.__mro__ if issubclass(kind, Table))
-        return descriptions("\n\n".join(kind.__doc__ or "" for kind in own), cls.known_keys())
+        kinds = (kind for kind in cls.__mro__ if issubclass(kind, Table))
+        return descriptions("\n\n".join(kind.__doc__ or "" for kind in kinds), cls.known_keys())
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
         """The keys with their words; those of their units stand with the numbers."""
-        told: dict[str, Any] = handler(schema)
-        table = handler.resolve_ref_schema(told)
+        reference: dict[str, Any] = handler(schema)
+        table = handler.resolve_ref_schema(reference)
         about = cls.about()
         for key in [key for key in table["properties"] if key not in cls.known_keys()]:
             del table["properties"][key]
-        for key, one in table["properties"].items():
-            one["description"] = sentences(about.get(key), one.get("description"))
+        for key, part in table["properties"].items():
+            part["description"] = sentences(about.get(key), part.get("description"))
         table["description"] = first_words(cls)
         if cls.one_of:
             table["oneOf"] = [{"required": [key]} for key in cls.one_of]
-        return told
+        return reference
 
     @model_validator(mode="wrap")
     @classmethod
-    def _told(cls, value: Any, handler: Any) -> Any:
+    def _explained(cls, value: Any, handler: Any) -> Any:
         """Say of an unknown key which one was meant, while the table is known."""
         value = cls.as_table(value)
         try:
             return handler(value)
         except ValidationError as error:
             details: list[InitErrorDetails] = []
-            for one in error.errors():
-                strange = one["type"] == "extra_forbidden" and len(one["loc"]) == 1
-                said = cls.unknown(str(one["loc"][0])) if strange else _plainly(one)
-                kind: Any = PydanticCustomError(one["type"], said.removeprefix("Value error, "))
-                details.append({"type": kind, "loc": one["loc"], "input": one["input"]})
+            for detail in error.errors():
+                strange = detail["type"] == "extra_forbidden" and len(detail["loc"]) == 1
+                text = cls.unknown(str(detail["loc"][0])) if strange else _plainly(detail)
+                kind: Any = PydanticCustomError(detail["type"], text.removeprefix("Value error, "))
+                details.append({"type": kind, "loc": detail["loc"], "input": detail["input"]})
             raise ValidationError.from_exception_data(cls.__name__, details) from error
 
 
@@ -128,11 +128,11 @@ class Kinds(Protocol):
     def knows(self, key: str) -> bool:
         """True if one of them has this key."""
 
-    def check(self, made: Any, entry: Entry) -> None:
+    def check(self, product: Any, entry: Entry) -> None:
         """Refuse what is not one of them. Raises InputError."""
 
 
-class Made(Table):
+class TargetTable(Table):
     """The table of what a class or a function makes; see `table_of`."""
 
     target: ClassVar[Callable[..., Any]]
@@ -140,7 +140,7 @@ class Made(Table):
     hints: ClassVar[Mapping[str, Any]]
     # Keys that the target does not take, and what makes use of them.
     besides: ClassVar[tuple[str, ...]] = ()
-    finish: ClassVar[Callable[[Any, Made, Path], Any] | None] = None
+    finish: ClassVar[Callable[[Any, TargetTable, Path], Any] | None] = None
     kinds: ClassVar[Kinds | None] = None
 
     @classmethod
@@ -155,10 +155,10 @@ class Made(Table):
     def about(cls) -> dict[str, str]:
         """What the keys are, in the words of the target's docstring and of those that all kinds share."""
         shared = "" if cls.kinds is None else cls.kinds.about
-        own = descriptions(words_of(cls.target), cls.known_keys())
+        texts = descriptions(words_of(cls.target), cls.known_keys())
         first = first_words(cls)
         kind = {} if cls.kinds is None else {cls.kinds.registry.key: first}
-        return {**descriptions(shared, cls.known_keys()), **own, **kind}
+        return {**descriptions(shared, cls.known_keys()), **texts, **kind}
 
     @classmethod
     def as_table(cls, value: Any) -> Any:
@@ -173,18 +173,18 @@ class Made(Table):
         key = "" if cls.kinds is None else cls.kinds.registry.key
         return any(field.is_required() for name, field in cls.model_fields.items() if name != key)
 
-    def given(self, folder: Path = HERE) -> dict[str, Any]:
+    def arguments(self, folder: Path = HERE) -> dict[str, Any]:
         """Arguments of the target that the table gives; files start from the folder."""
-        own = [name for name in self.hints if name in self.model_fields_set and name not in self.besides]
-        return {name: settled(getattr(self, name), self.hints[name], folder) for name in own}
+        names = [name for name in self.hints if name in self.model_fields_set and name not in self.besides]
+        return {name: settled(getattr(self, name), self.hints[name], folder) for name in names}
 
     def build(self, folder: Path = HERE) -> Any:
         """The object; files start from the folder. Raises InputError and ValueError."""
-        made = guarded(self.entry, self.target, **self.given(folder))
+        product = guarded(self.entry, self.target, **self.arguments(folder))
         if self.kinds is not None and self.entry is not None:
-            self.kinds.check(made, self.entry)
+            self.kinds.check(product, self.entry)
         finish = type(self).finish
-        return made if finish is None else finish(made, self, folder)
+        return product if finish is None else finish(product, self, folder)
 
     @property
     def waits(self) -> bool:
@@ -192,7 +192,7 @@ class Made(Table):
         return any(_reads_file(getattr(self, name), self.hints[name]) for name in self.hints)
 
     @model_validator(mode="after")
-    def _can_be_built(self) -> Made:
+    def _can_be_built(self) -> TargetTable:
         # What is cheap to build is built where its key is known.
         if not self.waits:
             self.build()
@@ -216,12 +216,12 @@ def _plainly(error: Any) -> str:
     return str(error["msg"])
 
 
-def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **given: Any) -> Any:
+def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **arguments: Any) -> Any:
     """What a target returns; what goes wrong in another package is reported as its failure. Raises InputError."""
     if entry is None or entry.package == OURS:
-        return target(*args, **given)
+        return target(*args, **arguments)
     try:
-        return target(*args, **given)
+        return target(*args, **arguments)
     except ValueError:
         raise
     except Exception as error:
@@ -231,24 +231,24 @@ def guarded(entry: Entry | None, target: Callable[..., Any], *args: Any, **given
 def in_words(error: ValidationError) -> str:
     """The first errors of a table on one line, each with the path of its key."""
     # A key that was misspelt is missing, too: what was meant is said first.
-    errors = sorted(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
-    told = [_one_error(item) for item in errors[:_TOLD]]
-    return "; ".join([*told, f"and {len(errors) - _TOLD} more"] if len(errors) > _TOLD else told)
+    errors = sorted(error.errors(), key=lambda detail: detail["type"] != "extra_forbidden")
+    texts = [_one_error(item) for item in errors[:_MOST_ERRORS]]
+    return "; ".join([*texts, f"and {len(errors) - _MOST_ERRORS} more"] if len(errors) > _MOST_ERRORS else texts)
 
 
 def by_key(error: BaseException) -> dict[str, str]:
     """What the reader said, by the path of the key that it is about; "" of the whole. Empty for another error."""
     cause = error.__cause__
-    told: dict[str, str] = {}
-    for one in cause.errors() if isinstance(cause, ValidationError) else ():
-        path = ".".join(map(str, one["loc"]))
-        said = _plainly(one).removeprefix("Value error, ")
-        if one["type"] == "missing":
-            said = "this is missing"
-        elif one["type"] == "extra_forbidden":
-            said = f"unknown key; {said}"
-        told[path] = f"{told[path]}; {said}" if path in told else said
-    return told
+    texts: dict[str, str] = {}
+    for detail in cause.errors() if isinstance(cause, ValidationError) else ():
+        path = ".".join(map(str, detail["loc"]))
+        text = _plainly(detail).removeprefix("Value error, ")
+        if detail["type"] == "missing":
+            text = "this is missing"
+        elif detail["type"] == "extra_forbidden":
+            text = f"unknown key; {text}"
+        texts[path] = f"{texts[path]}; {text}" if path in texts else text
+    return texts
 
 
 def _one_error(item: Any) -> str:
@@ -261,48 +261,48 @@ def _one_error(item: Any) -> str:
     return f"{place}: {message}" if place else message
 
 
-def arms(told: Any) -> list[Any]:
+def arms(hint: Any) -> list[Any]:
     """The types that a value may have."""
-    if get_origin(told) in (Union, types.UnionType):
-        return [arm for one in get_args(told) for arm in arms(one)]
-    if get_origin(told) is Annotated:
-        options = [one for mark in get_args(told)[1:] if isinstance(mark, Mark) for one in mark.options()]
+    if get_origin(hint) in (Union, types.UnionType):
+        return [arm for member in get_args(hint) for arm in arms(member)]
+    if get_origin(hint) is Annotated:
+        options = [option for mark in get_args(hint)[1:] if isinstance(mark, Mark) for option in mark.options()]
         if options:
-            return [arm for one in options for arm in arms(one)]
-    return [told]
+            return [arm for option in options for arm in arms(option)]
+    return [hint]
 
 
-def _marks(told: Any) -> list[Mark]:
-    marks = (mark for arm in arms(told) if get_origin(arm) is Annotated for mark in get_args(arm)[1:])
+def _marks(hint: Any) -> list[Mark]:
+    marks = (mark for arm in arms(hint) if get_origin(arm) is Annotated for mark in get_args(arm)[1:])
     return [mark for mark in marks if isinstance(mark, Mark)]
 
 
-def _members(told: Any, count: int) -> list[Any]:
+def _members(hint: Any, count: int) -> list[Any]:
     """Types of the members of a list."""
-    within = next((get_args(arm) for arm in arms(told) if get_origin(arm) is tuple), (Any, ...))
+    within = next((get_args(arm) for arm in arms(hint) if get_origin(arm) is tuple), (Any, ...))
     return [within[0]] * count if within[-1] is ... else list(within)
 
 
-def settled(value: Any, told: Any, folder: Path) -> Any:
+def settled(value: Any, hint: Any, folder: Path) -> Any:
     """The argument that a value of a table stands for."""
-    if isinstance(value, Made):
+    if isinstance(value, TargetTable):
         return value.build(folder)
     if isinstance(value, Mapping):
-        within = next((get_args(arm)[1] for arm in arms(told) if get_origin(arm) is dict), Any)
-        return {key: settled(one, within, folder) for key, one in value.items()}
+        within = next((get_args(arm)[1] for arm in arms(hint) if get_origin(arm) is dict), Any)
+        return {key: settled(item, within, folder) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        members = zip(value, _members(told, len(value)), strict=True)
-        return tuple(settled(one, of, folder) for one, of in members)
-    for mark in _marks(told):
+        members = zip(value, _members(hint, len(value)), strict=True)
+        return tuple(settled(item, of, folder) for item, of in members)
+    for mark in _marks(hint):
         value = mark.build(value, folder)
     return value
 
 
-def _reads_file(value: Any, told: Any) -> bool:
-    if isinstance(value, Made):
+def _reads_file(value: Any, hint: Any) -> bool:
+    if isinstance(value, TargetTable):
         return value.waits
     if isinstance(value, Mapping):
-        return any(isinstance(one, Made) and one.waits for one in value.values())
+        return any(isinstance(item, TargetTable) and item.waits for item in value.values())
     if isinstance(value, list | tuple):
-        return any(_reads_file(one, of) for one, of in zip(value, _members(told, len(value)), strict=True))
-    return value is not None and any(isinstance(mark, File) for mark in _marks(told))
+        return any(_reads_file(item, of) for item, of in zip(value, _members(hint, len(value)), strict=True))
+    return value is not None and any(isinstance(mark, File) for mark in _marks(hint))

@@ -16,17 +16,15 @@ import xarray as xr
 from treadload._version import __version__
 from treadload.errors import InputError
 from treadload.files import HTML, check_suffix, check_writable, write_whole
-from treadload.reporting.figures import case_figures, comparison_figures
+from treadload.reporting.figures import case_sections, comparison_figures
 from treadload.reporting.first import first_of_response
 from treadload.reporting.inputs import input_lists, input_table
-from treadload.reporting.life import COLUMNS as LIFE_COLUMNS
 from treadload.reporting.life import WORKS, life_report
-from treadload.reporting.others import other_report
 from treadload.reporting.reading import ReportCase, kind_of
 from treadload.reporting.road import COLUMNS, road_tables
 from treadload.reporting.tables import result_table, statistics_table
 from treadload.results import Study, as_tree, bibtex, to_tree
-from treadload.results.tree import ASKED
+from treadload.results.tree import QUESTIONS
 
 _TITLE = "What a tire does to a road"
 # What a page of one kind of results is about, where they come without a case.
@@ -59,7 +57,7 @@ def write_report(cases: Mapping[str, Any], path: str | PathLike[str], title: str
     # Found before minutes go into figures, not after.
     check_suffix(path, HTML, "the report")
     check_writable(path)
-    read = [case for label, one in cases.items() for case in ReportCase.all_of(label, as_tree(one))]
+    read = [case for label, source in cases.items() for case in ReportCase.all_of(label, as_tree(source))]
     html = _template().render(_content(read, title or _title(read)))
     return write_whole(path, html)
 
@@ -71,34 +69,34 @@ def report(results: Any, path: str | PathLike[str], *, title: str = "") -> Path:
     of a case, what `open_results` read. Results of a case, trees and opened files stand side by side as cases of
     their own. path: of the file. title: heading. Returns the path. Raises InputError as `write_report`.
     """
-    given = results
-    if not isinstance(given, Mapping):
-        several = isinstance(given, Iterable) and not _is_whole(given) and not isinstance(given, xr.Dataset | str)
-        given = list(given) if several else [given]
-        given = {f"{number}": one for number, one in enumerate(given)}
+    named = results
+    if not isinstance(named, Mapping):
+        several = isinstance(named, Iterable) and not _is_whole(named) and not isinstance(named, xr.Dataset | str)
+        named = list(named) if several else [named]
+        named = {f"{number}": result for number, result in enumerate(named)}
     cases: dict[str, Any] = {}
     single: dict[str, Any] = {}
-    for name, one in given.items():
-        if _is_whole(one):
-            tree = as_tree(one)
-            label = name if given is results else str(tree.attrs.get("title") or title or _TITLE)
+    for name, result in named.items():
+        if _is_whole(result):
+            tree = as_tree(result)
+            label = name if named is results else str(tree.attrs.get("title") or title or _TITLE)
             cases[label if label not in cases else f"{label} ({name})"] = tree
         else:
-            single[name] = one
+            single[name] = result
     if single:
-        tree = to_tree(single if given is results else list(single.values()), title=title)
+        tree = to_tree(single if named is results else list(single.values()), title=title)
         cases = {title or _untitled(tree): tree} | cases
     return write_report(cases, path, title)
 
 
-def _is_whole(one: Any) -> bool:
+def _is_whole(source: Any) -> bool:
     """True for what holds several results of one question."""
-    return isinstance(one, xr.DataTree | Study)
+    return isinstance(source, xr.DataTree | Study)
 
 
 def _untitled(tree: xr.DataTree) -> str:
     """What results without a case are about: by the one kind that they are of."""
-    nodes = [(str(name), node.attrs) for name, node in tree.children.items() if node.data_vars and name != ASKED]
+    nodes = [(str(name), node.attrs) for name, node in tree.children.items() if node.data_vars and name != QUESTIONS]
     kinds = {kind_of(name, attrs) for name, attrs in nodes if not attrs.get("part_of")}
     return _ABOUT.get(kinds.pop(), _TITLE) if len(kinds) == 1 else _TITLE
 
@@ -117,20 +115,19 @@ def _template() -> jinja2.Template:
 
 
 def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
+    side_by_side, compared = comparison_figures(cases)
     return {
         "title": title,
         "cases": [
             {
                 "case": case,
                 "anchor": f"case-{number}",
-                "figures": case_figures(case, alone=len(cases) == 1),
-                "others": [other_report(other) for other in case.others],
+                "sections": case_sections(case, compared),
             }
             for number, case in enumerate(cases, start=1)
         ],
         "labels": [case.label for case in cases],
         "lives": [life_report(case.label, data) for case in cases if (data := case.group("life")) is not None],
-        "life_columns": LIFE_COLUMNS,
         "work_columns": WORKS,
         "passes_of_one_place": any(case.group("damage") is not None for case in cases),
         "firsts": [
@@ -140,7 +137,7 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
             and (data := case.group("response")) is not None
             and (page := first_of_response(data)) is not None
         ],
-        "comparison": comparison_figures(cases),
+        "comparison": side_by_side,
         "road_columns": COLUMNS,
         "roads": road_tables(cases),
         "inputs": input_table(cases),

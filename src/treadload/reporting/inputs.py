@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from treadload.case import Case
 from treadload.case.criteria import CRITERION, CriterionTable, quantity_of
-from treadload.case.file import FilePart
-from treadload.case.schema import kind_of_table
 from treadload.damage.quantity import Quantity
 from treadload.reporting.reading import ReportCase
-from treadload.reporting.tables import MISSING, Row, Section
+from treadload.reporting.tables import MISSING, NamedTable, Row, Section
 from treadload.reporting.words import annotation_of, columns, entries, named_tables, part_of
 
 _HEADINGS = {
@@ -27,24 +25,15 @@ _HEADINGS = {
 }
 _DROPPED = {"title"}
 _CRITERION = ("criterion", "law", "layer", "place", "what it reads", "parameters given")
-_OWN = ("name", "law", "layer", "place", "strain", "reads")
+_CRITERION_KEYS = ("name", "law", "layer", "place", "strain", "reads")
 
 Key = tuple[str, str, str]
 
 
-@dataclass(frozen=True)
-class NamedTable:
-    """Things with names of their own, as the axles of a traffic. rows: a tuple of cells for each."""
-
-    heading: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
 def input_table(cases: list[ReportCase]) -> list[Section]:
     """What was asked: a row for each key that a case gives, a column for each case."""
-    asked = [_asked(case) for case in cases]
-    keys = list(dict.fromkeys(key for case in asked for key in case))
+    inputs = [_inputs_of(case) for case in cases]
+    keys = list(dict.fromkeys(key for case in inputs for key in case))
     headings = list(dict.fromkeys(heading for heading, _, _ in keys))
     # The computation's own settings close the table.
     headings.sort(key=lambda heading: heading == _HEADINGS[""])
@@ -52,7 +41,7 @@ def input_table(cases: list[ReportCase]) -> list[Section]:
         Section(
             heading,
             tuple(
-                Row(name, unit, tuple(case.get((heading, name, unit), MISSING) for case in asked))
+                Row(name, unit, tuple(case.get((heading, name, unit), MISSING) for case in inputs))
                 for of, name, unit in keys
                 if of == heading
             ),
@@ -67,7 +56,7 @@ def input_lists(cases: list[ReportCase]) -> list[NamedTable]:
     for case in cases:
         table = _table(case)
         of = f": {case.label}" if len(cases) > 1 else ""
-        for key, items, part in named_tables(_model(table), table):
+        for key, items, part in named_tables(Case, table):
             heading = _HEADINGS.get(key, key.capitalize()) + of
             if part is not None and issubclass(part, CriterionTable):
                 tables.append(NamedTable(heading, _CRITERION, tuple(_criterion(case, item) for item in items)))
@@ -83,17 +72,13 @@ def _table(case: ReportCase) -> dict[str, Any]:
         return {}
 
 
-def _model(table: Mapping[str, Any]) -> type[FilePart]:
-    return kind_of_table(table)
-
-
-def _asked(case: ReportCase) -> dict[Key, str]:
+def _inputs_of(case: ReportCase) -> dict[Key, str]:
     rows = dict(_rows(_table(case)))
     contact = case.group("contact")
     if contact is not None:
-        told = {"tire": "Tire", "road": "Road", "rolling": "Rolling"}
+        headings = {"tire": "Tire", "road": "Road", "rolling": "Rolling"}
         # The results' own words stand where the case is silent.
-        silent = {key: heading for key, heading in told.items() if not any(of == heading for of, _, _ in rows)}
+        silent = {key: heading for key, heading in headings.items() if not any(of == heading for of, _, _ in rows)}
         for key, heading in silent.items():
             if contact.attrs.get(key):
                 rows[heading, "as solved", ""] = str(contact.attrs[key])
@@ -107,16 +92,16 @@ def _asked(case: ReportCase) -> dict[Key, str]:
 
 
 def _rows(table: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
-    model = _model(table)
+    model = Case
     for section, value in table.items():
         if section in _DROPPED:
             continue
         if isinstance(value, Mapping):
             heading = _HEADINGS.get(section, section.replace("_", " ").capitalize())
-            given = entries(part_of(annotation_of(model, section), value), value)
+            items = entries(part_of(annotation_of(model, section), value), value)
         else:
-            heading, given = _HEADINGS[""], entries(model, {section: value})
-        for entry in given:
+            heading, items = _HEADINGS[""], entries(model, {section: value})
+        for entry in items:
             yield (heading, entry.name, entry.unit), entry.text
 
 
@@ -124,8 +109,8 @@ def _criterion(case: ReportCase, table: Mapping[str, Any]) -> tuple[str, ...]:
     """Cells of `_CRITERION`; what the table leaves to the law is filled in."""
     name = str(table.get("name", ""))
     quantity = quantity_of(table)
-    rest = {key: value for key, value in table.items() if key not in _OWN}
-    told = [str(entry) for entry in entries(CRITERION.table_for(table), rest)]
+    rest = {key: value for key, value in table.items() if key not in _CRITERION_KEYS}
+    numbers = [str(entry) for entry in entries(CRITERION.table_for(table), rest)]
     place = table.get("place") or (MISSING if quantity is None else quantity.where.places[0])
     return (
         name,
@@ -133,7 +118,7 @@ def _criterion(case: ReportCase, table: Mapping[str, Any]) -> tuple[str, ...]:
         _layer(case, table.get("layer"), None if quantity is None else quantity.where.layer),
         str(place),
         _read(quantity, table.get("strain")),
-        ", ".join(told) or "those of the layer",
+        ", ".join(numbers) or "those of the layer",
     )
 
 
@@ -147,12 +132,12 @@ def _read(quantity: Quantity | None, strain: Any) -> str:
     return "three-dimensional extension" if space else "extension in the horizontal plane"
 
 
-def _layer(case: ReportCase, asked: Any, usual: int | None) -> str:
+def _layer(case: ReportCase, wanted: Any, usual: int | None) -> str:
     """Name of a layer, asked for by its name or its number, 1 the top one; else that which its law usually reads."""
     names = [str(layer.get("name") or f"layer {number}") for number, layer in enumerate(case.layers, start=1)]
-    index = asked - 1 if isinstance(asked, int) else usual if asked is None else None
+    index = wanted - 1 if isinstance(wanted, int) else usual if wanted is None else None
     if index is None:
-        return str(asked or MISSING)
+        return str(wanted or MISSING)
     if not names:
         return f"layer {index + 1}" if index >= 0 else "the last"
     return names[index] if -len(names) <= index < len(names) else MISSING

@@ -6,15 +6,19 @@ import base64
 import io
 import struct
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
+import xarray as xr
 from matplotlib.figure import Figure
 
 # Pillow comes with matplotlib.
 from PIL import Image, features
 
 from treadload.errors import InputError, one_line
+from treadload.figure_registry import Drawing, RegisteredFigure, classes_of, figures_of
 from treadload.plots import png
 
 _DPI = 125.0
@@ -41,16 +45,56 @@ def picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = F
     """The picture; where it cannot be drawn a sentence in its place that says why."""
     with warnings.catch_warnings():
         # Of a single row of cells, or a single place, matplotlib finds no extent to draw.
-        for said in ("constrained_layout not applied", "Attempting to set identical low and high"):
-            warnings.filterwarnings("error", said, UserWarning)
+        for message in ("constrained_layout not applied", "Attempting to set identical low and high"):
+            warnings.filterwarnings("error", message, UserWarning)
         try:
             image = png(draw(), dpi=_DPI)
         # Minutes of other figures are not lost for one that fails, whatever it raises.
         except Exception as error:
-            return [Picture(title, caption, "", 0, wide, f"This figure could not be drawn: {_reason(error)}.")]
+            return [_missing(title, caption, wide, error)]
     # The width stands at a fixed place of every PNG; all figures get letters of the same size.
     (pixels,) = struct.unpack(">I", image[16:20])
     return [Picture(title, caption, _as_data(image), round(pixels * _PAGE_DPI / _DPI), wide)]
+
+
+def pictures_of(
+    result: str,
+    datasets: Sequence[xr.Dataset],
+    beside: Mapping[str, xr.Dataset],
+    left_out: Collection[Callable[..., object]] = (),
+) -> list[Picture]:
+    """The registered figures of results of a class, in their order.
+
+    result: name of the class. beside: the other results of the case, by kind. left_out: functions not to be drawn.
+    """
+    pictures: list[Picture] = []
+    for figure in figures_of(*classes_of(result)):
+        for data in datasets if figure.draw not in left_out else ():
+            pictures += _drawn(figure, partial(figure.drawings, data, beside), data)
+    return pictures
+
+
+def draw_all(figure: RegisteredFigure, datasets: list[xr.Dataset], labels: list[str]) -> list[Picture]:
+    """The pictures of a registered comparison of several cases."""
+    return _drawn(figure, partial(figure.drawings_of_several, datasets), datasets, labels)
+
+
+def _drawn(figure: RegisteredFigure, drawings: Callable[[], list[Drawing]], *arguments: object) -> list[Picture]:
+    try:
+        wanted = drawings()
+    # What decides whether a figure is shown may be another package's, and fail in any way.
+    except Exception as error:
+        return [_missing(figure.name.replace("_", " ").capitalize(), "", figure.wide, error)]
+    draw: Any = figure.draw
+    return [
+        shown
+        for each in wanted
+        for shown in picture(each.title, each.caption, partial(draw, *arguments, **each.options), figure.wide)
+    ]
+
+
+def _missing(title: str, caption: str, wide: bool, error: Exception) -> Picture:
+    return Picture(title, caption, "", 0, wide, f"This figure could not be drawn: {_reason(error)}.")
 
 
 def _as_data(image: bytes) -> str:
@@ -67,5 +111,7 @@ def _as_data(image: bytes) -> str:
 def _reason(error: Exception) -> str:
     if isinstance(error, UserWarning):
         return "there is no extent to draw, a single row of cells or a single place"
-    said = one_line(str(error)).rstrip(".") or "no reason given"
-    return said if isinstance(error, InputError) else f"{type(error).__name__}, {said}"
+    if isinstance(error, KeyError) and error.args:
+        return f"the result lacks {one_line(str(error.args[0]))!r}"
+    reason = one_line(str(error)).rstrip(".") or "no reason given"
+    return reason if isinstance(error, InputError) else f"{type(error).__name__}, {reason}"

@@ -6,58 +6,63 @@ import math
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from treadload.damage.cracks import ORIENTATIONS, first_to_expect, in_a_cell, nothing_opens
-from treadload.damage.verdict import under
+from treadload.composing import result_classes
+from treadload.damage.verdict import rows_of
 from treadload.errors import InputError
-from treadload.plots.kit.plan import MICRO, MM, Plan, peak_of, plane
-from treadload.plots.kit.style import power_of_ten, signed
-from treadload.reporting.life import exhausted, sentence
-from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
+from treadload.footprint import Footprint
+from treadload.plots.response import assessed_depth, assessed_plane
+from treadload.reporting.life import exhausted
+from treadload.reporting.typesetting import typeset, with_minus
+from treadload.response import GridLoad
+from treadload.response.solution import strain_rows
 from treadload.results.schema import check_tree, read_json
-from treadload.results.tree import ASKED
+from treadload.results.tree import QUESTIONS
+from treadload.rows import Row, from_json
 from treadload.variables import in_order
 
 # Kinds with tables and figures of their own; whatever else a tree holds is shown by its summary and figures.
 GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
-# A number such as 1.2e+05 in a sentence.
-_POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
+# What the points of a response are, beside a map.
+_POINTS = ("slice_along", "slice_across", "bowl", "points")
+STRAINS = ("largest_principal_strain", "largest_in_plane_strain")
+# Rows of a verdict on its card.
+_FACTS = ("evaluation", "contacts_evaluated", "worst_strain", "worst_crack_orientation", "worst_passes")
 # Names that other writers gave to the same group.
 _ALSO = {"slice": "slice_along"}
 
 
-@dataclass(frozen=True)
-class Worst:
-    """The largest strain of a map: microstrain, place in words, direction in words."""
-
-    strain: float
-    place: str
-    direction: str
-
-
 @dataclass(frozen=True, eq=False)
-class Other:
-    """A result that has no table of its own. name: of the part. kind: of the result. inside: parts of it by kind."""
+class Extra:
+    """A result that has no table of its own.
+
+    name: of the part. kind: of the result. result: its class. inside: parts of it by kind.
+    """
 
     name: str
     kind: str
     dataset: xr.Dataset
     inside: Mapping[str, xr.Dataset]
+    result: str = ""
 
 
 @dataclass(frozen=True, eq=False)
 class ReportCase:
-    """One case: its label and its groups of results by kind (`GROUPS`), those that are there; and all others."""
+    """One case: its label and its groups of results by kind (`GROUPS`), those that are there; and all others.
+
+    classes: of the results of the groups.
+    """
 
     label: str
     groups: Mapping[str, xr.Dataset]
     attrs: Mapping[str, Any]
-    others: tuple[Other, ...] = ()
+    extras: tuple[Extra, ...] = ()
+    classes: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
     def of(cls, label: str, tree: xr.DataTree) -> ReportCase:
@@ -71,41 +76,52 @@ class ReportCase:
         Raises InputError if it holds no results, or some that cannot be read.
         """
         check_tree(tree, label)
-        held = {str(name): node for name, node in tree.children.items() if name != ASKED and node.data_vars}
-        nodes = {name: in_order(node.to_dataset()) for name, node in held.items()}
+        nodes_by_name = {
+            str(name): node for name, node in tree.children.items() if name != QUESTIONS and node.data_vars
+        }
+        nodes = {name: in_order(node.to_dataset()) for name, node in nodes_by_name.items()}
         inside: dict[str, dict[str, xr.Dataset]] = {}
         for name, node in nodes.items():
             owner = node.attrs.get("part_of")
             if isinstance(owner, str) and owner:
                 inside.setdefault(owner, {}).setdefault(kind_of(name, node.attrs), node)
-        by_case: dict[str, tuple[dict[str, xr.Dataset], list[Other]]] = {}
+        classes = _classes(tree)
+        kept: dict[str, dict[str, str]] = {}
+        by_case: dict[str, tuple[dict[str, xr.Dataset], list[Extra]]] = {}
         for name, node in nodes.items():
             if node.attrs.get("part_of"):
                 continue
             kind = _ALSO.get(kind_of(name, node.attrs), kind_of(name, node.attrs))
-            groups, others = by_case.setdefault(_called(name, kind, label), ({}, []))
+            called = _called(name, kind, label)
+            groups, extras = by_case.setdefault(called, ({}, []))
             if kind in GROUPS and kind not in groups:
                 groups[kind] = node
+                if name in classes:
+                    kept.setdefault(called, {})[kind] = classes[name]
             else:
-                others.append(Other(name, kind, node, inside.get(name, {})))
+                extras.append(Extra(name, kind, node, inside.get(name, {}), classes.get(name) or _class_of(kind)))
         if not by_case:
             there = ", ".join(tree.children) or "nothing"
             raise InputError(f"the tree of {label!r} holds {there}; a report needs a result such as a contact")
         attrs = {str(name): value for name, value in tree.attrs.items()}
         cases = []
-        for called, (groups, others) in by_case.items():
+        for called, (groups, extras) in by_case.items():
             # What the life depends on is shown beside it.
-            more = next((one for one in others if one.kind == "sensitivity" and "life" in groups), None)
+            more = next((extra for extra in extras if extra.kind == "sensitivity" and "life" in groups), None)
             if more is not None:
                 groups["life"] = _with_sensitivity(groups["life"], more.dataset)
-                others = [one for one in others if one is not more]
-            cases.append(cls(called, groups, attrs, tuple(others)))
+                extras = [extra for extra in extras if extra is not more]
+            cases.append(cls(called, groups, attrs, tuple(extras), kept.get(called, {})))
             attrs = {name: value for name, value in attrs.items() if name not in ("case", "title")}
         return cases
 
     def group(self, name: str) -> xr.Dataset | None:
         """A group of results, or None."""
         return self.groups.get(name)
+
+    def class_of(self, kind: str) -> str:
+        """Name of the class of a group of results."""
+        return self.classes.get(kind) or _class_of(kind)
 
     @property
     def title(self) -> str:
@@ -160,16 +176,16 @@ class ReportCase:
     def wheels_placed(self) -> bool:
         """True if the case places its wheels: the response is that of copies of the contact."""
         try:
-            asked = tomllib.loads(self.toml).get("response", {})
+            table = tomllib.loads(self.toml).get("response", {})
         except tomllib.TOMLDecodeError:
             return False
-        return isinstance(asked, Mapping) and "wheels" in asked
+        return isinstance(table, Mapping) and "wheels" in table
 
     @property
     def warnings(self) -> list[str]:
         """Warnings of all groups, each once."""
-        held = [*self.groups.values(), *(other.dataset for other in self.others)]
-        texts = [str(text) for data in held for text in read_json(data.attrs.get("warnings"), [])]
+        datasets = [*self.groups.values(), *(extra.dataset for extra in self.extras)]
+        texts = [str(text) for data in datasets for text in read_json(data.attrs.get("warnings"), [])]
         return list(dict.fromkeys(texts))
 
     def statistics(self, group: str) -> dict[str, Any]:
@@ -180,100 +196,48 @@ class ReportCase:
     @property
     def surface(self) -> xr.Dataset | None:
         """The map of the response at the verdict's depth, or its shallowest depth; None without a response."""
-        data = self.group("response")
-        if data is None:
-            return None
-        depths = np.atleast_1d(data["depth"].to_numpy())
-        damage = self.group("damage")
-        wanted = float(damage.attrs.get("depth", depths.min())) if damage is not None else float(depths.min())
-        return data.isel(depth=int(np.argmin(np.abs(depths - wanted)))) if "depth" in data.dims else data
+        return assessed_plane(self.group("response"), self.group("damage"))
 
-    def worst(self, strain: str) -> Worst | None:
-        """The largest "principal" or "in-plane" strain of the map; None without a response."""
+    @property
+    def strains(self) -> dict[str, Row]:
+        """Rows of the largest strains of the map, and of the vertical sections, by key; empty without a response."""
         data = self.surface
-        name = "principal_strain_1" if strain == "principal" else "in_plane_strain_1"
-        if data is None or name not in data:
-            return None
-        plan, values = Plan.of(data), plane(data, name)
-        row, column = peak_of(values)
-        here = data.isel(y=row, x=column)
-        place = f"x = {signed(float(plan.x[column]))} mm, y = {signed(float(plan.y[row]))} mm"
-        value = float(values[row, column]) * MICRO
-        if not value > 0:
-            return Worst(value, place, "no extension")
-        if strain == "principal":
-            direction = direction_in_words(here["principal_direction_1"].to_numpy())
-        else:
-            direction = angle_in_words(float(here["in_plane_angle_1"]))
-        return Worst(value, place, direction)
-
-    def worst_in_sections(self) -> Worst | None:
-        """The largest three-dimensional strain of the vertical sections; None without them."""
-        largest = None
-        for name in ("slice_along", "slice_across"):
-            data = self.group(name)
-            if data is None or "principal_strain_1" not in data:
-                continue
-            strain = data["principal_strain_1"]
-            where = {str(dim): int(index) for dim, index in strain.argmax(...).items()}
-            here = data.isel(where)
-            value = float(here["principal_strain_1"]) * MICRO
-            if largest is None or value > largest.strain:
-                x, y, depth = (float(here[key]) * MM for key in ("x", "y", "depth"))
-                place = f"x = {signed(x)} mm, y = {signed(y)} mm, {depth:.1f} mm deep"
-                largest = Worst(value, place, direction_in_words(here["principal_direction_1"].to_numpy()))
-        return largest
+        rows_by_key = {} if data is None else {row.key: row for row in strain_rows(data)}
+        sections = (self.group(name) for name in ("slice_along", "slice_across"))
+        deepest = [row for section in sections if section is not None for row in strain_rows(section)[:1]]
+        if deepest:
+            worst = max(deepest, key=lambda row: float(row.value))
+            rows_by_key["sections"] = replace(worst, label=f"{worst.label}, vertical sections")
+        return rows_by_key
 
     @property
     def depth_in_words(self) -> str:
         """Where the strains of the tables are read."""
-        data = self.surface
-        if data is None or "depth" not in data.coords or float(data["depth"]) == 0:
-            return "at the surface"
-        side = layer_in_words(data)
-        return f"{float(data['depth']) * MM:g} mm deep{f', {side}' if side else ''}"
+        return assessed_depth(self.surface)
 
-    @property
-    def reads(self) -> str:
-        """What the verdict reads, over how much road; empty without one."""
-        data = self.group("damage")
+    def rows(self, kind: str) -> tuple[Row, ...]:
+        """Rows of a group of results; of a file of another writer those that its fields give."""
+        data = self.group(kind)
         if data is None:
-            return ""
-        plane = "in the horizontal plane" if data.attrs.get("strain") == "in-plane" else "three-dimensional"
-        return f"{plane}, {data.attrs.get('reading', 'local')}"
+            return ()
+        if rows := from_json(data.attrs.get("rows")):
+            return rows
+        if kind == "damage":
+            law, strain = str(data.attrs.get("law", "unknown")), str(data.attrs.get("strain", "in-plane"))
+            return rows_of(data, law, strain, float(data.attrs.get("epsilon_6", math.nan)))
+        return Footprint(GridLoad.from_dataset(data)).rows() if kind == "contact" else ()
 
     @property
-    def read_under(self) -> str:
-        """The contacts whose road the verdict reads; empty without one."""
-        data = self.group("damage")
-        return "" if data is None else under(data)
-
-    @property
-    def worst_read(self) -> str:
-        """The largest extension that the verdict reads; empty without one."""
-        data = self.group("damage")
-        if data is None or not float(data["worst_strain"]) > 0:
-            return ""
-        return f"{float(data['worst_strain']) * MICRO:.1f} microstrain"
-
-    @property
-    def worst_depth(self) -> str:
-        """The depth at which that is; empty without a verdict."""
-        data = self.group("damage")
-        return "" if data is None else f"at depth {float(data['worst_depth']) * MM:g} mm"
-
-    @property
-    def orientation(self) -> str:
-        """Orientation of the first crack in a word; empty without a verdict."""
-        data = self.group("damage")
-        if data is None:
-            return ""
-        return ORIENTATIONS[int(data["worst_crack_orientation"])]
-
-    @property
-    def first_crack(self) -> str:
-        """The first crack for a table; empty without a verdict."""
-        return in_a_cell(self.orientation) if self.orientation else ""
+    def facts(self) -> list[tuple[str, str]]:
+        """What the verdict evaluates and finds, and the largest strains at points, for a card."""
+        rows = [row for row in self.rows("damage") if row.key in _FACTS]
+        points = [
+            replace(row, label=f"{row.label}, at a point") for key, row in self.strains.items() if key in STRAINS
+        ]
+        return [
+            (row.label, typeset(row) + (f" at {with_minus(str(row.place))}" if row.place else ""))
+            for row in (*rows, *points)
+        ]
 
     @property
     def exhausted(self) -> bool:
@@ -287,53 +251,44 @@ class ReportCase:
     @property
     def verdict(self) -> str:
         """The verdict in a sentence; empty without one."""
-        life = self.group("life")
-        if life is not None:
-            return sentence(life)
-        data = self.group("damage")
-        if data is None:
-            said = [line for one in self.others for line in summary_of(one.dataset).splitlines()]
-            told = next((line for line in said if line.startswith("Verdict: ")), "")
-            return _POWER.sub(_raised, told.removeprefix("Verdict: "))
-        if data.attrs.get("sentence"):
-            return _POWER.sub(_raised, str(data.attrs["sentence"]).removeprefix("Verdict: ").strip())
-        passes = float(data["worst_passes"])
-        if not float(data["worst_strain"]) > 0 or math.isinf(passes):
-            return nothing_opens(float(data.attrs.get("largest_unread", 0.0)))
-        few = "fewer" if passes < 1e6 else "more"
-        return (
-            f"at its worst point the line allows {power_of_ten(passes)} passes, {few} than a million; "
-            f"{first_to_expect(self.orientation)}."
-        )
-
-
-def summary_of(data: xr.Dataset) -> str:
-    """The summary that a group holds; empty without one."""
-    return str(data.attrs.get("summary", ""))
+        rows = [*self.rows("life"), *self.rows("damage")]
+        rows += [row for extra in self.extras for row in from_json(extra.dataset.attrs.get("rows"))]
+        return next((typeset(row) for row in rows if row.key == "verdict"), "")
 
 
 def kind_of(name: str, attrs: Mapping[Any, Any]) -> str:
     """Kind of the result in a group: as it says, else as it is called."""
-    said = attrs.get("result")
-    return said if isinstance(said, str) and said else name
+    result_name = attrs.get("result")
+    return result_name if isinstance(result_name, str) and result_name else name
+
+
+def _classes(tree: xr.DataTree) -> dict[str, str]:
+    """Part of a tree → the class of its result, where the file tells it."""
+    questions = read_json(tree[QUESTIONS].attrs.get("questions"), {}) if QUESTIONS in tree.children else {}
+    parts = questions.items() if isinstance(questions, dict) else ()
+    return {
+        str(name): str(question["is"]) for name, question in parts if isinstance(question, dict) and "is" in question
+    }
+
+
+def _class_of(kind: str) -> str:
+    """The class of results of a kind, as it is called in files of other writers."""
+    groups = {kind.group: name for name, kind in reversed(result_classes().items())}
+    return groups.get(kind, "Response" if kind in _POINTS else kind)
 
 
 def _called(name: str, kind: str, label: str) -> str:
     """Name of the case that a part belongs to: "free contact" to "free", contact_2 to a second one."""
-    own = re.fullmatch(rf"(?P<case>.*?)(?:(?:^|[ _]){re.escape(kind)}(?:_(?P<number>\d+))?)?", name)
-    assert own is not None
-    case = own["case"] or label
-    return f"{case} {own['number']}" if own["number"] else case
+    parts = re.fullmatch(rf"(?P<case>.*?)(?:(?:^|[ _]){re.escape(kind)}(?:_(?P<number>\d+))?)?", name)
+    assert parts is not None
+    case = parts["case"] or label
+    return f"{case} {parts['number']}" if parts["number"] else case
 
 
 def _with_sensitivity(life: xr.Dataset, more: xr.Dataset) -> xr.Dataset:
     """A life with its elasticities; as it is where it has some of its own."""
     if "input" in life.variables or "input" in life.dims:
         return life
-    told = {name: more.attrs[name] for name in ("contacts", "responses", "coverage") if name in more.attrs}
-    own = life.attrs | {f"sensitivity_{name}": value for name, value in told.items()}
-    return life.assign(elasticity=more["elasticity"]).assign_attrs(own)
-
-
-def _raised(match: re.Match[str]) -> str:
-    return power_of_ten(float(match[0]))
+    stats = {name: more.attrs[name] for name in ("contacts", "responses", "coverage") if name in more.attrs}
+    attrs = life.attrs | {f"sensitivity_{name}": value for name, value in stats.items()}
+    return life.assign(elasticity=more["elasticity"]).assign_attrs(attrs)

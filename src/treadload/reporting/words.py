@@ -54,7 +54,7 @@ SHOWN = {
 # Keys that do not say by themselves what they are; the rest only lose their underscores.
 _NAMES = {
     "TrafficPart.kind": "kind of growth",
-    "FootprintPart.units": "units of columns",
+    "FootprintStep.units": "units of columns",
     "a1": "A₁",
     "a2": "A₂",
     "beta": "β",
@@ -159,8 +159,8 @@ def named_tables(model: Any, table: Mapping[str, Any]) -> Iterator[tuple[str, li
 def columns(items: list[Mapping[str, Any]], model: Any) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
     """Heading and rows of named things: a column for each key that one of them gives, with its unit."""
     order = list(model.model_fields) if model is not None else []
-    given = dict.fromkeys(key for item in items for key in item)
-    keys = [key for key in order if key in given] + [key for key in given if key not in order]
+    present = dict.fromkeys(key for item in items for key in item)
+    keys = [key for key in order if key in present] + [key for key in present if key not in order]
     heads, cells = [], []
     for key in keys:
         annotation = annotation_of(model, key)
@@ -176,9 +176,9 @@ def sentence(model: Any, table: Mapping[str, Any]) -> str:
     """A table in a line: what it is, then its numbers with their units."""
     what = [str(table[key]) for key in ("name", *_KINDS) if isinstance(table.get(key), str)]
     rest = {key: value for key, value in table.items() if key not in ("name", *_KINDS)}
-    told = [str(entry) for entry in entries(model, rest)]
+    texts = [str(entry) for entry in entries(model, rest)]
     first = _VALUES.get(what[0], what[0]) if what else ""
-    return ": ".join(part for part in (first, ", ".join(told)) if part)
+    return ": ".join(part for part in (first, ", ".join(texts)) if part)
 
 
 def worded(value: Any, annotation: Any) -> tuple[str, str]:
@@ -200,8 +200,8 @@ def shown_in(annotation: Any, value: Any) -> tuple[str, float]:
 
 def name_of(key: str, model: Any = None) -> str:
     """A key in words."""
-    own = f"{model.__name__}.{key}" if model is not None else ""
-    return _NAMES.get(own) or _NAMES.get(key) or key.replace("_", " ")
+    full_name = f"{model.__name__}.{key}" if model is not None else ""
+    return _NAMES.get(full_name) or _NAMES.get(key) or key.replace("_", " ")
 
 
 def number(value: float) -> str:
@@ -229,11 +229,11 @@ def units_in(annotation: Any) -> Iterator[str]:
     for arm in arms(annotation):
         if get_origin(arm) is Annotated:
             inner, *marks = get_args(arm)
-            own = [mark.symbol for mark in marks if isinstance(mark, Unit)]
-            yield from own[-1:] or units_in(inner)
+            symbols = [mark.symbol for mark in marks if isinstance(mark, Unit)]
+            yield from symbols[-1:] or units_in(inner)
         else:
-            for one in get_args(arm):
-                yield from units_in(one)
+            for member in get_args(arm):
+                yield from units_in(member)
 
 
 def parts_in(annotation: Any, table: Mapping[str, Any]) -> Iterator[type[Table]]:
@@ -241,11 +241,11 @@ def parts_in(annotation: Any, table: Mapping[str, Any]) -> Iterator[type[Table]]
     for arm in arms(annotation):
         if isinstance(arm, type) and issubclass(arm, Table):
             yield arm
-        for one in get_args(arm):
-            part = one.table_for(table) if isinstance(one, Choice) else None
+        for inner in get_args(arm):
+            part = inner.table_for(table) if isinstance(inner, Choice) else None
             if part is not None:
                 yield part
-            yield from parts_in(one, table)
+            yield from parts_in(inner, table)
 
 
 def part_of(annotation: Any, table: Mapping[str, Any]) -> type[Table] | None:
@@ -281,8 +281,8 @@ def _single(key: str) -> str:
 
 def _numbers(value: Any) -> Iterator[float]:
     if isinstance(value, list | tuple):
-        for one in value:
-            yield from _numbers(one)
+        for item in value:
+            yield from _numbers(item)
     elif isinstance(value, int | float) and not isinstance(value, bool):
         yield float(value)
 
@@ -296,8 +296,8 @@ def _text(value: Any, annotation: Any, factor: float) -> str:
         return "; ".join(_text(item, annotation, factor) for item in value)
     if isinstance(value, list | tuple):
         return ", ".join(
-            f"({_pair(one, annotation, factor)})" if isinstance(one, list) else _text(one, annotation, factor)
-            for one in value
+            f"({_pair(item, annotation, factor)})" if isinstance(item, list) else _text(item, annotation, factor)
+            for item in value
         )
     if isinstance(value, int | float):
         return number(value * factor)
@@ -308,9 +308,9 @@ def _pair(pair: list[Any], annotation: Any, factor: float) -> str:
     """Numbers in a bracket; each with its unit where they are of several kinds."""
     symbols = list(units_in(annotation))
     if len(set(symbols)) < 2 or len(symbols) != len(pair):
-        return ", ".join(_text(one, annotation, factor) for one in pair)
-    told = []
-    for one, symbol in zip(pair, symbols, strict=True):
-        text, label = worded(one, Annotated[float, Unit(symbol)])
-        told.append(text if label == PURE else f"{text} {label}")
-    return ", ".join(told)
+        return ", ".join(_text(item, annotation, factor) for item in pair)
+    texts = []
+    for item, symbol in zip(pair, symbols, strict=True):
+        text, label = worded(item, Annotated[float, Unit(symbol)])
+        texts.append(text if label == PURE else f"{text} {label}")
+    return ", ".join(texts)

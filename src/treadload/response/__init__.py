@@ -1,5 +1,6 @@
 """Stress, strain and displacement in the road."""
 
+from treadload.grid import Grid
 from treadload.response.gears import axle, dual_wheels, place_load, tandem
 from treadload.response.heterogeneous import Heterogeneous, compute_heterogeneous
 from treadload.response.loads import GridLoad, UniformDisc, UniformRectangle
@@ -9,9 +10,11 @@ from treadload.response.passes.solution import Passes
 from treadload.response.passes.solve import roll_passes
 from treadload.response.solution import Response
 from treadload.response.solve import solve_response
+from treadload.response.superposition import map_grid
 
 __all__ = [
     "MATERIAL_LENGTH",
+    "Grid",
     "GridLoad",
     "Heterogeneous",
     "Passes",
@@ -21,6 +24,7 @@ __all__ = [
     "axle",
     "compute_heterogeneous",
     "dual_wheels",
+    "map_grid",
     "place_load",
     "roll_drum",
     "roll_passes",

@@ -91,8 +91,8 @@ def layer_in_words(plane: xr.Dataset) -> str:
     number = int(plane["layer"])
     if not 0 <= number <= len(ends):
         return ""
-    given = json.loads(plane.attrs.get("layer_names", "[]"))
-    name = given[number] if number < len(given) and given[number] else f"layer {number + 1}"
+    names = json.loads(plane.attrs.get("layer_names", "[]"))
+    name = names[number] if number < len(names) and names[number] else f"layer {number + 1}"
     top = number > 0 and bool(same_depth(float(plane["depth"]), ends[number - 1]))
     return f"{'top' if top else 'bottom'} of {name}"
 
@@ -115,3 +115,15 @@ def angle_in_words(angle: float) -> str:
     if abs(degrees) > 89.5:
         return "across travel"
     return f"{abs(degrees):.0f}° from travel to the {'right' if degrees > 0 else 'left'}"
+
+
+def kind_of_points(data: xr.Dataset) -> str:
+    """What the points of a response are: a map, a section along or across travel, a line of the surface, a list."""
+    if "point" in data.sizes:
+        return "points"
+    depth, y, x = (data.sizes.get(name, 1) for name in ("depth", "y", "x"))
+    if depth == 1 and y == 1 and x > 1:
+        return "bowl"
+    if y == 1 and x > 1:
+        return "slice_along"
+    return "slice_across" if x == 1 and y > 1 else "response"

@@ -27,10 +27,10 @@ def place_load(load: Load, *, x: float = 0.0, y: float = 0.0, mirror: bool = Fal
 
     load: one load; a contact becomes a GridLoad. Raises InputError for several loads or a move that is not a number.
     """
-    one = gather(load)
-    if len(one) != 1:
-        raise InputError(f"place_load takes one load, got {len(one)}; place each of them")
-    placed = one[0].mirrored() if mirror else one[0]
+    gathered = gather(load)
+    if len(gathered) != 1:
+        raise InputError(f"place_load takes one load, got {len(gathered)}; place each of them")
+    placed = gathered[0].mirrored() if mirror else gathered[0]
     return placed.moved(x, y)
 
 
@@ -45,10 +45,10 @@ def dual_wheels(load: Load, spacing: float, *, mirrored: bool | None = None) -> 
     Raises InputError for a wrong spacing.
     """
     positive("the spacing of dual wheels", spacing, "metres", "trucks have near 0.35")
-    turned = not any(_leans(one) for one in _each(load)) if mirrored is None else mirrored
+    turned = not any(_leans(wheel) for wheel in _each(load)) if mirrored is None else mirrored
     right = gather(load)
-    left = tuple(one.mirrored().moved(y=2 * _middle(one)) if turned else one for one in right)
-    return tuple(one.moved(y=side * spacing / 2) for side, pair in ((-1, left), (1, right)) for one in pair)
+    left = tuple(wheel.mirrored().moved(y=2 * _middle(wheel)) if turned else wheel for wheel in right)
+    return tuple(wheel.moved(y=side * spacing / 2) for side, pair in ((-1, left), (1, right)) for wheel in pair)
 
 
 def _middle(load: PlacedLoad) -> float:
@@ -65,7 +65,7 @@ def _leans(load: Any) -> bool:
     data = load if isinstance(load, xr.Dataset) else getattr(load, "dataset", None)
     if data is not None and "spin" in data and float(data["spin"]) != 0:
         return True
-    return any(abs(getattr(one, "lateral_force", 0.0)) > _SIDE * one.normal_load for one in gather(load))
+    return any(abs(getattr(wheel, "lateral_force", 0.0)) > _SIDE * wheel.normal_load for wheel in gather(load))
 
 
 def axle(load: Load | Sequence[Load], track: float, dual_spacing: float | None = None) -> tuple[PlacedLoad, ...]:
@@ -80,7 +80,7 @@ def axle(load: Load | Sequence[Load], track: float, dual_spacing: float | None =
     if dual_spacing is not None:
         if dual_spacing >= track:
             raise InputError(f"the dual spacing {dual_spacing:g} m must be smaller than the track, {track:g} m")
-        wheels = tuple(wheel for one in wheels for wheel in dual_wheels(one, dual_spacing))
+        wheels = tuple(wheel for load in wheels for wheel in dual_wheels(load, dual_spacing))
     right = tuple(wheel.moved(y=track / 2) for wheel in wheels)
     return (*(wheel.mirrored() for wheel in right), *right)
 
@@ -94,5 +94,5 @@ def tandem(loads: Load | Sequence[Load], wheelbase: float, axles: int = 2) -> tu
     positive("the wheelbase", wheelbase, "metres", "a tandem has near 1.3")
     if isinstance(axles, bool) or not isinstance(axles, int) or axles < 1:
         raise InputError(f"axles must be a whole number of at least 1, got {axles!r}")
-    one = gather(loads)
-    return tuple(load.moved(x=((axles - 1) / 2 - k) * wheelbase) for k in range(axles) for load in one)
+    gathered = gather(loads)
+    return tuple(load.moved(x=((axles - 1) / 2 - k) * wheelbase) for k in range(axles) for load in gathered)

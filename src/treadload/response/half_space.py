@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -21,6 +22,32 @@ from treadload.pavement.stack import medium_of, plane_of
 from treadload.response.grain import modes_of, on_cells
 from treadload.response.loads import SurfaceLoad, UniformDisc
 
+
+@dataclass(frozen=True, eq=False)
+class EvaluationGrid:
+    """Points at which fields are evaluated.
+
+    depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates. at: of their grid only these points. mean: weights
+    (rows, nz) of sums over the depths, which are given in their place; not on materials with a horizontal grain.
+    """
+
+    depths: Array
+    x: Array
+    y: Array
+    at: Points | None = None
+    mean: Array | None = None
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Of a field at one depth."""
+        return (len(self.y), len(self.x)) if self.at is None else self.at.shape
+
+    @property
+    def sums(self) -> Array:
+        """Weights of the sums over the depths; of single depths the unit matrix."""
+        return np.eye(len(self.depths)) if self.mean is None else self.mean
+
+
 # Distances that differ by less than this part of a cell are the same.
 _SAME = 1e-7
 
@@ -28,22 +55,16 @@ _SAME = 1e-7
 def half_space_response(
     loads: Sequence[SurfaceLoad],
     material: AnyElastic,
-    depths: Array,
-    x: Array,
-    y: Array,
-    at: Points | None = None,
-    tell: Callable[[str], None] | None = None,
+    where: EvaluationGrid,
     *,
-    mean: Array | None = None,
+    tell: Callable[[str], None] | None = None,
     moves: bool = True,
     kept: Keeper | None = None,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a half-space under superposed loads.
 
-    material: of the half-space. depths: (nz,), m, >= 0. x: (mx,), y: (my,), m, any coordinates.
-    at: of the grid of x and y only these points, line by line or summed directly. tell: called with a line of text
-    at every load of several. mean, kept: see `half_space_fields`; of an isotropic material, or one that is the same
-    in all horizontal directions, alone. moves: False leaves the displacement out, NaN.
+    material: of the half-space. where: points, line by line or summed directly. tell: called with a line of text at
+    every load of several. kept: see `half_space_fields`. moves: False leaves the displacement out, NaN.
     Returns stress, Pa, and strain, both (6, nz, my, mx), tension positive, tensor shear, in the order of
     `kernels.half_space.interior.COMPONENTS`; displacement (3, nz, my, mx), m, z down; and the method: "fft" where
     x and y lie on few lattices of the loads' spacing (that spacing, its fractions or multiples, a single row),
@@ -58,9 +79,7 @@ def half_space_response(
     else:
         unit = material.upright[0]
         medium, loads = modes_of(material, unit), on_cells(loads)
-    ((fields, method),) = half_space_fields(
-        [loads], medium, depths, x, y, at, tell, moves=moves, mean=mean, kept=kept
-    )  # fmt: skip
+    ((fields, method),) = half_space_fields([loads], medium, where, tell=tell, moves=moves, kept=kept)
     stress = np.moveaxis(fields[:, :6], 1, 0)
     displacement = np.moveaxis(fields[:, 6:], 1, 0) / unit if moves else np.full((3, *stress.shape[1:]), np.nan)
     return stress, material.strain(stress), displacement, method
@@ -69,15 +88,11 @@ def half_space_response(
 def half_space_fields(
     loads: Sequence[Sequence[SurfaceLoad]],
     medium: Medium | Modes,
-    depths: Array,
-    x: Array,
-    y: Array,
-    at: Points | None = None,
-    tell: Callable[[str], None] | None = None,
+    where: EvaluationGrid,
     *,
+    tell: Callable[[str], None] | None = None,
     moves: bool = True,
     precision: type[np.floating[Any]] = np.float64,
-    mean: Array | None = None,
     kept: Keeper | None = None,
 ) -> list[tuple[Array, str]]:
     """Stress and displacement times the shear modulus, (nz, 9, my, mx), and the method, for each of some loads.
@@ -86,19 +101,16 @@ def half_space_fields(
     another along z; the shear modulus is then that of the horizontal plane. Or the modes of any other anisotropy, and
     the unit of its stiffness, for loads on cells alone. The others as in `half_space_response`;
     moves: False leaves the displacement out, (nz, 6, my, mx). precision: of convolutions and of what is returned.
-    mean: weights (rows, nz) of sums over the depths, which are given in their place; not of modes. kept: what further
-    calls under the same loads need again, see `kernels.gridding.precorrected`. What cells do to
+    kept: what further calls under the same loads need again, see `kernels.gridding.precorrected`. What cells do to
     each other is computed once for all loads that stand on the same cells, and once for wheels behind each other that
     press alike.
     """
-    shape = (len(y), len(x)) if at is None else at.shape
-    sums = np.eye(len(depths)) if mean is None else mean
-    results = [np.zeros((len(sums), 9 if moves else 6, *shape), precision) for _ in loads]
+    results = [np.zeros((len(where.sums), 9 if moves else 6, *where.shape), precision) for _ in loads]
     methods: list[set[str]] = [set() for _ in loads]
     many = [load for several in loads for load in several]
     number = 0
 
-    def said(count: int) -> None:
+    def count_solved(count: int) -> None:
         nonlocal number
         for _ in range(count):
             number += 1
@@ -109,13 +121,13 @@ def half_space_fields(
         for load in several:
             if isinstance(load, UniformDisc):
                 assert not isinstance(medium, Modes)
-                said(1)
-                _add_disc(result, load, medium, depths, sums, x, y, at)
+                count_solved(1)
+                _add_disc(result, load, medium, where)
                 used.add("disc")
     for (print_, places), members in _prints(loads).items():
-        said(len(places) * len(members))
+        count_solved(len(places) * len(members))
         array = np.stack([member for _, member in members], axis=1).astype(precision, copy=False)
-        fields, method = _under_print(print_, places, array, medium, depths, sums, x, y, at, moves=moves, kept=kept)
+        fields, method = _under_print(print_, places, array, medium, where, moves=moves, kept=kept)
         for column, (owner, _) in enumerate(members):
             results[owner] += fields[:, :, column]
             methods[owner].add(method)
@@ -132,22 +144,22 @@ def _prints(
     loads: Sequence[Sequence[SurfaceLoad]],
 ) -> dict[tuple[_Print, tuple[float, ...]], list[tuple[int, Array]]]:
     """Numbers of loads and arrays (3, ny, nx) by the cells that they stand on and by places, x of the first cells."""
-    found: dict[tuple[_Print, tuple[float, ...]], list[tuple[int, Array]]] = {}
+    prints: dict[tuple[_Print, tuple[float, ...]], list[tuple[int, Array]]] = {}
     for number, several in enumerate(loads):
         alike: list[tuple[_Print, Array, list[float]]] = []
         for load in several:
             if isinstance(load, UniformDisc):
                 continue
             grid, array = load.grid, load.array
-            own: _Print = (grid.nx, grid.ny, grid.dx, grid.dy, grid.y0, load.interpolation)
-            places = next((at for one, other, at in alike if one == own and np.array_equal(other, array)), None)
+            key: _Print = (grid.nx, grid.ny, grid.dx, grid.dy, grid.y0, load.interpolation)
+            places = next((at for shape, values, at in alike if shape == key and np.array_equal(values, array)), None)
             if places is None:
-                alike.append((own, array, [grid.x0]))
+                alike.append((key, array, [grid.x0]))
             else:
                 places.append(grid.x0)
-        for own, array, places in alike:
-            found.setdefault((own, tuple(places)), []).append((number, array))
-    return found
+        for key, array, places in alike:
+            prints.setdefault((key, tuple(places)), []).append((number, array))
+    return prints
 
 
 def _under_print(
@@ -155,17 +167,14 @@ def _under_print(
     places: tuple[float, ...],
     array: Array,
     medium: Medium | Modes,
-    depths: Array,
-    mean: Array,
-    x: Array,
-    y: Array,
-    at: Points | None,
+    where: EvaluationGrid,
     *,
     moves: bool,
     kept: Keeper | None,
 ) -> tuple[Array, str]:
     """Fields (rows, 9 or 6, n, my, mx) of arrays (3, n, ny, nx) on the same cells, summed over their places."""
     _, _, dx, dy, y0, interpolation = cells
+    depths, mean = where.depths, where.sums
     methods: set[str] = set()
 
     def on_grid(x: Array, y: Array) -> tuple[Array, str]:
@@ -186,10 +195,11 @@ def _under_print(
         if len(turns) == 1 and np.array_equal(turns[0], np.arange(len(first))):
             return both
         total: Array = both[..., turns[0]]
-        for own in turns[1:]:
-            total += both[..., own]
+        for offset in turns[1:]:
+            total += both[..., offset]
         return total
 
+    x, y, at = where.x, where.y, where.at
     solved = fields(x, y) if at is None else at.gathered(fields, x, y)
     return solved, "+".join(sorted(methods - {"none"})) or "none"
 
@@ -198,15 +208,12 @@ def _add_disc(
     result: Array,
     disc: UniformDisc,
     medium: Medium,
-    depths: Array,
-    mean: Array,
-    x: Array,
-    y: Array,
-    at: Points | None,
+    where: EvaluationGrid,
 ) -> None:
+    x, y, at, mean = where.x, where.y, where.at, where.sums
     lines = np.meshgrid(x, y) if at is None else (x[None, at.columns], y[None, at.rows])
     across_x, across_y = lines[0] - disc.x, lines[1] - disc.y
-    for row, depth in enumerate(depths):
+    for row, depth in enumerate(where.depths):
         stress, displacement = disc_fields(disc.radius, across_x, across_y, float(depth), 1.0, medium)
         both = np.concatenate([stress, displacement])[: result.shape[1]]
         for place in np.flatnonzero(mean[:, row]):

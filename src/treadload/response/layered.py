@@ -20,7 +20,7 @@ from treadload.kernels.layers.synthesis import FULL, Accuracy, Cells, ElasticPla
 from treadload.materials import Solid
 from treadload.pavement import Pavement
 from treadload.pavement.stack import medium_of, plane_of, stack_of
-from treadload.response.half_space import half_space_fields
+from treadload.response.half_space import EvaluationGrid, half_space_fields
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
 # Nearer to the first interface than this part of its depth the split gains nothing and costs the closed form.
@@ -115,8 +115,8 @@ def layered_responses(
     Raises InputError where that decay is too slow for the distance of the points.
     """
     layouts = [_Layout.of(site, below, view.accuracy.fall) for site in sites]
-    discs = [[one for one in several if isinstance(one, UniformDisc)] for several in loads]
-    gridded = [[one for one in several if isinstance(one, GridLoad)] for several in loads]
+    discs = [[load for load in several if isinstance(load, UniformDisc)] for several in loads]
+    gridded = [[load for load in several if isinstance(load, GridLoad)] for several in loads]
     under_cells = [pair for pair in pairs if gridded[pair[0]]]
     costs = _Closed(gridded, view)
     split = [_split(layout, gridded, number, under_cells, view, costs) for number, layout in enumerate(layouts)]
@@ -141,17 +141,19 @@ def _solved(
 ) -> Solved:
     """Stress, strain and displacement of one pair from its fields (components, rows, my, mx)."""
     stack, shape = layout.stack, fields.shape[1:]
-    asked = list(components)
-    if asked[:6] == list(range(6)):
+    wanted = list(components)
+    if wanted[:6] == list(range(6)):
         stress = fields[:6]
     else:
         stress = np.full((6, *shape), np.nan, fields.dtype)
-        stress[[one for one in asked if one <= _YZ]] = fields[[k for k, one in enumerate(asked) if one <= _YZ]]
+        stress[[component for component in wanted if component <= _YZ]] = fields[
+            [k for k, component in enumerate(wanted) if component <= _YZ]
+        ]
     displacement = np.broadcast_to(np.array(np.nan, fields.dtype), (3, *shape))
-    if max(asked) > _YZ:
+    if max(wanted) > _YZ:
         displacement = displacement.copy()
-        displacement[[one - 6 for one in asked if one > _YZ]] = fields[
-            [k for k, one in enumerate(asked) if one > _YZ]
+        displacement[[component - 6 for component in wanted if component > _YZ]] = fields[
+            [k for k, component in enumerate(wanted) if component > _YZ]
         ]
         for component, drifts in enumerate(drifting(stack, loads)):
             if drifts:
@@ -237,9 +239,9 @@ class _Layout:
 
     def plane(self, row: int) -> ElasticPlane:
         """One of its sums, with its table if that was made before."""
-        own = np.flatnonzero(self.mean[row])
-        parts = tuple((float(self.mean[row, k]), float(self.depths[k]), self.split[k]) for k in own)
-        return _plane(self.stack, parts, self.where[own[0]], self.below, self.fall)
+        columns = np.flatnonzero(self.mean[row])
+        parts = tuple((float(self.mean[row, k]), float(self.depths[k]), self.split[k]) for k in columns)
+        return _plane(self.stack, parts, self.where[columns[0]], self.below, self.fall)
 
 
 @lru_cache(maxsize=256)
@@ -269,7 +271,7 @@ class _Top:
 
     loads: Sequence[Sequence[SurfaceLoad]]
     view: View
-    known: dict[tuple[Any, ...], list[tuple[Array, str]]] = field(default_factory=dict)
+    solved: dict[tuple[Any, ...], list[tuple[Array, str]]] = field(default_factory=dict)
 
     def add(self, fields: Array, load: int, layout: _Layout) -> str:
         """Add that of a load to fields (components, rows, my, mx) where it was split off; the method."""
@@ -279,24 +281,20 @@ class _Top:
         medium, mean = medium_of(material), layout.mean[:, layout.rows]
         rows = np.flatnonzero(mean.any(axis=1))
         key = (medium, *depths, mean.tobytes())
-        if key not in self.known:
-            self.known[key] = half_space_fields(
+        if key not in self.solved:
+            self.solved[key] = half_space_fields(
                 self.loads,
                 medium,
-                depths,
-                view.x,
-                view.y,
-                view.at,
+                EvaluationGrid(depths, view.x, view.y, view.at, mean[rows]),
                 moves=max(view.components) > _YZ,
                 precision=view.accuracy.precision,
-                mean=mean[rows],
                 kept=view.kept,
             )
-        top, method = self.known[key][load]
+        top, method = self.solved[key][load]
         for place, component in enumerate(view.components):
             part = top[:, component] if component <= _YZ else top[:, component] / plane_of(material)[0]
-            for row, own in zip(rows, part, strict=True):
-                fields[place, row] += own
+            for row, sheet in zip(rows, part, strict=True):
+                fields[place, row] += sheet
         return method
 
 
@@ -321,22 +319,25 @@ class _Closed:
 
     loads: Sequence[Sequence[GridLoad]]
     view: View
-    known: dict[tuple[int, tuple[float, ...]], Array] = field(default_factory=dict)
+    solved: dict[tuple[int, tuple[float, ...]], Array] = field(default_factory=dict)
 
     def of(self, load: int, depths: Array) -> Array:
         """Of one of the loads, by number, at depths (nz,), as `grid_cost` counts."""
         key = (load, tuple(map(float, depths)))
-        if key not in self.known:
+        if key not in self.solved:
 
             def cost(x: Array, y: Array) -> Array:
-                several = [(one, one.grid) for one in self.loads[load]]
-                parts = [grid_cost(one.array, at.dx, at.dy, depths, x - at.x0, y - at.y0) for one, at in several]
+                several = [(grid_load, grid_load.grid) for grid_load in self.loads[load]]
+                parts = [
+                    grid_cost(grid_load.array, at.dx, at.dy, depths, x - at.x0, y - at.y0)
+                    for grid_load, at in several
+                ]
                 costs: Array = np.sum(parts, axis=0)
                 return costs
 
             x, y, at = self.view.x, self.view.y, self.view.at
-            self.known[key] = cost(x, y) if at is None else at.total(cost, x, y)
-        return self.known[key]
+            self.solved[key] = cost(x, y) if at is None else at.total(cost, x, y)
+        return self.solved[key]
 
 
 def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, view: View, closed: Array) -> list[bool]:
@@ -380,7 +381,7 @@ def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, view: View) -> A
         layout.fall / float(layout.limit.max()),
         np.array([layout.stack.lift_of(layer) for layer in layout.where]) if layout.stack.upright else None,
     )
-    places = [Disc(one.radius, one.pressure, one.x, one.y) for one in discs]
+    places = [Disc(disc.radius, disc.pressure, disc.x, disc.y) for disc in discs]
     return synthesise_discs(places, planes, view.x, view.y, layout.length, view.at)[:, list(view.components)]
 
 
@@ -389,7 +390,7 @@ def _under_cells(
 ) -> list[Array]:
     """Fields (components, rows, my, mx) of pairs of a gridded load and a layout, by wavenumbers both ways."""
     used = [layouts[site] for site in sorted({site for _, site in pairs})]
-    every = [one for number in sorted({load for load, _ in pairs}) for one in loads[number]]
+    every = [grid_load for number in sorted({load for load, _ in pairs}) for grid_load in loads[number]]
     steepest = max(used, key=lambda layout: float(layout.limit.max()))
     along, across = _rules(every, float(steepest.limit.max()), view, max(layout.length for layout in used))
     if len(along[0]) * len(across[0]) > _MOST:
@@ -415,9 +416,9 @@ def _under_cells(
 
 def _cells(loads: Sequence[GridLoad]) -> list[Cells]:
     return [
-        Cells(one.array, grid.dx, grid.dy, grid.x0, grid.y0, 2 if one.interpolation == "bilinear" else 1)
-        for one in loads
-        for grid in [one.grid]
+        Cells(load.array, grid.dx, grid.dy, grid.x0, grid.y0, 2 if load.interpolation == "bilinear" else 1)
+        for load in loads
+        for grid in [load.grid]
     ]
 
 

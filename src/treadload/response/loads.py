@@ -54,8 +54,8 @@ class GridLoad:
         if self.interpolation not in ("constant", "bilinear"):
             raise InputError(f'interpolation must be "constant" or "bilinear", got {self.interpolation!r}')
         for name in ("pressure", "traction_x", "traction_y"):
-            given = getattr(self, name)
-            values = np.zeros(self.grid.shape) if given is None else real_array(given, name)
+            array = getattr(self, name)
+            values = np.zeros(self.grid.shape) if array is None else real_array(array, name)
             if values.shape != self.grid.shape:
                 raise InputError(f"{name} has shape {values.shape}, the grid has {self.grid.shape} (ny, nx)")
             if not np.isfinite(values).all():
@@ -183,12 +183,12 @@ class GridLoad:
     def __str__(self) -> str:
         """What presses where, so that a wrong unit shows."""
         loaded = float((self.pressure > 0).sum()) * self.grid.cell_area
-        told = [
+        parts = [
             f"{_plain(self.normal_load / 1e3)} kN on {_plain(loaded * 1e6)} mm² ({self.grid})",
             f"peak pressure {_plain(float(self.pressure.max()) / 1e3)} kPa",
         ]
         shear = float(np.hypot(self.array[1], self.array[2]).max())
-        return ", ".join([*told, f"peak shear {_plain(shear / 1e3)} kPa"] if shear else told)
+        return ", ".join([*parts, f"peak shear {_plain(shear / 1e3)} kPa"] if shear else parts)
 
     @property
     def normal_load(self) -> float:
@@ -283,8 +283,8 @@ class UniformRectangle:
     traction_y: float = 0.0
 
     def __post_init__(self) -> None:
-        others = {name: getattr(self, name) for name in ("x", "y", "traction_x", "traction_y")}
-        _check_uniform("rectangle", {"length": self.length, "width": self.width}, self.pressure, others)
+        further = {name: getattr(self, name) for name in ("x", "y", "traction_x", "traction_y")}
+        _check_uniform("rectangle", {"length": self.length, "width": self.width}, self.pressure, further)
 
     def moved(self, x: float = 0.0, y: float = 0.0) -> UniformRectangle:
         """The same load moved by x and y, m."""
@@ -314,8 +314,8 @@ class UniformRectangle:
     def cell(self) -> GridLoad:
         """The same as a grid of one cell."""
         grid = Grid(1, 1, self.length, self.width, self.x, self.y)
-        one = np.ones((1, 1))
-        return GridLoad(grid, self.pressure * one, self.traction_x * one, self.traction_y * one)
+        ones = np.ones((1, 1))
+        return GridLoad(grid, self.pressure * ones, self.traction_x * ones, self.traction_y * ones)
 
 
 Load = GridLoad | UniformDisc | UniformRectangle | Source
@@ -335,12 +335,12 @@ def gather(loads: Load | Sequence[Load]) -> tuple[PlacedLoad, ...]:
     return tuple(_load(item) for item in several)
 
 
-def _check_uniform(kind: str, sizes: dict[str, float], pressure: float, others: dict[str, float]) -> None:
+def _check_uniform(kind: str, sizes: dict[str, float], pressure: float, further: dict[str, float]) -> None:
     for name, value in sizes.items():
         positive(f"the {name} of a {kind}", value, "metres", "150 mm is 0.15")
     if not (math.isfinite(pressure) and pressure >= 0):
         raise InputError(f"the pressure of a {kind} must be >= 0 Pa, got {pressure}; compression counts positive")
-    for name, value in others.items():
+    for name, value in further.items():
         if not math.isfinite(value):
             raise InputError(f"{name} of a {kind} must be finite, got {value}")
 

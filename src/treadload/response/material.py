@@ -60,7 +60,7 @@ def windows(depths: Array, length: float, interfaces: Array, where: Sequence[int
     low = np.maximum(middle - 0.5 * length, [edges[k] for k in where])
     high = np.minimum(middle + 0.5 * length, [edges[k + 1] for k in where])
     low, high = np.where(local, depths, low), np.where(local, depths, high)
-    spans = sorted({(a, b) for a, b, own in zip(low, high, local, strict=True) if not own})
+    spans = sorted({(a, b) for a, b, is_local in zip(low, high, local, strict=True) if not is_local})
     nodes = np.array([0.5 * (a + b) + 0.5 * (b - a) * t for a, b in spans for t in _NODES])
     mean = np.zeros((len(depths), len(nodes)))
     for row in np.flatnonzero(~local):

@@ -22,6 +22,9 @@ from treadload.response.several import Loads, Question, all_spread, answers
 from treadload.response.solution import Response
 from treadload.response.superposition import merged
 
+_ALL = tuple(range(len(COMPONENTS)))
+_TENSORS = tuple(f"{tensor}_{name}" for tensor in ("stress", "strain") for name in COMPONENTS)
+
 
 @dataclass(frozen=True, eq=False)
 class Means:
@@ -62,7 +65,7 @@ class Means:
         rough: whether 1e-6 of the largest value will do, to find where that lies.
         """
         view = View(
-            x, y, components=tuple(range(len(COMPONENTS))), accuracy=SEARCH if rough else FULL,
+            x, y, components=_ALL, accuracy=SEARCH if rough else FULL,
             kept=self._kept.with_order(ROUGH if rough else FINE),
         )  # fmt: skip
         (answer,) = answers(
@@ -71,6 +74,50 @@ class Means:
         )  # fmt: skip
         tensors = tensor_fields(answer.fields.stress, answer.fields.strain)
         return variables.dataset(tensors, {"depth": depths, "y": y, "x": x}, mean_over=self.length)
+
+    def at_points_of(self, solved: Response, depths: Array) -> xr.Dataset:
+        """`at` on the points of a response under the first of the loads, whose fields are not solved again.
+
+        solved: a response on a grid (depth, y, x), with loads of which those of `response` are shares: the first of
+        them of its loads, the others of as many again, see `superposition.mean_loads`; or `response` itself.
+        depths: of `solved`, m. Its fields serve at depths that stand for themselves alone, see
+        `material.windows`, unless stress was added to them, or a face that slides or opens forbids to add fields.
+        """
+        data, road = solved.dataset, self.road
+        x, y = data["x"].to_numpy(), data["y"].to_numpy()
+        later_loads = self.response.loads[len(solved.loads) :]
+        local = np.array([low == high for low, high in map(self.reads, depths)])
+        if (
+            not local.any()
+            or solved.restrained
+            or (later_loads and road.parted is not None)
+            or not set(_TENSORS) <= set(data)
+        ):
+            return self.at(depths, x, y)
+        depths_before = data["depth"].to_numpy()
+        share = len(solved.loads) / len(self.response.loads)
+        added: dict[str, tuple[tuple[str, ...], Array]] = {
+            name: (("depth", "y", "x"), np.zeros(())) for name in _TENSORS
+        }
+        if later_loads:
+            (answer,) = answers(
+                [Question(cells_of(later_loads), road, depths[local])], View(x, y, components=_ALL, accuracy=FULL),
+                side=self.response.side, speed=self.response.speed, mean_over=None,
+            )  # fmt: skip
+            added = tensor_fields(answer.fields.stress, answer.fields.strain)
+        means = None if local.all() else self.at(depths[~local], x, y)
+        fields = {}
+        for name, (dims, part) in added.items():
+            field = np.empty((len(depths), len(y), len(x)))
+            before = data[name].transpose(*dims).to_numpy()
+            for row in np.flatnonzero(local):
+                np.multiply(before[np.flatnonzero(depths_before == depths[row])[0]], share, out=field[row])
+            if later_loads:
+                field[local] += part
+            if means is not None:
+                field[~local] = means[name].to_numpy()
+            fields[name] = (dims, field)
+        return variables.dataset(fields, {"depth": depths, "y": y, "x": x}, mean_over=self.length)
 
     def reads(self, depth: float) -> tuple[float, float]:
         """From which depth to which, m, the cube at a depth, m, reaches; equal where the point itself is read."""

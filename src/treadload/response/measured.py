@@ -127,7 +127,7 @@ def of_dataset(
     check_names(units, _COLUMNS, "the variables")
     about = where or "the dataset"
     parts: dict[str, Array] = {}
-    told: dict[str, list[str]] = {}
+    by_unit: dict[str, list[str]] = {}
     factors: dict[str, float] = {}
     for name, si in _COLUMNS.items():
         if name not in data.variables:
@@ -141,13 +141,15 @@ def of_dataset(
             raise InputError(f"{about}: {name} must hold numbers in {si} or the like, got {part.dtype}")
         named = part.attrs.get("units")
         factors[name] = factor_of(name, named, si, units, where=about, bare=None if strict else si)
-        told.setdefault(str(units.get(name) if named is None else named), []).append(name)
+        by_unit.setdefault(str(units.get(name) if named is None else named), []).append(name)
         with np.errstate(over="ignore"):
             parts[name] = factors[name] * np.asarray(part.transpose(*wanted).to_numpy(), dtype=float)
     cell = {name: data.attrs.get(f"d{name}") for name in ("x", "y") if factors[name] == 1.0}
     x0, nx, dx = _evenly("x", parts["x"], cell.get("x"))
     y0, ny, dy = _evenly("y", parts["y"], cell.get("y"))
-    source = f"{Path(where).name}: " + ", ".join(f"{' and '.join(names)} in {unit}" for unit, names in told.items())
+    source = f"{Path(where).name}: " + ", ".join(
+        f"{' and '.join(names)} in {unit}" for unit, names in by_unit.items()
+    )
     grid = Grid(nx, ny, dx, dy, x0, y0)
     stress = [parts.get(name) for name in _STRESS]
     assert stress[0] is not None
@@ -274,8 +276,8 @@ def _table(
         fields[name] = np.full((ny, nx), np.nan if missing == "keep" else 0.0)
         fields[name][j, i] = at[name]
     grid = Grid(nx, ny, dx, dy, x0, y0)
-    said = ", ".join(f"{name} in {unit or _COLUMNS[name]}" for name, unit in named.items())
-    source = f"{path.name}: {how}, {said}"
+    units_text = ", ".join(f"{name} in {unit or _COLUMNS[name]}" for name, unit in named.items())
+    source = f"{path.name}: {how}, {units_text}"
     return Recorded(grid, fields["pressure"], fields.get("traction_x"), fields.get("traction_y"), source)
 
 

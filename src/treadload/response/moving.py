@@ -21,7 +21,7 @@ from treadload.materials import Anisotropic, Elastic, Material, Prony, Viscoelas
 from treadload.materials.kinds import AnyElastic, limit_of
 from treadload.pavement import Layer, Pavement
 from treadload.pavement.stack import stack_of
-from treadload.response.half_space import half_space_response
+from treadload.response.half_space import EvaluationGrid, half_space_response
 from treadload.response.layered import drifting
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
@@ -58,7 +58,7 @@ def at_speed(road: Pavement, speed: float | None) -> Pavement:
         return road
     if speed is None:
         name, solid = next(
-            (one.name, one.resolved) for one in road.layers if not isinstance(one.resolved, AnyElastic)
+            (layer.name, layer.resolved) for layer in road.layers if not isinstance(layer.resolved, AnyElastic)
         )
         raise InputError(
             f"layer {name!r} is viscoelastic ({solid}): give speed=, of the load, in m/s; or solve an elastic "
@@ -250,11 +250,12 @@ def _half_space(
     at: Points | None,
 ) -> tuple[Array, Array, Array, str]:
     """Stress, strain and displacement of a half-space of the top layer, and the method."""
+    where = EvaluationGrid(depths, x, y, at)
     if series is None:
         assert isinstance(material, Elastic)
-        return half_space_response(loads, material, depths, x, y, at)
+        return half_space_response(loads, material, where)
     elastic = series.glassy
-    stress, strain, displacement, method = half_space_response(loads, elastic, depths, x, y, at)
+    stress, strain, displacement, method = half_space_response(loads, elastic, where)
     terms = [(strength, time * speed) for strength, time in series.creep_terms]
     later_stress, later = np.zeros_like(stress), np.zeros_like(displacement)
     for load in loads:
@@ -268,7 +269,7 @@ def _half_space(
         quick = [strength for strength, length in terms if length < _QUICK * cells.dx]
         slow: list[Term] = [(strength, length) for strength, length in terms if length >= _QUICK * cells.dx]
         if quick:
-            at_once = half_space_response([load], elastic, depths, x, y, at)
+            at_once = half_space_response([load], elastic, where)
             later_stress += sum(quick) * at_once[0]
             later += sum(quick) * at_once[2]
         if slow:

@@ -24,7 +24,7 @@ from treadload.kernels.layers.layered import Stack
 from treadload.kernels.layers.synthesis import READING
 from treadload.pavement import Parted, Pavement
 from treadload.pavement.stack import stack_of
-from treadload.response.half_space import half_space_response
+from treadload.response.half_space import EvaluationGrid, half_space_response
 from treadload.response.layered import Site, View, layered_responses
 from treadload.response.loads import SurfaceLoad
 
@@ -67,14 +67,14 @@ class Face:
         plane = 1j * k * (c * x + s * y), k * z
         turned = k * (c * y - s * x)
         sides = [below] * len(depths)
-        found = waves.jump(self.stack, self.depth, depths, sides)
+        jumps = waves.jump(self.stack, self.depth, depths, sides)
         result = np.empty((len(depths), 9, len(self.y), len(self.x)))
         for row, depth in enumerate(self.stack.snapped(depths)):
             layer = self.stack.layer_at(float(depth), below)
             u, w, f, g = (
-                found.plane[row, part, 0] * plane[0] + found.plane[row, part, 1] * plane[1] for part in range(4)
+                jumps.plane[row, part, 0] * plane[0] + jumps.plane[row, part, 1] * plane[1] for part in range(4)
             )
-            swayed, sheared = found.transverse[row, 0] * turned, found.transverse[row, 1] * turned
+            swayed, sheared = jumps.transverse[row, 0] * turned, jumps.transverse[row, 1] * turned
             moved: list[ComplexArray] = _stress(waves, self.stack, layer, (u, f, g, swayed, sheared))
             with np.errstate(divide="ignore", invalid="ignore"):
                 ahead, across = -1j * u / k, swayed / k
@@ -123,7 +123,7 @@ def parted_fields(
     layers = road.distinct_layers
     for row, depth in enumerate(face.stack.snapped(depths)):
         strain[:, row] = layers[face.stack.layer_at(float(depth), below)].elastic.strain(stress[:, row])
-    return stress, strain, here[6:], _said(face, road)
+    return stress, strain, here[6:], _cautions(face, road)
 
 
 @lru_cache(maxsize=8)
@@ -150,7 +150,7 @@ def solve_face(loads: tuple[SurfaceLoad, ...], road: Pavement) -> Face:
                 f"the face at {depth:g} m slides over {np.ptp(x):.3g} by {np.ptp(y):.3g} m, {len(x)} x {len(y)} "
                 f"cells, more than {_MOST_CELLS:g}; take friction on a deeper face, or a FRICTIONLESS one"
             )
-        traction = _held(loads, road.sticking, depth, x, y)
+        traction = _closed_traction(loads, road.sticking, depth, x, y)
         traction[2] += bond.unit_weight * depth
         shear, bound = np.linalg.norm(traction[:2].sum(axis=(1, 2))), bond.friction * float(traction[2].sum())
         if shear > _BORNE * bound and bound > 0:
@@ -184,16 +184,16 @@ def _onto(x: Array, y: Array, face: tuple[Array, Array, PartedFace]) -> tuple[Ar
     """Jump and traction of a face on other cells."""
     own_x, own_y, state = face
     jump, traction = (
-        np.stack([RectBivariateSpline(own_y, own_x, one, kx=1, ky=1)(y, x) for one in field])
+        np.stack([RectBivariateSpline(own_y, own_x, sheet, kx=1, ky=1)(y, x) for sheet in field])
         for field in (state.jump, state.traction)
     )
     return jump, traction
 
 
-def _held(loads: Sequence[SurfaceLoad], road: Pavement, depth: float, x: Array, y: Array) -> Array:
+def _closed_traction(loads: Sequence[SurfaceLoad], road: Pavement, depth: float, x: Array, y: Array) -> Array:
     """Traction (3, ny, nx) of the face as if it held, x, y and pressure, Pa."""
     if road.is_homogeneous:
-        stress = half_space_response(loads, road.surface_material, np.array([depth]), x, y)[0]
+        stress = half_space_response(loads, road.surface_material, EvaluationGrid(np.array([depth]), x, y))[0]
     else:
         view = View(x, y, components=(2, 4, 5), accuracy=READING)
         site = Site(road, np.array([depth]))
@@ -241,7 +241,7 @@ class _Waves:
     def jump(self, stack: Stack, face: float, depths: Sequence[float] | Array, below: Sequence[bool]) -> Jump:
         """Of unit jumps at all wavenumbers but 0, where all is 0: (..., ny, nkx)."""
         unique, back = np.unique(np.round(self.k.ravel()[1:], 9), return_inverse=True)
-        found = jump(unique, stack, face, [float(z) for z in depths], below)
+        jumps = jump(unique, stack, face, [float(z) for z in depths], below)
 
         def spread(values: Array) -> Array:
             every: Array = np.zeros((*values.shape[:-1], self.k.size))
@@ -249,14 +249,17 @@ class _Waves:
             return every.reshape(*values.shape[:-1], *self.k.shape)
 
         return Jump(
-            *(spread(one) for one in (found.plane, found.transverse, found.stiffness, found.stiffness_transverse))
+            *(
+                spread(spectrum)
+                for spectrum in (jumps.plane, jumps.transverse, jumps.stiffness, jumps.stiffness_transverse)
+            )
         )
 
     def stiffness(self, stack: Stack, face: float) -> FaceStiffness:
         """Of the face."""
-        found = self.jump(stack, face, [], [])
-        (kk, kz), (_, zz) = self.k * found.stiffness
-        return FaceStiffness(self.along, self.across, kk, zz, kz, self.k * found.stiffness_transverse)
+        jumps = self.jump(stack, face, [], [])
+        (kk, kz), (_, zz) = self.k * jumps.stiffness
+        return FaceStiffness(self.along, self.across, kk, zz, kz, self.k * jumps.stiffness_transverse)
 
 
 def _stress(waves: _Waves, stack: Stack, layer: int, moved: tuple[ComplexArray, ...]) -> list[ComplexArray]:
@@ -278,18 +281,18 @@ def _stress(waves: _Waves, stack: Stack, layer: int, moved: tuple[ComplexArray, 
     ]
 
 
-def _said(face: Face, road: Pavement) -> tuple[str, ...]:
+def _cautions(face: Face, road: Pavement) -> tuple[str, ...]:
     """Sentences for the user."""
     number = road.parted
     assert number is not None
     name = road.layers[number].name or f"layer {number + 1}"
-    said = [
+    warnings = [
         f"the face below {name} is {road.layers[number].bond} and takes this load once, from rest; what wheels "
         "before it left slid is not followed"
     ]
     if not face.wide:
-        said.append(
+        warnings.append(
             f"the face below {name} slides up to the rim of the {np.ptp(face.x):.3g} by {np.ptp(face.y):.3g} m that "
             "were followed; what lies far from the load is not to be read"
         )
-    return tuple(said)
+    return tuple(warnings)

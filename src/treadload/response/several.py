@@ -20,7 +20,7 @@ from treadload.kernels.layers.synthesis import READING
 from treadload.materials.kinds import Solid
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS, tensor_fields
-from treadload.response.half_space import half_space_response
+from treadload.response.half_space import EvaluationGrid, half_space_response
 from treadload.response.layered import Site, View, layered_responses
 from treadload.response.loads import SurfaceLoad
 from treadload.response.material import Windows, spread_over, windows
@@ -81,9 +81,9 @@ def tensors_of_many(
     # Coordinates are made once: many small fields cost less than they.
     places = {
         depths: variables.dataset({}, {"depth": list(depths), "y": y, "x": x}).coords
-        for depths in {tuple(one.depths.tolist()) for one in questions}
+        for depths in {tuple(question.depths.tolist()) for question in questions}
     }
-    tensors = [tensor_fields(one.fields.stress, one.fields.strain) for one in solved]
+    tensors = [tensor_fields(response.fields.stress, response.fields.strain) for response in solved]
     return [
         xr.Dataset(
             {name: (*field, variables.attributes(name)) for name, field in fields.items() if name in wanted},
@@ -107,17 +107,19 @@ def answers(
 
     spread: loads that are spread over the length already, by the `id` of those of a question.
     """
-    asked = [replace(one, road=at_speed(one.road, speed)) for one in questions]
+    at_speed_questions = [replace(question, road=at_speed(question.road, speed)) for question in questions]
 
     def solve(several: Sequence[Question]) -> Iterator[MovingFields]:
-        limits = [one.road.bond_limits for one in several]
-        single = [replace(one, road=road) for one, roads in zip(several, limits, strict=True) for road in roads]
+        limits = [question.road.bond_limits for question in several]
+        single = [
+            replace(question, road=road) for question, roads in zip(several, limits, strict=True) for road in roads
+        ]
         solved = _solve(single, speed, view, below=side == "below", tell=tell)
         return (_mean([next(solved) for _ in roads]) for roads in limits)
 
     if mean_over is None:
-        return [Answer(fields, None) for fields in solve(asked)]
-    return _over_windows(solve, asked, mean_over, side, spread or {})
+        return [Answer(fields, None) for fields in solve(at_speed_questions)]
+    return _over_windows(solve, at_speed_questions, mean_over, side, spread or {})
 
 
 def all_spread(loads: Loads, length: float) -> Loads:
@@ -127,36 +129,36 @@ def all_spread(loads: Loads, length: float) -> Loads:
 
 def _over_windows(
     solve: Callable[[Sequence[Question]], Iterator[MovingFields]],
-    asked: Sequence[Question],
+    questions: Sequence[Question],
     length: float,
     side: Side,
-    known: Mapping[int, Loads],
+    spreads: Mapping[int, Loads],
 ) -> list[Answer]:
     """Means over windows of depth under loads spread over as much, and the points themselves where those are read."""
-    spread = dict(known)
+    spread = dict(spreads)
     parts: list[tuple[Question, Array]] = []
     reads, counts = [], []
-    for one in asked:
+    for posed in questions:
         read = windows(
-            one.depths, length, one.road.interfaces, [one.road.layer_at(float(z), side) for z in one.depths]
+            posed.depths, length, posed.road.interfaces, [posed.road.layer_at(float(z), side) for z in posed.depths]
         )
         reads.append(read)
         before = len(parts)
         if len(read.nodes):
-            if id(one.loads) not in spread:
-                spread[id(one.loads)] = all_spread(one.loads, length)
-            within, own = np.unique(read.mean[~read.local], axis=0, return_inverse=True)
-            share = np.zeros((len(one.depths), len(within)))
-            share[~read.local] = np.eye(len(within))[own.ravel()]
-            parts.append((Question(spread[id(one.loads)], one.road, read.nodes, within), share))
+            if id(posed.loads) not in spread:
+                spread[id(posed.loads)] = all_spread(posed.loads, length)
+            within, which = np.unique(read.mean[~read.local], axis=0, return_inverse=True)
+            share = np.zeros((len(posed.depths), len(within)))
+            share[~read.local] = np.eye(len(within))[which.ravel()]
+            parts.append((Question(spread[id(posed.loads)], posed.road, read.nodes, within), share))
         if read.local.any():
-            every = np.eye(len(one.depths))
-            parts.append((Question(one.loads, one.road, one.depths[read.local]), every[:, read.local]))
+            every = np.eye(len(posed.depths))
+            parts.append((Question(posed.loads, posed.road, posed.depths[read.local]), every[:, read.local]))
         counts.append(len(parts) - before)
     solved = zip(solve([question for question, _ in parts]), (weights for _, weights in parts), strict=True)
     return [
-        Answer(_weighted([next(solved) for _ in range(count)], len(one.depths)), read)
-        for one, read, count in zip(asked, reads, counts, strict=True)
+        Answer(_weighted([next(solved) for _ in range(count)], len(question.depths)), read)
+        for question, read, count in zip(questions, reads, counts, strict=True)
     ]
 
 
@@ -166,12 +168,12 @@ def _weighted(parts: Sequence[tuple[MovingFields, Array]], count: int) -> Moving
     if len(parts) == 1 and np.array_equal(weights, np.eye(count)):
         return replace(first, energy=np.zeros((count, 0)))
     stress, strain, displacement = (
-        sum((_over_depths(weights, getattr(one, name)) for one, weights in parts), np.zeros(()))
+        sum((_over_depths(weights, getattr(fields, name)) for fields, weights in parts), np.zeros(()))
         for name in ("stress", "strain", "displacement")
     )
     solved = [part for part, _ in parts]
-    methods = " and ".join(dict.fromkeys(one.method for one in solved))
-    warnings = tuple(dict.fromkeys(text for one in solved for text in one.warnings))
+    methods = " and ".join(dict.fromkeys(fields.method for fields in solved))
+    warnings = tuple(dict.fromkeys(text for fields in solved for text in fields.warnings))
     return MovingFields(stress, strain, displacement, np.zeros((count, 0)), methods, warnings)
 
 
@@ -196,52 +198,64 @@ def _solve(
 ) -> Iterator[MovingFields]:
     """Fields for one question after the other, of roads with no half-bonded interface."""
     x, y, at = view.x, view.y, view.at
-    for one in questions:
-        if one.road.parted is not None and one.road.is_viscoelastic:
+    for question in questions:
+        if question.road.parted is not None and question.road.is_viscoelastic:
             raise InputError(
                 "friction on a parted face is followed between elastic layers, and this road has a viscoelastic one; "
                 "take its limit, speed=0 or speed=math.inf, or a FRICTIONLESS face"
             )
-    asked = questions
+    posed = questions
     questions = [
-        Question(one.loads, one.road.sticking, one.depths, None if one.road.parted is not None else one.mean)
-        for one in asked
+        Question(
+            question.loads,
+            question.road.sticking,
+            question.depths,
+            None if question.road.parted is not None else question.mean,
+        )
+        for question in posed
     ]
-    layered = [one for one in questions if not (one.road.is_viscoelastic or one.road.is_homogeneous)]
-    several = list({id(one.loads): one.loads for one in layered}.values())
+    layered = [
+        question for question in questions if not (question.road.is_viscoelastic or question.road.is_homogeneous)
+    ]
+    several = list({id(question.loads): question.loads for question in layered}.values())
     place = {id(loads): number for number, loads in enumerate(several)}
     # Loads on one road at the same depths stand on one site.
     sites: list[Site] = []
     numbers: dict[tuple[Any, ...], int] = {}
     pairs = []
-    for one in layered:
-        key = (id(one.road), tuple(map(float, one.depths)), None if one.mean is None else one.mean.tobytes())
+    for question in layered:
+        key = (
+            id(question.road),
+            tuple(map(float, question.depths)),
+            None if question.mean is None else question.mean.tobytes(),
+        )
         if key not in numbers:
             numbers[key] = len(sites)
-            sites.append(Site(one.road, one.depths, one.mean))
-        pairs.append((place[id(one.loads)], numbers[key]))
-    found = layered_responses(several, sites, pairs, view, below=below)
+            sites.append(Site(question.road, question.depths, question.mean))
+        pairs.append((place[id(question.loads)], numbers[key]))
+    solutions = layered_responses(several, sites, pairs, view, below=below)
     moves = max(view.components) > len(COMPONENTS) - 1
-    for one, parted in zip(questions, asked, strict=True):
+    for question, parted in zip(questions, posed, strict=True):
         # Whose fields at depths are to be summed after they are solved.
-        apart = one.mean is None or one.road.is_viscoelastic
-        if one.road.is_viscoelastic:
+        apart = question.mean is None or question.road.is_viscoelastic
+        if question.road.is_viscoelastic:
             assert speed is not None
-            fields = moving_response(one.loads, one.road, speed, one.depths, x, y, below=below, at=at)
+            fields = moving_response(question.loads, question.road, speed, question.depths, x, y, below=below, at=at)
         else:
-            if one.road.is_homogeneous:
-                material = one.road.surface_material
+            if question.road.is_homogeneous:
+                material = question.road.surface_material
                 apart = apart or not isinstance(material, Solid)
                 solved = half_space_response(
-                    one.loads, material, one.depths, x, y, at, tell, mean=None if apart else one.mean, moves=moves,
-                    kept=view.kept,
+                    question.loads, material,
+                    EvaluationGrid(question.depths, x, y, at, None if apart else question.mean),
+                    tell=tell, moves=moves, kept=view.kept,
                 )  # fmt: skip
             else:
-                solved = next(found)
-            fields = MovingFields(*solved[:3], np.zeros((len(one.depths), len(y))), solved[3])
+                solved = next(solutions)
+            fields = MovingFields(*solved[:3], np.zeros((len(question.depths), len(y))), solved[3])
         if parted.road.parted is not None:
             fields = _with_face(fields, parted, view, below=below)
-        depths = one.depths
+        depths = question.depths
         if parted.mean is not None:
             depths = parted.mean @ depths
             if apart:
@@ -250,15 +264,17 @@ def _solve(
         yield fields
 
 
-def _with_face(fields: MovingFields, asked: Question, view: View, *, below: bool) -> MovingFields:
+def _with_face(fields: MovingFields, question: Question, view: View, *, below: bool) -> MovingFields:
     """With what the sliding and opening of a parted face adds."""
-    *added, said = parted_fields(asked.loads, asked.road, asked.depths, view.x, view.y, below=below, at=view.at)
+    *added, cautions = parted_fields(
+        question.loads, question.road, question.depths, view.x, view.y, below=below, at=view.at
+    )
     stress, strain, displacement = (
         whole + part for whole, part in zip((fields.stress, fields.strain, fields.displacement), added, strict=True)
     )
     return replace(
         fields, stress=stress, strain=strain, displacement=displacement, method=f"{fields.method}+parted",
-        warnings=(*fields.warnings, *said),
+        warnings=(*fields.warnings, *cautions),
     )  # fmt: skip
 
 
@@ -282,10 +298,10 @@ def _mean(solved: Sequence[MovingFields]) -> MovingFields:
     if len(solved) == 1:
         return solved[0]
     return MovingFields(
-        np.mean([one.stress for one in solved], axis=0),
-        np.mean([one.strain for one in solved], axis=0),
-        np.mean([one.displacement for one in solved], axis=0),
-        np.mean([one.energy for one in solved], axis=0),
-        " and ".join(dict.fromkeys(one.method for one in solved)),
-        tuple(dict.fromkeys(text for one in solved for text in one.warnings)),
+        np.mean([fields.stress for fields in solved], axis=0),
+        np.mean([fields.strain for fields in solved], axis=0),
+        np.mean([fields.displacement for fields in solved], axis=0),
+        np.mean([fields.energy for fields in solved], axis=0),
+        " and ".join(dict.fromkeys(fields.method for fields in solved)),
+        tuple(dict.fromkeys(text for fields in solved for text in fields.warnings)),
     )

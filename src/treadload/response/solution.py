@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
 
@@ -10,10 +10,18 @@ import numpy as np
 import xarray as xr
 
 from treadload.composing import BaseResult, Holds
-from treadload.describing import first_line
-from treadload.pavement import Pavement
-from treadload.response.fields import angle_in_words, direction_in_words, layer_in_words
+from treadload.contact import Contact
+from treadload.pavement import Pavement, methods_of
+from treadload.response.fields import COMPONENTS, angle_in_words, direction_in_words, kind_of_points, layer_in_words
 from treadload.response.loads import PlacedLoad
+from treadload.rows import Place, Row, row
+
+_FIELDS = " ".join(
+    (*(f"{kind}_{component}" for kind in ("stress", "strain") for component in COMPONENTS), "principal_strain_2",
+     "principal_strain_3", "von_mises_stress", "octahedral_shear_stress", "mean_stress", "mazars_strain")
+)  # fmt: skip
+# More than any road has; what is beyond numbers no layer.
+_MOST_LAYERS = 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,19 +33,33 @@ class Response(BaseResult, group="response"):
     "disc", "layered" or several, "none" without load). warnings: sentences for the user. loads, road, speed, side:
     the question, so that more can be asked of the same road; no road for fields that come from elsewhere. restrained:
     stress that was added to both horizontal normal stresses, Pa, one per depth; empty where none was, see
-    `add_thermal_stress`.
+    `add_thermal_stress`. contacts: that the loads are, as `solve_response` takes them; empty for other loads and in a
+    response that was opened from a file.
     """
+
+    title: ClassVar[str] = "Strain in the road"
 
     # On a grid, or at a list of points.
     holds: ClassVar[Holds] = Holds(
         {
             "depth": "depth",
             "x y": "...",
-            "principal_strain_1 in_plane_strain_1 in_plane_angle_1": "depth ...",
-            "principal_direction_1": "depth component ...",
+            "principal_strain_1 in_plane_strain_1 in_plane_angle_1": "depth @",
+            "principal_direction_1": "depth @ component",
         },
-        known="principal_strain_1 in_plane_strain_1",
-        maybe_numbers="mean_over",
+        not_nan="principal_strain_1 in_plane_strain_1",
+        maybe={
+            f"{_FIELDS} displacement_x displacement_y displacement_z": "depth @",
+            "dissipated_energy": "depth y",
+            "layer": "depth",
+        },
+        finite="layer",
+        bounded=f"{_FIELDS} principal_strain_1 in_plane_strain_1 in_plane_angle_1 principal_direction_1",
+        codes={"layer": _MOST_LAYERS},
+        with_it={"principal_strain_1": "principal_direction_1", "in_plane_strain_1": "in_plane_angle_1"},
+        json={"layer_names": list},
+        tree="x y depth",
+        maybe_numbers="mean_over speed load_x",
         sizes={"component": (3, 3)},
     )
 
@@ -49,64 +71,69 @@ class Response(BaseResult, group="response"):
     speed: float | None = None
     side: Literal["above", "below"] = "above"
     restrained: tuple[float, ...] = ()
+    contacts: tuple[Contact, ...] = field(default=(), init=False)
 
     @property
     def group_name(self) -> str:
         """What its points are: a map, a section along or across travel, a line of the surface, a list."""
-        size = self.dataset.sizes
-        if "point" in size:
-            return "points"
-        if size["depth"] == 1 and size["y"] == 1 and size["x"] > 1:
-            return "bowl"
-        if size["y"] == 1 and size["x"] > 1:
-            return "slice_along"
-        return "slice_across" if size["x"] == 1 and size["y"] > 1 else self.group
+        return kind_of_points(self.dataset)
 
-    def summary(self) -> str:
-        """Largest extension at each depth, three-dimensional and in the horizontal plane, with its place."""
+    @property
+    def heading(self) -> str:
+        """The road, and the points."""
         data = self.dataset
-        lines = [
-            f"response of a road, {data.attrs.get('road', 'unnamed')}; "
-            f"{data.sizes['depth']} depth(s) of {_count(data)} points"
+        return (
+            f"{data.attrs.get('road', 'unnamed road')}; {data.sizes['depth']} depth(s) of {_count(data)} points"
             + (f"; means over {data.attrs['mean_over'] * 1e3:g} mm" if "mean_over" in data.attrs else "")
-        ]
-        for row, depth in enumerate(data["depth"].values):
-            plane = data.isel(depth=row)
+        )
+
+    def rows(self) -> tuple[Row, ...]:
+        """Largest tensile strain at each depth, three-dimensional and in the horizontal plane, with its place."""
+        lines = []
+        for number, depth in enumerate(self.dataset["depth"].values):
+            plane = self.dataset.isel(depth=number)
             side = layer_in_words(plane)
-            lines.append(f"depth {depth * 1e3:g} mm{f' ({side})' if side else ''}, largest extension strain")
-            if plane[["principal_strain_1", "in_plane_strain_1"]].isnull().all().to_array().any():
-                lines.append("  unknown: it is NaN everywhere")
-                continue
-            where = _largest(plane["principal_strain_1"])
-            words = direction_in_words(plane["principal_direction_1"].isel(where).to_numpy())
-            lines.append(f"  three-dimensional: {_at(plane['principal_strain_1'].isel(where), words)}")
-            where = _largest(plane["in_plane_strain_1"])
-            words = angle_in_words(float(plane["in_plane_angle_1"].isel(where)))
-            lines.append(f"  horizontal plane:  {_at(plane['in_plane_strain_1'].isel(where), words)}")
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+            group = f"depth {depth * 1e3:g} mm{f' ({side})' if side else ''}"
+            lines += strain_rows(plane, group)
+        return tuple(lines)
 
-    __repr__ = first_line
+    def cites(self) -> tuple[str, ...]:
+        """Methods of the stresses, and of the road's materials and bonds."""
+        return ("influence", "convolution", "stress", *(() if self.road is None else methods_of(self.road)))
 
 
-def _largest(values: xr.DataArray) -> dict[str, int]:
-    place = np.unravel_index(int(np.nanargmax(values.to_numpy())), values.shape)
-    return dict(zip(map(str, values.dims), map(int, place), strict=True))
+def strain_rows(data: xr.Dataset, group: str = "") -> list[Row]:
+    """Rows of the largest strains of a map or a section, three-dimensional and in the horizontal plane."""
+    kinds = (
+        ("largest_principal_strain", "principal_strain_1", _in_space),
+        ("largest_in_plane_strain", "in_plane_strain_1", _in_plane),
+    )
+    return [_largest(key, data[name], group, direction, data) for key, name, direction in kinds if name in data]
+
+
+def _largest(
+    key: str, strain: xr.DataArray, group: str, direction: Callable[[xr.Dataset], str], plane: xr.Dataset
+) -> Row:
+    """The row of the largest strain of a plane, with its place and direction. strain: one of the plane's fields."""
+    values = strain.to_numpy()
+    if np.isnan(values).all():
+        return row(key, np.nan, group=group, note="unknown: it is NaN everywhere")
+    index = np.unravel_index(int(np.nanargmax(values)), values.shape)
+    here = plane.isel(dict(zip(map(str, strain.dims), map(int, index), strict=True)))
+    value = float(np.nanmax(values))
+    if value <= 0:
+        return row(key, value, group=group, note="no tensile strain")
+    depth = float(here["depth"]) if "depth" in strain.dims else None
+    return row(key, value, group=group, place=Place(float(here["x"]), float(here["y"]), depth), note=direction(here))
 
 
 def _count(data: xr.Dataset) -> str:
     return str(data.sizes["point"]) if "point" in data.sizes else f"{data.sizes['x']} x {data.sizes['y']}"
 
 
-def _at(value: xr.DataArray, direction: str) -> str:
-    strain = float(value)
-    if strain <= 0:
-        return f"none (at most {strain * 1e6:.3g} microstrain)"
-    return (
-        f"{strain * 1e6:.1f} microstrain at x = {_mm(float(value['x']))} mm, "
-        f"y = {_mm(float(value['y']))} mm, {direction}"
-    )
+def _in_space(here: xr.Dataset) -> str:
+    return direction_in_words(here["principal_direction_1"].to_numpy())
 
 
-def _mm(metres: float) -> str:
-    # + 0.0: no "-0.0" for round-off.
-    return f"{round(metres * 1e3, 1) + 0.0:.1f}"
+def _in_plane(here: xr.Dataset) -> str:
+    return angle_in_words(float(here["in_plane_angle_1"]))

@@ -11,14 +11,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from treadload import variables
+from treadload.contact import Contact
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.layers.depths import snapped
 from treadload.materials.kinds import upright
 from treadload.pavement import Pavement
-from treadload.response.doubts import overlapping, question_doubts, road_doubts
 from treadload.response.fields import response_dataset
+from treadload.response.input_caveats import overlapping, question_doubts, road_doubts
 from treadload.response.layered import View
 from treadload.response.loads import GridLoad, Load, UniformRectangle, gather
 from treadload.response.material import check_length
@@ -103,7 +104,7 @@ def solve_response(
     cells = merged([load.cell if isinstance(load, UniformRectangle) else load for load in superposed])
     if mean_over is not None:
         check_length(mean_over)
-    asked, road = road, at_speed(road, speed)
+    given_road, road = road, at_speed(road, speed)
     question = Question(cells, road, at_depths)
     view = View(at_x, at_y, at)
     (answer,) = answers([question], view, side=side, speed=speed, mean_over=mean_over, tell=progress)
@@ -137,7 +138,12 @@ def solve_response(
     warnings = _warnings(gridded, local) + solved.warnings
     warnings += question_doubts(at_depths, speed) + road_doubts(road) + overlapping(superposed)
     warnings += _drift(displacement, at_depths, cells)
-    return Response(dataset, stats, warnings, superposed, asked, speed, side)
+    response = Response(dataset, stats, warnings, superposed, given_road, speed, side)
+    items = [loads] if isinstance(loads, Contact) else loads if isinstance(loads, Sequence) else []
+    contacts = tuple(item for item in items if isinstance(item, Contact))
+    if len(contacts) == len(superposed):
+        object.__setattr__(response, "contacts", contacts)
+    return response
 
 
 def _drift(displacement: Array, depths: Array, loads: Sequence[Any]) -> tuple[str, ...]:

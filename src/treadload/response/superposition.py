@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.grid import Grid
+from treadload.pavement import Pavement
 from treadload.response.loads import GridLoad, PlacedLoad, SurfaceLoad
 
 # Round-off of coordinates that went through a file, as a part of a cell.
@@ -48,7 +50,7 @@ def merged(loads: Sequence[SurfaceLoad]) -> list[SurfaceLoad]:
 
 def mean_loads(several: Sequence[Sequence[PlacedLoad]]) -> list[GridLoad]:
     """Loads that add up to the mean of several sets of gridded ones. Raises InputError for a disc or a rectangle."""
-    loads = [load for one in several for load in one if isinstance(load, GridLoad)]
+    loads = [load for group in several for load in group if isinstance(load, GridLoad)]
     if len(loads) < sum(map(len, several)):
         raise InputError("a disc or a rectangle has no cells, so that there is nothing to shift; leave shifted out")
     parts = [(load, load.array / len(several)) for load in loads]
@@ -59,30 +61,30 @@ def _joined(loads: Sequence[GridLoad]) -> list[GridLoad]:
     """Loads with the same sum: each joined to the first that it belongs to."""
     sums: list[GridLoad] = []
     for load in loads:
-        for place, other in enumerate(sums):
-            if _belong(other, load):
-                sums[place] = _sum(other, load)
+        for place, earlier in enumerate(sums):
+            if _belong(earlier, load):
+                sums[place] = _sum(earlier, load)
                 break
         else:
             sums.append(load)
     return sums
 
 
-def _belong(one: GridLoad, other: GridLoad) -> bool:
-    if one.interpolation != other.interpolation or _apart(one.grid, other.grid) > _SAME:
+def _belong(first: GridLoad, second: GridLoad) -> bool:
+    if first.interpolation != second.interpolation or _apart(first.grid, second.grid) > _SAME:
         return False
-    whole = _union(one.grid, other.grid)
-    return whole.nx * whole.ny <= _GROWTH * (one.pressure.size + other.pressure.size)
+    whole = _union(first.grid, second.grid)
+    return whole.nx * whole.ny <= _GROWTH * (first.pressure.size + second.pressure.size)
 
 
-def _sum(one: GridLoad, other: GridLoad) -> GridLoad:
-    whole = _union(one.grid, other.grid)
+def _sum(first: GridLoad, second: GridLoad) -> GridLoad:
+    whole = _union(first.grid, second.grid)
     total = np.zeros((3, *whole.shape))
-    for load in (one, other):
+    for load in (first, second):
         column, row = _shift(whole, load.grid)
         total[:, row : row + load.grid.ny, column : column + load.grid.nx] += load.array
     pressure, along, across = total
-    return GridLoad(whole, pressure, along, across, one.interpolation)
+    return GridLoad(whole, pressure, along, across, first.interpolation)
 
 
 def _shift(first: Grid, grid: Grid) -> tuple[int, int]:
@@ -112,4 +114,24 @@ def _union(first: Grid, grid: Grid) -> Grid:
         first.dy,
         first.x0 + low_x * first.dx,
         first.y0 + low_y * first.dy,
+    )
+
+
+# What a map of layers shows beside the wheels, m: stiff layers spread the load.
+_MARGIN = 0.1
+
+
+def map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:
+    """The cells of all wheels, on layers with a margin around them."""
+    grid = common_grid(loads)
+    if road.is_homogeneous:
+        return grid
+    more_x, more_y = math.ceil(_MARGIN / grid.dx), math.ceil(_MARGIN / grid.dy)
+    return Grid(
+        grid.nx + 2 * more_x,
+        grid.ny + 2 * more_y,
+        grid.dx,
+        grid.dy,
+        grid.x0 - more_x * grid.dx,
+        grid.y0 - more_y * grid.dy,
     )

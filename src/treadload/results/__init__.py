@@ -2,7 +2,6 @@
 
 from treadload.footprint import Footprint
 from treadload.results.bibtex import bibtex
-from treadload.results.cite import citations
 from treadload.results.dataset import Fields, height_map
 from treadload.results.discs import EquivalentDiscs, equivalent_discs
 from treadload.results.exports import write_csv, write_excel, write_parquet
@@ -22,7 +21,6 @@ __all__ = [
     "Study",
     "as_tree",
     "bibtex",
-    "citations",
     "equivalent_discs",
     "height_map",
     "open_results",

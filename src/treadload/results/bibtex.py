@@ -10,8 +10,8 @@ from typing import Any
 import xarray as xr
 
 from treadload._version import __version__
-from treadload.case.file import FilePart
-from treadload.results.cite import CITATIONS, case_citations
+from treadload.case import Case
+from treadload.citations import CITATIONS, references
 from treadload.results.schema import read_json
 
 # "Love, A. E. H. (1929). The stress produced ... Phil. Trans. R. Soc. A 228, 377-420."
@@ -43,12 +43,12 @@ def bibtex(citations: Iterable[str]) -> str:
     return "\n\n".join(entries) + "\n"
 
 
-def citations_of(source: FilePart | xr.DataTree) -> list[str]:
+def citations_of(source: Case | xr.DataTree) -> list[str]:
     """Citations of the methods that a case will use, or that the tree of a result says it used."""
-    if isinstance(source, FilePart):
-        return case_citations(source)
-    held = read_json(source.attrs.get("citations", "[]"), [])
-    return [str(one) for one in held]
+    if isinstance(source, Case):
+        return references(source.cites())
+    keys = read_json(source.attrs.get("citations", "[]"), [])
+    return [str(key) for key in keys]
 
 
 def _parsed(text: str) -> tuple[str, dict[str, str]]:
@@ -73,7 +73,7 @@ def _parsed(text: str) -> tuple[str, dict[str, str]]:
 
 
 def _authors(who: str) -> str:
-    names = [one.strip(" ,") for one in _AUTHOR.findall(who)]
+    names = [name.strip(" ,") for name in _AUTHOR.findall(who)]
     return " and ".join(names) if names else f"{{{who}}}"
 
 

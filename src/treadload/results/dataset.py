@@ -9,13 +9,13 @@ import xarray as xr
 
 from treadload._version import __version__
 from treadload.composing import BaseResult
-from treadload.describing import first_line
 from treadload.grid import Grid
+from treadload.rows import Row, row
 from treadload.tire import Tire
-from treadload.variables import dataset
+from treadload.variables import VARIABLES, dataset, display_of
 
-# Variables that a summary of fields lists.
-_TOLD = 24
+# Fields whose ranges are listed.
+_MOST = 24
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,28 +27,40 @@ class Fields(BaseResult, group="fields"):
 
     dataset: xr.Dataset
 
-    def summary(self) -> str:
-        """What the fields are over, and the range of each."""
-        data = self.dataset
-        sizes = ", ".join(f"{size} {name}" for name, size in data.sizes.items()) or "single numbers"
-        lines = [f"fields over {sizes}"]
-        for name in list(data.data_vars)[:_TOLD]:
-            unit = str(data[name].attrs.get("units", ""))
-            lines.append(f"{name}: {_range(data[name])}{f' {unit}' if unit not in ('', '1') else ''}")
-        more = len(data.data_vars) - _TOLD
-        return "\n".join(lines + ([f"and {more} more variables"] if more > 0 else []))
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """That a class is missing, where the fields are those of a result whose package is not installed."""
+        name = self.dataset.attrs.get("unknown_class")
+        if name is None:
+            return ()
+        return (f"no installed package has the class {name!r}: its fields are shown as data; install its package",)
 
-    __repr__ = first_line
+    @property
+    def heading(self) -> str:
+        """What the fields are over."""
+        sizes = ", ".join(f"{size} {name}" for name, size in self.dataset.sizes.items())
+        return f"over {sizes}" if sizes else "single numbers"
+
+    def rows(self) -> tuple[Row, ...]:
+        """The range of each field, in SI units."""
+        data = self.dataset
+        lines = []
+        for name in map(str, list(data.data_vars)[:_MOST]):
+            unit = str(data[name].attrs.get("units", ""))
+            text = f"{_range(data[name])}{f' {unit}' if unit not in ('', '1') else ''}"
+            lines.append(row(name, text, label=display_of(name).label if name in VARIABLES else name))
+        more = len(data.data_vars) - _MOST
+        return (*lines, row("more", f"{more} more variables", label="and")) if more > 0 else tuple(lines)
 
 
 def _range(field: xr.DataArray) -> str:
     values = field.to_numpy()
     if values.dtype.kind not in "fiub" or not values.size:
         return f"{values.size} of {values.dtype}"
-    known = values[~np.isnan(values)] if values.dtype.kind == "f" else values
-    if not known.size:
+    finite = values[~np.isnan(values)] if values.dtype.kind == "f" else values
+    if not finite.size:
         return "NaN"
-    low, high = float(known.min()), float(known.max())
+    low, high = float(finite.min()), float(finite.max())
     return f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
 
 

@@ -9,20 +9,23 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
 from treadload.composing import Source, dataset_of
+from treadload.describing import Described
 from treadload.errors import InputError, positive
 from treadload.files import TABLE, check_suffix, write_whole
 from treadload.kernels.arrays import Array
 from treadload.response import UniformDisc
+from treadload.rows import Row, row
 
 _MOST, _ROUNDS = 50, 200
 
 
 @dataclass(frozen=True)
-class EquivalentDiscs:
+class EquivalentDiscs(Described):
     """Discs that stand for a contact. discs: of `UniformDisc`. lost: what they do not say, name → value in SI.
 
     `lost` holds: pressure, the largest of the contact, and peak, that of the discs, Pa; tractive, lateral: shear
@@ -39,31 +42,34 @@ class EquivalentDiscs:
         """N."""
         return sum(disc.normal_load for disc in self.discs)
 
-    def summary(self) -> str:
-        """The discs as a table, and what is lost."""
-        rows = [
-            f"  {number:>2}  {disc.x * 1e3:9.1f}  {disc.y * 1e3:9.1f}  {disc.radius * 1e3:9.2f}  "
-            f"{disc.pressure / 1e6:9.4f}  {disc.normal_load / 1e3:9.3f}"
-            for number, disc in enumerate(self.discs, start=1)
-        ]
+    title: ClassVar[str] = "Uniform discs"
+
+    @property
+    def heading(self) -> str:
+        """How many, and what is kept."""
+        return f"{len(self.discs)}, with the load, the contact area and the centre of pressure of the contact"
+
+    def rows(self) -> tuple[Row, ...]:
+        """The discs, and what is lost."""
         lost = self.lost
-        pressure, peak = lost["pressure"] / 1e3, lost["peak"] / 1e3
-        wide = f"{lost['spread_x']:.3f} of its own along travel, {lost['spread_y']:.3f} across it"
-        said = [
-            "what is kept: the load, the area in contact, and the centre of the load",
-            f"what is lost: the largest pressure, {pressure:.0f} kPa, becomes {peak:.0f} kPa",
-            f"  the load's spread is {wide}",
+        lines = [row("normal_load", self.normal_load)]
+        for number, disc in enumerate(self.discs, start=1):
+            numbers = {
+                "print_centre_x": disc.x, "print_centre_y": disc.y, "disc_radius": disc.radius,
+                "uniform_pressure": disc.pressure, "normal_load": disc.normal_load,
+            }  # fmt: skip
+            lines += [row(key, value, group=f"disc {number}") for key, value in numbers.items()]
+        lines += [
+            row("largest_pressure", lost["peak"], note=f"{row('largest_pressure', lost['pressure']).text} before"),
+            row("spread_ratio_x", lost["spread_x"]),
+            row("spread_ratio_y", lost["spread_y"]),
         ]
         if max(abs(lost["tractive"]), abs(lost["lateral"])) >= 0.5:
             forces = f"{lost['tractive']:.0f} N along travel and {lost['lateral']:.0f} N to the right"
-            said.append(f"  the shear, {forces}, is left out")
+            lines.append(row("neglected_shear", forces))
         if lost["overlap"] > 0:
-            said.append(f"  discs reach over each other, by {100 * lost['overlap']:.0f} % of a radius at most")
-        heads = ("no", "x (mm)", "y (mm)", "radius (mm)", "pressure (MPa)", "load (kN)")
-        head = f"  {heads[0]:>2}  {heads[1]:>9}  {heads[2]:>9}  {heads[3]:>9}  {heads[4]:>9}  {heads[5]:>9}"
-        return "\n".join([f"{len(self.discs)} uniform disc(s), {self.normal_load / 1e3:.4g} kN", head, *rows, *said])
-
-    __str__ = summary
+            lines.append(row("disc_overlap", lost["overlap"]))
+        return tuple(lines)
 
     def write_csv(self, path: str | os.PathLike[str]) -> Path:
         """Write the discs as a table, x, y and radius in m, pressure in MPa, load in kN. Returns the path."""
@@ -104,9 +110,9 @@ def equivalent_discs(contact: Source, count: int = 1, *, pressure: float | None 
     group = _parted(points, weight, count)
     discs = []
     for number in range(count):
-        own = group == number
-        load, area = float(weight[own].sum() * cell), float(own.sum() * cell)
-        centre = (points[own] * weight[own, None]).sum(axis=0) / weight[own].sum()
+        members = group == number
+        load, area = float(weight[members].sum() * cell), float(members.sum() * cell)
+        centre = (points[members] * weight[members, None]).sum(axis=0) / weight[members].sum()
         even = load / area if pressure is None else pressure
         discs.append(UniformDisc(math.sqrt(load / (math.pi * even)), even, float(centre[0]), float(centre[1])))
     discs.sort(key=lambda disc: (disc.y, disc.x))
@@ -128,7 +134,7 @@ def _parted(points: Array, weight: Array, count: int) -> Array:
             large = np.nonzero(group == np.bincount(group, minlength=count).argmax())[0]
             group[large[len(large) // 2 :]] = number
         centres = np.stack([
-            np.average(points[group == one], axis=0, weights=weight[group == one]) for one in range(count)
+            np.average(points[group == k], axis=0, weights=weight[group == k]) for k in range(count)
         ])  # fmt: skip
         nearest = ((points[:, None, :] - centres[None]) ** 2).sum(axis=-1).argmin(axis=1)
         if (nearest == group).all() or len(np.unique(nearest)) < count:
@@ -140,7 +146,7 @@ def _parted(points: Array, weight: Array, count: int) -> Array:
 def _lost(data: object, points: Array, weight: Array, cell: float, discs: list[UniformDisc]) -> dict[str, float]:
     load = weight * cell
     centre = np.average(points, axis=0, weights=load)
-    own = np.average((points - centre) ** 2, axis=0, weights=load)
+    spread = np.average((points - centre) ** 2, axis=0, weights=load)
     loads = np.array([disc.normal_load for disc in discs])
     # A uniform disc spreads its load by half its radius along each axis.
     theirs = np.average(
@@ -157,7 +163,7 @@ def _lost(data: object, points: Array, weight: Array, cell: float, discs: list[U
     }
     return {
         "pressure": float(weight.max()), "peak": max(disc.pressure for disc in discs), **shear,
-        "spread_x": float(math.sqrt(theirs[0] / own[0])) if own[0] > 0 else math.inf,
-        "spread_y": float(math.sqrt(theirs[1] / own[1])) if own[1] > 0 else math.inf,
+        "spread_x": float(math.sqrt(theirs[0] / spread[0])) if spread[0] > 0 else math.inf,
+        "spread_y": float(math.sqrt(theirs[1] / spread[1])) if spread[1] > 0 else math.inf,
         "overlap": max(0.0, *over, 0.0),
     }  # fmt: skip

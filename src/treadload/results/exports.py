@@ -23,7 +23,7 @@ from treadload.composing import BaseResult
 from treadload.errors import InputError, WriteError, how_to_install
 from treadload.files import EXCEL, NETCDF, PARQUET, TABLE, check_suffix, write_all, write_whole
 from treadload.results.files import save_results
-from treadload.results.tree import ASKED, as_tree
+from treadload.results.tree import QUESTIONS, as_tree
 
 FORMATS = NETCDF | TABLE | EXCEL | PARQUET
 """Suffixes that results can be written with, and what they mean."""
@@ -91,19 +91,19 @@ def write_parquet(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...
     check_suffix(path, PARQUET, "tables")
     arrow, parquet = _pyarrow(path)
 
-    def made(table: Table) -> bytes:
+    def encoded(table: Table) -> bytes:
         plain = {name: _arrow_column(values) for name, values in table.columns.items()}
         stream = io.BytesIO()
         parquet.write_table(arrow.table(plain), stream)
         return stream.getvalue()
 
-    return write_all((file, made(table)) for file, table in _files(_tables(results), Path(path)))
+    return write_all((file, encoded(table)) for file, table in _files(_tables(results), Path(path)))
 
 
 def _files(tables: list[Table], path: Path) -> Iterator[tuple[Path, Table]]:
     """The file of each table: the path itself for the one without a name, others beside it."""
-    for one in tables:
-        yield path.with_name(f"{path.stem}_{one.name}{path.suffix}") if one.name else path, one
+    for table in tables:
+        yield path.with_name(f"{path.stem}_{table.name}{path.suffix}") if table.name else path, table
 
 
 def _csv(table: Table) -> Iterator[str]:
@@ -176,7 +176,7 @@ def _tables(results: Any) -> list[Table]:
     if isinstance(results, xr.Dataset):
         tables = list(_of_group("", results))
     else:
-        groups = {str(name): node.to_dataset() for name, node in results.children.items() if name != ASKED}
+        groups = {str(name): node.to_dataset() for name, node in results.children.items() if name != QUESTIONS}
         groups = {name: data for name, data in groups.items() if data.data_vars}
         single = len(groups) == 1
         if results.data_vars:
@@ -230,8 +230,8 @@ def _columns(data: xr.Dataset, dims: Sequence[str], names: Sequence[str]) -> dic
             for part in (
                 data["component"].to_numpy() if "component" in data.coords else range(field.sizes["component"])
             ):
-                one = field.sel(component=part) if "component" in data.coords else field.isel(component=part)
-                columns[_heading(f"{name}_{part}", field)] = _flat(one, dims, shape)
+                axis_field = field.sel(component=part) if "component" in data.coords else field.isel(component=part)
+                columns[_heading(f"{name}_{part}", field)] = _flat(axis_field, dims, shape)
         else:
             columns[_heading(name, field)] = _flat(field, dims, shape)
     return columns
@@ -239,9 +239,9 @@ def _columns(data: xr.Dataset, dims: Sequence[str], names: Sequence[str]) -> dic
 
 def _flat(field: xr.DataArray, dims: Sequence[str], shape: tuple[int, ...]) -> Any:
     """Values of a field, repeated along the dimensions that it lacks."""
-    own = [dim for dim in dims if dim in field.dims]
-    values = field.transpose(*own).to_numpy()
-    wide = values.reshape([size if dim in own else 1 for dim, size in zip(dims, shape, strict=True)])
+    present = [dim for dim in dims if dim in field.dims]
+    values = field.transpose(*present).to_numpy()
+    wide = values.reshape([size if dim in present else 1 for dim, size in zip(dims, shape, strict=True)])
     return np.broadcast_to(wide, shape).ravel()
 
 
@@ -256,7 +256,7 @@ def _unit(field: xr.DataArray) -> str:
 
 def _about(tree: xr.DataTree) -> Table:
     """What the tree and its groups say of themselves: title, case, warnings, versions."""
-    nodes = [("", tree), *((str(name), node) for name, node in tree.children.items() if name != ASKED)]
+    nodes = [("", tree), *((str(name), node) for name, node in tree.children.items() if name != QUESTIONS)]
     rows = [(group, str(name), str(value)) for group, node in nodes for name, value in node.attrs.items()]
     group, name, value = zip(*rows, strict=True) if rows else ((), (), ())
     return Table("about", {"group": list(group), "name": list(name), "value": list(value)})
@@ -284,9 +284,9 @@ def _excel_rows(table: Table) -> Iterator[tuple[Any, ...]]:
 
 def _text(cell: Any, sheet: Any, value: str) -> Any:
     """A cell of text, also where it starts with "=" and would be a formula."""
-    made = cell(sheet, _CONTROL.sub(" ", value))
-    made.data_type = "s"
-    return made
+    written = cell(sheet, _CONTROL.sub(" ", value))
+    written.data_type = "s"
+    return written
 
 
 def _sheet_name(name: str, taken: set[str]) -> str:

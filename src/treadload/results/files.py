@@ -66,7 +66,7 @@ def open_results(path: str | os.PathLike[str]) -> Results:
     if path.suffix == ".zarr" and path.is_dir():
         raise InputError(
             f"{path} is the store of a study: `treadload study report {path}` reports it, "
-            f'tl.study.open_sweep("{path}") opens it'
+            f'tl.sweeps.open_sweep("{path}") opens it'
         )
     if not os.path.isfile(path):
         raise InputError(f"there is no result file {path}; `treadload run case.toml -o {path}` makes one")

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 import functools
 import json
-import tomllib
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
 
 import xarray as xr
 
-from treadload.case.file import FilePart
-from treadload.case.schema import kind_of_table
+from treadload.case import Case
 from treadload.composing import BaseResult
 from treadload.errors import InputError
 from treadload.pavement import Pavement
 from treadload.results.dataset import Fields
-from treadload.results.earlier import from_case
 from treadload.results.questions import Reader
 from treadload.results.study import Study
-from treadload.results.tree import ASKED
+from treadload.results.tree import QUESTIONS
 
 # Names that people say for a group.
-_ALSO = {"verdict": "damage", "bond_verdict": "bonds", "slice": "slice_along", "footprint": "contact"}
+ALIASES = {"verdict": "damage", "bond_verdict": "bonds", "slice": "slice_along", "footprint": "contact"}
 
 
 class Results(Study):
@@ -36,7 +33,7 @@ class Results(Study):
 
     def __init__(self, tree: xr.DataTree, where: str = "these results") -> None:
         self.tree, self._where = tree, where
-        self._made: dict[str, BaseResult] = {}
+        self._results: dict[str, BaseResult] = {}
         self._making: list[str] = []
 
     @property
@@ -48,30 +45,30 @@ class Results(Study):
         if self.tree.data_vars:
             yield Fields.group
         for name, node in self.tree.children.items():
-            if name != ASKED and not node.attrs.get("part_of") and node.data_vars:
+            if name != QUESTIONS and not node.attrs.get("part_of") and node.data_vars:
                 yield str(name)
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
 
     def __contains__(self, name: object) -> bool:
-        return _ALSO.get(str(name), name) in list(self) or name in list(self)
+        return ALIASES.get(str(name), name) in list(self) or name in list(self)
 
     def __getitem__(self, name: str) -> BaseResult:
         """The part of this name, also one inside another. Raises InputError if there is none or it cannot be made."""
-        held = {**dict.fromkeys(self.tree.children), **dict.fromkeys(self)}
-        part = name if name in held else _ALSO.get(name, name)
-        if part not in held or part == ASKED:
+        parts = {**dict.fromkeys(self.tree.children), **dict.fromkeys(self)}
+        part = name if name in parts else ALIASES.get(name, name)
+        if part not in parts or part == QUESTIONS:
             raise InputError(f"{self._where} has no part {name!r}; it holds {', '.join(self) or 'none'}")
-        if part not in self._made:
+        if part not in self._results:
             if part in self._making:
                 raise InputError(f"{self._where}: the part {part!r} is an input of itself")
             self._making.append(part)
             try:
-                self._made[part] = self._make(part)
+                self._results[part] = self._make(part)
             finally:
                 self._making.pop()
-        return self._made[part]
+        return self._results[part]
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
@@ -85,7 +82,7 @@ class Results(Study):
         return self[name]
 
     def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *self, *(also for also, name in _ALSO.items() if name in list(self))})
+        return sorted({*super().__dir__(), *self, *(also for also, name in ALIASES.items() if name in list(self))})
 
     def _make(self, name: str) -> BaseResult:
         if name == Fields.group and self.tree.data_vars:
@@ -94,15 +91,19 @@ class Results(Study):
         questions = self._questions
         if name in questions:
             return self._reader.result(questions[name], data, name)
-        return from_case(name, data, self)
+        version = self.tree.attrs.get("treadload_version", "an unknown version")
+        raise InputError(
+            f"{self._where} was written by treadload {version}, without the inputs of its part {name!r}; its fields "
+            f"are in .tree[{name!r}], and files of this version keep all inputs"
+        )
 
     @functools.cached_property
     def _questions(self) -> Mapping[str, Any]:
-        if ASKED not in self.tree.children:
+        if QUESTIONS not in self.tree.children:
             return {}
-        told = self.tree[ASKED].attrs.get("questions", "{}")
+        text = self.tree[QUESTIONS].attrs.get("questions", "{}")
         try:
-            questions = json.loads(told) if isinstance(told, str) else None
+            questions = json.loads(text) if isinstance(text, str) else None
         except (ValueError, RecursionError):
             questions = None
         if not isinstance(questions, dict):
@@ -111,8 +112,8 @@ class Results(Study):
 
     @functools.cached_property
     def _reader(self) -> Reader:
-        held = self.tree[ASKED].data_vars
-        return Reader({str(name): one.to_numpy() for name, one in held.items()}, self._part, self._where)
+        stored = self.tree[QUESTIONS].data_vars
+        return Reader({str(name): array.to_numpy() for name, array in stored.items()}, self._part, self._where)
 
     def _part(self, name: Any) -> BaseResult:
         return self[str(name)]
@@ -128,12 +129,12 @@ class Results(Study):
         return self._where
 
     @functools.cached_property
-    def case(self) -> FilePart | None:
+    def case(self) -> Case | None:
         """The case that they answer, whose tire and road can be built again; None without one."""
         text = str(self.tree.attrs.get("case", ""))
         if not text:
             return None
-        return kind_of_table(tomllib.loads(text)).from_text(text, name=f"{self._where}: its case")
+        return Case.from_text(text, name=f"{self._where}: its case")
 
     @property
     def road(self) -> Pavement:
@@ -159,5 +160,5 @@ class Results(Study):
         return str(whole) if whole else "\n\n".join(self[name].summary() for name in self)
 
     def __repr__(self) -> str:
-        said = f" {self.title!r}:" if self.title else ""
-        return f"<Results{said} {', '.join(self) or 'no part'}>"
+        title = f" {self.title!r}:" if self.title else ""
+        return f"<Results{title} {', '.join(self) or 'no part'}>"

@@ -20,12 +20,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.case.file import FilePart
-from treadload.case.schema import KINDS
-from treadload.composing import BaseResult, result_classes
+from treadload.case import Case
+from treadload.composing import BaseResult, result_class
 from treadload.errors import InputError
 from treadload.registry import load_point
-from treadload.results.holding import made, said
+from treadload.results.dataset import Fields
+from treadload.results.holding import reason_of, result_of
 from treadload.tire import Tire
 from treadload.tire.recorded import RecordedSurface
 from treadload.tire.surface import Surface
@@ -34,7 +34,6 @@ _OURS = "treadload"
 # At which functions of temperature are tabulated, °C.
 _DEGREES = range(-30, 71)
 _GROUPS = "treadload."
-_CASES: Mapping[str, type[FilePart]] = {kind.__name__: kind for kind in KINDS.values()}
 
 
 @dataclass(frozen=True)
@@ -52,9 +51,9 @@ class Tabulated:
         """What it gave at a temperature, °C. Raises InputError for one that is not in the table."""
         if temperature in self.temperatures:
             return self.values[self.temperatures.index(temperature)]
-        known = f", which was tabulated from {min(self.temperatures):g} to {max(self.temperatures):g} °C"
+        range_text = f", which was tabulated from {min(self.temperatures):g} to {max(self.temperatures):g} °C"
         raise InputError(
-            f"{self.words} is a function{known if self.temperatures else ''}, and result files hold no code; "
+            f"{self.words} is a function{range_text if self.temperatures else ''}, and result files hold no code; "
             "give it again"
         )
 
@@ -88,10 +87,10 @@ class Writer:
 
     def result(self, result: BaseResult) -> dict[str, Any]:
         """The question of a result: all its fields but the dataset, whose attributes are kept as they are."""
-        told = {one.name: getattr(result, one.name) for one in _fields(result) if one.name != "dataset"}
+        values = {entry.name: getattr(result, entry.name) for entry in _fields(result) if entry.name != "dataset"}
         return {
             "is": type(result).__name__,
-            "with": {name: self.value(value) for name, value in told.items()},
+            "with": {name: self.value(value) for name, value in values.items()},
             "attrs": self.value(dict(result.dataset.attrs)),
         }
 
@@ -104,31 +103,31 @@ class Writer:
         if isinstance(value, float):
             return value if math.isfinite(value) else {"number": repr(value)}
         if isinstance(value, list):
-            return [self.value(one) for one in value]
+            return [self.value(item) for item in value]
         if isinstance(value, tuple):
-            return {"tuple": [self.value(one) for one in value]}
+            return {"tuple": [self.value(item) for item in value]}
         if isinstance(value, Mapping | MappingProxyType):
-            return {"table": [[self.value(key), self.value(one)] for key, one in value.items()]}
+            return {"table": [[self.value(key), self.value(item)] for key, item in value.items()]}
         if isinstance(value, np.ndarray):
             return {"array": self._array(value)}
         if isinstance(value, xr.DataArray):
-            return {"fields": {key: self.value(one) for key, one in _parts_of(value).items()}}
+            return {"fields": {key: self.value(part) for key, part in _parts_of(value).items()}}
         if isinstance(value, BaseResult):
             return {"part": self.name_of(value)}
-        if isinstance(value, FilePart):
+        if isinstance(value, Case):
             return {"case": value.to_toml(), "of": type(value).__name__}
         # A tire can all that its surface can.
         scanned = isinstance(value, Surface) and not isinstance(value, Tire | RecordedSurface)
         if scanned and value.quality is not None:
-            own = {
+            arrays = {
                 name: getattr(value, name)
                 for name in ("camber", "outer_radius", "crown_arc_radius")
                 if hasattr(value, name)
             }
-            value = RecordedSurface(str(value), value.extent, value.quality, **own)
+            value = RecordedSurface(str(value), value.extent, value.quality, **arrays)
         if dataclasses.is_dataclass(value) and not isinstance(value, type):
-            told = {one.name: self.value(getattr(value, one.name)) for one in _fields(value)}
-            return {"is": _name_of(type(value)), "with": told}
+            values = {entry.name: self.value(getattr(value, entry.name)) for entry in _fields(value)}
+            return {"is": _name_of(type(value)), "with": values}
         if callable(value):
             return self.value(Tabulated.of(value))
         raise InputError(f"no result file can hold {type(value).__name__}, which is among the inputs of one")
@@ -149,36 +148,39 @@ class Reader:
     part: Callable[[str], Any]
     where: str
 
-    def result(self, told: Any, dataset: xr.Dataset, name: str) -> BaseResult:
+    def result(self, question: Any, dataset: xr.Dataset, name: str) -> BaseResult:
         """The result that was asked this, with its dataset. name: of the part. Raises InputError."""
-        kinds = result_classes()
         try:
-            kind = kinds[told["is"]]
-            given = {str(name): self.value(one) for name, one in told["with"].items()}
-            attrs = self.value(told["attrs"])
+            if not isinstance(question["is"], str):
+                raise TypeError("the name of a class is a text")
+            kind = result_class(question["is"])
+            if kind is None:
+                return Fields(dataset.assign_attrs(unknown_class=str(question["is"])))
+            values = {str(name): self.value(item) for name, item in question["with"].items()}
+            attrs = self.value(question["attrs"])
         except (KeyError, TypeError, AttributeError) as error:
             raise InputError(
-                f"{self.where}: the inputs of the part {name!r} cannot be read: {said(error)}"
+                f"{self.where}: the inputs of the part {name!r} cannot be read: {reason_of(error)}"
             ) from error
         if not isinstance(attrs, dict):
             raise InputError(f"{self.where}: the inputs of the part {name!r} cannot be read: {_cut(attrs)}")
-        if any(one.name == "dataset" for one in dataclasses.fields(kind)):  # type: ignore[arg-type]
-            given["dataset"] = dataset.drop_attrs(deep=False).assign_attrs(attrs)
-        return made(kind, given, f"{self.where}: the part {name!r}")  # type: ignore[no-any-return]
+        if any(entry.name == "dataset" for entry in dataclasses.fields(kind)):  # type: ignore[arg-type]
+            values["dataset"] = dataset.drop_attrs(deep=False).assign_attrs(attrs)
+        return result_of(kind, values, f"{self.where}: the part {name!r}")  # type: ignore[no-any-return]
 
-    def value(self, told: Any) -> Any:
+    def value(self, written: Any) -> Any:
         """The value that `Writer.value` wrote. Raises InputError."""
-        if isinstance(told, list):
-            return [self.value(one) for one in told]
-        if not isinstance(told, dict):
-            return told
-        if "is" in told:
-            given = {str(name): self.value(one) for name, one in _table(told.get("with")).items()}
-            return self._made(self._class(told["is"]), given)
+        if isinstance(written, list):
+            return [self.value(item) for item in written]
+        if not isinstance(written, dict):
+            return written
+        if "is" in written:
+            values = {str(name): self.value(item) for name, item in _table(written.get("with")).items()}
+            return self._object(self._class(written["is"]), values)
         for kind, read in _KINDS.items():
-            if kind in told:
-                return read(self, told[kind], told)
-        raise InputError(f"{self.where}: {_cut(told)} is not a possible input of a result")
+            if kind in written:
+                return read(self, written[kind], written)
+        raise InputError(f"{self.where}: {_cut(written)} is not a possible input of a result")
 
     def array(self, name: Any, _: Any = None) -> np.ndarray:
         """A copy of an array by its name."""
@@ -187,60 +189,59 @@ class Reader:
         return self.arrays[name].copy()
 
     @functools.cached_property
-    def _known(self) -> dict[str, type[Any]]:
+    def _classes(self) -> dict[str, type[Any]]:
         return _described()
 
     def _class(self, name: Any) -> type[Any]:
-        if isinstance(name, str) and name in self._known:
-            return self._known[name]
+        if isinstance(name, str) and name in self._classes:
+            return self._classes[name]
         groups = [group for group in metadata.entry_points().groups if group.startswith(_GROUPS)]
         for point in (point for group in groups for point in metadata.entry_points(group=group)):
             if point.value == name:
-                made: type[Any] = load_point(point)
-                return made
+                kind: type[Any] = load_point(point)
+                return kind
         raise InputError(
             f"{self.where}: {_cut(name)} is unknown to this treadload; install the package that brings it"
         )
 
-    def _made(self, kind: type[Any], given: dict[str, Any]) -> Any:
+    def _object(self, kind: type[Any], values: dict[str, Any]) -> Any:
         try:
-            return kind(**given)
+            return kind(**values)
         except InputError as error:
             raise InputError(f"{self.where}: {error}") from error
         except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
             raise InputError(
-                f"{self.where}: no {kind.__name__} can be made of what it holds: {said(error)}"
+                f"{self.where}: no {kind.__name__} can be made of what it holds: {reason_of(error)}"
             ) from error
 
 
-def _number(reader: Reader, told: Any, _: Any) -> float:
-    if told not in ("nan", "inf", "-inf"):
-        raise InputError(f"{reader.where}: {_cut(told)} is not a number")
-    return float(told)
+def _number(reader: Reader, text: Any, _: Any) -> float:
+    if text not in ("nan", "inf", "-inf"):
+        raise InputError(f"{reader.where}: {_cut(text)} is not a number")
+    return float(text)
 
 
-def _tuple(reader: Reader, told: Any, _: Any) -> tuple[Any, ...]:
-    return tuple(reader.value(one) for one in _list(reader, told))
+def _tuple(reader: Reader, written: Any, _: Any) -> tuple[Any, ...]:
+    return tuple(reader.value(item) for item in _list(reader, written))
 
 
-def _pairs(reader: Reader, told: Any, _: Any) -> dict[Any, Any]:
-    pairs = [_list(reader, pair) for pair in _list(reader, told)]
+def _pairs(reader: Reader, written: Any, _: Any) -> dict[Any, Any]:
+    pairs = [_list(reader, pair) for pair in _list(reader, written)]
     if any(len(pair) != 2 or not isinstance(pair[0], str | int | float) for pair in pairs):
-        raise InputError(f"{reader.where}: {_cut(told)} is not a table")
-    return {key: reader.value(one) for key, one in pairs}
+        raise InputError(f"{reader.where}: {_cut(written)} is not a table")
+    return {key: reader.value(item) for key, item in pairs}
 
 
-def _fields_back(reader: Reader, told: Any, _: Any) -> xr.DataArray:
-    parts = {key: reader.value(one) for key, one in _table(told).items()}
+def _fields_back(reader: Reader, written: Any, _: Any) -> xr.DataArray:
+    parts = {key: reader.value(item) for key, item in _table(written).items()}
     try:
         return xr.DataArray(**parts)
     except (TypeError, ValueError) as error:
-        raise InputError(f"{reader.where}: an input cannot be read: {said(error)}") from error
+        raise InputError(f"{reader.where}: an input cannot be read: {reason_of(error)}") from error
 
 
-def _case(reader: Reader, told: Any, whole: Any) -> FilePart:
-    kind = _CASES.get(whole.get("of"), _CASES["Case"])
-    return kind.from_text(str(told), name=f"{reader.where}: the case")
+def _case(reader: Reader, text: Any, whole: Any) -> Case:
+    return Case.from_text(str(text), name=f"{reader.where}: the case")
 
 
 _KINDS: Mapping[str, Callable[[Reader, Any, Any], Any]] = {
@@ -249,17 +250,20 @@ _KINDS: Mapping[str, Callable[[Reader, Any, Any], Any]] = {
     "table": _pairs,
     "array": Reader.array,
     "fields": _fields_back,
-    "part": lambda reader, told, _: reader.part(told),
+    "part": lambda reader, written, _: reader.part(written),
     "case": _case,
 }
 
 
 def _fields(thing: Any) -> list[dataclasses.Field[Any]]:
-    return [one for one in dataclasses.fields(thing) if one.init]
+    return [entry for entry in dataclasses.fields(thing) if entry.init]
 
 
 def _parts_of(array: xr.DataArray) -> dict[str, Any]:
-    coords = {str(name): (one.dims, one.to_numpy(), dict(one.attrs)) for name, one in array.coords.items()}
+    coords = {
+        str(name): (coordinate.dims, coordinate.to_numpy(), dict(coordinate.attrs))
+        for name, coordinate in array.coords.items()
+    }
     return {
         "data": array.to_numpy(), "coords": coords, "dims": array.dims, "name": array.name,
         "attrs": dict(array.attrs),
@@ -279,22 +283,24 @@ def _described() -> dict[str, type[Any]]:
     for name, module in list(sys.modules.items()):
         if name.partition(".")[0] != _OURS:
             continue
-        own = [one for one in list(vars(module).values()) if isinstance(one, type) and one.__module__ == name]
-        for one in own:
-            if dataclasses.is_dataclass(one) and not issubclass(one, BaseResult):
-                kinds.setdefault(one.__name__, one)
+        classes = [
+            member for member in list(vars(module).values()) if isinstance(member, type) and member.__module__ == name
+        ]
+        for member in classes:
+            if dataclasses.is_dataclass(member) and not issubclass(member, BaseResult):
+                kinds.setdefault(member.__name__, member)
     return kinds
 
 
-def _list(reader: Reader, told: Any) -> list[Any]:
-    if not isinstance(told, list):
-        raise InputError(f"{reader.where}: {_cut(told)} is not a list")
-    return told
+def _list(reader: Reader, written: Any) -> list[Any]:
+    if not isinstance(written, list):
+        raise InputError(f"{reader.where}: {_cut(written)} is not a list")
+    return written
 
 
-def _table(told: Any) -> dict[Any, Any]:
-    return told if isinstance(told, dict) else {}
+def _table(written: Any) -> dict[Any, Any]:
+    return written if isinstance(written, dict) else {}
 
 
-def _cut(told: Any) -> str:
-    return repr(told)[:60]
+def _cut(written: Any) -> str:
+    return repr(written)[:60]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from treadload.case import Case
-from treadload.case.file import FilePart
 from treadload.pavement import LayerRow, Pavement, layer_rows
 
 
@@ -18,17 +17,18 @@ def road_in_rows(road: Pavement, case: Case | None = None) -> str:
     wide = max(len(row.name) for row in rows)
     for number, row in enumerate(rows, start=1):
         thickness = "" if row.thickness is None else f"{row.thickness * 1e3:g} mm"
-        told = [row.material] if row.anisotropic else [f"E = {row.modulus / 1e6:.5g} MPa", f"ν = {row.poisson:g}"]
+        numbers = [row.material] if row.anisotropic else [f"E = {row.modulus / 1e6:.5g} MPa", f"ν = {row.poisson:g}"]
         if row.frequency is not None:
-            told[0] = f"|E*| = {row.modulus / 1e6:.4g} MPa at {row.frequency:g} Hz"
-        told += [f"{row.temperature:g} °C"] if row.temperature is not None else []
-        told += [f"{row.bond}{' to the layer below' if number < len(rows) else ''}"] if row.bond else []
-        lines.append(f"  {number}  {row.name:{wide}}  {thickness:>8}  " + ", ".join(told))
+            numbers[0] = f"|E*| = {row.modulus / 1e6:.4g} MPa at {row.frequency:g} Hz"
+        numbers += [f"{row.temperature:g} °C"] if row.temperature is not None else []
+        numbers += [f"{row.bond}{' to the layer below' if number < len(rows) else ''}"] if row.bond else []
+        lines.append(f"  {number}  {row.name:{wide}}  {thickness:>8}  " + ", ".join(numbers))
     return "\n".join(lines)
 
 
-def rows_of(road: Pavement | None, case: FilePart | None) -> tuple[LayerRow, ...]:
+def rows_of(road: Pavement | None, case: Case | None) -> tuple[LayerRow, ...]:
     """The layers of a road, at the temperatures that the case gives; empty without a road."""
     if road is None:
         return ()
-    return layer_rows(road, case.pavement.layer_temperatures() if isinstance(case, Case) else ())
+    has_temperatures = case is not None and case.pavement is not None and not case.source.waits_for_temperature
+    return layer_rows(road, case.pavement.layer_temperatures() if has_temperatures and case and case.pavement else ())

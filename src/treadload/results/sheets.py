@@ -8,14 +8,6 @@ from typing import Any
 from treadload.errors import InputError, how_to_install
 
 
-def first_sheet(path: str | os.PathLike[str]) -> list[list[Any]]:
-    """Rows of the first sheet of a workbook that hold anything, cells as they are, None for empty ones.
-
-    Raises InputError as `numbered_rows`.
-    """
-    return [row for _, row in numbered_rows(path)]
-
-
 def numbered_rows(path: str | os.PathLike[str]) -> list[tuple[int, list[Any]]]:
     """Rows of the first sheet of a workbook that hold anything, with their numbers in the sheet, from 1.
 

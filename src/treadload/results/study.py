@@ -2,31 +2,43 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
 from treadload.composing import BaseResult, small_picture
-from treadload.describing import as_html
+from treadload.describing import Described, as_html
+from treadload.rows import Row
 
 
-class Study(ABC):
+class Study(Described):
     """Base of what holds several results by name, as the result of a case and what a file held do."""
 
-    @property
-    @abstractmethod
-    def parts(self) -> Mapping[str, BaseResult]:
-        """Results by their names in a tree."""
+    if TYPE_CHECKING:
+
+        @property
+        @abstractmethod
+        def parts(self) -> Mapping[str, BaseResult]:
+            """Results by their names in a tree."""
 
     @abstractmethod
     def to_tree(self) -> xr.DataTree:
         """All results in one tree with provenance, ready to be saved."""
 
-    @abstractmethod
+    def rows(self) -> tuple[Row, ...]:
+        """The rows of all parts, grouped by part."""
+        return tuple(
+            replace(row, group=f"{part.title}, {row.group}" if row.group else part.title)
+            for part in self.parts.values()
+            for row in part.rows()
+        )
+
     def summary(self) -> str:
-        """The results in a screenful."""
+        """The results in a screenful, part by part."""
+        return "\n\n".join(part.summary() for part in self.parts.values())
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -43,14 +55,13 @@ class Study(ABC):
         """Figures of the parts: `result.plot.contact.pressure()`."""
         return PlotsOfParts(self)
 
-    def __str__(self) -> str:
-        return self.summary()
-
     def _repr_html_(self) -> str:
         """What a notebook shows: with the figure of the first part that has one."""
         pictures = (small_picture(part) for part in self.parts.values())
-        picture = next((one for one in pictures if one is not None), None)
-        return as_html(type(self).__name__, self.summary(), self.warnings, self.to_tree(), picture)
+        picture = next((picture for picture in pictures if picture is not None), None)
+        return as_html(
+            self.title or type(self).__name__, [*self.parts.values()], self.warnings, self.to_tree(), picture
+        )
 
 
 class PlotsOfParts:

@@ -45,7 +45,7 @@ def write_tractions(
         for name in ("pressure", "traction_x", "traction_y")
     )  # fmt: skip
     length, per_m, stress, per_pa = _UNITS[units]
-    forces = [float(one.sum() * dx * dy) for one in (p, qx, qy)]
+    forces = [float(plane.sum() * dx * dy) for plane in (p, qx, qy)]
     across, down = np.meshgrid(x, y)
     loaded = np.full(p.shape, True) if everywhere else (p != 0) | (qx != 0) | (qy != 0)
     rows = np.stack([per_m * across, per_m * down, per_pa * p, per_pa * qx, per_pa * qy], axis=-1)[loaded]

@@ -19,44 +19,38 @@ import xarray as xr
 
 from treadload._version import __version__
 from treadload.case import Case
-from treadload.case.file import FilePart
+from treadload.citations import references
 from treadload.composing import BaseResult
-from treadload.contact import Contact, Indentation, TextureContact
-from treadload.damage import Life, Season, Verdict
+from treadload.contact import Contact
+from treadload.damage import Season
 from treadload.errors import InputError
 from treadload.footprint import Footprint
-from treadload.pavement import LayerRow, Pavement, layer_rows, road_in_words
+from treadload.pavement import LayerRow, Pavement, layer_rows, methods_of, road_in_words
 from treadload.pavement.sublayers import middle_temperatures
-from treadload.response import GridLoad, Heterogeneous, Passes, Response
-from treadload.results.cite import (
-    case_citations,
-    citations,
-    dents_citations,
-    life_citations,
-    passes_citations,
-    stones_citations,
-    texture_citations,
-)
+from treadload.response import GridLoad
 from treadload.results.dataset import Fields
 from treadload.results.questions import Writer
 from treadload.results.roads import rows_of
+from treadload.rows import as_json
 
 FORMAT = 2
 """Format of the files: 1 holds fields, words and the case; 2 also the inputs of every result."""
-ASKED = "asked"
+QUESTIONS = "asked"
 """Name of the group that holds the inputs of the parts."""
 
 Part = BaseResult | GridLoad | xr.Dataset
 
 # Sections through the road would repeat the warnings of the map, each for its own depths.
 _QUIET = ("slice_along", "slice_across", "bowl")
+# Attributes of a group, and the row that each of them is.
+_ANSWERS = {"sentence": "verdict", "governing": "governing"}
 _NAME = re.compile(r"\w[\w \-+.,=%°()]*(?<! )")
 
 
 def to_tree(
     parts: Any,
     *,
-    case: FilePart | None = None,
+    case: Case | None = None,
     road: Pavement | None = None,
     season: Season | None = None,
     title: str = "",
@@ -97,37 +91,28 @@ def to_tree(
         questions[queue[0]] = writer.result(part)
         groups[queue[0]] = part.dataset.assign_attrs(_about(part, owner.get(queue[0], "")))
         queue.pop(0)
-    own = [part for name, part in named.items() if name not in owner]
-    # Of a study, whose parts are cases of its own.
-    asked_case = next((one for part in own if isinstance(one := getattr(part, "case", None), FilePart)), None)
-    case = case or asked_case
-    contact = _first(own, Contact)
-    life = _first(own, Life)
+    free = [part for name, part in named.items() if name not in owner]
+    if case is None:
+        # Of a study, whose parts are cases of its own.
+        case = next((varied for part in free if isinstance(varied := getattr(part, "case", None), Case)), None)
+    contact = next((part for part in free if isinstance(part, Contact)), None)
     if road is None and contact is not None:
         road = contact.road
-    rows = rows_of(road, case) if isinstance(case, Case) or season is None else _warm_rows(road, season)
-    used = life_citations(road) if life is not None and contact is None else []
-    used = case_citations(asked_case) if asked_case is not None and not used else used
-    used = used or citations(contact, _last(own, Response), road)
-    if any(isinstance(part, Indentation) or getattr(part, "drum", None) is not None for part in own):
-        used = list(dict.fromkeys([*used, *dents_citations()]))
-    if any(isinstance(part, Passes) for part in own):
-        used = list(dict.fromkeys([*used, *passes_citations()]))
-    if any(isinstance(part, Heterogeneous) for part in own):
-        used = list(dict.fromkeys([*used, *stones_citations()]))
-    if any(isinstance(part, TextureContact) for part in own):
-        used = list(dict.fromkeys([*used, *texture_citations()]))
+    layers = rows_of(road, case) if season is None else _warm_rows(road, season)
+    methods = [key for part in free for key in part.cites()]
+    if season is not None and road is not None:
+        methods += methods_of(road)
     root = {
         "title": title or (case.title if case is not None else ""),
         "case": case.to_toml() if case is not None else "",
-        "layers": json.dumps([asdict(row) for row in rows], ensure_ascii=False),
+        "layers": json.dumps([asdict(layer) for layer in layers], ensure_ascii=False),
         **({} if season is None else {"season": season.name}),
         **({"summary": summary} if summary else {}),
-        "citations": json.dumps(used, ensure_ascii=False),
+        "citations": json.dumps(references(methods), ensure_ascii=False),
         **_provenance(),
     }
-    asked = {name: ([f"{name}_{k}" for k in range(one.ndim)], one) for name, one in writer.arrays.items()}
-    groups[ASKED] = xr.Dataset(asked, attrs={"questions": json.dumps(questions, ensure_ascii=False)})
+    arrays = {name: ([f"{name}_{k}" for k in range(array.ndim)], array) for name, array in writer.arrays.items()}
+    groups[QUESTIONS] = xr.Dataset(arrays, attrs={"questions": json.dumps(questions, ensure_ascii=False)})
     return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **{f"/{k}": v for k, v in groups.items()}})
 
 
@@ -137,8 +122,8 @@ def as_tree(results: Any) -> xr.DataTree:
         return results
     whole = getattr(results, "to_tree", None)
     if callable(whole):
-        made: xr.DataTree = whole()
-        return made
+        tree: xr.DataTree = whole()
+        return tree
     return to_tree(results)
 
 
@@ -146,17 +131,17 @@ def named_parts(parts: Any) -> Iterator[tuple[str, BaseResult]]:
     """Results by name, each name once. Raises InputError for what is not a result and for a wrong name."""
     taken: dict[str, Any] = {}
     if isinstance(parts, Mapping) and not isinstance(parts, xr.Dataset):
-        given: list[tuple[str | None, Any]] = [(_checked(name), part) for name, part in parts.items()]
+        entries: list[tuple[str | None, Any]] = [(_checked(name), part) for name, part in parts.items()]
     elif isinstance(parts, BaseResult | GridLoad | xr.Dataset) or hasattr(parts, "parts"):
-        given = [(None, parts)]
+        entries = [(None, parts)]
     elif isinstance(parts, Iterable) and not isinstance(parts, str | bytes):
-        given = [(None, part) for part in parts]
+        entries = [(None, part) for part in parts]
     else:
         raise InputError(_no_result(parts))
-    for name, part in given:
+    for name, part in entries:
         inner = getattr(part, "parts", None)
-        for inner_name, one in inner.items() if isinstance(inner, Mapping) else [(None, part)]:
-            result = _result(one)
+        for inner_name, part_inside in inner.items() if isinstance(inner, Mapping) else [(None, part)]:
+            result = _result(part_inside)
             wanted = " ".join(text for text in (name, inner_name) if text) or result.group_name
             free = _free(wanted, taken)
             taken[free] = result
@@ -181,10 +166,10 @@ def _no_result(part: Any) -> str:
 
 
 def _checked(name: Any) -> str:
-    if not isinstance(name, str) or not _NAME.fullmatch(name) or name == ASKED:
+    if not isinstance(name, str) or not _NAME.fullmatch(name) or name == QUESTIONS:
         raise InputError(
             f"a part of results cannot be named {name!r}; use letters, digits, blanks and -+.,=%°(), with a letter "
-            f"or digit first, and not {ASKED!r}, which belongs to the file"
+            f"or digit first, and not {QUESTIONS!r}, which belongs to the file"
         )
     return name
 
@@ -204,27 +189,19 @@ def _about(part: BaseResult, owner: str) -> dict[str, str]:
     if owner:
         return {**about, "part_of": owner}
     if kind not in _QUIET:
+        rows = part.rows()
         about["warnings"] = json.dumps(list(part.warnings), ensure_ascii=False)
-        about["summary"] = part.summary()
+        about |= {"summary": part.summary(), "heading": part.heading}
+        about["rows"] = as_json(rows)
+        answers = {row.key: str(row.value) for row in rows if not row.group}
+        about |= {name: answers[key] for name, key in _ANSWERS.items() if key in answers}
     if isinstance(part, Contact):
         about |= {"tire": str(part.tire), "road": road_in_words(part.road), "rolling": str(part.rolling)}
-    elif isinstance(part, Verdict):
-        about["sentence"] = part.summary().splitlines()[-1]
-    elif isinstance(part, Life):
-        about["governing"] = part.governing
     return about
 
 
 def _plain(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") else float(value)
-
-
-def _first(parts: list[BaseResult], kind: type[Any]) -> Any:
-    return next((part for part in parts if isinstance(part, kind)), None)
-
-
-def _last(parts: list[BaseResult], kind: type[Any]) -> Any:
-    return _first(parts[::-1], kind)
 
 
 def _warm_rows(road: Pavement | None, season: Season) -> tuple[LayerRow, ...]:

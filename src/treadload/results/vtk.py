@@ -63,11 +63,11 @@ def write_vtk(result: Source, path: str | os.PathLike[str]) -> Path:
     extent = f"0 {len(x) - 1} 0 {len(y) - 1} 0 {len(z) - 1}"
     lines = [f"<{place}{_chosen(fields)}>", *(_array(name, values) for name, values in fields.items()), f"</{place}>"]
     if suffix == ".vtr":
-        lines += ["<Coordinates>", *(_array(name, one) for name, one in zip("xyz", (x, y, z), strict=True)),
+        lines += ["<Coordinates>", *(_array(name, axis) for name, axis in zip("xyz", (x, y, z), strict=True)),
                   "</Coordinates>"]  # fmt: skip
         kind, piece = "RectilinearGrid", f'Extent="{extent}"'
     else:
-        points = np.stack([one.ravel() for one in np.meshgrid(z, y, x, indexing="ij")[::-1]], axis=-1)
+        points = np.stack([axis.ravel() for axis in np.meshgrid(z, y, x, indexing="ij")[::-1]], axis=-1)
         lines += ["<Points>", _array("points", points), "</Points>"]
         kind, piece = "StructuredGrid", f'Extent="{extent}"'
         if suffix == ".vtu":
@@ -86,41 +86,41 @@ def write_vtk(result: Source, path: str | os.PathLike[str]) -> Path:
 def _fields(data: xr.Dataset, volume: bool) -> Iterator[tuple[str, Array]]:
     """Name and values (n,) or (n, components), x fastest, of every field on the grid."""
     over = ("depth", "y", "x") if volume else ("y", "x")
-    held = {str(name) for name, one in data.data_vars.items() if one.dtype.kind in "fiu"}
+    names_of_data = {str(name) for name, variable in data.data_vars.items() if variable.dtype.kind in "fiu"}
 
     def flat(name: str) -> Array:
-        one = data[name]
-        return np.asarray(one.transpose(*over).to_numpy(), dtype=float).ravel()
+        variable = data[name]
+        return np.asarray(variable.transpose(*over).to_numpy(), dtype=float).ravel()
 
     used: set[str] = set()
     for kind in ("stress", "strain"):
         names = {f"{kind}_{part}" for row in _TENSOR for part in row}
-        if names <= held and all(set(data[name].dims) == set(over) for name in names):
+        if names <= names_of_data and all(set(data[name].dims) == set(over) for name in names):
             yield kind, np.stack([flat(f"{kind}_{part}") for row in _TENSOR for part in row], axis=-1)
             used |= names
     for vector in _VECTORS:
         parts = [f"{vector}_{axis}" for axis in "xyz"]
-        there = [name for name in parts if name in held and set(data[name].dims) == set(over)]
+        there = [name for name in parts if name in names_of_data and set(data[name].dims) == set(over)]
         if len(there) > 1:
             size = data[there[0]].size
             yield vector, np.stack([flat(name) if name in there else np.zeros(size) for name in parts], axis=-1)
             used |= set(there)
-    for name in sorted(held - used):
-        one = data[name]
-        if set(one.dims) == set(over):
+    for name in sorted(names_of_data - used):
+        variable = data[name]
+        if set(variable.dims) == set(over):
             yield name, flat(name)
-        elif set(one.dims) == {*over, "component"} and one.sizes["component"] == 3:
-            yield name, np.asarray(one.transpose(*over, "component").to_numpy(), dtype=float).reshape(-1, 3)
+        elif set(variable.dims) == {*over, "component"} and variable.sizes["component"] == 3:
+            yield name, np.asarray(variable.transpose(*over, "component").to_numpy(), dtype=float).reshape(-1, 3)
 
 
 def _chosen(fields: dict[str, Array]) -> str:
     """What ParaView shows first: a scalar, a vector and a tensor."""
-    said = ""
+    complaint = ""
     for word, components in (("Scalars", 1), ("Vectors", 3), ("Tensors", 9)):
-        first = [name for name, one in fields.items() if (one.shape[1] if one.ndim > 1 else 1) == components]
+        first = [name for name, field in fields.items() if (field.shape[1] if field.ndim > 1 else 1) == components]
         first = sorted(first, key=lambda name: name not in ("pressure", "principal_strain_1", "traction", "stress"))
-        said += f" {word}={quoteattr(first[0])}" if first else ""
-    return said
+        complaint += f" {word}={quoteattr(first[0])}" if first else ""
+    return complaint
 
 
 def _cells(nx: int, ny: int, nz: int) -> tuple[Array, int]:
@@ -129,9 +129,9 @@ def _cells(nx: int, ny: int, nz: int) -> tuple[Array, int]:
     ring = [(slice(None, -1), slice(None, -1)), (slice(None, -1), slice(1, None)),
             (slice(1, None), slice(1, None)), (slice(1, None), slice(None, -1))]  # fmt: skip
     if nz == 1:
-        return np.stack([number[0][one].ravel() for one in ring], axis=-1), _QUAD
+        return np.stack([number[0][corner].ravel() for corner in ring], axis=-1), _QUAD
     upper, lower = number[:-1], number[1:]
-    corners = [part[(slice(None), *one)].ravel() for part in (upper, lower) for one in ring]
+    corners = [part[(slice(None), *corner)].ravel() for part in (upper, lower) for corner in ring]
     return np.stack(corners, axis=-1), _HEXAHEDRON
 
 

@@ -15,6 +15,7 @@ from treadload.kernels.belt import Sheet
 from treadload.materials import Elastic, Prony
 from treadload.named import Catalogue, read_tables
 from treadload.tire.modulus import unlike_a_truck
+from treadload.tire.ribs import RibGroup
 from treadload.units import BendingStiffness, Length, PerLength, Pressure, Radius, Stiffness
 
 # Thinner than any worn tread with its undertread, thicker than any new one, m.
@@ -168,7 +169,7 @@ class InflatedBelt:
     """A belt under its inflation pressure, on a tire of known radii; see `Belt.inflated`.
 
     sheet: tensions, bending and foundation. rolling_radius, crown_radius: of the unloaded tread, along and across, m.
-    inflation_pressure: Pa.
+    inflation_pressure: Pa. ribs: of the tread; empty for a layer.
     """
 
     belt: Belt
@@ -176,6 +177,7 @@ class InflatedBelt:
     rolling_radius: float
     crown_radius: float
     inflation_pressure: float
+    ribs: tuple[RibGroup, ...] = ()
 
     def row_slip(self, y: Array) -> Array:
         """Rigid slip along x of the rows of the belt that roll on smaller radii, over rolling speed: (ny,).

@@ -23,12 +23,12 @@ def arc_radius(y: Array, drop: Array) -> float | None:
     y: places across, m. drop: of the surface below any level line there, m, NaN where unknown: (n,) each.
     Parabola by least squares over the middle four fifths of the tread; grooves are left out as they are found.
     """
-    known = np.isfinite(drop)
-    if known.sum() < _FEWEST:
+    finite = np.isfinite(drop)
+    if finite.sum() < _FEWEST:
         return None
-    low, high = y[known].min(), y[known].max()
+    low, high = y[finite].min(), y[finite].max()
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    kept = known & (np.abs(y - middle) <= _BETWEEN_SHOULDERS * half)
+    kept = finite & (np.abs(y - middle) <= _BETWEEN_SHOULDERS * half)
     for _ in range(_MOST_ROUNDS):
         if kept.sum() < _FEWEST:
             return None

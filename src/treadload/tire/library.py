@@ -56,10 +56,20 @@ def read_tires(path: str | os.PathLike[str]) -> list[CataloguedTire]:
     tables = read_tables(file)
     if "mesh" not in tables:
         return [TreadProfile.from_toml(file)]
-    own: _Mesh = read(_Mesh, tables, str(file), folder=file.parent)
-    if not own.mesh.is_file():
-        raise InputError(f"{file}: no mesh file {str(own.mesh)!r}; give its path from the folder of the TOML file")
-    return [TireMesh(own.name, own.mesh, own.title, sentence(own.source), tuple(map(sentence, own.doubts)))]
+    mesh_table: _Mesh = read(_Mesh, tables, str(file), folder=file.parent)
+    if not mesh_table.mesh.is_file():
+        raise InputError(
+            f"{file}: no mesh file {str(mesh_table.mesh)!r}; give its path from the folder of the TOML file"
+        )
+    return [
+        TireMesh(
+            mesh_table.name,
+            mesh_table.mesh,
+            mesh_table.title,
+            sentence(mesh_table.source),
+            tuple(map(sentence, mesh_table.doubts)),
+        )
+    ]
 
 
 @dataclass(frozen=True)

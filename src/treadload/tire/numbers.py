@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from treadload.errors import InputError, nearest
+from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.tire.belt import Belt
 from treadload.tire.tire import Tire
@@ -36,7 +36,7 @@ class TireNumber:
         """Its value, SI. Raises InputError where the tire has none."""
         value = self.read(tire)
         if value is None:
-            having = [one.name for one in NUMBERS.values() if one.read(tire) is not None]
+            having = [quantity.name for quantity in NUMBERS.values() if quantity.read(tire) is not None]
             raise InputError(
                 f"this tire has no {self.name} ({self.words}), so that none can be fitted; it has {', '.join(having)}"
             )
@@ -45,13 +45,6 @@ class TireNumber:
     def bounds(self, tire: Tire) -> tuple[float, float]:
         """Between what it stays, SI."""
         return max(self.low, self.above(tire)), min(self.high, self.below(tire))
-
-
-def tire_number(name: str) -> TireNumber:
-    """The number of this name. Raises InputError: did you mean."""
-    if name not in NUMBERS:
-        raise InputError(f"no number of a tire is called {name!r}; {nearest(name, NUMBERS)}")
-    return NUMBERS[name]
 
 
 def _belt(name: str) -> tuple[Callable[[Tire], float | None], Callable[[Tire, float], Tire]]:
@@ -97,23 +90,23 @@ def _lateral(name: str) -> tuple[Callable[[Tire], float | None], Callable[[Tire,
 def _elastic(tire: Tire) -> Elastic | None:
     """What the tread is made of, or the half-space that stands for the tire; None of what is not elastic."""
     if tire.belt is not None:
-        made = tire.belt.tread
+        rubber = tire.belt.tread
     elif tire.material is None and tire.inflation_pressure is None:
         return None
     else:
-        made = tire.carcass  # type: ignore[assignment]  # a tire without a belt
-    return made if isinstance(made, Elastic) else None
+        rubber = tire.carcass  # type: ignore[assignment]  # a tire without a belt
+    return rubber if isinstance(rubber, Elastic) else None
 
 
 def _of_material(name: str) -> tuple[Callable[[Tire], float | None], Callable[[Tire, float], Tire]]:
     def read(tire: Tire) -> float | None:
-        made = _elastic(tire)
-        return None if made is None else getattr(made, name)
+        elastic = _elastic(tire)
+        return None if elastic is None else getattr(elastic, name)
 
     def put(tire: Tire, value: float) -> Tire:
-        made = _elastic(tire)
-        assert made is not None
-        changed = replace(made, **{name: value})
+        elastic = _elastic(tire)
+        assert elastic is not None
+        changed = replace(elastic, **{name: value})
         return replace(tire, material=changed) if tire.belt is None else _on(tire, tread=changed)
 
     return read, put
@@ -157,7 +150,7 @@ def _edge_read(tire: Tire) -> float | None:
 def _edge_put(tire: Tire, value: float) -> Tire:
     tread = _tread(tire)
     assert tread is not None
-    return _reshaped(tire, grooves=tuple(replace(one, edge_radius=value) for one in tread.grooves))
+    return _reshaped(tire, grooves=tuple(replace(groove, edge_radius=value) for groove in tread.grooves))
 
 
 def _camber_read(tire: Tire) -> float | None:

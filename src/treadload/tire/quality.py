@@ -94,20 +94,22 @@ class ScanQuality:
             f"facet sag {self.facet_sag * 1e3:.2f} mm, axis residual {self.axis_residual * 1e3:.2f} mm",
             ("noise unknown" if math.isnan(self.noise) else f"noise {self.noise * 1e3:.2f} mm")
             + (f", smoothed over {self.smoothing * 1e3:.1f} mm" if self.smoothing else "")
-            + f", points that stick out {sum(one.points for one in self.outliers)}",
+            + f", points that stick out {sum(outlier.points for outlier in self.outliers)}",
             f"coverage {self.coverage:.1%}, holes {self.holes}"
             + ("" if math.isnan(self.land_ratio) else f", land ratio {self.land_ratio:.0%}")
             + (", revolved from its meridian" if self.revolved else ""),
         ]
-        depths = [1e3 * groove.depth for groove in self.grooves]
-        if len(depths) > _MOST_LISTED:
+        listed = self.grooves
+        if len(listed) > _MOST_LISTED:
+            depths = [1e3 * groove.depth for groove in listed]
             lines.append(
                 f"{len(depths)} grooves, {min(depths):.1f} to {max(depths):.1f} mm deep: no ribbed tread has so many"
             )
+            listed = ()
         lines += [
             f"groove at y = {g.centre * 1e3:+.1f} mm: {g.width * 1e3:.1f} mm wide, {g.depth * 1e3:.1f} mm deep"
             + (f", {g.lower_wall * 1e3:.1f} mm at its lower wall" if g.depth - g.lower_wall > _LOWER else "")
-            for g in self.grooves[: _MOST_LISTED if len(depths) <= _MOST_LISTED else 0]
+            for g in listed
         ]
         lines += [f"warning: {text}" for text in self.warnings]
         return "\n".join(lines)

@@ -108,10 +108,10 @@ class HeightMapSurface:
     def _digest(self) -> str:
         return fingerprint(self.gap, self.grid)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, HeightMapSurface):
+    def __eq__(self, surface: object) -> bool:
+        if not isinstance(surface, HeightMapSurface):
             return NotImplemented
-        return self._digest == other._digest
+        return self._digest == surface._digest
 
     def __hash__(self) -> int:
         return hash(self._digest)
@@ -121,9 +121,9 @@ class HeightMapSurface:
 
     def __str__(self) -> str:
         holes = int(np.isnan(self.gap).sum())
-        told = f"height map, {self.grid}, gap up to {self.relief * 1e3:.4g} mm, "
-        told += f"{holes} of {self.gap.size} without material" if holes else "no holes"
-        return f"{told}; read from {self.source}" if self.source else told
+        text = f"height map, {self.grid}, gap up to {self.relief * 1e3:.4g} mm, "
+        text += f"{holes} of {self.gap.size} without material" if holes else "no holes"
+        return f"{text}; read from {self.source}" if self.source else text
 
     @property
     def relief(self) -> float:
@@ -153,11 +153,11 @@ class HeightMapSurface:
     @property
     def outer_radius(self) -> float | None:
         """Radius, m, of the parabola through the lowest point of every column; None when it does not bend up."""
-        known = np.isfinite(self.gap).any(axis=0)
-        if known.sum() < 5:
+        columns = np.isfinite(self.gap).any(axis=0)
+        if columns.sum() < 5:
             return None
-        x = self.grid.x[known]
-        low = np.nanmin(self.gap[:, known], axis=0)
+        x = self.grid.x[columns]
+        low = np.nanmin(self.gap[:, columns], axis=0)
         # In cells, so that the fit is well conditioned at any scale.
         bend = float(np.polyfit((x - x.mean()) / self.grid.dx, low, 2)[0]) / self.grid.dx**2
         return 0.5 / bend if bend > 0.5 / FLATTEST else None
@@ -171,14 +171,14 @@ class HeightMapSurface:
 
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap, m. Raises InputError for any grid but the map's own (there is no interpolation)."""
-        own = self.grid
-        near = 1e-6 * min(own.dx, own.dy)
-        same = grid.shape == own.shape and np.allclose(
-            [grid.dx, grid.dy, grid.x0, grid.y0], [own.dx, own.dy, own.x0, own.y0], rtol=1e-9, atol=near
+        axes = self.grid
+        near = 1e-6 * min(axes.dx, axes.dy)
+        same = grid.shape == axes.shape and np.allclose(
+            [grid.dx, grid.dy, grid.x0, grid.y0], [axes.dx, axes.dy, axes.x0, axes.y0], rtol=1e-9, atol=near
         )
         if not same:
             raise InputError(
-                f"this tire is a height map on {own} and was asked for on {grid}; "
+                f"this tire is a height map on {axes} and was asked for on {grid}; "
                 "leave the spacing out, or make the map again at the spacing you want"
             )
         return self.gap.copy()
@@ -204,14 +204,14 @@ def read_height_map(
     if not os.path.isfile(path):
         raise InputError(f"no file {str(path)!r}: give the path of a NetCDF, CSV, text, NPY or NPZ height map")
     suffix = path.suffix.lower()
-    asked = asked_units(units)
+    units_of = asked_units(units)
     if suffix in ENDINGS:
-        measured = read_surface_map(path, given=(spacing, units, decimal))
+        measured = read_surface_map(path, options=(spacing, units, decimal))
         # The outside of the tread is up in the file, and down on the road.
         top = float(np.nanmax(measured.heights))
         surface = centred_height_map(top - measured.heights, (measured.dx, measured.dy), measured.source)
     elif suffix in (".nc", ".nc4", ".h5", ".cdf"):
-        surface = _read_netcdf(path, spacing, asked)
+        surface = _read_netcdf(path, spacing, units_of)
     elif suffix not in (".csv", ".txt", ".dat", ".tsv", ".npy", ".npz"):
         raise InputError(
             f"{path.name!r} has the unknown ending {suffix!r} for a height map; "
@@ -221,8 +221,8 @@ def read_height_map(
         raise InputError(f"{path.name!r} does not say the size of its cells; give spacing in m, e.g. spacing=3e-3")
     else:
         gap, how = _read_matrix(path, suffix, decimal)
-        source = f"{path.name}{how}, gap in {asked.get('gap', 'm')}"
-        surface = centred_height_map(in_metres(gap, asked), spacing, source)
+        source = f"{path.name}{how}, gap in {units_of.get('gap', 'm')}"
+        surface = centred_height_map(in_metres(gap, units_of), spacing, source)
     if surface.is_steep:
         length, width = surface.extent
         raise InputError(
@@ -236,9 +236,9 @@ def asked_units(units: str | Mapping[str, str] | None) -> dict[str, str]:
     """Units of gap, x and y that a caller gave, one text for all or by name. Raises InputError."""
     if isinstance(units, str):
         return dict.fromkeys(_NAMES, units)
-    asked = dict(units or {})
-    check_names(asked, _NAMES, "the names of a height map")
-    return asked
+    named_units = dict(units or {})
+    check_names(named_units, _NAMES, "the names of a height map")
+    return named_units
 
 
 def in_metres(gap: Array, units: Mapping[str, str]) -> Array:
@@ -320,7 +320,7 @@ def of_variable(
     if not {"x", "y"} <= set(variable.coords):
         if spacing is None:
             raise InputError(f"{about!r} has no coordinates x and y; add them in m, or give spacing in m")
-        source = f"{where}: gap in {_told('gap', variable, units)}" if where else ""
+        source = f"{where}: gap in {_unit_of('gap', variable, units)}" if where else ""
         return centred_height_map(factors["gap"] * real_array(variable.to_numpy(), about), spacing, source)
     for name in ("x", "y"):
         if variable[name].dims != (name,):
@@ -335,15 +335,15 @@ def of_variable(
     with np.errstate(over="ignore"):
         gap = factors["gap"] * real_array(variable.to_numpy(), about)
     ny, nx = gap.shape
-    told = ", ".join(
-        f"{name} in {_told(name, part, units)}"
+    variables = ", ".join(
+        f"{name} in {_unit_of(name, part, units)}"
         for name, part in (("gap", variable), ("x", variable["x"]), ("y", variable["y"]))
     )
     grid = Grid(nx, ny, steps["x"][1], steps["y"][1], steps["x"][0], steps["y"][0])
-    return HeightMapSurface(gap, grid, f"{where}: {told}" if where else "")
+    return HeightMapSurface(gap, grid, f"{where}: {variables}" if where else "")
 
 
-def _told(name: str, part: xr.DataArray, units: Mapping[str, str]) -> str:
+def _unit_of(name: str, part: xr.DataArray, units: Mapping[str, str]) -> str:
     return str(part.attrs.get("units") or units.get(name, "m"))
 
 
@@ -355,12 +355,12 @@ def _factor(name: str, part: xr.DataArray, units: Mapping[str, str], about: str,
     return factor_of(name, part.attrs.get("units"), "m", units, where=about, bare=bare)
 
 
-def _even_steps(values: Array, name: str, file: str, given: float | None) -> tuple[float, float]:
+def _even_steps(values: Array, name: str, file: str, given_step: float | None) -> tuple[float, float]:
     """First value and step of an evenly spaced coordinate, m."""
     if len(values) < 2:
-        if given is None:
+        if given_step is None:
             raise InputError(f"coordinate {name} of {file!r} has one value and gives no spacing; give spacing in m")
-        return float(values[0]), given
+        return float(values[0]), given_step
     with np.errstate(over="ignore", invalid="ignore"):
         step = float(values[-1] - values[0]) / (len(values) - 1)
         error = float(np.abs(np.diff(values) - step).max())
@@ -369,8 +369,8 @@ def _even_steps(values: Array, name: str, file: str, given: float | None) -> tup
             f"coordinate {name} of {file!r} is not evenly spaced: "
             f"steps differ by up to {error:.3g} m from {step:.3g} m"
         )
-    if given is not None and abs(given - step) > 1e-3 * step:
+    if given_step is not None and abs(given_step - step) > 1e-3 * step:
         raise InputError(
-            f"spacing along {name} was given as {given:g} m but {file!r} has {step:g} m; leave spacing out"
+            f"spacing along {name} was given as {given_step:g} m but {file!r} has {step:g} m; leave spacing out"
         )
     return float(values[0]), step

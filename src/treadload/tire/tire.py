@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,6 +24,7 @@ from treadload.tire.belt import Belt, InflatedBelt
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
+from treadload.tire.ribs import RibGroup, ribs_of
 from treadload.tire.surface import (
     Surface,
     asked_units,
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 POISSON_OF_RUBBER = 0.5
+Tread = Literal["layer", "ribs"]
 TireMaterial = Elastic | Anisotropic | Prony | Surfaced
 # Cells, m, on which a tread is compared with its mirror image; round-off of their places and of its gap, m.
 _LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
@@ -50,7 +52,8 @@ class Tire:
     surface: of the tread. material: of the half-space that stands for the tire, elastic, anisotropic or, for steady
     rolling, viscoelastic; or one that makes a surface of its own (`materials.kinds.Surfaced`). belt: in its place, a
     tread on an inflated belt. inflation_pressure: Pa, gives the modulus when there is neither; a belt needs it.
-    name: free text.
+    name: free text. tread: on a belt, a "layer" without grooves, or "ribs" with free sides, of a profile whose
+    grooves are circumferential.
     Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
     """
 
@@ -59,6 +62,7 @@ class Tire:
     inflation_pressure: float | None = None
     name: str = ""
     belt: Belt | None = None
+    tread: Tread = "layer"
 
     def __post_init__(self) -> None:
         if not isinstance(self.surface, Surface):
@@ -81,6 +85,19 @@ class Tire:
                     "give either material, of a half-space, or belt, not both; the material of the tread is "
                     "Belt(tread=...)"
                 )
+        if self.tread not in get_args(Tread):
+            raise InputError(f'tread must be "layer" or "ribs", got {self.tread!r}')
+        if self.tread == "ribs":
+            if self.belt is None:
+                raise InputError(
+                    'tread = "ribs" stands on a belt: give belt, such as Belt.from_library("315/80R22.5")'
+                )
+            if not isinstance(self.surface, ProfileSurface):
+                raise InputError(
+                    'tread = "ribs" takes the ribs of a profile, and this tire has another surface; give a '
+                    'TreadProfile, or tread = "layer"'
+                )
+            ribs_of(self.surface.profile, self.belt.tread_thickness)
 
     @classmethod
     def from_height_map(
@@ -112,13 +129,13 @@ class Tire:
         if isinstance(gap, str | PathLike):
             surface = read_height_map(Path(gap), cell, units, decimal)
             return cls(surface, material, inflation_pressure, name or Path(gap).name, belt)
-        asked = asked_units(units)
+        units_of = asked_units(units)
         if hasattr(gap, "dims") and hasattr(gap, "coords"):
             labelled: Any = gap
-            return cls(of_variable(labelled, cell, asked), material, inflation_pressure, name, belt)
+            return cls(of_variable(labelled, cell, units_of), material, inflation_pressure, name, belt)
         if cell is None:
             raise InputError("a height map needs the spacing of its cells in m, e.g. spacing=3e-3")
-        values = in_metres(real_array(gap, "a height map"), asked)
+        values = in_metres(real_array(gap, "a height map"), units_of)
         return cls(centred_height_map(values, cell), material, inflation_pressure, name, belt)
 
     @classmethod
@@ -130,16 +147,18 @@ class Tire:
         inflation_pressure: float | None = None,
         name: str = "",
         belt: Belt | None = None,
+        tread: Tread = "layer",
     ) -> Tire:
         """Tire of a parametric tread.
 
-        profile: a TreadProfile, or the name of one in the catalogue, e.g. "315/80R22.5".
-        Raises InputError when the catalogue does not have it.
+        profile: a TreadProfile, or the name of one in the catalogue, e.g. "315/80R22.5". tread: of a belt, "ribs" for
+        ribs with free sides between the grooves, "layer" for rubber without grooves.
+        Raises InputError when the catalogue does not have it, and for ribs of lateral or too deep grooves.
         """
-        tread = tread_named(profile) if isinstance(profile, str) else profile
-        if not isinstance(tread, TreadProfile):
+        shape = tread_named(profile) if isinstance(profile, str) else profile
+        if not isinstance(shape, TreadProfile):
             raise InputError(f"profile must be a TreadProfile or the name of one, got {profile!r}")
-        return cls(ProfileSurface(tread), material, inflation_pressure, name or tread.name, belt)
+        return cls(ProfileSurface(shape), material, inflation_pressure, name or shape.name, belt, tread)
 
     @classmethod
     def from_scan(
@@ -207,7 +226,8 @@ class Tire:
                 raise InputError(
                     "a belt carries by its inflation: give inflation_pressure in Pa, a truck tire is near 820e3"
                 )
-            return self.belt.inflated(self.inflation_pressure, self.outer_radius, self.crown_arc_radius)
+            inflated = self.belt.inflated(self.inflation_pressure, self.outer_radius, self.crown_arc_radius)
+            return replace(inflated, ribs=self.ribs)
         if self.material is not None:
             return self.material
         if self.inflation_pressure is None:
@@ -216,6 +236,15 @@ class Tire:
                 "or inflation_pressure=820e3 (Pa)"
             )
         return Elastic(modulus_from_inflation(self.inflation_pressure), POISSON_OF_RUBBER)
+
+    @property
+    def ribs(self) -> tuple[RibGroup, ...]:
+        """Ribs with free sides on the belt; empty where the tread is a layer."""
+        if self.tread != "ribs":
+            return ()
+        assert self.belt is not None
+        assert isinstance(self.surface, ProfileSurface)
+        return ribs_of(self.surface.profile, self.belt.tread_thickness)
 
     @property
     def elastic(self) -> Elastic | Anisotropic | Surfaced | InflatedBelt:

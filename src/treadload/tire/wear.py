@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 
 from treadload.composing import BaseResult, Holds
-from treadload.describing import first_line
 from treadload.kernels.arrays import Array
+from treadload.rows import Row, row
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +25,7 @@ class Wear(BaseResult, group="wear"):
     lowered so that the floors of the grooves, which do not wear, agree; shift, of the earlier scan across, m.
     """
 
+    title: ClassVar[str] = "Tread wear"
     holds: ClassVar[Holds] = Holds(
         {
             "across": "across", "wheel_angle": "wheel_angle",
@@ -32,7 +33,7 @@ class Wear(BaseResult, group="wear"):
             "median_tread_wear tread_height earlier_tread_height": "across",
         },
         maybe={"groove groove_depth earlier_groove_depth": "groove"},
-        known="median_tread_wear",
+        not_nan="median_tread_wear",
         numbers="datum shift",
     )  # fmt: skip
 
@@ -69,20 +70,20 @@ class Wear(BaseResult, group="wear"):
         parts = (self.dataset[name].to_numpy() for name in ("groove", "earlier_groove_depth", "groove_depth"))
         return tuple((float(at), float(before), float(now)) for at, before, now in zip(*parts, strict=True))
 
-    def summary(self) -> str:
+    def rows(self) -> tuple[Row, ...]:
         """How much, where most, how unevenly; the grooves then and now."""
         place = int(np.nanargmax(self.by_place))
-        at = float(self.dataset["across"][place])
+        at = f"y = {float(self.dataset['across'][place]) * 1e3:+.0f} mm"
         lines = [
-            f"worn off the ribs {self.mean * 1e3:.2f} mm on average, most {self.by_place[place] * 1e3:.2f} mm at "
-            f"y = {at * 1e3:+.0f} mm; uneven across by {self.uneven * 1e3:.2f} mm",
-            f"radii agree in the grooves after {self.datum * 1e3:+.2f} mm" if self.grooves else
-            "no groove in both scans: the radii are compared as they are, swelling and scale included",
+            row("mean_tread_wear", self.mean),
+            row("largest_tread_wear", float(self.by_place[place]), note=f"at {at}"),
+            row("wear_range", self.uneven),
+            row("datum", self.datum)
+            if self.grooves
+            else row("datum", "no groove in both scans: the radii are compared as they are, swelling and scale "
+                     "included"),
         ]  # fmt: skip
-        lines += [
-            f"groove at y = {centre * 1e3:+.1f} mm: {before * 1e3:.1f} mm deep before, {now * 1e3:.1f} mm now"
-            for centre, before, now in self.grooves
-        ]
-        return "\n".join(lines)
-
-    __repr__ = first_line
+        for centre, before, now in self.grooves:
+            group = f"groove at y = {centre * 1e3:+.1f} mm"
+            lines += [row("earlier_groove_depth", before, group=group), row("groove_depth", now, group=group)]
+        return tuple(lines)

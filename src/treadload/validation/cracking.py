@@ -25,27 +25,27 @@ def crack_checks() -> Iterator[Check]:
     root, n = math.sqrt(math.pi * 0.04), len(faces.z)
     for what, power, exact in (("uniform stress", 0, 1.1215), ("stress rising from 0", 1, 0.6829)):
         load = (faces.z / 0.04) ** power
-        found = float(faces.plane[0, :n] @ load) / root
-        yield relative("edge crack", f"K_I / σ√(πa) under {what}", found, exact, 0.005, _HANDBOOK)
-    found = float(faces.antiplane.sum()) / root
-    yield relative("edge crack", "K_III / τ√(πa)", found, 1.0, 0.005, "closed form")
+        ratio = float(faces.plane[0, :n] @ load) / root
+        yield relative("edge crack", f"K_I / σ√(πa) under {what}", ratio, exact, 0.005, _HANDBOOK)
+    ratio = float(faces.antiplane.sum()) / root
+    yield relative("edge crack", "K_III / τ√(πa)", ratio, 1.0, 0.005, "closed form")
     lean = math.sqrt(0.5)
-    own = crack_faces(_HALF, straight((lean, lean)), 0.04)
-    load = np.concatenate([own.normal[0] ** 2, own.normal[0] * own.tangent[0]])
+    lens = crack_faces(_HALF, straight((lean, lean)), 0.04)
+    load = np.concatenate([lens.normal[0] ** 2, lens.normal[0] * lens.tangent[0]])
     for mode, exact in enumerate((0.705, 0.364)):
-        found = abs(float(own.plane[mode] @ load)) / root
+        ratio = abs(float(lens.plane[mode] @ load)) / root
         name = f"K_{'I' * (mode + 1)} / σ√(πa) of one that leans by 45°"
-        yield relative("edge crack", name, found, exact, 0.005, "Murakami (1987)")
+        yield relative("edge crack", name, ratio, exact, 0.005, "Murakami (1987)")
     for part, exact in ((0.2, 1.3673), (0.5, 2.8246)):
         strip = crack_faces(Section((Strip(1.0, 0.3, 1.0), Strip(1e-10, 0.3, math.inf))), _DOWN, part)
-        found = float(strip.plane[0, :n].sum()) / math.sqrt(math.pi * part)
+        ratio = float(strip.plane[0, :n].sum()) / math.sqrt(math.pi * part)
         yield relative(
-            "crack in a layer", f"K_I / σ√(πa), {part:g} of a free strip", found, exact, 0.005, "Kaya and Erdogan"
+            "crack in a layer", f"K_I / σ√(πa), {part:g} of a free strip", ratio, exact, 0.005, "Kaya and Erdogan"
         )
     # Friction of 0.2 under a pressure of 2 holds 0.4 of a shear of 0.5.
-    one = np.ones(n)
-    held, _ = stress_intensity(faces, np.stack([-2 * one, 0.5 * one, 0 * one]), 0.2)
-    slid = float(held[1]) / root
+    ones = np.ones(n)
+    factors, _ = stress_intensity(faces, np.stack([-2 * ones, 0.5 * ones, 0 * ones]), 0.2)
+    slid = float(factors[1]) / root
     yield relative(
         "closed crack", "K_II / √(πa) of a shear of 0.5, of which 0.4 rub", slid, 0.11215, 0.005, _HANDBOOK
     )

@@ -31,27 +31,27 @@ def crossing_checks() -> Iterator[Check]:
     flat = np.pad(np.zeros((_LONG, _CELLS)), 2, constant_values=np.nan)
     punch = Tire.from_height_map(flat, _CELL, material=Elastic(2e16, 0.3), name="punch")
     plain = solve_contact(punch, _ROAD, _WHEEL).dataset["pressure"].to_numpy()
-    x, found = _pressed(punch, RoadStep(0.0))
+    x, pressure = _pressed(punch, RoadStep(0.0))
     yield absolute(
-        group, "step of no height beside no step, pressures over the peak", np.abs(found - plain).max() / plain.max(),
-        0.0, 0.0, "the same problem",
+        group, "step of no height beside no step, pressures over the peak",
+        np.abs(pressure - plain).max() / plain.max(), 0.0, 0.0, "the same problem",
     )  # fmt: skip
-    line = found[found.shape[0] // 2]
+    line = pressure[pressure.shape[0] // 2]
     inner = 15.5 * _CELL
     yield relative(
         group, "flat punch, upright edges: share of the load in its middle half", _share(line, np.abs(x) < inner),
         2 / math.pi * math.asin(inner / _HALF), _BOUND, "Johnson (1985), p = P/π √(b² - x²)",
     )  # fmt: skip
-    x, found = _pressed(punch, RoadJoint(21 * _CELL, 0.05))
-    line = found[found.shape[0] // 2]
+    x, pressure = _pressed(punch, RoadJoint(21 * _CELL, 0.05))
+    line = pressure[pressure.shape[0] // 2]
     gap, reach = 10.5 * _CELL, 20.5 * _CELL
     yield relative(
         group, "the same over a joint: share of the halves next to it", _share(line, np.abs(x) < reach),
         2 / math.pi * math.asin(math.sqrt((reach**2 - gap**2) / (_HALF**2 - gap**2))), _BOUND,
         "two strips, p ~ |x|/√((b² - x²)(x² - a²)), as the plane's equation asks; Gladwell (1980)",
     )  # fmt: skip
-    x, found = _pressed(punch, RoadStep(-0.05))
-    line = found[found.shape[0] // 2]
+    x, pressure = _pressed(punch, RoadStep(-0.05))
+    line = pressure[pressure.shape[0] // 2]
     # On its trailing half alone, up to the edge of the cell in the middle, which lies half way down.
     edge, first = -0.5 * _CELL, -_HALF
     middle, half = 0.5 * (edge + first), 0.5 * (edge - first)

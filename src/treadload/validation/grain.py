@@ -76,12 +76,12 @@ def hertz_on_grain(material: Anisotropic, curvature: Array, load: float) -> Turn
         return shape, np.einsum("n,in,jn->ij", g * alpha**-1.5, across, across) * math.pi / _DIRECTIONS
 
     def wrong(unknown: Array) -> list[float]:
-        made = of(unknown)[1]
-        made, asked = made / np.trace(made), curvature / np.trace(curvature)
-        return [made[0, 0] - asked[0, 0], made[0, 1] - asked[0, 1]]
+        ellipse = of(unknown)[1]
+        ellipse, shape_wanted = ellipse / np.trace(ellipse), curvature / np.trace(curvature)
+        return [ellipse[0, 0] - shape_wanted[0, 0], ellipse[0, 1] - shape_wanted[0, 1]]
 
-    shape, made = of(root(wrong, np.zeros(2), tol=1e-14).x)
-    scale = (4 * np.trace(curvature) / (3 * load * np.trace(made))) ** (1 / 3)
+    shape, ellipse = of(root(wrong, np.zeros(2), tol=1e-14).x)
+    scale = (4 * np.trace(curvature) / (3 * load * np.trace(ellipse))) ** (1 / 3)
     peak = 3 * load * scale**2 / (2 * math.pi)
     alpha = np.einsum("in,ij,jn->n", along, shape, along)
     sinking = float((g * alpha**-0.5).sum()) * math.pi / _DIRECTIONS
@@ -118,9 +118,9 @@ def _zirconia() -> Check:
     polar, azimuth = math.pi * 12 / 29, 2 * math.pi * 33 / 59
     turn = rotation(azimuth, polar, 0.0).T
     symbol = surface_symbol(rotated(stiffness, turn))
-    found = 2 / symbol.harmonics[2, 2, symbol.order].real
+    modulus = 2 / symbol.harmonics[2, 2, symbol.order].real
     source = "Mowlavi & Kamrin (2021), Granular Matter 23, table of their code"
-    return relative("contact modulus", "monoclinic zirconia, GPa", found, 310.12638401904815, 1e-12, source)
+    return relative("contact modulus", "monoclinic zirconia, GPa", modulus, 310.12638401904815, 1e-12, source)
 
 
 def _below() -> Iterator[Check]:
@@ -132,12 +132,12 @@ def _below() -> Iterator[Check]:
     cell = GridLoad(Grid(1, 1, 0.02, 0.02, 0.0, 0.0), 8e5 * one_cell, 1e5 * one_cell, -2e5 * one_cell)
     x = 0.003 + 0.01 * np.arange(-3, 4)
     for depth in (0.0, 0.001, 0.02):
-        one, other = (
+        response, reference = (
             solve_response(cell, Pavement.half_space(material), depths=[depth], x=x, y=x).dataset
             for material in (same, upright)
         )
         names = [f"stress_{name}" for name in ("xx", "yy", "zz", "xy", "xz", "yz")]
-        apart = max(float(np.abs(one[name] - other[name]).max()) for name in names) / 8e5
+        apart = max(float(np.abs(response[name] - reference[name]).max()) for name in names) / 8e5
         what = f"largest stress apart at {depth * 1e3:g} mm, over p"
         yield absolute("stress, any anisotropy", what, apart, 0.0, 1e-9, "closed form of an upright axis")
 
@@ -146,11 +146,11 @@ def grain_checks() -> Iterator[Check]:
     """A rigid sphere on a solid whose stiff axis leans, 64 cells over 2.6 radii of the contact, and stress below."""
     curvature, load = np.eye(2) / 2, 1e6
     exact = hertz_on_grain(LEANING, curvature, load)
-    found = pressed(LEANING, curvature, load, 64, 2.6 * exact.axes[0])
+    contact = pressed(LEANING, curvature, load, 64, 2.6 * exact.axes[0])
     group = "Hertz, axis leaning 34°"
-    yield relative(group, "approach, mm", found.approach * 1e3, exact.approach * 1e3, 5e-4, _SOURCE)
-    yield relative(group, "peak pressure, MPa", found.pressure.max() / 1e6, exact.peak / 1e6, 2e-3, _SOURCE)
-    ratio, angle = axes_of(found.pressure)
+    yield relative(group, "approach, mm", contact.approach * 1e3, exact.approach * 1e3, 5e-4, _SOURCE)
+    yield relative(group, "peak pressure, MPa", contact.pressure.max() / 1e6, exact.peak / 1e6, 2e-3, _SOURCE)
+    ratio, angle = axes_of(contact.pressure)
     long, short = exact.axes
     yield relative(group, "long over short axis", ratio, long / short, 5e-4, _SOURCE)
     yield absolute(group, "angle of the long axis, °", math.degrees(angle), math.degrees(exact.angle), 0.5, _SOURCE)

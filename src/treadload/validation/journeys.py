@@ -18,8 +18,9 @@ from treadload.damage import (
     Wander,
 )
 from treadload.damage.miner import miner
+from treadload.life.design import Design
+from treadload.life.passages import solve_passages
 from treadload.pavement import Pavement
-from treadload.study.passages import solve_passages
 from treadload.tire import Tire
 from treadload.validation.check import Check, absolute, relative
 
@@ -47,17 +48,17 @@ def traffic_checks() -> Iterator[Check]:
         yield relative(group, f"{name} growth of 3 %, passes of 20 years", passes, total, 1e-12, "sum of the years")
         years = traffic.years_to(passes)
         yield relative(group, f"{name} growth of 3 %, years to them", years, 20, 1e-9, "its inverse")
-    dy, own, wander = 5e-3, 0.06, 0.12
+    dy, width, wander = 5e-3, 0.06, 0.12
     y = np.arange(-200, 201) * dy
-    spread = Wander.normal(wander).spread(np.exp(-0.5 * (y / own) ** 2), dy)
+    spread = Wander.normal(wander).spread(np.exp(-0.5 * (y / width) ** 2), dy)
     wide = (np.arange(len(spread)) - (len(spread) - 1) / 2) * dy
-    both = math.hypot(own, wander)
-    off = np.abs(spread - own / both * np.exp(-0.5 * (wide / both) ** 2)).max() * both / own
+    both = math.hypot(width, wander)
+    off = np.abs(spread - width / both * np.exp(-0.5 * (wide / both) ** 2)).max() * both / width
     # Tracks 5 mm wide widen the law by dy²/12.
     yield absolute(group, "normal damage under normal wander, error over the peak", off, 0, 1e-3, "sum of variances")
     total = float(spread.sum() * dy)
     yield relative(
-        group, "damage after wander, summed over y, m", total, own * math.sqrt(2 * math.pi), 1e-9, "none lost"
+        group, "damage after wander, summed over y, m", total, width * math.sqrt(2 * math.pi), 1e-9, "none lost"
     )
     yield from _interpolated()
 
@@ -76,8 +77,8 @@ def _parts_off() -> float:
             alone = replace(
                 traffic, classes=(replace(axle, share=1.0),), passes_per_year=1e5 * axle.share * season.share
             )
-            one = miner(values[:, k : k + 1, s : s + 1], _CRITERIA, alone, Climate.constant(15.0), y=y)
-            parts += one.dataset["damage_per_year"].to_numpy()
+            part = miner(values[:, k : k + 1, s : s + 1], _CRITERIA, alone, Climate.constant(15.0), y=y)
+            parts += part.dataset["damage_per_year"].to_numpy()
     return float(np.abs(whole - parts).max() / whole.max())
 
 
@@ -87,15 +88,15 @@ def _interpolated() -> Iterator[Check]:
     road = Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
     traffic = Traffic((AxleClass("light", 0.6, 15e3, 700e3), AxleClass("heavy", 0.4, 32.5e3, 820e3)), 1e5)
     climate = Climate.equal_parts([2.0, 5.0, 8.0, 12.0, 16.0, 20.0, 24.0, 28.0])
-    exact, few = (
-        solve_passages(tire, road, traffic, climate, _CRITERIA, spacing=12e-3, workers=1, tolerance=tolerance)
+    exact, sparse = (
+        solve_passages(Design(tire, road, traffic, climate, _CRITERIA, spacing=12e-3, tolerance=tolerance), workers=1)
         for tolerance in (0.0, _TOLERANCE)
     )
-    error = float((abs(few.readings - exact.readings).max("y") / exact.readings.max("y")).max())
+    error = float((abs(sparse.readings - exact.readings).max("y") / exact.readings.max("y")).max())
     group, source = "life over a year", "all temperatures solved"
     yield absolute(
-        group, "error on the heavy class, as the result states it", few.interpolation_error, 0, _TOLERANCE, source
+        group, "error on the heavy class, as the result states it", sparse.interpolation_error, 0, _TOLERANCE, source
     )
     # Another class than the one that chose the temperatures: twice the tolerance.
-    what = f"readings of 16 passages from {few.responses} responses, relative error"
+    what = f"readings of 16 passages from {sparse.responses} responses, relative error"
     yield absolute(group, what, error, 0, 2 * _TOLERANCE, source)

@@ -82,8 +82,8 @@ def _parted() -> Check:
     traction[1, 0] = top * width**2 / (np.sin(np.pi * x / length) ** 2 + width**2)
     traction[2] = 1e6
     stiffness = FaceStiffness((k > 0).astype(float), 0 * k, 0.7 * k * shear, 0.7 * k * shear, 0 * k, 0.5 * k * shear)
-    found = solve_parted(traction, stiffness, friction, tolerance=1e-6)
-    slid = 1e3 * length * float((found.jump[1] != 0).mean())
+    solution = solve_parted(traction, stiffness, friction, tolerance=1e-6)
+    slid = 1e3 * length * float((solution.jump[1] != 0).mean())
     exact = 2e3 * length / np.pi * np.arcsin(width * np.sqrt((top / (friction * 1e6)) ** 2 - 1))
     return absolute(
         "parted face", "width of the zone that slides, mm", slid, exact, 2e3 * length / count,
@@ -111,8 +111,8 @@ def _amadeus() -> Iterator[Check]:
                 (below, "strain_zz", 0.76, 1e6),
             )
         ]
-        pairs = [(one, text) for one, text in zip(computed, printed, strict=True) if text is not None]
-        digits = [(one - float(text)) * 10 ** len(text.partition(".")[2]) for one, text in pairs]
+        pairs = [(value, text) for value, text in zip(computed, printed, strict=True) if text is not None]
+        digits = [(value - float(text)) * 10 ** len(text.partition(".")[2]) for value, text in pairs]
         worst = max(digits, key=abs)
         what = f"{wheels}, first interface {first}: {len(pairs)} responses, worst, units of the last digit"
         # Half a unit: as rounded. At the edge of the disc 0.35 is printed.
@@ -165,11 +165,11 @@ def _fields(data: xr.Dataset, names: Sequence[str]) -> Array:
     return np.stack([data[name].to_numpy() for name in names])
 
 
-def _off(one: xr.Dataset, other: xr.Dataset) -> float:
+def _off(data: xr.Dataset, reference: xr.Dataset) -> float:
     """Largest difference over the largest value of the kind at the depth, of stress, strain and displacement."""
     worst = 0.0
     for names in (_STRESS, _STRAIN, _MOVED):
-        a, b = _fields(one, names), _fields(other, names)
+        a, b = _fields(data, names), _fields(reference, names)
         worst = max(worst, float((np.abs(a - b).max(axis=(0, 2, 3)) / np.abs(b).max(axis=(0, 2, 3))).max()))
     return worst
 
@@ -194,8 +194,8 @@ def _footprint() -> Iterator[Check]:
     even = np.full(cells.shape, 8e5)
     points: dict[str, Any] = {"depths": [0.0, 0.06, 0.21], "x": [-0.1485, 0.0015, 0.0525], "y": [0.0015, 0.1005]}
     by_cells = solve_response(GridLoad(cells, even, 0.3 * even, -0.1 * even), road, **points).dataset
-    one = UniformRectangle(0.3, 0.24, 8e5, traction_x=2.4e5, traction_y=-8e4)
-    whole = solve_response(one, road, **points).dataset
+    rectangle = UniformRectangle(0.3, 0.24, 8e5, traction_x=2.4e5, traction_y=-8e4)
+    whole = solve_response(rectangle, road, **points).dataset
     group = "footprint, 100 x 80 cells of 3 mm"
     yield absolute(
         group, "uniform, error over the largest value", _off(by_cells, whole), 0, 1e-8, "one rectangle, cell by cell"

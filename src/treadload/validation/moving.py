@@ -57,8 +57,10 @@ def _limits() -> Iterator[Check]:
         fixed = solve_response(load, _road(limit), **points).dataset
         worst = 0.0
         for names in _KINDS:
-            one, other = (np.stack([data[name].to_numpy() for name in names]) for data in (moved, fixed))
-            worst = max(worst, float((np.abs(one - other).max((0, 2, 3)) / np.abs(other).max((0, 2, 3))).max()))
+            values, reference = (np.stack([data[name].to_numpy() for name in names]) for data in (moved, fixed))
+            worst = max(
+                worst, float((np.abs(values - reference).max((0, 2, 3)) / np.abs(reference).max((0, 2, 3))).max())
+            )
         what = f"{words}: 15 fields at 4 depths, error over the largest value"
         yield absolute("limits of speed", what, worst, 0, 1e-6, "elastic layers at that limit")
 
@@ -73,10 +75,10 @@ def _energy() -> Iterator[Check]:
     stress, strain = (np.stack([data[name].to_numpy()[:, 0] for name in names]) for names in _KINDS[:2])
     work = _work(stress, strain, x)
     dissipated = data["dissipated_energy"].to_numpy()[:, 0]
-    for depth, one, other in zip((70,), dissipated, work, strict=True):
+    for depth, value, reference in zip((70,), dissipated, work, strict=True):
         what = f"{depth} mm deep, 10 m/s, J/m³"
         # Differences and the trapezoidal rule on 161 points.
-        yield relative("energy of a passage", what, one, other, 5e-3, "∮ σ dε along the path")
+        yield relative("energy of a passage", what, value, reference, 5e-3, "∮ σ dε along the path")
     points: dict[str, Any] = {"depths": [0.07], "x": [0.0], "y": np.linspace(-0.3, 0.3, 7)}
     least = min(
         float(solve_response(load, road, speed=speed, **points).dataset["dissipated_energy"].min())

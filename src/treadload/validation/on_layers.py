@@ -99,14 +99,14 @@ def _sphere(road: Pavement, tire: Elastic, compliance: Literal["half_space", "la
 
 def _near_equal() -> Iterator[Check]:
     """Three layers that differ by 1e-13, solved as layers."""
-    asphalt, other = Elastic(5.4e9, 0.35), Elastic(5.4e9 * (1 + 1e-13), 0.35)
-    near = Pavement([Layer(asphalt, 0.06), Layer(other, 0.15), Layer(asphalt)])
+    asphalt, nearly_equal = Elastic(5.4e9, 0.35), Elastic(5.4e9 * (1 + 1e-13), 0.35)
+    near = Pavement([Layer(asphalt, 0.06), Layer(nearly_equal, 0.15), Layer(asphalt)])
     steel = Elastic(210e9, 0.3)
     layered = _sphere(near, steel, "layers").dataset
     plain = _sphere(Pavement.half_space(asphalt), steel, "half_space").dataset
     for name in ("pressure", "traction_x", "displacement_z"):
-        one, exact = layered[name].to_numpy(), plain[name].to_numpy()
-        worst = float(np.abs(one - exact).max() / np.abs(exact).max())
+        values, exact = layered[name].to_numpy(), plain[name].to_numpy()
+        worst = float(np.abs(values - exact).max() / np.abs(exact).max())
         what = f"{name}, error over the largest value"
         yield absolute("contact on three near-equal layers", what, worst, 0, 1e-8, "contact on the half-space")
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from treadload.damage.laws.french import risk_factor
-from treadload.study.reliability.propagation import Quadratic, drawn, first_order
+from treadload.life.reliability.propagation import Quadratic, drawn, first_order
 from treadload.validation.check import Check, relative
 
 # Risk; slope b; SN; Sh, m: a base course, a thin course, a treated gravel.
@@ -34,5 +34,5 @@ def reliability_checks() -> Iterator[Check]:
             ("10⁵ draws", float(draws), 0.01),
             ("the first order", first_order(surface, _RISK)[0], 1e-9),
         ):
-            found = math.exp(slope * logarithm)
-            yield relative(group, f"{name}, risk 5 %: k_r by {how}", found, reference, bound, source)
+            factor = math.exp(slope * logarithm)
+            yield relative(group, f"{name}, risk 5 %: k_r by {how}", factor, reference, bound, source)

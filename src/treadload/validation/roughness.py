@@ -25,15 +25,15 @@ def texture_checks() -> Iterator[Check]:
     ridges = Texture(_HEIGHT * cosine, _WAVE / 512, _WAVE / 512, periodic=True)
     full = math.pi * _STAR * _HEIGHT / _WAVE
     shares = np.array([0.1, 0.5])
-    found = solve_texture(ridges, _RUBBER, shares * full, tolerance=1e-6).dataset
+    data = solve_texture(ridges, _RUBBER, shares * full, tolerance=1e-6).dataset
     for row, share in enumerate(shares):
         yield relative(
             group, f"ridges, 512 cells, {share:g} of the load that fills them: area",
-            float(found.real_area_ratio[row]), float(sine_area(share * full, _STAR, _HEIGHT, _WAVE)), 1e-2,
+            float(data.real_area_ratio[row]), float(sine_area(share * full, _STAR, _HEIGHT, _WAVE)), 1e-2,
             "Westergaard (1939), J. Appl. Mech. 6, 49",
         )  # fmt: skip
         yield relative(
-            group, f"ridges, 512 cells, {share:g} of that load: peak pressure", float(found.peak_pressure[row]),
+            group, f"ridges, 512 cells, {share:g} of that load: peak pressure", float(data.peak_pressure[row]),
             2 * math.sqrt(share) * full, 1e-3, "Westergaard (1939), J. Appl. Mech. 6, 49",
         )  # fmt: skip
     wave = cosine[::4]

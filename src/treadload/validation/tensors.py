@@ -50,8 +50,10 @@ _SOURCE = "formulas of Lytton, Mazars, Sousa and Kunst, worked outside the packa
 
 def _quantities(stress: Array) -> dict[str, Array]:
     strain = tensors.strain_from_stress(stress, _MODULUS, _POISSON)
-    told = {name: one for name, one in known_quantities().items() if set(one.needs) <= {*STRESS, *STRAIN}}
-    return {name: np.asarray(one.of(stress, strain)) for name, one in told.items()}
+    quantities = {
+        name: quantity for name, quantity in known_quantities().items() if set(quantity.needs) <= {*STRESS, *STRAIN}
+    }
+    return {name: np.asarray(quantity.of(stress, strain)) for name, quantity in quantities.items()}
 
 
 def criteria_checks() -> Iterator[Check]:

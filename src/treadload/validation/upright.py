@@ -30,10 +30,10 @@ def upright_checks() -> Iterator[Check]:
     """The surface, the inside and layers of transversely isotropic roads."""
     for name, material in (("asphalt", _ASPHALT), ("stone", _STONE)):
         body = UprightHalfSpace.of(stack_of(Pavement.half_space(material)))
-        known = 2 / float(surface_symbol(material.stiffness)(np.zeros(1))[0, 2, 2].real)
+        modulus = 2 / float(surface_symbol(material.stiffness)(np.zeros(1))[0, 2, 2].real)
         what = f"{name}: contact modulus, MPa"
         source = "Barnett & Lothe's averages; closed form of Turner (1980)"
-        yield relative(_GROUP, what, body.contact_modulus / 1e6, known / 1e6, 1e-12, source)
+        yield relative(_GROUP, what, body.contact_modulus / 1e6, modulus / 1e6, 1e-12, source)
         yield absolute(_GROUP, f"{name}: stress of a cell, error over the load", _inside(material), 0, 1e-9,
                        "integral over directions")  # fmt: skip
         equal = _apart(_solved([(material, 0.06), (material, 0.1), (material, None)], Bond(1e25)),
@@ -55,10 +55,10 @@ def _inside(material: TransverselyIsotropic) -> float:
     load, cell = np.eye(3)[:, :, None, None], (0.03, 0.02)
     depths, modes = np.array([0.0, 0.012, 0.04]), Modes.of(material.stiffness)
     worst = 0.0
-    for one in load.swapaxes(0, 1):
-        found = fields_on_grid(one, *cell, depths, plane_of(material)[0], medium_of(material), x, y)[0]
-        expected = by_directions(one, *cell, depths, 1.0, modes, x, y)[0]
-        worst = max(worst, float(np.abs(found - expected).max()))
+    for loads in load.swapaxes(0, 1):
+        fields = fields_on_grid(loads, *cell, depths, plane_of(material)[0], medium_of(material), x, y)[0]
+        expected = by_directions(loads, *cell, depths, 1.0, modes, x, y)[0]
+        worst = max(worst, float(np.abs(fields - expected).max()))
     return worst
 
 
@@ -70,7 +70,7 @@ def _split(material: Elastic) -> TransverselyIsotropic:
 def _solved(layers: Sequence[tuple[Solid, float | None]], bond: Bond = BONDED) -> Response:
     """Under pressure and shear on a few cells; a stiff bond keeps equal layers apart."""
     *upper, last = layers
-    road = Pavement([*(Layer(one, thickness, bond=bond) for one, thickness in upper), Layer(last[0])])
+    road = Pavement([*(Layer(material, thickness, bond=bond) for material, thickness in upper), Layer(last[0])])
     grid = Grid.centred(0.1, 0.08, 0.02)
     pressed, along, across = np.random.default_rng(7).random((3, *grid.shape)) * 1e6
     load = GridLoad(grid, pressed, along - 5e5, across - 5e5)
@@ -78,11 +78,13 @@ def _solved(layers: Sequence[tuple[Solid, float | None]], bond: Bond = BONDED) -
     return solve_response(load, road, depths=[0.0, 0.02, 0.07, 0.3], x=x, y=y)
 
 
-def _apart(one: Response, other: Response) -> float:
+def _apart(response: Response, reference: Response) -> float:
     """Largest difference of stress, strain and displacement, over the largest of its kind."""
     worst = 0.0
     for kind in ("stress_", "strain_", "displacement_"):
-        names = [name for name in other.dataset if str(name).startswith(kind)]
-        found, exact = (np.stack([solved.dataset[name].to_numpy() for name in names]) for solved in (one, other))
-        worst = max(worst, float(np.abs(found - exact).max() / np.abs(exact).max()))
+        names = [name for name in reference.dataset if str(name).startswith(kind)]
+        values, exact = (
+            np.stack([solved.dataset[name].to_numpy() for name in names]) for solved in (response, reference)
+        )
+        worst = max(worst, float(np.abs(values - exact).max() / np.abs(exact).max()))
     return worst

@@ -72,8 +72,8 @@ def _first_yield() -> Check:
 
     exact = 1 / -float(minimize_scalar(along_axis, bounds=(0.2, 1.0), method="bounded").fun)
     road = Pavement.half_space(ElastoPlastic(_ELASTIC, VonMises(1e6)))
-    found = roll_passes(_sphere(), road, passes=1, spacing=0.05).dataset.attrs["elastic_load_factor"]
-    return relative("rolling sphere", "peak pressure over yield stress at first yield", found, exact, 0.01, "Hertz")
+    factor = roll_passes(_sphere(), road, passes=1, spacing=0.05).dataset.attrs["elastic_load_factor"]
+    return relative("rolling sphere", "peak pressure over yield stress at first yield", factor, exact, 0.01, "Hertz")
 
 
 def _pressed() -> Iterator[Check]:
@@ -89,11 +89,11 @@ def _pressed() -> Iterator[Check]:
     ball = Tire.from_height_map(
         (across[None] ** 2 + across[:, None] ** 2) / (2 * radius), cell, material=Elastic(1e9, 0.3)
     )
-    done = solve_indentation(ball, road, [one * load for one in times], depth=2 * size, layers=10).dataset
-    for one, deep in zip(times, done["approach"].to_numpy() / first, strict=True):
+    done = solve_indentation(ball, road, [share * load for share in times], depth=2 * size, layers=10).dataset
+    for share, deep in zip(times, done["approach"].to_numpy() / first, strict=True):
         # Their fits of finite elements are good to 2 or 3 %.
-        what = f"load over that of first yield at the depth found under {one:g}"
-        yield relative("indentation", what, one, 1.03 * deep**1.425, 0.04, source)
+        what = f"load over that of first yield at the depth found under {share:g}"
+        yield relative("indentation", what, share, 1.03 * deep**1.425, 0.04, source)
 
 
 def _drum() -> Iterator[Check]:

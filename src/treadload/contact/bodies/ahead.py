@@ -14,6 +14,7 @@ import numpy as np
 from treadload.contact.bodies.influence import Influence
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.complementarity.coulomb import four
+from treadload.kernels.gridding.strips import Strips
 
 
 @dataclass(frozen=True)
@@ -38,21 +39,36 @@ class Ahead:
         spectra = np.stack([xx * x + xy * y, yx * x + yy * y])
         if pressure is not None and self.influence.coupled:
             spectra += self._coupling[1] * padding.forward(pressure)
-        return padding.inverse(spectra)
+        moved = padding.inverse(spectra)
+        if self._strips is not None:
+            moved += self._strips.displacement(shear, (0, 1), (0, 1), shear.shape[2])
+            if pressure is not None:
+                moved += self._strips.displacement(pressure[None], (2,), (0, 1), shear.shape[2])
+        return moved
 
     def by_pressure(self, pressure: Array) -> Array:
         """Displacement (2, ny, nx), m, by pressure (ny, nx), Pa, alone: zero for like bodies."""
         if not self.influence.coupled:
             return np.zeros((2, *pressure.shape))
         padding = self.influence.padding
-        return padding.inverse(self._coupling[1] * padding.forward(pressure))
+        moved = padding.inverse(self._coupling[1] * padding.forward(pressure))
+        if self._strips is not None:
+            moved += self._strips.displacement(pressure[None], (2,), (0, 1), pressure.shape[1])
+        return moved
 
     def gap(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear on body 1 (2, ny, nx), Pa: zero for like bodies."""
         if not self.influence.coupled:
             return np.zeros(shear.shape[1:])
         padding = self.influence.padding
-        return padding.inverse((self._coupling[0] * padding.forward(shear)).sum(0))
+        opening = padding.inverse((self._coupling[0] * padding.forward(shear)).sum(0))
+        if self._strips is not None:
+            opening += self._strips.displacement(shear, (0, 1), (2,), shear.shape[2])[0]
+        return opening
+
+    @cached_property
+    def _strips(self) -> Strips | None:
+        return self.influence.strips_ahead(self.distance)
 
     @cached_property
     def _tangential(self) -> ComplexArray:

@@ -13,7 +13,9 @@ import numpy as np
 from treadload.contact.bodies.body import Body, Offsets, Sum, Waves
 from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.layers import Layering, images_of
+from treadload.contact.bodies.ribs import Ribs
 from treadload.contact.bodies.viscoelastic import of_material
+from treadload.errors import InputError
 from treadload.kernels import belt as belting
 from treadload.kernels.arrays import Array
 from treadload.kernels.belt import Sheet
@@ -104,7 +106,16 @@ def belt_surface(inflated: InflatedBelt, speed: float | None = None) -> Body:
         stack = Stack([material.shear_modulus], [material.poisson], [belt.tread_thickness], [], rigid=True)
         return Sum.of(HalfSpaces.of(material, None), Layering(images_of(stack), is_tire=True))
 
-    parts = [of_material(belt.tread, tread, is_tire=True, speed=speed), BeltSheet(inflated.sheet)]
+    if inflated.ribs:
+        if not isinstance(belt.tread, Elastic):
+            raise InputError(
+                "ribs are of elastic rubber, got a viscoelastic tread of the belt; give its limit, tread.glassy or "
+                'tread.rubbery, or tread = "layer"'
+            )
+        rubber: Body = Ribs(inflated.ribs, belt.tread, tread(belt.tread))
+    else:
+        rubber = of_material(belt.tread, tread, is_tire=True, speed=speed)
+    parts = [rubber, BeltSheet(inflated.sheet)]
     if belt.lateral is not None:
         parts.append(BeltString(belt.lateral))
     return Sum.of(*parts)

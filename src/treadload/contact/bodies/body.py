@@ -32,7 +32,8 @@ from typing import Any
 import numpy as np
 
 from treadload.kernels import fft
-from treadload.kernels.arrays import Array, ComplexArray
+from treadload.kernels.arrays import Array, ComplexArray, IntArray
+from treadload.kernels.sections import CellTable
 
 
 @dataclass(frozen=True)
@@ -101,6 +102,48 @@ class Waves:
         return 2 * np.pi * fft.rfftfreq(nx, self.dx)[None, :], 2 * np.pi * fft.fftfreq(ny, self.dy)[:, None]
 
 
+@dataclass(frozen=True)
+class Rows:
+    """Rows of cells across travel. count: how many. dy: m. first: middle of the first, m to the right."""
+
+    count: int
+    dy: float
+    first: float
+
+    @property
+    def y(self) -> Array:
+        """(count,) middles of the rows, m."""
+        return self.first + self.dy * np.arange(self.count)
+
+
+@dataclass(frozen=True, eq=False)
+class Strip:
+    """A group of rows of a body that is the same along travel only.
+
+    rows: numbers (n,) of the rows of the group. table: compliance of its rows for E = 1 Pa. modulus: E, Pa.
+    mirrored: True where the table is that of the image in y = 0.
+    """
+
+    rows: IntArray
+    table: CellTable
+    modulus: float
+    mirrored: bool = False
+
+    def block(self, cells: int, dx: float, ahead: float = 0.0) -> Array | ComplexArray:
+        """As in `kernels.gridding.strips.Strips`: waves of cells of dx, m, that repeat after so many.
+
+        ahead: distance of the displacement from the cells, m.
+        """
+        block = self.table.on_lattice(cells, dx, ahead) / self.modulus
+        if not self.mirrored:
+            return block
+        count = self.rows.size
+        parts = block.reshape(-1, 3, count, 3, count)[:, :, ::-1, :, ::-1].copy()
+        parts[:, 1] *= -1
+        parts[:, :, :, 1] *= -1
+        return parts.reshape(block.shape)
+
+
 class Body(ABC):
     """A surface, or the two of a pair. Displacements as in `contact.bodies.body`, m/Pa, per unit load on a cell."""
 
@@ -161,6 +204,18 @@ class Body(ABC):
         normal, coupling = self.across(k)
         return np.array([normal, -1j * math.cos(angle) * coupling, -1j * math.sin(angle) * coupling])
 
+    @property
+    def striped(self) -> bool:
+        """True if it has strips."""
+        return False
+
+    def strips(self, rows: Rows) -> tuple[Strip, ...]:
+        """What the surface gives besides, where it is the same along travel only: groups of rows, none in two.
+
+        Rows of a body with strips that are in none of them have no material.
+        """
+        return ()
+
     def check_shear(self) -> None:  # noqa: B027
         """Refuse shear on a surface that drifts under it without limit. Raises InputError."""
 
@@ -169,7 +224,7 @@ class Body(ABC):
         """What was approximated, for the statistics of a contact."""
         return {}
 
-    def joined(self, other: Body) -> Body | None:
+    def joined(self, body: Body) -> Body | None:
         """This body and another as one of the same kind, or None."""
         return None
 
@@ -186,8 +241,8 @@ class Sum(Body):
         parts: list[Body] = []
         for body in bodies:
             for part in body.parts if isinstance(body, Sum) else (body,):
-                for number, known in enumerate(parts):
-                    joined = known.joined(part)
+                for number, present in enumerate(parts):
+                    joined = present.joined(part)
                     if joined is not None:
                         parts[number] = joined
                         break
@@ -241,6 +296,15 @@ class Sum(Body):
     def towards(self, k: Array, angle: float) -> ComplexArray:
         """Added up."""
         return np.asarray(sum(part.towards(k, angle) for part in self.parts))
+
+    @property
+    def striped(self) -> bool:
+        """As any of them is."""
+        return any(part.striped for part in self.parts)
+
+    def strips(self, rows: Rows) -> tuple[Strip, ...]:
+        """Of all of them."""
+        return tuple(strip for part in self.parts for strip in part.strips(rows))
 
     def check_shear(self) -> None:
         """Refused by any of them."""

@@ -60,19 +60,19 @@ class HalfSpaces(Body):
         parts = np.array([1 - self.elasticity.poisson, self.elasticity.difference])
         return np.multiply.outer(2 / self.elasticity.shear_modulus * parts, np.ones_like(k))
 
-    def joined(self, other: Body) -> HalfSpaces | None:
+    def joined(self, body: Body) -> HalfSpaces | None:
         """With other half-spaces: their compliances add up."""
-        if not isinstance(other, HalfSpaces):
+        if not isinstance(body, HalfSpaces):
             return None
-        one, two = self.elasticity, other.elasticity
+        first, two = self.elasticity, body.elasticity
         # 2/G, 2ν/G and 4K/G are sums over the bodies, see `CombinedElasticity`.
-        shear = 1 / (1 / one.shear_modulus + 1 / two.shear_modulus)
-        poisson = shear * (one.poisson / one.shear_modulus + two.poisson / two.shear_modulus)
-        difference = shear * (one.difference / one.shear_modulus + two.difference / two.shear_modulus)
+        shear = 1 / (1 / first.shear_modulus + 1 / two.shear_modulus)
+        poisson = shear * (first.poisson / first.shear_modulus + two.poisson / two.shear_modulus)
+        difference = shear * (first.difference / first.shear_modulus + two.difference / two.shear_modulus)
         return HalfSpaces(CombinedElasticity(shear, poisson, difference))
 
 
 def combined(tire: Elastic | None, road: Elastic | None) -> CombinedElasticity:
     """The elasticity of two half-spaces seen as one; None is rigid."""
-    one, other = (RIGID if side is None else (side.shear_modulus, side.poisson) for side in (tire, road))
-    return CombinedElasticity.of(*one, *other)
+    tire_side, road_side = (RIGID if side is None else (side.shear_modulus, side.poisson) for side in (tire, road))
+    return CombinedElasticity.of(*tire_side, *road_side)

@@ -4,28 +4,39 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import DTypeLike
 
-from treadload.contact.bodies.body import Body, Offsets, Waves
+from treadload.contact.bodies.body import Body, Offsets, Rows, Strip, Waves
+from treadload.errors import InputError
 from treadload.kernels import fft
-from treadload.kernels.arrays import Array, ComplexArray
+from treadload.kernels.arrays import Array, BoolArray, ComplexArray
 from treadload.kernels.complementarity.coulomb import four
 from treadload.kernels.gridding.convolution import Convolution, Padding
+from treadload.kernels.gridding.strips import StripInverse, Strips
 
 # Waves that a patch holds, at which the coupling of pressure and shear is looked at.
 _WAVES, _DIRECTIONS = 64, 48
 # Of like bodies whose couplings cancel, relative.
 _ROUND_OFF = 1e-12
+# Operators on up to so many cells are kept for the next contact: 16 to 300 bytes a cell each, at most so many.
+_KEPT_CELLS, _KEPT = 25_000, 12
+
+Symbols = Array | ComplexArray
+Product = Callable[[Array], Array]
+_NO_STRIPS = (
+    'this problem needs a surface that is the same everywhere, and a tread with ribs is not; give tread = "layer"'
+)
 
 
 @dataclass(frozen=True)
 class Influence:
     """Influence operators of two bodies on a piece of (ny, nx) cells of dx by dy, m.
 
-    pair: both bodies, a `contact.bodies.body.Sum` or half-spaces seen as one. Operators are built when first asked
+    pair: both bodies, a `contact.bodies.body.Sum` or half-spaces seen as one. first_y: middle of the first row, m to
+    the right; where it is not known, None, a pair with strips is refused. Operators are built when first asked
     for and kept. Signs as in `contact.bodies.body`: q acts on body 1.
     """
 
@@ -33,6 +44,7 @@ class Influence:
     dx: float
     dy: float
     pair: Body
+    first_y: float | None = None
 
     @cached_property
     def padding(self) -> Padding:
@@ -55,11 +67,82 @@ class Influence:
         return self.pair.mirrored
 
     @cached_property
+    def _strips(self) -> tuple[Strip, ...]:
+        """Groups of rows that are the same along travel only."""
+        if not self.pair.striped:
+            return ()
+        if self.first_y is None:
+            raise InputError(_NO_STRIPS)
+        return self.pair.strips(Rows(self.shape[0], self.dy, self.first_y))
+
+    def strips(self, padding: Padding) -> Strips | None:
+        """The operators of these rows in the length of a padded space; None of a pair that has none."""
+        return self._strips_of(padding.shape[1])
+
+    def strips_ahead(self, distance: float) -> Strips | None:
+        """`strips` in `padding` with the displacement at a distance ahead of the cells along x, m."""
+        if distance == 0 or not self._strips:
+            return self.strips(self.padding)
+        length = self.padding.shape[1]
+        blocks = tuple(strip.block(length, self.dx, distance) for strip in self._strips)
+        return Strips(tuple(strip.rows for strip in self._strips), blocks, length)
+
+    @property
+    def material(self) -> BoolArray:
+        """(ny,) rows that have material: all of a pair without strips."""
+        if not self._strips:
+            return np.ones(self.shape[0], bool)
+        rows = np.zeros(self.shape[0], bool)
+        for strip in self._strips:
+            rows[strip.rows] = True
+        return rows
+
+    def _strips_of(self, length: int) -> Strips | None:
+        if not self._strips:
+            return None
+        if length not in self._lengths:
+            blocks = tuple(strip.block(length, self.dx) for strip in self._strips)
+            self._lengths[length] = Strips(tuple(strip.rows for strip in self._strips), blocks, length)
+        return self._lengths[length]
+
+    @cached_property
+    def _lengths(self) -> dict[int, Strips]:
+        return {}
+
+    def strip_inverse(self, components: tuple[int, ...]) -> StripInverse | None:
+        """About the inverse of the operators among some components, 0 and 1 of shear, 2 normal; None without strips.
+
+        Exact on rows that repeat along travel, for loads on all of their cells.
+        """
+        if not self._strips:
+            return None
+        if components not in self._inverses:
+            self._inverses[components] = self._inverse_of(components)
+        return self._inverses[components]
+
+    @cached_property
+    def _inverses(self) -> dict[tuple[int, ...], StripInverse]:
+        return {}
+
+    def _inverse_of(self, components: tuple[int, ...]) -> StripInverse:
+        length = int(fft.next_fast_len(self.shape[1], real=True))
+        strips = self._strips_of(length)
+        assert strips is not None
+        at = Offsets(self.shape[0], length // 2 + 1, self.dx, self.dy)
+        if components == (2,):
+            return StripInverse.of(strips, components, {(2, 2): self.pair.normal(at)})
+        xx, yy, xy = self.pair.tangential(at)
+        return StripInverse.of(strips, components, {(0, 0): xx, (1, 1): yy, (0, 1): xy})
+
+    @cached_property
     def dundurs(self) -> float:
         """Dundurs' β: coupling over normal compliance, the largest of the waves that the patch holds.
 
-        The size alone, where it differs with the direction of a turned grain.
+        The size alone, where it differs with the direction of a turned grain. Of strips the largest share of a load
+        that couples, in the mean over a uniform one.
         """
+        if self._strips:
+            return max(_coupling_of(strip) for strip in self._strips)
         longest = np.pi / np.hypot(self.shape[0] * self.dy, self.shape[1] * self.dx)
         waves = np.geomspace(longest, np.pi / min(self.dx, self.dy), _WAVES)
         if not self.mirrored:
@@ -76,8 +159,23 @@ class Influence:
         return self.dundurs != 0
 
     @cached_property
-    def normal(self) -> Convolution:
+    def normal(self) -> Product:
         """Gap opening by pressure, m/Pa."""
+        strips = self.strips(self.padding)
+        if strips is None:
+            return self.convolved_normal
+        columns = self.shape[1]
+
+        def both(pressure: Array) -> Array:
+            opening: Array = strips.displacement(pressure[None], (2,), (2,), columns)[0]
+            opening += self.convolved_normal(pressure)
+            return opening
+
+        return both
+
+    @cached_property
+    def convolved_normal(self) -> Convolution:
+        """The part of `normal` that is the same everywhere: all of it, but of a pair with strips."""
         if self.symmetric and self.mirrored:
             return Convolution(self.padding, self.padding.even_spectrum(self._normal_quadrant))
         return Convolution(
@@ -103,20 +201,29 @@ class Influence:
     @property
     def normal_self_influence(self) -> float:
         """Gap opening of a cell by a unit pressure on itself, m/Pa."""
-        return float(self.pair.normal(Offsets(1, 1, self.dx, self.dy))[0, 0])
+        strips = self.strips(self.padding)
+        alone = 0.0 if strips is None else float(strips.alone(2, 1)[0])
+        return float(self.pair.normal(Offsets(1, 1, self.dx, self.dy))[0, 0]) + alone
 
-    def tangential(self, padding: Padding) -> Array | ComplexArray:
+    def tangential(self, padding: Padding) -> Symbols:
         """Symbols (3, my, mx // 2 + 1) of the displacement difference by shear, m/Pa: xx, yy, xy.
 
         Real for symmetric operators. Of a pair that is not mirrored (4, …), with u_y by q_x as the fourth.
         Raises InputError where a body drifts under shear.
         """
-        symbols = self._spectra(padding, self.pair.tangential, ((1, 1), (1, 1), (-1, -1)))
-        return symbols if self.mirrored else self._leaning(symbols, self._tilted(padding)[0])
+
+        def computed() -> tuple[Symbols, ...]:
+            symbols = self._spectra(padding, self.pair.tangential, ((1, 1), (1, 1), (-1, -1)))
+            return (symbols if self.mirrored else self._leaning(symbols, self._tilted(padding)[0]),)
+
+        return self._once("tangential", padding, computed)[0]
 
     def self_influence(self, *, rolls: bool) -> float:
         """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
         xx = self.pair.tangential(Offsets(1, 2, self.dx, self.dy))[0, 0]
+        strips = self.strips(self.padding)
+        if strips is not None:
+            xx = xx + strips.alone(0, 2)
         return float(xx[0] - xx[1]) if rolls else float(xx[0])
 
     @cached_property
@@ -133,12 +240,19 @@ class Influence:
     def gap_by_shear(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear (2, ny, nx) on body 1, Pa: zero for like bodies."""
         spectra = self.padding.forward(shear)
-        return self.padding.inverse((self._coupling(self.padding)[0] * spectra).sum(0))
+        opening = self.padding.inverse((self._coupling(self.padding)[0] * spectra).sum(0))
+        strips = self.strips(self.padding)
+        if strips is not None:
+            opening += strips.displacement(shear, (0, 1), (2,), self.shape[1])[0]
+        return opening
 
     def slip_by_pressure(self, pressure: Array) -> Array:
         """u(x) - u(x + dx) (2, ny, nx), m, by pressure (ny, nx), Pa: zero for like bodies."""
         padding = self.rolling_padding
         u = padding.inverse(self._coupling(padding)[1] * padding.forward(pressure))
+        strips = self.strips(padding)
+        if strips is not None:
+            u += strips.displacement(pressure[None], (2,), (0, 1), self.shape[1] + 1)
         return u[..., :-1] - u[..., 1:]
 
     def displacement(self, pressure: Array, shear: Array) -> Array:
@@ -148,12 +262,17 @@ class Influence:
         """
         p = self.padding.forward(pressure)
         (k_x, k_y), (by_x, by_y) = self._coupling(self.padding)
-        spectra = np.array([by_x * p, by_y * p, self.normal.spectrum * p])
+        spectra = np.array([by_x * p, by_y * p, self.convolved_normal.spectrum * p])
         if shear.any():
             x, y = self.padding.forward(shear)
             xx, yy, xy, yx = four(self.tangential(self.padding))
             spectra += np.array([xx * x + xy * y, yx * x + yy * y, k_x * x + k_y * y])
-        return self.padding.inverse(spectra)
+        moved = self.padding.inverse(spectra)
+        strips = self.strips(self.padding)
+        if strips is not None:
+            loads = np.concatenate([shear, pressure[None]])
+            moved += strips.displacement(loads, (0, 1, 2), (0, 1, 2), self.shape[1])
+        return moved
 
     def tangential_ahead(self, distance: float) -> ComplexArray:
         """`tangential` at a distance ahead of the cells along x, m, in `padding`."""
@@ -188,13 +307,29 @@ class Influence:
     def _compliance(self) -> Array | ComplexArray:
         return self.pair.compliance(self._waves)
 
-    def _coupling(self, padding: Padding) -> tuple[Array | ComplexArray, Array | ComplexArray]:
+    def _coupling(self, padding: Padding) -> tuple[Symbols, ...]:
         """Symbols (2, my, mx // 2 + 1) of u_n by q and of u by p, m/Pa."""
-        k = self._spectra(padding, self.pair.coupling, ((-1, 1), (1, -1)))
-        if self.mirrored:
-            return k, -k
-        e = self._tilted(padding)[1:]
-        return k + e, e - k
+
+        def computed() -> tuple[Symbols, ...]:
+            k = self._spectra(padding, self.pair.coupling, ((-1, 1), (1, -1)))
+            if self.mirrored:
+                return k, -k
+            e = self._tilted(padding)[1:]
+            return k + e, e - k
+
+        return self._once("coupling", padding, computed)
+
+    def _once(self, name: str, padding: Padding, compute: Callable[[], tuple[Symbols, ...]]) -> tuple[Symbols, ...]:
+        """Symbols in a padded space, computed once on few cells; on many they would fill the memory."""
+        if self.shape[0] * self.shape[1] > _KEPT_CELLS:
+            return compute()
+        if (name, padding) not in self._symbols:
+            self._symbols[name, padding] = compute()
+        return self._symbols[name, padding]
+
+    @cached_property
+    def _symbols(self) -> dict[tuple[str, Padding], tuple[Symbols, ...]]:
+        return {}
 
     def _tilted(self, padding: Padding) -> Array | ComplexArray:
         """Symbols (3, my, mx // 2 + 1) of a, e_x, e_y, m/Pa."""
@@ -218,7 +353,7 @@ class Influence:
             whole = padding.spectrum(self._everywhere(padding, kernels, 0.0))
             # Half way round, where plus and minus meet, no pair of cells is: the parity holds there, too.
             return np.array(
-                [one.real if x == y else 1j * one.imag for one, (x, y) in zip(whole, parities, strict=True)]
+                [term.real if x == y else 1j * term.imag for term, (x, y) in zip(whole, parities, strict=True)]
             )
         quadrants = kernels(Offsets(*padding.quadrant, self.dx, self.dy))
         if all(along_x == along_y for along_x, along_y in parities):
@@ -253,3 +388,32 @@ class Influence:
         behind_y, behind_x = (m - 1 - m // 2 for m in padding.shape)
         at = Offsets(*padding.shape, self.dx, self.dy, distance - behind_x * self.dx, -behind_y * self.dy)
         return np.roll(kernels(at), (-behind_y, -behind_x), axis=(-2, -1))
+
+
+def _coupling_of(strip: Strip) -> float:
+    """Largest singular value of C_nn^-½ C_nt C_tt^-½ of a group of rows under loads that do not vary along x."""
+    table, split = strip.table.compliance[0], 2 * strip.rows.size
+    shear, normal = np.linalg.cholesky(table[:split, :split]), np.linalg.cholesky(table[split:, split:])
+    coupling = np.linalg.solve(shear, np.linalg.solve(normal, table[split:, :split]).T)
+    return float(np.linalg.norm(coupling, 2))
+
+
+def operators(shape: tuple[int, int], dx: float, dy: float, pair: Body, first_y: float | None = None) -> Influence:
+    """`Influence` of the same arguments. On few cells that of an earlier contact serves, with what it has computed.
+
+    The same tire on a grid offset, under another load or with other friction has the same operators.
+    """
+    try:
+        hash(pair)
+    except TypeError:
+        return Influence(shape, dx, dy, pair, first_y)
+    is_small = shape[0] * shape[1] <= _KEPT_CELLS
+    return (_kept if is_small else Influence)(shape, dx, dy, pair, first_y)
+
+
+_kept = lru_cache(maxsize=_KEPT)(Influence)
+
+
+def forget_operators() -> None:
+    """Drop the operators that `operators` keeps, as before the first contact: for measurements of time and memory."""
+    _kept.cache_clear()

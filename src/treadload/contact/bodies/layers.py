@@ -64,7 +64,7 @@ class Layering(Body):
 
     def check_shear(self) -> None:
         """Refuse shear above a frictionless interface. Raises InputError."""
-        if not self.images.held:
+        if not self.images.bonded:
             raise InputError(
                 "a frictionless interface lets the layers above it drift under shear without limit: their compliance "
                 "has no bound; give the bond a stiffness, such as Bond(stiffness=1e8), or the contact friction = 0"

@@ -127,19 +127,19 @@ class FlashHeating(FrictionLaw):
         flux, temperature, share = np.zeros_like(power), np.zeros_like(power), np.ones_like(power)
         for column in reversed(range(at.x.size)):
             ahead = flux[:, column + 1 :] @ kernel[1 : at.x.size - column]
-            own = kernel[0] * cold[:, column] * power[:, column]
-            temperature[:, column], share[:, column] = self._meet(ahead, own)
+            heating = kernel[0] * cold[:, column] * power[:, column]
+            temperature[:, column], share[:, column] = self._meet(ahead, heating)
             flux[:, column] = share[:, column] * cold[:, column] * power[:, column]
         return cold * share, temperature
 
-    def _meet(self, ahead: Array, own: Array) -> tuple[Array, Array]:
+    def _meet(self, ahead: Array, heating: Array) -> tuple[Array, Array]:
         """Temperature T and share φ with T = ahead + own φ(T)."""
         slope = (1 - self.hot) / self.span
-        on_the_line = (ahead + own * (1 + slope * self.onset)) / (1 + slope * own)
+        on_the_line = (ahead + heating * (1 + slope * self.onset)) / (1 + slope * heating)
         temperature = np.where(
-            ahead + own <= self.onset,
-            ahead + own,
-            np.maximum(on_the_line, ahead + own * self.hot),
+            ahead + heating <= self.onset,
+            ahead + heating,
+            np.maximum(on_the_line, ahead + heating * self.hot),
         )
         share = 1 - (1 - self.hot) * np.clip((temperature - self.onset) / self.span, 0.0, 1.0)
         return temperature, share

@@ -70,8 +70,8 @@ class FrictionMap(FrictionLaw):
             return x, y
         if self.x is None or self.y is None:
             raise InputError("give a friction map both x and y (m, centres of its cells)")
-        for name, given, count in (("x", self.x, shape[1]), ("y", self.y, shape[0])):
-            axis = _numbers(f"{name} of a friction map", given, 1)
+        for name, coordinates, count in (("x", self.x, shape[1]), ("y", self.y, shape[0])):
+            axis = _numbers(f"{name} of a friction map", coordinates, 1)
             if axis.size != count:
                 raise InputError(f"a friction map of {shape} (ny, nx) needs {count} of {name}, got {axis.size}")
             if not np.isfinite(axis).all() or (np.diff(axis) <= 0).any():
@@ -156,11 +156,11 @@ class FrictionMap(FrictionLaw):
                     f"{last * 1e3:.1f} mm, of the map {low * 1e3:.1f} to {high * 1e3:.1f} mm; give a larger map"
                 )
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, FrictionMap):
+    def __eq__(self, friction_map: object) -> bool:
+        if not isinstance(friction_map, FrictionMap):
             return NotImplemented
-        mine, theirs = (self.values, *self._centres), (other.values, *other._centres)
-        return self.base == other.base and all(np.array_equal(a, b) for a, b in zip(mine, theirs, strict=True))
+        mine, theirs = (self.values, *self._centres), (friction_map.values, *friction_map._centres)
+        return self.base == friction_map.base and all(np.array_equal(a, b) for a, b in zip(mine, theirs, strict=True))
 
     def __hash__(self) -> int:
         return hash((self.values.shape, self.values.tobytes(), self.base))
@@ -181,8 +181,8 @@ def _of_a_file(file: Path, cell: Length, base: FrictionLaw | None = None) -> Fri
     return FrictionMap.from_file(file, cell, base)
 
 
-def _numbers(what: str, given: object, dimensions: int) -> Array:
-    values = real_array(given, what)
+def _numbers(what: str, array_like: object, dimensions: int) -> Array:
+    values = real_array(array_like, what)
     if values.ndim != dimensions or values.size == 0:
         shape = "(ny, nx)" if dimensions == 2 else "(n,)"
         raise InputError(f"{what} must be an array {shape} with at least one cell, got the shape {values.shape}")

@@ -33,6 +33,8 @@ _MEMORY, _SLOW, _LONG_MEMORY = 6, 20, 20
 _TIGHTER = 0.3
 # A change of the pressure below it is round-off.
 _SAME = 1e-14
+# Of ribs: what rolling aims at in the first round, then per change of the pressure; of pressing, over the tolerance.
+_FIRST_AIM, _AIM, _MOST_OF_PRESSING = 1e-2, 0.03, 10.0
 
 Progress = Callable[[str], None]
 
@@ -66,27 +68,38 @@ class Coupled:
     splitting: int
 
 
+@dataclass(frozen=True, eq=False)
+class Surfaces:
+    """Two surfaces before they touch, on a grid.
+
+    gap: initial (ny, nx), m. rows: rigid slip along x (ny, 1) of rows that roll on other radii, `Tire.row_slip`.
+    """
+
+    grid: Grid
+    gap: Array
+    rows: Array | None = None
+
+
 def solve_coupled(
     influence: Influence,
-    grid: Grid,
-    gap: Array,
+    surfaces: Surfaces,
     rolling: Rolling,
     *,
     check: Callable[[Array], None],
-    rows: Array | None = None,
     start: Start | None = None,
     tolerance: float = 1e-6,
     tell: Progress = lambda text: None,
 ) -> Coupled:
     """Pressure, shear, slip and creepages of two bodies on a grid.
 
-    gap: initial (ny, nx), m. check: called with the first pressure, to refuse it early, and with the one returned,
-    which shear may have widened. rows: rigid slip along x (ny, 1) of rows that roll on other radii, `Tire.row_slip`.
+    check: called with the first pressure, to refuse it early, and with the one returned, which shear may have
+    widened.
     start: a solution near this one. tolerance: of the normal and the tangential
     conditions, and of the relative change of pressure.
     Bodies whose Dundurs' β is below the tolerance count as alike. Raises InputError where nothing touches or
     friction cannot carry the forces, ConvergenceError with the residual reached.
     """
+    grid, gap, rows = surfaces.grid, surfaces.gap, surfaces.rows
     coupled = abs(influence.dundurs) > tolerance
     offset: Array = np.zeros(grid.shape)
     last = None if start is None else start.tangential
@@ -94,10 +107,10 @@ def solve_coupled(
         offset = influence.gap_by_shear(last.shear)
 
     def press(by_shear: Array, near: Array | None, within: float) -> NormalSolution:
-        given = {"load": rolling.normal_load, "approach": rolling.approach}
+        control = {"load": rolling.normal_load, "approach": rolling.approach}
         # Shear moves the gap's zero a little, and with it what the tolerance is relative to.
         share = 0.5 if coupled else 1.0
-        return solve_normal(influence, gap + by_shear, **given, start=near, tolerance=share * within)
+        return solve_normal(influence, gap + by_shear, **control, start=near, tolerance=share * within)
 
     normal = press(offset, None if start is None else start.pressure, tolerance)
     check(normal.pressure)
@@ -107,13 +120,16 @@ def solve_coupled(
         rigid[0] += rows
     mixing = Anderson(_MEMORY)
     within = tolerance
+    # Ribs couple strongly, and no round needs to be much better than the pressure that it starts from.
+    striped = not influence.material.all()
+    aim = _FIRST_AIM if striped else within
     iterations, newton, krylov, splitting, change = normal.iterations, 0, 0, 0, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
-        known = rigid + influence.slip_by_pressure(normal.pressure) / grid.dx if coupled else rigid
+        driven = rigid + influence.slip_by_pressure(normal.pressure) / grid.dx if coupled else rigid
         slip = at_rest.slip if last is None else last.slip
         at = replace(at_rest, pressure=normal.pressure, slip=slip)
-        slipping = solve_slipping(influence, rolling.law, at, known, rolling.forces, start=last, tolerance=within)
+        slipping = solve_slipping(influence, rolling.law, at, driven, rolling.forces, start=last, tolerance=aim)
         last = slipping.tangential
         newton, krylov = newton + slipping.newton, krylov + slipping.krylov
         splitting += slipping.splitting
@@ -123,7 +139,7 @@ def solve_coupled(
         # The same pressure with the gap and the approach that this very shear makes.
         opening = influence.gap_by_shear(last.shear)
         fitting = normal.under(gap + opening, opening - offset, loaded=rolling.normal_load is not None)
-        settled = rounds > 1 and change <= tolerance
+        settled = rounds > 1 and change <= tolerance and aim <= within
         if settled and fitting.residual <= tolerance:
             check(normal.pressure)
             return Coupled(fitting, slipping, rounds, change, iterations, newton, krylov, splitting)
@@ -133,9 +149,10 @@ def solve_coupled(
             mixing.memory = _LONG_MEMORY
         before = normal.pressure
         offset = mixing.next(offset, opening)
-        normal = press(offset, before, within)
+        normal = press(offset, before, min(aim, _MOST_OF_PRESSING * within) if striped else within)
         iterations += normal.iterations
         change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
+        aim = max(within, _AIM * change) if striped else within
         if rounds > 1 and change <= _SAME and fitting.residual <= tolerance:
             # The shear that was found under the same pressure is that of this one.
             check(before)

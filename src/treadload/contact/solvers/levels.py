@@ -13,8 +13,8 @@ def halve(field: Array) -> Array:
     if ny % 2 or nx % 2:
         border = [(0, 0)] * (field.ndim - 2) + [(0, ny % 2), (0, nx % 2)]
         field = np.pad(field, border, constant_values=np.nan)
-    known = ~np.isnan(field)
-    count, total = _of_four(known.astype(float)), _of_four(np.where(known, field, 0.0))
+    valid = ~np.isnan(field)
+    count, total = _of_four(valid.astype(float)), _of_four(np.where(valid, field, 0.0))
     return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 
@@ -40,8 +40,8 @@ def _refined(field: Array, axis: int) -> Array:
     return finer
 
 
-def interpolate(field: Array, known: BoolArray, shape: tuple[int, int]) -> Array:
+def interpolate(field: Array, valid: BoolArray, shape: tuple[int, int]) -> Array:
     """Field (…, ny, nx) on cells of half the size, linear between the known cells (⌈ny/2⌉, ⌈nx/2⌉)."""
-    weight = known.astype(field.dtype)
+    weight = valid.astype(field.dtype)
     total, share = refine(field * weight, shape), refine(weight, shape)
     return np.divide(total, share, out=np.zeros_like(total), where=share > 0)

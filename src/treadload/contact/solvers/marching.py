@@ -68,7 +68,7 @@ class Stage:
             )
         if not np.isfinite(self.rigid).all():
             raise InputError("the rigid displacement of a step must be finite, got NaN or infinity")
-        if sum(known is not None for known in (self.pressure, self.load, self.approach)) != 1:
+        if sum(control is not None for control in (self.pressure, self.load, self.approach)) != 1:
             raise InputError("give one of pressure (Pa), load (N) and approach (m) for a step, and only one")
 
 
@@ -176,17 +176,17 @@ def march(
     state = before
     for stage in stages:
         start = _start(influence, stage, state, earlier)
-        known = np.broadcast_to(stage.rigid, (2, *influence.shape)).copy()
+        imposed = np.broadcast_to(stage.rigid, (2, *influence.shape)).copy()
         if state is not None:
             point = here if stage.travel == 0 else ahead(stage.travel)
-            known -= point(state.tangential.shear, state.pressure)
+            imposed -= point(state.tangential.shear, state.pressure)
         if stage.pressure is not None:
-            tangential = _shear(influence, here, stage, stage.pressure, known, start, tolerance)
+            tangential = _shear(influence, here, stage, stage.pressure, imposed, start, tolerance)
             new = State(stage, stage.pressure, tangential)
         else:
             if gap is None:
                 raise InputError("a step with a load or an approach needs the gap (ny, nx) of the two bodies, m")
-            new = _press(influence, here, gap, stage, state, known, start, tolerance)
+            new = _press(influence, here, gap, stage, state, imposed, start, tolerance)
         earlier, state = state, new
         yield new
 
@@ -196,15 +196,15 @@ def _shear(
     here: Ahead,
     stage: Stage,
     pressure: Array,
-    known: Array,
+    imposed: Array,
     start: TangentialSolution | None,
     tolerance: float,
 ) -> TangentialSolution:
-    """Shear at the end of a step under a pressure; known: slip without the displacement that is sought."""
+    """Shear at the end of a step under a pressure; imposed: slip without the displacement that is sought."""
     bound = stage.bound(pressure)
     if not bound.any() and any(stage.forces):
         raise InputError("no cell can carry shear, but a force is prescribed; raise friction or prescribe the slip")
-    rigid = known + here.by_pressure(pressure)
+    rigid = imposed + here.by_pressure(pressure)
     return solve_tangential(
         influence, bound, rigid, stage.forces, rolls=False, axes=stage.axes, start=start, tolerance=tolerance
     )
@@ -223,10 +223,10 @@ def _start(
     return replace(state.tangential, shear=shear, rigid=(float(along), float(across)))
 
 
-def _goes_on(one: Stage, other: Stage) -> bool:
+def _goes_on(stage: Stage, previous: Stage) -> bool:
     """Whether a step does again what the last did."""
-    known = [force is None for force in one.forces] == [force is None for force in other.forces]
-    return known and one.travel == other.travel and bool((one.rigid * other.rigid).sum() >= 0)
+    alike = [force is None for force in stage.forces] == [force is None for force in previous.forces]
+    return alike and stage.travel == previous.travel and bool((stage.rigid * previous.rigid).sum() >= 0)
 
 
 def _press(
@@ -235,7 +235,7 @@ def _press(
     gap: Array,
     stage: Stage,
     state: State | None,
-    known: Array,
+    imposed: Array,
     start: TangentialSolution | None,
     tolerance: float,
 ) -> State:
@@ -261,7 +261,7 @@ def _press(
     within = tolerance
     newton = products = 0
     for rounds in range(1, _MOST_ROUNDS + 1):
-        tangential = _shear(influence, here, stage, normal.pressure, known, start, within)
+        tangential = _shear(influence, here, stage, normal.pressure, imposed, start, within)
         newton, products = newton + tangential.newton, products + tangential.products
         counted = replace(tangential, newton=newton, products=products)
         if not coupled:
@@ -293,5 +293,5 @@ def _normal(influence: Influence, gap: Array, stage: Stage, start: Array | None,
     return solve_normal(influence, gap, load=stage.load, approach=stage.approach, start=start, tolerance=tolerance)
 
 
-def _same_load(one: Stage, other: Stage) -> bool:
-    return one.load == other.load and one.approach == other.approach
+def _same_load(stage: Stage, previous: Stage) -> bool:
+    return stage.load == previous.load and stage.approach == previous.approach

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.influence import Influence, operators
 from treadload.contact.solvers.levels import halve, refine
 from treadload.errors import ConvergenceError, GeometryError, InputError
 from treadload.kernels import fft
@@ -72,6 +72,8 @@ def solve_normal(
     Raises ConvergenceError with the residual reached, GeometryError if there is no material at all.
     Method: Polonsky & Keer (1999), preconditioned in Fourier space (Vollebregt 2014).
     """
+    if not influence.material.all():
+        gap = np.where(influence.material[:, None], gap, np.nan)
     if np.isnan(gap).all():
         raise GeometryError("no cell of the height map has material: the contact has nothing to press with")
     if start is None:
@@ -117,7 +119,19 @@ def _solve(
 def _by_gradients(
     influence: Influence, gap: Array, total: float | None, approach: float | None, start: Array, tolerance: float
 ) -> BoundSolution:
-    """The solution of a symmetric pair, found on the device of the kernels."""
+    """The solution of a symmetric pair, found on the device of the kernels; of strips on the processor."""
+    inverse = influence.strip_inverse((2,))
+    if inverse is not None:
+        return projected_cg.solve(
+            influence.normal,
+            gap,
+            start,
+            total=total,
+            level=approach,
+            precondition=lambda residual: inverse(residual[None])[0],
+            self_influence=influence.normal_self_influence,
+            tolerance=tolerance,
+        )
     try:
         fft.device()
     except ValueError as why:
@@ -132,8 +146,8 @@ def _by_gradients(
 
     # A start needs no more than single precision.
     real = np.float32 if tolerance >= _START_TOLERANCE else float
-    product = influence.normal if real is float else influence.normal_on(influence.shape, real)
-    found = projected_cg.solve(
+    product = influence.convolved_normal if real is float else influence.normal_on(influence.shape, real)
+    solution = projected_cg.solve(
         replace(product, spectrum=fft.to_device(product.spectrum)),
         fft.to_device(gap.astype(real)),
         fft.to_device(start.astype(real)),
@@ -143,7 +157,7 @@ def _by_gradients(
         self_influence=influence.normal_self_influence,
         tolerance=tolerance,
     )
-    return replace(found, pressure=fft.to_host(found.pressure), compliance=fft.to_host(found.compliance))
+    return replace(solution, pressure=fft.to_host(solution.pressure), compliance=fft.to_host(solution.compliance))
 
 
 def _inverse(symbol: Array | ComplexArray, periodic: tuple[int, int]) -> Operator:
@@ -161,14 +175,14 @@ def _inverse(symbol: Array | ComplexArray, periodic: tuple[int, int]) -> Operato
 
 def _start(influence: Influence, gap: Array, load: float | None, approach: float | None) -> Array:
     """Pressure where the solution on half the grid makes contact likely; on the coarsest, a first guess."""
-    if min(influence.shape) < _COARSEST:
+    if min(influence.shape) < _COARSEST or not influence.material.all():
         # Where a rigid tread sinks to the depth that half of all cells reach, it surely touches.
         return np.where(gap <= np.nanmedian(gap), 1.0, 0.0)
     coarse_gap = halve(gap)
-    coarse = replace(influence, shape=coarse_gap.shape, dx=2 * influence.dx, dy=2 * influence.dy)
+    coarse = operators(coarse_gap.shape, 2 * influence.dx, 2 * influence.dy, influence.pair)
     start = _start(coarse, coarse_gap, load, approach)
-    found = _solve(coarse, coarse_gap, load, approach, start, _START_TOLERANCE)
+    rough = _solve(coarse, coarse_gap, load, approach, start, _START_TOLERANCE)
     # Displacement is smooth, so that the fine gap is nearly known: what its cell would not push open is in contact.
-    pressure = refine(found.pressure, influence.shape)
-    separation = gap + refine(found.compliance, influence.shape) - found.level
+    pressure = refine(rough.pressure, influence.shape)
+    separation = gap + refine(rough.compliance, influence.shape) - rough.level
     return np.where(pressure * influence.normal_self_influence > separation, pressure, 0.0)

@@ -15,6 +15,7 @@ from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.complementarity import coulomb_direct, coulomb_newton, coulomb_splitting
 from treadload.kernels.complementarity.coulomb import CoulombProblem, paired
 from treadload.kernels.complementarity.coulomb_newton import CoulombSolution
+from treadload.kernels.gridding.strips import StripInverse
 
 # Below this many cells a side a solve costs nothing and needs no start from a coarser one.
 _COARSEST = 48
@@ -72,14 +73,18 @@ def solve_tangential(
     if box is None:
         # No cell can carry shear: the bodies slide freely at the known rigid slip.
         return TangentialSolution(np.zeros_like(rigid), rigid.copy(), (0.0, 0.0), np.zeros(bound.shape, bool), 0.0)
+    striped = not influence.material.all()
+    if striped:
+        # Groups of rows are known as wholes.
+        box = slice(0, bound.shape[0]), slice(0, bound.shape[1])
     rows, columns = box
     g, w = bound[rows, columns], rigid[:, rows, columns]
-    small = replace(influence, shape=g.shape)
+    small = influence if striped else replace(influence, shape=g.shape)
     if start is not None:
         # A rigid slip that is known now is not an unknown, whatever it was in the start.
         unknown = [force is not None for force in forces]
         q, xi = start.shear[:, rows, columns], np.where(unknown, start.rigid, 0.0)
-    elif min(g.shape) >= _COARSEST:
+    elif min(g.shape) >= _COARSEST and not striped:
         q, xi = _start(small, g, w, forces, rolls, axes)
     else:
         # Without shear the cells stick, and the first step is that of full adhesion; a force that is known takes an
@@ -134,6 +139,7 @@ def _problem(
     padding = influence.rolling_padding if rolls else influence.padding
     symbols = influence.tangential(padding)
     compliance = symbols * _stretches(axes, len(symbols))
+    inverse = influence.strip_inverse((0, 1))
     along, across = (None if force is None else force / (cell * d) for force, d in zip(forces, axes, strict=True))
     return CoulombProblem(
         padding=padding,
@@ -145,7 +151,11 @@ def _problem(
         rigid=rigid,
         travel=influence.dx if rolls else 1.0,
         totals=(along, across),
-        precondition=_Preconditioner(influence, rolls, axes),
+        precondition=_StripPreconditioner(inverse, rolls, axes)
+        if inverse
+        else _Preconditioner(influence, rolls, axes),
+        strips=influence.strips(padding),
+        axes=axes,
     )
 
 
@@ -189,13 +199,27 @@ class _Preconditioner:
         return _summed_ahead(shear)[..., :nx] * mask
 
 
+@dataclass(frozen=True)
+class _StripPreconditioner:
+    """The same for surfaces with strips: the inverse of the compliance on rows that repeat, then a sum in rolling."""
+
+    inverse: StripInverse
+    rolls: bool
+    axes: Axes
+
+    def __call__(self, slip: Array, mask: BoolArray) -> Array:
+        stretch = np.array(self.axes, np.float32)[:, None, None]
+        shear = self.inverse(slip / stretch) / stretch * mask
+        return _summed_ahead(shear) * mask if self.rolls else shear
+
+
 def _summed_ahead(shear: Array) -> Array:
     """Sums (…, n) of shear (…, n) from each cell to the leading edge, blocks of cells at a time.
 
     A running sum waits for every addition; a block is a product with a triangle of ones.
     """
     cells = shear.shape[-1]
-    side = next(one for one in range(math.isqrt(cells), 0, -1) if cells % one == 0)
+    side = next(width for width in range(math.isqrt(cells), 0, -1) if cells % width == 0)
     inside: Array = shear.reshape(-1, side) @ np.tri(side, dtype=shear.dtype)
     inside = inside.reshape(*shear.shape[:-1], cells // side, side)
     ahead = np.cumsum(inside[..., ::-1, 0], axis=-1)[..., ::-1]
@@ -222,9 +246,9 @@ def _start(
         tolerance=_START_TOLERANCE,
     )
     # The share of friction that is used varies smoothly; shear itself jumps at every edge.
-    known = coarse_bound > 0
-    share = rough.shear / np.where(known, coarse_bound, 1.0)
-    return interpolate(share, known, bound.shape) * bound, np.asarray(rough.rigid)
+    loaded = coarse_bound > 0
+    share = rough.shear / np.where(loaded, coarse_bound, 1.0)
+    return interpolate(share, loaded, bound.shape) * bound, np.asarray(rough.rigid)
 
 
 def _bounding_box(mask: BoolArray) -> tuple[slice, slice] | None:

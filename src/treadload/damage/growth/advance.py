@@ -24,15 +24,15 @@ def grown(lengths: Array, rates: Array, targets: Array) -> Array:
         power = np.log(rates[1:] / rates[:-1]) / np.log(lengths[1:] / lengths[:-1]).reshape(
             -1, *[1] * (rates.ndim - 1)
         )
-        found = np.zeros((len(targets), *rates.shape[1:]))
+        passes = np.zeros((len(targets), *rates.shape[1:]))
         for k, target in enumerate(targets):
             for j in range(len(lengths) - 1):
                 end = min(float(target), float(lengths[j + 1]))
                 if end > lengths[j]:
-                    found[k] += _passes(float(lengths[j]), end, rates[j], power[j])
+                    passes[k] += _passes(float(lengths[j]), end, rates[j], power[j])
             if target > lengths[-1]:
-                found[k] += (target - lengths[-1]) / rates[-1]
-    return np.where(np.isnan(found), np.inf, found)
+                passes[k] += (target - lengths[-1]) / rates[-1]
+    return np.where(np.isnan(passes), np.inf, passes)
 
 
 def _passes(start: float, end: float, rate: Array, power: Array) -> Array:
@@ -62,12 +62,12 @@ def drawn(initiation: Array, growth: Array, scatter: float, growth_scatter: floa
     deviations of log₁₀ of both. One draw holds for the whole road: places share their mix.
     """
     start, speed = draws()
-    found = np.full((len(start), len(growth)), np.inf)
+    passes = np.full((len(start), len(growth)), np.inf)
     alive = np.isfinite(initiation) & np.isfinite(growth).any(axis=0)
     slow, fast = 10 ** (scatter * start), 10 ** (-growth_scatter * speed)
     for y in np.flatnonzero(alive):
-        found = np.minimum(found, (slow * initiation[y])[:, None] + fast[:, None] * growth[:, y])
-    return found
+        passes = np.minimum(passes, (slow * initiation[y])[:, None] + fast[:, None] * growth[:, y])
+    return passes
 
 
 def risk_quantiles(passes: Array, risks: tuple[float, ...] = RISKS) -> Array:
@@ -82,5 +82,5 @@ def risk_quantiles(passes: Array, risks: tuple[float, ...] = RISKS) -> Array:
 
 def chances(passes: Array, until: float) -> Array:
     """Share (k,) of the draws (m, k) that reach each length within so many passes."""
-    found: Array = (passes <= until).mean(axis=0)
-    return found
+    share: Array = (passes <= until).mean(axis=0)
+    return share

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 from scipy.ndimage import map_coordinates
 
-from treadload.damage.growth.asked import STEEPEST
+from treadload.damage.growth.options import STEEPEST
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.fracture.closure import stress_intensity
@@ -89,18 +89,18 @@ def section_of(road: Pavement, top: float, bottom: float) -> tuple[Section, floa
             )
         slip = 1 / layer.bond.stiffness if layer.bond.stiffness > 0 else math.inf
         strips.append(Strip(material.modulus, material.poisson, layer.thickness or math.inf, slip))
-    own = strips[first : last + 1]
-    if any(one.slip for one in own[:-1]):
+    joined_strips = strips[first : last + 1]
+    if any(strip.slip for strip in joined_strips[:-1]):
         raise InputError("a crack goes through layers that are bonded; the bond between those asked is not")
-    thick = [one.thickness for one in own]
+    thick = [strip.thickness for strip in joined_strips]
     joined = Strip(
-        float(np.average([one.modulus for one in own], weights=thick)),
-        float(np.average([one.poisson for one in own], weights=thick)),
+        float(np.average([strip.modulus for strip in joined_strips], weights=thick)),
+        float(np.average([strip.poisson for strip in joined_strips], weights=thick)),
         sum(thick),
-        own[-1].slip,
+        joined_strips[-1].slip,
     )
-    found = Section((*strips[:first], joined, *strips[last + 1 :]), first, elastic.rigid_base)
-    return found, joined.poisson
+    section = Section((*strips[:first], joined, *strips[last + 1 :]), first, elastic.rigid_base)
+    return section, joined.poisson
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,15 +167,15 @@ def tractions(crossing: Crossing, faces: CrackFaces, trace: float) -> Array:
 def _moved(stress: Array, crossing: Crossing, by: Array) -> Array:
     """Stress (6, n, ny, nx) at places moved by (n, 2), m, along x and y."""
     columns, rows = np.arange(len(crossing.x)), np.arange(len(crossing.y))
-    found = np.empty_like(stress)
+    shifted = np.empty_like(stress)
     for k, (along, across) in enumerate(by):
         grid = np.meshgrid(
             np.interp(crossing.y + across, crossing.y, rows), np.interp(crossing.x + along, crossing.x, columns),
             indexing="ij",
         )  # fmt: skip
         for part in range(len(stress)):
-            found[part, k] = map_coordinates(stress[part, k], grid, order=1)
-    return found
+            shifted[part, k] = map_coordinates(stress[part, k], grid, order=1)
+    return shifted
 
 
 def modes(crossing: Crossing, faces: CrackFaces, trace: float, friction: float) -> tuple[Array, int]:
@@ -185,19 +185,19 @@ def modes(crossing: Crossing, faces: CrackFaces, trace: float, friction: float) 
     """
     load = tractions(crossing, faces, trace)
     n = len(faces.z)
-    found = np.concatenate(
+    factors = np.concatenate(
         [load[..., :2, :].reshape(*load.shape[:2], 2 * n) @ faces.plane.T, load[..., 2:, :] @ faces.antiplane],
         axis=-1,
     )
-    found[..., 0] = np.maximum(found[..., 0], 0.0)
-    size = np.abs(found).max(axis=-1)
+    factors[..., 0] = np.maximum(factors[..., 0], 0.0)
+    size = np.abs(factors).max(axis=-1)
     moves = size > _LEAST * size.max()
-    found[~moves] = 0.0
+    factors[~moves] = 0.0
     try:
-        found[moves], settled = stress_intensity(faces, load[moves], friction)
+        factors[moves], settled = stress_intensity(faces, load[moves], friction)
     except ArithmeticError as error:
         raise ConvergenceError(str(error)) from error
-    return found, int((~settled).sum())
+    return factors, int((~settled).sum())
 
 
 def intensity_ranges(history: Array, poisson: float, axles: int) -> Array:
@@ -210,14 +210,14 @@ def intensity_ranges(history: Array, poisson: float, axles: int) -> Array:
     Source: Irwin (1957) for the sum; Matsuishi and Endo (1968) for the count.
     """
     count = 2 * axles
-    found = np.zeros((len(history), 4, count))
+    ranges = np.zeros((len(history), 4, count))
     for row, passage in enumerate(history):
         for mode in range(3):
             if passage[:, mode].any():
                 cycles = rainflow(passage[:, mode])[:count]
-                found[row, mode, : len(cycles)] = cycles
-    found[:, 3] = np.sqrt(found[:, 0] ** 2 + found[:, 1] ** 2 + found[:, 2] ** 2 / (1 - poisson))
-    return found
+                ranges[row, mode, : len(cycles)] = cycles
+    ranges[:, 3] = np.sqrt(ranges[:, 0] ** 2 + ranges[:, 1] ** 2 + ranges[:, 2] ** 2 / (1 - poisson))
+    return ranges
 
 
 def rainflow(values: Array) -> list[float]:
@@ -230,17 +230,17 @@ def rainflow(values: Array) -> list[float]:
     line = np.append(line[:-1][steps != 0], line[-1])
     turns: Any = np.concatenate([[True], np.diff(line[:-1]) * np.diff(line[1:]) < 0, [True]]) if len(line) > 2 else []
     stack: list[float] = []
-    found = []
+    ranges = []
     for value in line[turns].tolist() if len(line) > 2 else []:
         stack.append(value)
         while len(stack) > 3 and abs(stack[-2] - stack[-3]) <= min(
             abs(stack[-1] - stack[-2]), abs(stack[-3] - stack[-4])
         ):
-            found.append(abs(stack[-2] - stack[-3]))
+            ranges.append(abs(stack[-2] - stack[-3]))
             del stack[-3:-1]
     # What is left goes out from the largest deflection and comes back to it.
-    found += [abs(b - a) for a, b in zip(stack[:-1:2], stack[1::2], strict=False)]
-    return sorted((one for one in found if one > 0), reverse=True)
+    ranges += [abs(b - a) for a, b in zip(stack[:-1:2], stack[1::2], strict=False)]
+    return sorted((value for value in ranges if value > 0), reverse=True)
 
 
 def kink_angle(first: float, second: float) -> float:
@@ -253,9 +253,9 @@ def kink_angle(first: float, second: float) -> float:
     return 2 * math.atan((first - math.hypot(first, math.sqrt(8) * second)) / (4 * second))
 
 
-def hoop_intensity(found: Array) -> Array:
+def hoop_intensity(factors: Array) -> Array:
     """Largest hoop stress at a distance from the tip times √2πr (...), Pa √m, of K (..., 3)."""
-    first, second = found[..., 0], found[..., 1]
+    first, second = factors[..., 0], factors[..., 1]
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = (first - np.hypot(first, np.sqrt(8) * second)) / (4 * second)
     half = np.arctan(np.where(second == 0, 0.0, ratio))
@@ -279,11 +279,11 @@ def crack_paths(
         for crossing, weight in zip(crossings, weights, strict=True):
             faces = faces_along(crossing.section, way, from_mouth[-1], upwards=crossing.upwards)
             near = slice(max(place - 1, 0), place + 2)
-            found = modes(_rows(crossing, near), faces, trace, friction)[0][place - near.start]
-            hoop = hoop_intensity(found) * weight
+            factors = modes(_rows(crossing, near), faces, trace, friction)[0][place - near.start]
+            hoop = hoop_intensity(factors) * weight
             at = int(hoop.argmax())
             if hoop[at] > best[0]:
-                best = (float(hoop[at]), float(found[at, 0]), float(found[at, 1]))
+                best = (float(hoop[at]), float(factors[at, 0]), float(factors[at, 1]))
         _, slope = way.at(np.array(from_mouth[-1:]))
         turn = kink_angle(best[1], best[2]) if best[0] > 0 else 0.0
         # From the tangent towards the normal; going down the normal points to where offsets grow, going up away.

@@ -73,19 +73,14 @@ class ParisLaw(GrowthLaw):
         positive("A of Paris' law", coefficient, "mm by N/mm^1.5")
         return cls(1e-3 * coefficient * _TO_MM**exponent, exponent, **more)  # type: ignore[arg-type]
 
-    @property
-    def in_millimetres(self) -> float:
-        """A, mm per passage at ΔK = 1 N/mm^1.5."""
-        return 1e3 * self.rate / float(_TO_MM**self.exponent)
-
     def at(self, modulus: float) -> ParisLaw:
         """Itself."""
         return self
 
     def growth(self, ranges: Array) -> Array:
         """Growth per passage, m, at ranges of the stress intensity, Pa √m, >= 0."""
-        found: Array = self.rate * (np.asarray(ranges, dtype=float) / REFERENCE) ** self.exponent
-        return found
+        rate: Array = self.rate * (np.asarray(ranges, dtype=float) / REFERENCE) ** self.exponent
+        return rate
 
     def __str__(self) -> str:
         return f"Paris' law, {1e3 * self.rate:.3g} mm per passage at 1 MPa √m, n = {self.exponent:g}"
@@ -152,8 +147,8 @@ def law_of_mix(material: Material | TemperatureDependent, layer: str) -> GrowthL
     """The law of a layer's mix. Raises InputError for one without data of crack growth."""
     strength = None
     if isinstance(material, Mix):
-        known = [one for one in PARIS if material.name.startswith(one)]
-        strength = PARIS[max(known, key=len)] if known else None
+        names = [name for name in PARIS if material.name.startswith(name)]
+        strength = PARIS[max(names, key=len)] if names else None
     if not isinstance(material, Mix) or strength is None or material.slope is None:
         raise InputError(
             f"layer {layer!r}, {material}, has no data of crack growth; give [growth] a law, such as "

@@ -11,8 +11,9 @@ import numpy as np
 import xarray as xr
 
 from treadload.composing import BaseResult, Holds
-from treadload.damage.growth.asked import CrackGrowth
-from treadload.describing import first_line
+from treadload.damage.growth.options import CrackGrowth
+from treadload.rows import Row, row
+from treadload.units import years_in_words
 
 MODES = ("I", "II", "III", "Irwin")
 
@@ -30,6 +31,7 @@ class Growth(BaseResult, group="growth"):
     asked: how it grows. stats: solves, seconds. warnings: sentences for the user.
     """
 
+    title: ClassVar[str] = "Crack growth"
     holds: ClassVar[Holds] = Holds(
         {
             "initiation_passes": "y",
@@ -74,26 +76,43 @@ class Growth(BaseResult, group="growth"):
             for risk, row in zip(self.dataset["risk"].to_numpy(), rows, strict=True)
         }
 
-    def summary(self) -> str:
-        """Years to initiation, to each depth and to the end, with what scatters; what drives the growth."""
+    @property
+    def heading(self) -> str:
+        """Through which layers it grows."""
+        return str(self.dataset.attrs["grows"])
+
+    def rows(self) -> tuple[Row, ...]:
+        """Years until the crack starts, is so deep and is through, with their scatter; its cause; the verdict."""
         data = self.dataset
-        years, risks = data["reach_years"].to_numpy(), data["risk"].to_numpy()
-        lines = [f"crack growth {data.attrs['grows']}", f"  starts: {data.attrs['starts']}"]
+        rows = [row("growth_starts", str(data.attrs["starts"]))]
+        last = len(self.depths) - 1
         for k, depth in enumerate(self.depths):
-            spread = ", ".join(
-                f"{_years(float(data['risk_years'][r, k]))} at {100 * risk:g} %" for r, risk in enumerate(risks)
-            )
-            what = "initiation" if k == 0 else "end of its way" if k == len(years) - 1 else "growth"
-            lines.append(f"  {depth * 1e3:5.1f} mm, {what}: {_years(float(years[k]))} ({spread})")
+            stage = "initiation" if k == 0 else "end of its way" if k == last else "growth"
+            name = f"{stage}, {depth * 1e3:.1f} mm"
+            rows.append(row("reach_years", data["reach_years"][k], group=name))
+            rows += [
+                row("risk_years", years, label=f"at a risk of {100 * float(risk):g} %", group=name)
+                for risk, years in zip(data["risk"], data["risk_years"][:, k], strict=True)
+            ]
         ranges = data["stress_intensity_range"].max("solved_depth")
         most = int(ranges.sel(mode="Irwin").to_numpy().argmax())
-        parts = ", ".join(f"K_{mode} {float(ranges[most].sel(mode=mode)) / 1e6:.3g}" for mode in MODES[:3])
-        lines.append(
-            f"  largest ranges, MPa √m: {parts} by {data['axle_class'].to_numpy()[most]}; "
-            f"first at y = {float(data['worst_y']) * 1e3:z.0f} mm"
-        )
-        lines.append("Verdict: " + self._verdict())
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+        axles = str(data["axle_class"].to_numpy()[most])
+        rows += [
+            row("stress_intensity_range", ranges[most].sel(mode=mode), label=f"largest range of K_{mode}", note=axles)
+            for mode in MODES[:3]
+        ]
+        rows.append(row("worst_y", data["worst_y"], note="first through here"))
+        if self._chance is not None:
+            years = f"{float(data.attrs['design_years']):g} years"
+            rows.append(row("reach_chance", self._chance, note=years))
+        return (*rows, row("verdict", self._verdict()))
+
+    @property
+    def _chance(self) -> float | None:
+        """Share of roads that are cracked through within the design life; None without one."""
+        data = self.dataset
+        has_chance = "reach_chance" in data and "design_years" in data.attrs
+        return float(data["reach_chance"][-1]) if has_chance else None
 
     def _verdict(self) -> str:
         data = self.dataset
@@ -101,15 +120,9 @@ class Growth(BaseResult, group="growth"):
         if math.isinf(start):
             return "no crack ever starts under this traffic."
         if math.isinf(end):
-            return f"a crack starts after {_years(start)} and does not grow to the end of its way."
-        said = f"a crack starts after {_years(start)} and is through after {_years(end)}"
-        if "reach_chance" in data and "design_years" in data.attrs:
-            chance = 100 * float(data["reach_chance"][-1])
-            said += f"; {chance:.0f} % of such roads are cracked through within {data.attrs['design_years']:g} years"
-        return said + "."
-
-    __repr__ = first_line
-
-
-def _years(years: float) -> str:
-    return "never" if math.isinf(years) else f"{years:.3g} years"
+            return f"a crack starts after {years_in_words(start)} and does not grow to the end of its way."
+        sentence = f"a crack starts after {years_in_words(start)} and is through after {years_in_words(end)}"
+        if self._chance is not None:
+            years = f"{float(data.attrs['design_years']):g} years"
+            sentence += f"; {100 * self._chance:.0f} % of such roads are cracked through within {years}"
+        return f"{sentence}."

@@ -270,11 +270,11 @@ def top_down_cracking(damage: float | Array) -> Array:
 
 def _decades(damage: float | Array) -> Array:
     """log₁₀ D = log₁₀(100 D) - 2, -∞ where there is no damage."""
-    given = np.asarray(damage, dtype=float)
-    if not (given >= 0).all():
-        raise InputError(f"damage must be ≥ 0, got {given.min():g}; 1 is the end of life")
+    shares = np.asarray(damage, dtype=float)
+    if not (shares >= 0).all():
+        raise InputError(f"damage must be ≥ 0, got {shares.min():g}; 1 is the end of life")
     with np.errstate(divide="ignore"):
-        return np.asarray(np.log10(given))
+        return np.asarray(np.log10(shares))
 
 
 def _sigmoid(value: float | Array) -> Array:

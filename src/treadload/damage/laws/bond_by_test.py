@@ -109,25 +109,25 @@ class TimedStrength(BondStrength):
         softening, no effect of the rate, no friction. T₀ and v₀ are the tests' means.
         Raises InputError for too few tests, and for strengths that rise with temperature.
         """
-        values = [np.asarray(one, dtype=float) for one in (strength, temperature, rate, normal)]
+        values = [np.asarray(array, dtype=float) for array in (strength, temperature, rate, normal)]
         try:
             bears, warm, fast, pressed = np.broadcast_arrays(*values)
         except ValueError as error:
             raise InputError(
                 f"tests need one number each of strength, temperature, rate and normal, got shapes "
-                f"{', '.join(str(one.shape) for one in values)}"
+                f"{', '.join(str(array.shape) for array in values)}"
             ) from error
-        if not all(np.isfinite(one).all() for one in values) or not (bears > 0).all() or not (fast > 0).all():
+        if not all(np.isfinite(array).all() for array in values) or not (bears > 0).all() or not (fast > 0).all():
             raise InputError("tests need finite numbers, strengths and rates > 0; leave out the tests that lack one")
-        varies = [float(np.ptp(one)) > 0 for one in (warm, fast, pressed)]
+        varies = [float(np.ptp(array)) > 0 for array in (warm, fast, pressed)]
         if bears.size < max(_FEWEST, 1 + sum(varies)):
             raise InputError(f"a law of a bond needs {max(_FEWEST, 1 + sum(varies))} tests or more, got {bears.size}")
         middle, usual = float(warm.mean()), float(np.exp(np.log(fast).mean()))
 
         def law(free: Array) -> Array:
             a, m, tangent = (part if vary else 0.0 for part, vary in zip(free[1:], varies, strict=True))
-            found: Array = np.exp(free[0] - a * (warm - middle)) * (fast / usual) ** m + pressed * tangent
-            return found
+            strength: Array = np.exp(free[0] - a * (warm - middle)) * (fast / usual) ** m + pressed * tangent
+            return strength
 
         start = np.array([math.log(float(bears.mean())), 0.05, 0.1, 0.5])
         low, high = [-np.inf, -1.0, -0.5, 0.0], [np.inf, 1.0, 0.999, 5.0]
@@ -135,7 +135,7 @@ class TimedStrength(BondStrength):
             lambda free: law(free) / bears - 1, start, bounds=(low, high), x_scale=[1, 0.01, 0.1, 0.5]
         )
         log, a, m, tangent = (
-            float(one) if vary else 0.0 for one, vary in zip(solved.x, [True, *varies], strict=True)
+            float(value) if vary else 0.0 for value, vary in zip(solved.x, [True, *varies], strict=True)
         )
         if a < 0 or m < 0:
             raise InputError(
@@ -195,7 +195,7 @@ class TimedStrength(BondStrength):
         if not self.rate_exponent:
             return self
         if speed is None:
-            return self._told(
+            return self._with_doubt(
                 f"its class has no speed, so that its strength is that of {self.rate * 60e3:.3g} mm/min, of the test"
             )
         return self.at_rate(passage_rate(speed, depth, length, self.slip))
@@ -208,9 +208,9 @@ class TimedStrength(BondStrength):
         tensile = None if self.tensile_strength is None else share * self.tensile_strength
         # The law goes through its own point: another one of it is the same law.
         moved = replace(self, cohesion=share * self.cohesion, tensile_strength=tensile, **changed)  # type: ignore[arg-type]
-        return moved._told(beyond)
+        return moved._with_doubt(beyond)
 
-    def _told(self, text: str) -> Self:
+    def _with_doubt(self, text: str) -> Self:
         return replace(self, doubt="; ".join(filter(None, (self.doubt, text)))) if text not in self.doubt else self
 
     def __str__(self) -> str:

@@ -69,10 +69,10 @@ class EnergyRatio:
 
     def needed(self, tension: float | Array | xr.DataArray) -> Array:
         """DCSE_min = m^2.98 D₁ / a, J/m³, under a conventional tension, Pa; 0 where there is none."""
-        given = np.asarray(tension, dtype=float)
-        stress = np.where(given > 0, given, 1.0) / PSI
+        stresses = np.asarray(tension, dtype=float)
+        stress = np.where(stresses > 0, stresses, 1.0) / PSI
         a = 0.0299 * stress**-3.10 * (_STRENGTH_LIMIT - self.strength) / 1e6 + 2.46e-8
-        return np.asarray(np.where(given > 0, 1e3 * self.slope**2.98 * self.creep_compliance * PSI / a, 0.0))
+        return np.asarray(np.where(stresses > 0, 1e3 * self.slope**2.98 * self.creep_compliance * PSI / a, 0.0))
 
     @overload
     def ratio(self, tension: xr.DataArray) -> xr.DataArray: ...
@@ -88,8 +88,8 @@ class EnergyRatio:
         if not isinstance(tension, xr.DataArray):
             return ratio
         about = {"long_name": "energy ratio", "units": "1"}
-        said = json.dumps(self.warnings(tension), ensure_ascii=False)
-        return tension.copy(data=ratio).rename("energy_ratio").assign_attrs(about, warnings=said)
+        warnings_json = json.dumps(self.warnings(tension), ensure_ascii=False)
+        return tension.copy(data=ratio).rename("energy_ratio").assign_attrs(about, warnings=warnings_json)
 
     def of(self, data: xr.Dataset) -> xr.DataArray:
         """ER of what it reads of a response's dataset, with the sentences of `warnings`: a computed tension is not
@@ -102,20 +102,20 @@ class EnergyRatio:
         values = np.asarray(tension, dtype=float)
         largest = float(np.max(values, where=np.isfinite(values), initial=0.0)) / 1e6
         low, high = (bound / 1e6 for bound in _USUAL)
-        asked = f"give the conventional stress of the layer, {low:.3g} to {high:.3g} MPa in the reports"
-        said = [f"energy ratio: {self.doubt}"]
+        remedy = f"give the conventional stress of the layer, {low:.3g} to {high:.3g} MPa in the reports"
+        caveats = [f"energy ratio: {self.doubt}"]
         if largest > self.strength / 1e6:
-            said.append(
+            caveats.append(
                 f"energy ratio: {largest:.3g} MPa exceeds the strength of the mix, {self.strength / 1e6:.3g} MPa; it "
-                f"is a peak of a computed contact and depends on its cells: {asked}"
+                f"is a peak of a computed contact and depends on its cells: {remedy}"
             )
         elif largest > high:
-            said.append(f"energy ratio: {largest:.3g} MPa is more than its sources use; {asked}")
+            caveats.append(f"energy ratio: {largest:.3g} MPa is more than its sources use; {remedy}")
         elif isinstance(tension, xr.DataArray) and "depth" in tension.coords and (tension["depth"] == 0).any():
-            said.append(
-                f"energy ratio: the tension is that of a computed surface, {largest:.3g} MPa at most; {asked}"
+            caveats.append(
+                f"energy ratio: the tension is that of a computed surface, {largest:.3g} MPa at most; {remedy}"
             )
-        return tuple(said)
+        return tuple(caveats)
 
     def summary(self, tension: float) -> str:
         """What the mix can dissipate, what it must, their ratio, and the warnings."""

@@ -112,8 +112,8 @@ class PowerLaw(ABC):
     @property
     def validity(self) -> tuple[float, float]:
         """Readings that allow 10⁸ and 10⁴ passes: what tests have seen, not a source's bound."""
-        few, many = _SEEN
-        return self.allowable_strain(many), self.allowable_strain(few)
+        fewest, many = _SEEN
+        return self.allowable_strain(many), self.allowable_strain(fewest)
 
     @overload
     def allowable_passes(self, strain: float) -> float: ...
@@ -121,12 +121,12 @@ class PowerLaw(ABC):
     def allowable_passes(self, strain: Array) -> Array: ...
     def allowable_passes(self, strain: float | Array) -> float | Array:
         """Passes N = 10⁶ (ε / ε₁)^(1/b) that a strain (a stress, Pa) allows; inf where it is ≤ 0, NaN for NaN."""
-        given = np.asarray(strain, dtype=float)
-        harmful = np.where(given <= 0, 1.0, given)
+        strains = np.asarray(strain, dtype=float)
+        harmful = np.where(strains <= 0, 1.0, strains)
         with np.errstate(over="ignore"):
             passes = _MILLION * (harmful / self.at_a_million) ** (1 / self.exponent)
-        passes = np.where(given <= 0, np.inf, passes)
-        return passes if given.ndim else float(passes)
+        passes = np.where(strains <= 0, np.inf, passes)
+        return passes if strains.ndim else float(passes)
 
     @overload
     def allowable_strain(self, passes: float) -> float: ...
@@ -134,11 +134,11 @@ class PowerLaw(ABC):
     def allowable_strain(self, passes: Array) -> Array: ...
     def allowable_strain(self, passes: float | Array) -> float | Array:
         """Strain (or stress, Pa) ε₁ (N / 10⁶)^b that allows this number of passes, > 0; InputError otherwise."""
-        given = np.asarray(passes, dtype=float)
-        if not (given > 0).all():
-            raise InputError(f"passes must be positive, got {given.min():g}")
-        strain = self.at_a_million * (given / _MILLION) ** self.exponent
-        return strain if given.ndim else float(strain)
+        repetitions = np.asarray(passes, dtype=float)
+        if not (repetitions > 0).all():
+            raise InputError(f"passes must be positive, got {repetitions.min():g}")
+        strain = self.at_a_million * (repetitions / _MILLION) ** self.exponent
+        return strain if repetitions.ndim else float(strain)
 
 
 @CRITERIA.register("fatigue-line")
@@ -226,17 +226,17 @@ def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
 
     strain: what the law reads, any shape; the largest finite value decides. Without a reading nothing is said.
     """
-    said = [f"{law}: {law.doubt}"] if law.doubt else []
-    given = np.asarray(strain, dtype=float)
-    largest = float(np.max(given, where=np.isfinite(given), initial=0.0))
+    caveats = [f"{law}: {law.doubt}"] if law.doubt else []
+    strains = np.asarray(strain, dtype=float)
+    largest = float(np.max(strains, where=np.isfinite(strains), initial=0.0))
     low, high = law.validity
     if 0 < largest < low or largest > high:
         beyond, bound = ("above", high) if largest > high else ("below", low)
-        said.append(
+        caveats.append(
             f"{law}: {law.reads.in_words(largest)} is {beyond} {law.reads.in_words(bound)}, the limit of its "
             f"range; {law.allowable_passes(largest):.2g} passes are extrapolated"
         )
-    return tuple(said)
+    return tuple(caveats)
 
 
 def check_strain(epsilon_6: float) -> None:

@@ -252,8 +252,8 @@ class FrenchSubgrade(PowerLaw):
         constants = {"heavy": soil.constant, "light": soil.constant_light, "inverted": soil.constant_inverted}
         constant = constants.get(traffic)
         if constant is None:
-            known = ", ".join(name for name, value in constants.items() if value is not None)
-            raise InputError(f"{soil.name!r} has a law for the traffic {known}, got {traffic!r}")
+            classes_listed = ", ".join(name for name, value in constants.items() if value is not None)
+            raise InputError(f"{soil.name!r} has a law for the traffic {classes_listed}, got {traffic!r}")
         return cls(constant, soil.slope)
 
     @property

@@ -52,9 +52,9 @@ class Limit:
     def allowable_passes(self, strain: Array) -> Array: ...
     def allowable_passes(self, strain: float | Array) -> float | Array:
         """Inf up to the limit, 1 above it, NaN for NaN."""
-        given = np.asarray(strain, dtype=float)
-        passes = np.where(np.isnan(given), np.nan, np.where(given > self.bound, 1.0, np.inf))
-        return passes if given.ndim else float(passes)
+        strains = np.asarray(strain, dtype=float)
+        passes = np.where(np.isnan(strains), np.nan, np.where(strains > self.bound, 1.0, np.inf))
+        return passes if strains.ndim else float(passes)
 
     @overload
     def allowable_strain(self, passes: float) -> float: ...
@@ -62,11 +62,11 @@ class Limit:
     def allowable_strain(self, passes: Array) -> Array: ...
     def allowable_strain(self, passes: float | Array) -> float | Array:
         """The limit, however many passes, > 0; InputError otherwise."""
-        given = np.asarray(passes, dtype=float)
-        if not (given > 0).all():
-            raise InputError(f"passes must be positive, got {given.min():g}")
-        same = np.full(given.shape, self.bound)
-        return same if given.ndim else float(same)
+        repetitions = np.asarray(passes, dtype=float)
+        if not (repetitions > 0).all():
+            raise InputError(f"passes must be positive, got {repetitions.min():g}")
+        same = np.full(repetitions.shape, self.bound)
+        return same if repetitions.ndim else float(same)
 
     def __str__(self) -> str:
         return f"limit of the {self.reads}, {self.reads.in_words(self.bound)}"

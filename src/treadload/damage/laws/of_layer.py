@@ -49,18 +49,18 @@ class OnLayer:
         except InputError as error:
             raise InputError(f"{self.name!r}: {error}") from error
 
-    def needed(self, given: Mapping[str, Any], *names: str) -> None:
+    def needed(self, values: Mapping[str, Any], *names: str) -> None:
         """Refuse what neither the caller nor the layer gives, all of it at once. Raises InputError."""
-        missing = [name for name in names if given.get(name) is None]
+        missing = [name for name in names if values.get(name) is None]
         if not missing:
             return
         *first, last = missing
         listed = f"{', '.join(first)} and {last} are" if first else f"{last} is"
         classes = ", ".join(get_args(TrafficClass))
-        known = f'; risk follows from the class of traffic too: traffic_class = "T1", one of {classes}'
+        hint = f'; risk follows from the class of traffic too: traffic_class = "T1", one of {classes}'
         raise InputError(
             f"{self.name!r}: {listed} missing, and the layer does not provide {'them' if first else 'it'}"
-            f"{known if 'risk' in missing else ''}"
+            f"{hint if 'risk' in missing else ''}"
         )
 
     def risk(
@@ -80,21 +80,21 @@ class OnLayer:
             )
         return accepted
 
-    def with_own(self, given: Mapping[str, Any], *names: str) -> dict[str, Any]:
+    def with_own(self, values: Mapping[str, Any], *names: str) -> dict[str, Any]:
         """What is given, and of these names the material's own where nothing is."""
-        own = {name: getattr(self.material, name, None) for name in names}
-        return {**own, **{name: value for name, value in given.items() if value is not None}}
+        defaults = {name: getattr(self.material, name, None) for name in names}
+        return {**defaults, **{name: value for name, value in values.items() if value is not None}}
 
 
 class OfModulus:
-    """A law that waits for the modulus of its layer. kind: of law. told: its other numbers. material: of the layer.
+    """A law that waits for the modulus of its layer. kind: of law. arguments: other numbers. material: of the layer.
 
     Called with a temperature, °C, it takes the modulus of the mix as given; `at_modulus` takes another, Pa: that of
     an aged part of the layer, or at the frequency of a class of axles.
     """
 
-    def __init__(self, kind: Callable[..., FatigueLaw], told: Mapping[str, Any], material: Mix) -> None:
-        self._kind, self._told, self._material = kind, told, material
+    def __init__(self, kind: Callable[..., FatigueLaw], arguments: Mapping[str, Any], material: Mix) -> None:
+        self._kind, self._arguments, self._material = kind, arguments, material
 
     def __call__(self, temperature: float) -> FatigueLaw:
         """The law with the modulus of the mix at a temperature, °C."""
@@ -102,31 +102,31 @@ class OfModulus:
 
     def at_modulus(self, modulus: float) -> FatigueLaw:
         """The law with a modulus, Pa."""
-        return self._kind(**self._told, modulus=modulus)
+        return self._kind(**self._arguments, modulus=modulus)
 
 
 def law_of_layer(
-    kind: Callable[..., FatigueLaw], at: OnLayer, given: Mapping[str, Any], needed: tuple[str, ...]
+    kind: Callable[..., FatigueLaw], at: OnLayer, values: Mapping[str, Any], needed: tuple[str, ...]
 ) -> Law:
     """A law of numbers that are given, or that the layer has under the same names. Raises InputError.
 
     thickness: left out, that of all asphalt. modulus: left out, that of the layer, which makes the law wait for the
     temperature where the modulus does. needed: names of numbers without a default.
     """
-    told = dict(given)
+    arguments = dict(values)
     rest = [name for name in needed if name != "modulus"]
-    if "thickness" in rest and "thickness" not in told:
-        told["thickness"] = at.asphalt()
-    told = {**at.with_own({}, *(name for name in rest if name not in told)), **told}
+    if "thickness" in rest and "thickness" not in arguments:
+        arguments["thickness"] = at.asphalt()
+    arguments = {**at.with_own({}, *(name for name in rest if name not in arguments)), **arguments}
     material = at.material
-    if "modulus" in needed and "modulus" not in told:
+    if "modulus" in needed and "modulus" not in arguments:
         if isinstance(material, Mix):
-            at.needed(told, *rest)
-            return OfModulus(kind, told, material)
+            at.needed(arguments, *rest)
+            return OfModulus(kind, arguments, material)
         if isinstance(material, Elastic):
-            told["modulus"] = material.modulus
-    at.needed(told, *needed)
-    return kind(**told)
+            arguments["modulus"] = material.modulus
+    at.needed(arguments, *needed)
+    return kind(**arguments)
 
 
 @CRITERIA.register("french-bituminous")
@@ -152,24 +152,24 @@ def _bituminous(
     out, that of an unbound layer of the catalogue there.
     """
     mix = at.material
-    told = {
+    arguments = {
         "risk": at.risk("bituminous", risk, traffic_class), "epsilon_6": epsilon_6, "slope": slope,
         "scatter": scatter, "calibration": calibration,
         "thickness": thickness, "thickness_scatter": thickness_scatter, "platform_modulus": platform_modulus,
     }  # fmt: skip
     if isinstance(mix, Mix):
-        told = {**told, **at.with_own(told, "epsilon_6", "slope", "scatter", "calibration")}
+        arguments = {**arguments, **at.with_own(arguments, "epsilon_6", "slope", "scatter", "calibration")}
     if platform_modulus is None:
-        told["platform_modulus"] = at.platform_modulus
+        arguments["platform_modulus"] = at.platform_modulus
     if thickness is None:
         # Nothing but Sh depends on it.
-        known = thickness_scatter is not None
-        told["thickness"] = at.road.layers[at.number].thickness if known else at.asphalt()
-    at.needed(told, "risk", "epsilon_6", "slope", "scatter", "thickness", "calibration")
-    own: dict[str, Any] = told
+        has_scatter = thickness_scatter is not None
+        arguments["thickness"] = at.road.layers[at.number].thickness if has_scatter else at.asphalt()
+    at.needed(arguments, "risk", "epsilon_6", "slope", "scatter", "thickness", "calibration")
+    constants: dict[str, Any] = arguments
     if not isinstance(mix, Mix):
-        return FrenchBituminous(**own)
-    return lambda temperature: FrenchBituminous(**own, modulus_ratio=mix.modulus_ratio(temperature))
+        return FrenchBituminous(**constants)
+    return lambda temperature: FrenchBituminous(**constants, modulus_ratio=mix.modulus_ratio(temperature))
 
 
 @CRITERIA.register("french-hydraulic")
@@ -192,19 +192,19 @@ def _hydraulic(
     -1/15. scatter: SN. calibration: k_c. joints: k_d. thickness_scatter: Sh; left out, these are those of the layer's
     mix. platform_modulus: of what lies below; left out, that of an unbound layer of the catalogue there.
     """
-    told = {
+    arguments = {
         "risk": at.risk("hydraulic", risk, traffic_class), "sigma_6": sigma_6, "slope": slope, "scatter": scatter,
         "calibration": calibration,
         "joints": joints, "thickness_scatter": thickness_scatter, "platform_modulus": platform_modulus,
     }  # fmt: skip
     if isinstance(at.material, HydraulicMix):
-        own = ("sigma_6", "slope", "scatter", "calibration", "joints", "thickness_scatter")
-        told = {**told, **at.with_own(told, *own)}
+        names = ("sigma_6", "slope", "scatter", "calibration", "joints", "thickness_scatter")
+        arguments = {**arguments, **at.with_own(arguments, *names)}
     if platform_modulus is None:
-        told["platform_modulus"] = at.platform_modulus
-    at.needed(told, "risk", "sigma_6", "slope", "scatter", "calibration")
-    known: dict[str, Any] = {name: value for name, value in told.items() if value is not None}
-    return FrenchHydraulic(**known)
+        arguments["platform_modulus"] = at.platform_modulus
+    at.needed(arguments, "risk", "sigma_6", "slope", "scatter", "calibration")
+    constants: dict[str, Any] = {name: value for name, value in arguments.items() if value is not None}
+    return FrenchHydraulic(**constants)
 
 
 @CRITERIA.register("french-subgrade")
@@ -219,11 +219,11 @@ def _subgrade(
     constant: A, strain of one pass; left out, that of the layer for the traffic. slope: b. traffic: "heavy", which is
     medium too, "light", or "inverted" for the unbound layer of an inverted structure.
     """
-    given = {name: value for name, value in (("constant", constant), ("slope", slope)) if value is not None}
-    asked = traffic or "heavy"
+    constants = {name: value for name, value in (("constant", constant), ("slope", slope)) if value is not None}
+    vehicles = traffic or "heavy"
     if isinstance(at.material, Unbound):
-        own = FrenchSubgrade.of(at.material, asked)
-        return FrenchSubgrade(**{"constant": own.constant, "slope": own.slope, **given})
-    if constant is None and asked != "heavy":
-        raise InputError(f"{at.name!r}: give constant for the traffic {asked!r}, or a layer of the catalogue")
-    return FrenchSubgrade(**given)
+        soil_law = FrenchSubgrade.of(at.material, vehicles)
+        return FrenchSubgrade(**{"constant": soil_law.constant, "slope": soil_law.slope, **constants})
+    if constant is None and vehicles != "heavy":
+        raise InputError(f"{at.name!r}: give constant for the traffic {vehicles!r}, or a layer of the catalogue")
+    return FrenchSubgrade(**constants)

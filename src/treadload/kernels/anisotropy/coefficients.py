@@ -160,11 +160,11 @@ def _smooth(table: Array, angle: Array) -> Array:
     place = angle * (entries / (2 * math.pi))
     nearest = np.rint(place).astype(int)
     apart = ((place - nearest) * (2 * math.pi / entries)).reshape(-1, 1)
-    known = table[nearest.ravel() % entries]
-    value = known[:, -1].copy()
+    rows = table[nearest.ravel() % entries]
+    value = rows[:, -1].copy()
     for power in range(_TERMS - 2, -1, -1):
         value *= apart
-        value += known[:, power]
+        value += rows[:, power]
     return np.ascontiguousarray(value.T).reshape(-1, *angle.shape)
 
 

@@ -132,7 +132,7 @@ def fields_on_grid(
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
         shape = np.broadcast_shapes(x.shape, y.shape)
-        flat_x, flat_y = (np.broadcast_to(one, shape).ravel() for one in (snapped(x, dx), snapped(y, dy)))
+        flat_x, flat_y = (np.broadcast_to(places, shape).ravel() for places in (snapped(x, dx), snapped(y, dy)))
         z = 0.0 if is_surface(z, dx, dy) else z
         both = corner_fields(modes, flat_x, flat_y, z, dx, dy, moves=moves).reshape(-1, *shape)
         for number, values in enumerate(both):
@@ -167,10 +167,10 @@ def _between(modes: Modes, x: Array, y: Array, dx: float, dy: float, moves: bool
     """The functions of `corner_fields` on the surface where x or y is zero."""
     values = np.zeros((27 if moves else 18, x.size))
     # The mean of the sides, a hair's breadth away; then the logarithm of that breadth becomes the other one.
-    for one in (-SNAP * dx, SNAP * dx):
-        for other in (-SNAP * dy, SNAP * dy):
+    for shift_x in (-SNAP * dx, SNAP * dx):
+        for shift_y in (-SNAP * dy, SNAP * dy):
             part = np.empty_like(values)
-            near = np.where(x == 0, one, x), np.where(y == 0, other, y)
+            near = np.where(x == 0, shift_x, x), np.where(y == 0, shift_y, y)
             _on_sides(modes, *near, 0.0, moves, part, slice(None))
             values += 0.25 * part
     cut, level = -math.log(2 * math.pi * SNAP), math.log(0.27 * math.sqrt(dx * dy) / (SNAP * math.hypot(dx, dy)))
@@ -196,9 +196,9 @@ def _on_sides(
     sector = np.floor(np.arctan2(y, x) * (_SECTORS / (2 * math.pi))).astype(int) % _SECTORS
     for number, path in enumerate(modes.paths):
         members = np.flatnonzero(sector == number)
-        for some in np.array_split(members, max(1, -(-members.size // _AT_ONCE))):
-            if some.size:
-                values[:, some] = _along(path, modes.poles, x[some], y[some], z, moves)
+        for batch in np.array_split(members, max(1, -(-members.size // _AT_ONCE))):
+            if batch.size:
+                values[:, batch] = _along(path, modes.poles, x[batch], y[batch], z, moves)
     into[:, places] = values
 
 
@@ -281,14 +281,14 @@ def _poles(matrix: Array, scale: float) -> tuple[_Pole, ...]:
 def _height(matrix: Array) -> float:
     """How far paths may leave the real axis, h, so that all modes stay apart from the other three on the way."""
     turn = math.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES
-    least, found = _APART * _gap(matrix, turn), 0.0
+    least, allowed = _APART * _gap(matrix, turn), 0.0
     for height in _HEIGHTS:
         if _gap(matrix, np.concatenate([turn - 1j * height, turn + 1j * height])) < least:
             break
-        found = height
-    if not found:
+        allowed = height
+    if not allowed:
         raise NotConvergedError("the modes of this stiffness come too near to their conjugates")
-    return found
+    return allowed
 
 
 def _gap(matrix: Array, theta: Array | ComplexArray) -> float:

@@ -29,7 +29,7 @@ def solve(
     product: Callable[[Array], tuple[Array, Array]],
     precondition: Callable[[Array], Array],
     *,
-    others: int,
+    size: int,
     rtol: float,
     most: int,
 ) -> tuple[Array, Array]:
@@ -47,11 +47,11 @@ def solve(
     while len(images) < most and left > goal:
         k = len(images)
         direction = precondition(seed)
-        image, other = product(direction)
+        image, mapped = product(direction)
         whole = _size(image)
-        for j, known in enumerate(images):
-            upper[j, k] = known @ image
-            image = saxpy(known, image, a=-upper[j, k])
+        for j, earlier in enumerate(images):
+            upper[j, k] = earlier @ image
+            image = saxpy(earlier, image, a=-upper[j, k])
         upper[k, k] = _size(image)
         if not upper[k, k] > _LOST * whole:
             # Nothing new in this direction; or none at all, where it is not finite.
@@ -60,15 +60,15 @@ def solve(
         shares[k] = image @ residual
         residual = saxpy(image, residual, a=-shares[k])
         images.append(image)
-        directions.append((direction, other))
+        directions.append((direction, mapped))
         before, left = left, _size(residual)
         # A residual that stays would lead the same way again.
         seed = residual if left < _STAYS * before else image
-    found = len(images)
-    weights = np.linalg.solve(upper[:found, :found], shares[:found])
-    solution, result = np.zeros_like(rhs), np.zeros(others, rhs.dtype)
-    for weight, (direction, other) in zip(weights, directions, strict=True):
-        solution, result = saxpy(direction, solution, a=weight), saxpy(other, result, a=weight)
+    count = len(images)
+    weights = np.linalg.solve(upper[:count, :count], shares[:count])
+    solution, result = np.zeros_like(rhs), np.zeros(size, rhs.dtype)
+    for weight, (direction, mapped) in zip(weights, directions, strict=True):
+        solution, result = saxpy(direction, solution, a=weight), saxpy(mapped, result, a=weight)
     return solution, result
 
 

@@ -21,6 +21,7 @@ import numpy as np
 
 from treadload.kernels.arrays import Array, BoolArray, ComplexArray
 from treadload.kernels.gridding.convolution import Padding
+from treadload.kernels.gridding.strips import Strips
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,8 @@ class CoulombProblem:
     rigid: w (2, ny, nx): rigid slip that is known. travel: e, slip distance per unit of rigid slip ξ.
     totals: prescribed sums of q_x and q_y over the cells; None where the rigid slip is prescribed instead
     (it is then part of `rigid`). precondition: of slip (2, ny, nx), zero outside of a mask (ny, nx): an
-    approximate inverse of S on the cells of the mask, in the precision of its argument.
+    approximate inverse of S on the cells of the mask, in the precision of its argument. strips: what A has besides on
+    groups of rows, in the length of the padding, before it is stretched by axes.
     """
 
     padding: Padding
@@ -47,6 +49,8 @@ class CoulombProblem:
     travel: float
     totals: tuple[float | None, float | None]
     precondition: Callable[[Array, BoolArray], Array]
+    strips: Strips | None = None
+    axes: tuple[float, float] = (1.0, 1.0)
 
     @property
     def forced(self) -> list[int]:
@@ -57,16 +61,22 @@ class CoulombProblem:
         """S q (2, ny, nx), in the precision of q and the compliance."""
         xx, yy, xy, yx = four(self._symbols)
 
-        def mix(waves: list[ComplexArray], some: slice) -> list[ComplexArray]:
-            x, y = (one.view(xx.dtype) for one in waves)
-            u_x = xx[some] * x
-            u_x += xy[some] * y
-            x *= yx[some]
-            y *= yy[some]
+        def mix(waves: list[ComplexArray], part: slice) -> list[ComplexArray]:
+            x, y = (wave.view(xx.dtype) for wave in waves)
+            u_x = xx[part] * x
+            u_x += xy[part] * y
+            x *= yx[part]
+            y *= yy[part]
             y += x
             return [u_x.view(waves[0].dtype), y.view(waves[0].dtype)]
 
         u_x, u_y = self.padding.through([q[0], q[1]], mix)
+        if self.strips is not None:
+            d_x, d_y = self.axes
+            stretched = q if d_x == d_y == 1 else q * np.array(self.axes, q.dtype)[:, None, None]
+            moved_x, moved_y = self.strips.displacement(stretched, (0, 1), (0, 1), u_x.shape[1])
+            u_x += d_x * moved_x
+            u_y += d_y * moved_y
         s = np.empty_like(q)
         if not self.rolls:
             s[0], s[1] = u_x, u_y

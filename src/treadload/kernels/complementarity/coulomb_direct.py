@@ -28,7 +28,7 @@ _NEWTON, _BURST = 60, 60
 # Of what is left in the scaled equations: below it lies round-off.
 _LEAST = 1e-6
 # Forces count a hundredfold beside the cells' conditions, and as much again is left for the last steps.
-_HELD = 1e-4
+_REACHED = 1e-4
 _LENGTHS = (1.0, 0.5, 0.25, 0.1, 0.02)
 # Of the resolvent in the slow path, in units of the cells' own stiffness.
 _STEP = 0.5
@@ -46,8 +46,8 @@ def solve(problem: CoulombProblem, start: Array, xi: Array, *, tolerance: float)
     bound = problem.bound[inside]
     matrix = stiffness * _matrix(problem, cells)
     forced = problem.forced
-    known = np.where([total is None for total in problem.totals], xi, 0.0)
-    slip = stiffness * (problem.rigid + problem.travel * known[:, None, None]).ravel()[cells]
+    creep = np.where([total is None for total in problem.totals], xi, 0.0)
+    slip = stiffness * (problem.rigid + problem.travel * creep[:, None, None]).ravel()[cells]
     # Columns that a rigid slip moves, and forces, as means over the cells.
     rigid = np.repeat(np.eye(2)[:, forced], n, axis=0)
     wanted = np.array([problem.totals[c] for c in forced], float) / n
@@ -58,15 +58,17 @@ def solve(problem: CoulombProblem, start: Array, xi: Array, *, tolerance: float)
     for spring in _SPRINGS if forced else (0.0,):
         # Scaled to a norm of about one, stiff springs take no cell past sticking into slip the other way.
         scale = 1 / (1 + spring)
-        held = scale * (matrix + spring / n * rigid @ rigid.T)
-        q = _bounded(held, scale * (slip + rigid @ (unknown - spring * wanted)), bound, q, max(scale, _LEAST) * goal)
+        scaled = scale * (matrix + spring / n * rigid @ rigid.T)
+        q = _bounded(
+            scaled, scale * (slip + rigid @ (unknown - spring * wanted)), bound, q, max(scale, _LEAST) * goal
+        )
         before, missing = missing, rigid.T @ q / n - wanted
         left = float(np.abs(missing).max(initial=0.0))
         far = 2 * far if np.abs(missing - before).max(initial=0.0) <= _STAYS * left else 1.0
         unknown = unknown + far * spring * missing
-        if left * n <= _HELD * goal:
+        if left * n <= _REACHED * goal:
             break
-    shear, slips = np.zeros(start.size), known.copy()
+    shear, slips = np.zeros(start.size), creep.copy()
     shear[cells] = q
     slips[forced] = unknown / (stiffness * problem.travel)
     return shear.reshape(start.shape), slips

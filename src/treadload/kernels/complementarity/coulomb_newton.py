@@ -254,7 +254,7 @@ class _Newton:
                 rows.right_hand_side(state),
                 rows.product,
                 rows.precondition,
-                others=state.q.size,
+                size=state.q.size,
                 rtol=rtol,
                 most=_KRYLOV_MEMORY,
             )
@@ -291,12 +291,12 @@ class _Rows:
         # What a mean over the contact counts beside the cells, if it counts as much as in the merit, and a bit more.
         g = newton.problem.bound
         self.force_row = _FORCE_ROW * float(np.linalg.norm(g) / g.sum()) * newton.n_cells
-        known, last = newton.columns
-        if known is None or (last != self.stick).sum() > _OTHER_CELLS * newton.n_cells:
+        columns, last = newton.columns
+        if columns is None or (last != self.stick).sum() > _OTHER_CELLS * newton.n_cells:
             units, nothing = np.eye(len(self.forced), dtype=np.float32), np.zeros_like(self.normal)
-            known = np.array([self._inverse(self._rows(nothing, self._uniform(unit))) for unit in units])
-            newton.columns = known, self.stick
-        self.columns = known
+            columns = np.array([self._inverse(self._rows(nothing, self._uniform(unit))) for unit in units])
+            newton.columns = columns, self.stick
+        self.columns = columns
         schur = np.array([self._mean(column) for column in self.columns]).T
         self.unmixed = np.linalg.pinv(schur, rcond=1e-12) if self.forced else schur
 
@@ -357,7 +357,7 @@ class _Rows:
         return v[:size].reshape(self.normal.shape), v[size:]
 
 
-def _dot(one: Array, other: Array) -> Array:
-    product: Array = one[0] * other[0]
-    product += one[1] * other[1]
+def _dot(first: Array, second: Array) -> Array:
+    product: Array = first[0] * second[0]
+    product += first[1] * second[1]
     return product

@@ -49,8 +49,8 @@ class FaceStiffness:
     @property
     def scale(self) -> float:
         """Geometric mean of its smallest and its largest eigenvalue, k = 0 aside, Pa/m."""
-        held = self.tt[self.tt > 0]
-        return math.sqrt(float(held.min()) * float(held.max()))
+        springs = self.tt[self.tt > 0]
+        return math.sqrt(float(springs.min()) * float(springs.max()))
 
     def resolve(self, weight: float, right: Array) -> Array:
         """The d (3, ny, nx) of (H + weight) d = right."""
@@ -106,9 +106,9 @@ def solve_parted(
     jump, borne = (np.zeros_like(traction), traction) if start is None else start
     split, bound = jump + borne / weight, friction * np.maximum(borne[2], 0.0)
     for step in range(1, _MOST + 1):  # noqa: B007, it is returned
-        held, borne = _law(split, weight, bound)
-        moved = stiffness.resolve(weight, traction + weight * (2 * held - split))
-        apart = moved - held
+        admissible, borne = _law(split, weight, bound)
+        moved = stiffness.resolve(weight, traction + weight * (2 * admissible - split))
+        apart = moved - admissible
         split += _BEYOND * apart
         # With the bound of the moment and no more patience than this, pressure and friction may chase each other.
         lag = friction * borne[2] - bound
@@ -116,7 +116,7 @@ def solve_parted(
         residual = max(weight * float(np.abs(apart).max()), float(np.abs(lag).max())) / largest
         if residual <= tolerance:
             break
-    return PartedFace(held, borne, step, residual)
+    return PartedFace(admissible, borne, step, residual)
 
 
 def _law(split: Array, weight: float, bound: Array) -> tuple[Array, Array]:
@@ -124,10 +124,10 @@ def _law(split: Array, weight: float, bound: Array) -> tuple[Array, Array]:
 
     bound: (ny, nx), Pa, of the shear.
     """
-    held, borne = np.empty_like(split), np.empty_like(split)
-    held[2], borne[2] = np.minimum(split[2], 0.0), weight * np.maximum(split[2], 0.0)
+    admissible, borne = np.empty_like(split), np.empty_like(split)
+    admissible[2], borne[2] = np.minimum(split[2], 0.0), weight * np.maximum(split[2], 0.0)
     size = weight * np.hypot(split[0], split[1])
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.where(size > bound, bound / size, 1.0)
-    held[:2], borne[:2] = (1 - share) * split[:2], weight * share * split[:2]
-    return held, borne
+    admissible[:2], borne[:2] = (1 - share) * split[:2], weight * share * split[:2]
+    return admissible, borne

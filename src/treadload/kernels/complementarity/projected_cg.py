@@ -271,8 +271,8 @@ class _Search:
     energy: float
 
 
-def _dot(xp: Any, one: Array, other: Array) -> float:
-    return float(xp.tensordot(one, other, axes=2))
+def _dot(xp: Any, first: Array, second: Array) -> float:
+    return float(xp.tensordot(first, second, axes=2))
 
 
 def _largest(xp: Any, v: Array) -> float:

@@ -63,7 +63,9 @@ def equivalent(
     layer = np.nonzero(inclusions)[0]
     # In these coordinates the product of tensors weighted by volumes is the plain one.
     root = np.sqrt(_WEIGHTS[:, None] * (thickness / thickness.mean())[layer])
-    scales, shifts, signs = zip(*(_scaled(own, one) for own, one in zip(stiffness, matrix, strict=True)), strict=True)
+    scales, shifts, signs = zip(
+        *(_scaled(inclusion, host) for inclusion, host in zip(stiffness, matrix, strict=True)), strict=True
+    )
     used = 0
 
     def isotropic(parts: Any, tensor: Array) -> Array:
@@ -105,10 +107,10 @@ def equivalent(
     return Equivalent(strain, total, used - 1, residual, "conjugate gradients" if definite else "MINRES")
 
 
-def _scaled(own: Array, matrix: float) -> tuple[Array, Array, Array]:
+def _scaled(inclusion: Array, matrix: float) -> tuple[Array, Array, Array]:
     """T, T M T and their sign for one of the two moduli, (n,)."""
-    stiff = own >= matrix
+    stiff = inclusion >= matrix
     # T² of what is stiffer: S₀ - S. Of what is softer (|M| + C₀)⁻¹, and |M| over that.
-    square = np.where(stiff, 1 - matrix / np.where(stiff, own, matrix), 1 - own / matrix) / matrix
-    shift = np.where(stiff, 1.0, -own / matrix)
+    square = np.where(stiff, 1 - matrix / np.where(stiff, inclusion, matrix), 1 - inclusion / matrix) / matrix
+    shift = np.where(stiff, 1.0, -inclusion / matrix)
     return np.sqrt(square), shift, np.where(stiff, 1, -1)

@@ -268,9 +268,9 @@ def _even(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray],
         signed = (sign * kernels).astype(kind)
         for parity in np.ndindex(2, 2):
             # All of one parity along both axes at once.
-            some = (odd_y == parity[0]) & (odd_x == parity[1])
-            part = (sines if parity[0] else cosines)(signed[some], ly, axis=2)
-            result[some] = (sines if parity[1] else cosines)(part, lx, axis=3)
+            where_parity = (odd_y == parity[0]) & (odd_x == parity[1])
+            part = (sines if parity[0] else cosines)(signed[where_parity], ly, axis=2)
+            result[where_parity] = (sines if parity[1] else cosines)(part, lx, axis=3)
         return result
 
     matrices = _gathered(rows, transformed, grid, depths, len(odd[0]), (ly + 1, lx + 1), np.dtype(kind))
@@ -292,8 +292,8 @@ def _bars(rows: Rows, grid: Grid, *, single: bool = False) -> Operator:
     even = ~odd_x[..., None, None]
     imaginary = _ODD_X ^ _ODD_Y
     sign, constant = (
-        np.where(one, -1.0, 1.0)[..., None, None, None]
-        for one in ((odd_x & odd_y) | (imaginary & ~imaginary[:, None]), _ODD_Y & ~_ODD_Y[:, None])
+        np.where(odd, -1.0, 1.0)[..., None, None, None]
+        for odd in ((odd_x & odd_y) | (imaginary & ~imaginary[:, None]), _ODD_Y & ~_ODD_Y[:, None])
     )
 
     def transformed(kernels: Array) -> Array:
@@ -302,11 +302,15 @@ def _bars(rows: Rows, grid: Grid, *, single: bool = False) -> Operator:
         result = np.empty((*kernels.shape[:3], ly + 1, lx + 1), kind)
         rest = (kernels[..., 1:] - half[..., None]).astype(kind)
         for parity in np.ndindex(2, 2):
-            some = (odd_y == parity[0]) & (odd_x == parity[1])
-            part = -cosines_between(rest[some], lx, axis=3) if parity[1] else sines_between(rest[some], lx, axis=3)
+            where_parity = (odd_y == parity[0]) & (odd_x == parity[1])
+            part = (
+                -cosines_between(rest[where_parity], lx, axis=3)
+                if parity[1]
+                else sines_between(rest[where_parity], lx, axis=3)
+            )
             # Of the longest wave: what all bars add up to, no turn and no factor.
-            part[..., 0] = -part[..., 0] if parity[1] else 2 * lx * half[some]
-            result[some] = (sines if parity[0] else cosines)(part, ly, axis=2)
+            part[..., 0] = -part[..., 0] if parity[1] else 2 * lx * half[where_parity]
+            result[where_parity] = (sines if parity[0] else cosines)(part, ly, axis=2)
         result[..., 1:] *= sign
         result[..., :1] *= constant
         return result
@@ -316,7 +320,7 @@ def _bars(rows: Rows, grid: Grid, *, single: bool = False) -> Operator:
     row, column = np.where(imaginary, 1j, 1) / turn, np.where(imaginary, 1j, 1) * np.ones_like(turn)
     row[0] = column[0] = np.where(_ODD_Y, 1j, 1)
     factors = np.result_type(kind, np.complex64)
-    phase = tuple(np.repeat(one, len(grid.depths), axis=-1).astype(factors) for one in (row, column))
+    phase = tuple(np.repeat(factors_of, len(grid.depths), axis=-1).astype(factors) for factors_of in (row, column))
     signs = _signs(_ODD_Y, len(grid.depths), grid, kind)
     return Operator(grid.shape, 6, matrices, (phase[0], phase[1]), signs, (2 * ly, 2 * lx))
 

@@ -143,14 +143,14 @@ def _surface_response(nu: float, c: Array, s: Array) -> tuple[Any, Any]:
 
     Stress (2, 6, 3, directions), displacement (3, 3, directions), in waves of k = 1 and a shear modulus of 1.
     """
-    known = transfer([1.0], Stack([1.0], [nu], [math.inf], []), [0.0, 1.0], [True, True])
+    solved = transfer([1.0], Stack([1.0], [nu], [math.inf], []), [0.0, 1.0], [True, True])
     stress = np.empty((2, 6, 3, len(c)), complex)
     moved = np.empty((3, 3, len(c)), complex)
-    zero, one = np.zeros_like(c), np.ones_like(c)
-    for column, (along, across, down) in enumerate(((c, -s, zero), (s, c, zero), (zero, zero, one))):
+    zero, ones = np.zeros_like(c), np.ones_like(c)
+    for column, (along, across, down) in enumerate(((c, -s, zero), (s, c, zero), (zero, zero, ones))):
         for row, depth in enumerate((0.0, 1.0)):
             # Loads are what cancels σ: q = σ_xz, p = σ_zz. i f_k and f_z, f_t.
-            plane, turned = known.plane[row, :, :, 0], known.transverse[row, :, 0]
+            plane, turned = solved.plane[row, :, :, 0], solved.transverse[row, :, 0]
             u, w, shear, push = plane[:, 0, None] * (1j * along) + plane[:, 1, None] * down
             v, slide = turned[0] * across, turned[1] * across
             kk, zz, kt = u, -push, 0.5j * v

@@ -39,17 +39,21 @@ def stress_intensity(faces: CrackFaces, traction: Array, friction: float) -> tup
     left, settled = np.arange(len(normal)), np.ones(len(normal), dtype=bool)
     for _ in range(_TURNS):
         # Displacement that shear makes counts as normal traction that would make it, and the other way round.
-        own, beside = normal[left], shear[left]
-        push = own + np.linalg.solve(opening, across @ (beside - rubbing[left]).T).T if coupled else own
-        found = -bounded(opening, push, np.full_like(push, -np.inf), np.zeros_like(push))
-        limit = friction * found * part[left]
-        drive = beside + np.linalg.solve(sliding, along @ (own + found).T).T if coupled else beside
-        held = bounded(sliding, drive, -limit, limit)
-        change = np.maximum(np.abs(found - pressure[left]), np.abs(held - rubbing[left])).max(axis=1)
-        pressure[left], rubbing[left] = found, held
+        opening_load, beside = normal[left], shear[left]
+        push = (
+            opening_load + np.linalg.solve(opening, across @ (beside - rubbing[left]).T).T
+            if coupled
+            else opening_load
+        )
+        pressed = -bounded(opening, push, np.full_like(push, -np.inf), np.zeros_like(push))
+        limit = friction * pressed * part[left]
+        drive = beside + np.linalg.solve(sliding, along @ (opening_load + pressed).T).T if coupled else beside
+        rubbed = bounded(sliding, drive, -limit, limit)
+        change = np.maximum(np.abs(pressed - pressure[left]), np.abs(rubbed - rubbing[left])).max(axis=1)
+        pressure[left], rubbing[left] = pressed, rubbed
         if not coupled:
             break
-        left = left[change > _SETTLED * np.maximum(np.abs(own), np.abs(beside)).max(axis=1)]
+        left = left[change > _SETTLED * np.maximum(np.abs(opening_load), np.abs(beside)).max(axis=1)]
         if not len(left):
             break
     else:
@@ -59,11 +63,11 @@ def stress_intensity(faces: CrackFaces, traction: Array, friction: float) -> tup
         pressure[left] = -bounded(opening, push, np.full_like(push, -np.inf), np.zeros_like(push))
         rubbing[left] = 0.0
     limit = friction * pressure * rest * settled[:, None]
-    held = bounded(faces.tearing, lateral, -limit, limit)
+    rubbed = bounded(faces.tearing, lateral, -limit, limit)
     plane = np.concatenate([normal + pressure, shear - rubbing], axis=1) @ faces.plane.T
     # Where the faces touch up to the tip nothing opens there but what round-off leaves.
     first = np.where(pressure[:, -1] > 0, 0.0, np.maximum(plane[:, 0], 0.0))
-    modes = np.stack([first, plane[:, 1], (lateral - held) @ faces.antiplane], axis=1)
+    modes = np.stack([first, plane[:, 1], (lateral - rubbed) @ faces.antiplane], axis=1)
     return modes.reshape(*shape, 3), settled.reshape(shape)
 
 
@@ -74,17 +78,17 @@ def bounded(compliance: Array, traction: Array, low: Array, high: Array) -> Arra
     Method: primal-dual active sets (Hintermüller, Ito and Kunisch 2002), row by row of σ.
     Raises ArithmeticError.
     """
-    found = np.clip(traction, low, high)
+    bounded_traction = np.clip(traction, low, high)
     scale = np.abs(traction).max(axis=1, initial=0.0)
     # Most rows hold everywhere or nowhere.
     free = (traction <= high) & (traction >= low)
     apart = ((traction @ compliance.T) >= 0).all(axis=1) & (not high.any() and not np.isfinite(low).any())
-    found[apart] = 0.0
+    bounded_traction[apart] = 0.0
     rows = np.flatnonzero(~free.all(axis=1) & ~apart & (scale > 0))
     for start in range(0, len(rows), _TOGETHER):
-        own = rows[start : start + _TOGETHER]
-        found[own] = _active(compliance, traction[own], low[own], high[own], scale[own])
-    return found
+        batch = rows[start : start + _TOGETHER]
+        bounded_traction[batch] = _active(compliance, traction[batch], low[batch], high[batch], scale[batch])
+    return bounded_traction
 
 
 def _active(compliance: Array, traction: Array, low: Array, high: Array, scale: Array) -> Array:
@@ -97,19 +101,19 @@ def _active(compliance: Array, traction: Array, low: Array, high: Array, scale: 
     for _ in range(_STEPS):
         above, below = upper[left], lower[left]
         bound = np.where(above, high[left], np.where(below, low[left], 0.0))
-        held = ~(above | below)
+        free = ~(above | below)
         # Of what is held the displacement is zero, of the rest the force is known.
-        matrix = np.where(held[:, :, None], compliance, np.eye(n))
-        right = np.where(held, moved[left], bound)
-        own = np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
-        slip = np.where(held, 0.0, moved[left] - own @ compliance.T)
-        trial = own + pace * slip
+        matrix = np.where(free[:, :, None], compliance, np.eye(n))
+        right = np.where(free, moved[left], bound)
+        solution = np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+        slip = np.where(free, 0.0, moved[left] - solution @ compliance.T)
+        trial = solution + pace * slip
         edge = 1e-12 * scale[left, None]
         new_upper, new_lower = trial > high[left] + edge, trial < low[left] - edge
         # At a bound with no displacement either set will do: keep that in which it is.
         new_upper |= above & (trial >= high[left] - edge)
         new_lower |= below & (trial <= low[left] + edge) & ~new_upper
-        force[left] = own
+        force[left] = solution
         done = (new_upper == above).all(axis=1) & (new_lower == below).all(axis=1)
         upper[left], lower[left] = new_upper, new_lower
         left = left[~done]

@@ -63,9 +63,11 @@ def crack_faces(section: Section, curve: Curve, length: float, points: int = 32)
     its_normal, its_tangent = _frame(its_along, its_down)
     # Stress of Burgers vectors along the normal and the tangent at the sources.
     stress = edge_stress(section, (xi, zeta), (x, z)) * (0.5 * length * weight)
-    own = [sum(stress[:, part] * vector[part] for part in range(2)) for vector in (its_normal, its_tangent)]
+    tractions = [sum(stress[:, part] * vector[part] for part in range(2)) for vector in (its_normal, its_tangent)]
     # Faces part where the density falls towards the tip.
-    matrix = -np.block([[_traction(one, normal, other) for one in own] for other in (normal, tangent)])
+    matrix = -np.block(
+        [[_traction(stress_part, normal, direction) for stress_part in tractions] for direction in (normal, tangent)]
+    )
     screw = screw_stress(section, (xi, zeta), (x, z)) * (0.5 * length * weight)
     lateral = screw[0] * normal[0][:, None] + screw[1] * normal[1][:, None]
     # Coefficients of Chebyshev polynomials of the third kind, of which all are 1 at the tip.
@@ -103,6 +105,6 @@ def _frame(along: Array, down: Array) -> tuple[Array, Array]:
 def _traction(stress: Array, normal: Array, onto: Array) -> Array:
     """Part along `onto` of the traction on planes of a normal, of stress (xx, zz, xz; points, sources)."""
     xx, zz, xz = stress
-    n, m = (one[:, :, None] for one in (normal, onto))
-    found: Array = xx * n[0] * m[0] + zz * n[1] * m[1] + xz * (n[0] * m[1] + n[1] * m[0])
-    return found
+    n, m = (vector[:, :, None] for vector in (normal, onto))
+    traction: Array = xx * n[0] * m[0] + zz * n[1] * m[1] + xz * (n[0] * m[1] + n[1] * m[0])
+    return traction

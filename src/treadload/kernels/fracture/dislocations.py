@@ -37,33 +37,36 @@ class Section:
         """Of the layer that cracks, m; inf for the last."""
         return self.strips[self.layer].thickness
 
-    @property
-    def is_half_plane(self) -> bool:
-        """True if there is nothing but one layer without end."""
-        return len(self.strips) == 1 and math.isinf(self.thickness)
-
     @cached_property
     def nearest(self) -> tuple[tuple[Array, float] | None, tuple[Array, float] | None]:
         """Reflections of top and bottom as if half-spaces lay beyond; None for a boundary that is not there."""
         return self._beyond(top=True), None if math.isinf(self.thickness) else self._beyond(top=False)
 
     def _beyond(self, *, top: bool) -> tuple[Array, float]:
-        own, one = replace(self.strips[self.layer], thickness=math.inf), np.ones(1)
+        layer_strip, ones = replace(self.strips[self.layer], thickness=math.inf), np.ones(1)
         number = 0 if top else 1
         strips: tuple[Strip, ...]
         if top and self.layer == 0:
-            strips, layer, rigid = (replace(own, slip=0.0),), 0, False
+            strips, layer, rigid = (replace(layer_strip, slip=0.0),), 0, False
         elif top:
-            other = self.strips[self.layer - 1]
+            upper_strip = self.strips[self.layer - 1]
             # Half a million times the length of the wave is far away.
-            strips, layer, rigid = (replace(other, thickness=500.0, slip=_at_once(other.slip)), own), 1, False
+            strips, layer, rigid = (
+                (replace(upper_strip, thickness=500.0, slip=_at_once(upper_strip.slip)), layer_strip),
+                1,
+                False,
+            )
         elif self.layer == len(self.strips) - 1:
-            strips, layer, rigid = (replace(own, thickness=500.0),), 0, True
+            strips, layer, rigid = (replace(layer_strip, thickness=500.0),), 0, True
         else:
             below = replace(self.strips[self.layer + 1], thickness=math.inf, slip=0.0)
-            strips, layer, rigid = (replace(own, thickness=500.0, slip=_at_once(own.slip)), below), 0, False
-        plane = reflections(strips, layer, one, rigid=rigid)[number][0]
-        return plane, float(antiplane_reflections(strips, layer, one, rigid=rigid)[number][0])
+            strips, layer, rigid = (
+                (replace(layer_strip, thickness=500.0, slip=_at_once(layer_strip.slip)), below),
+                0,
+                False,
+            )
+        plane = reflections(strips, layer, ones, rigid=rigid)[number][0]
+        return plane, float(antiplane_reflections(strips, layer, ones, rigid=rigid)[number][0])
 
 
 def _at_once(slip: float) -> float:
@@ -78,16 +81,16 @@ def edge_stress(section: Section, source: tuple[Array, Array], point: tuple[Arra
     """
     x = point[0][:, None] - source[0]
     z, zeta = point[1][:, None], source[1]
-    found = _in_the_plane(x, z - zeta)
+    stress = _in_the_plane(x, z - zeta)
     top, bottom = section.nearest
     if top is not None:
-        found += _image(top[0], _UP, x, z + 0 * zeta, zeta + 0 * z, 1.0)
+        stress += _image(top[0], _UP, x, z + 0 * zeta, zeta + 0 * z, 1.0)
     if bottom is not None:
         h = section.thickness
-        found += _image(bottom[0], _DOWN, x, h - z + 0 * zeta, h - zeta + 0 * z, -1.0)
+        stress += _image(bottom[0], _DOWN, x, h - z + 0 * zeta, h - zeta + 0 * z, -1.0)
     if len(section.strips) > 1 or section.rigid:
-        found += _of_the_layers(section, source, point)
-    return found
+        stress += _of_the_layers(section, source, point)
+    return stress
 
 
 def screw_stress(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
@@ -95,17 +98,17 @@ def screw_stress(section: Section, source: tuple[Array, Array], point: tuple[Arr
     x = point[0][:, None] - source[0]
     z, zeta = point[1][:, None], source[1]
     square = x**2 + (z - zeta) ** 2
-    found = np.stack([(z - zeta) / square, -x / square])
+    stress = np.stack([(z - zeta) / square, -x / square])
     top, bottom = section.nearest
     if top is not None:
         far = z + zeta
-        found -= top[1] * np.stack([far, -x]) / (x**2 + far**2)
+        stress -= top[1] * np.stack([far, -x]) / (x**2 + far**2)
     if bottom is not None:
         far = 2 * section.thickness - z - zeta
-        found += bottom[1] * np.stack([far, x]) / (x**2 + far**2)
+        stress += bottom[1] * np.stack([far, x]) / (x**2 + far**2)
     if len(section.strips) > 1 or section.rigid:
-        found += _screw_of_the_layers(section, source, point)
-    return found
+        stress += _screw_of_the_layers(section, source, point)
+    return stress
 
 
 def _in_the_plane(x: Array, z: Array) -> Array:
@@ -126,7 +129,7 @@ def _image(matrix: Array, sent: Sequence[tuple[float, float]], x: Array, z: Arra
 
     sign: 1 below the boundary, -1 above it.
     """
-    found = np.zeros((3, 2, *x.shape))
+    stress = np.zeros((3, 2, *x.shape))
     inverse = 1 / (z + zeta - 1j * x)
     powers = [inverse, inverse**2, 2 * inverse**3]
     for burgers, (alpha, beta) in enumerate(sent):
@@ -139,8 +142,8 @@ def _image(matrix: Array, sent: Sequence[tuple[float, float]], x: Array, z: Arra
         value = sum((p + r) * power for p, r, power in zip(a, ramp, powers, strict=True))
         first = sum((q - p - r) * power for p, q, r, power in zip(a, b, ramp, powers, strict=True))
         second = sum((p - 2 * q + r) * power for p, q, r, power in zip(a, b, ramp, powers, strict=True))
-        found[:, burgers] = _read(value, first, second, burgers, sign)
-    return found
+        stress[:, burgers] = _read(value, first, second, burgers, sign)
+    return stress
 
 
 def _read(value: ComplexArray, first: ComplexArray, second: ComplexArray, burgers: int, sign: float) -> Array:
@@ -152,11 +155,11 @@ def _read(value: ComplexArray, first: ComplexArray, second: ComplexArray, burger
 
 def _waves(section: Section, z: Array, zeta: Array) -> tuple[Array, Array]:
     """Wavenumbers and their weights for points and sources: from the longest length to the shortest distance."""
-    finite = [one.thickness for one in section.strips if math.isfinite(one.thickness)]
-    far = [section.thickness - one.max() for one in (z, zeta)] if math.isfinite(section.thickness) else []
+    finite = [strip.thickness for strip in section.strips if math.isfinite(strip.thickness)]
+    far = [section.thickness - depths.max() for depths in (z, zeta)] if math.isfinite(section.thickness) else []
     # Beyond the images waves fade over the thickness of a layer; where an interface slides, over the distance to it.
     short = min(finite)
-    if any(0 < one.slip < math.inf for one in section.strips):
+    if any(0 < strip.slip < math.inf for strip in section.strips):
         short = min(short, max(min(z.min() + zeta.min(), *([sum(far)] if far else [])), 1e-5))
     low, high = math.log(_LONGEST / sum(finite)), math.log(_SHORTEST / short)
     panels = math.ceil((high - low) / 1.2)
@@ -180,7 +183,7 @@ def _of_the_layers(section: Section, source: tuple[Array, Array], point: tuple[A
     p = k[:, None]
     fade = np.exp(-k * h)[:, None, None] if finite else np.zeros((len(k), 1, 1))
     through = fade * (np.eye(2) + (k * h)[:, None, None] * np.array([[0.0, 1.0], [0.0, 0.0]]))
-    found = np.zeros((3, 2, len(z), len(zeta)))
+    stress = np.zeros((3, 2, len(z), len(zeta)))
     for burgers in range(2):
         at_top = shifted(np.broadcast_to(_UP[burgers], (len(k), len(zeta), 2)), p * zeta)
         if finite:
@@ -208,17 +211,17 @@ def _of_the_layers(section: Section, source: tuple[Array, Array], point: tuple[A
             value = (near, alpha), (near * q, beta)
             first = (near, beta - alpha), (-near * q, beta)
             second = (near, alpha - 2 * beta), (near * q, beta)
-            phi, phi_1, phi_2 = (_sum(one, k, x, point[0], source[0]) for one in (value, first, second))
-            found[:, burgers] += _read(phi, phi_1, phi_2, burgers, sign)
-    return found
+            phi, phi_1, phi_2 = (_sum(spectrum, k, x, point[0], source[0]) for spectrum in (value, first, second))
+            stress[:, burgers] += _read(phi, phi_1, phi_2, burgers, sign)
+    return stress
 
 
 def _sum(terms: Sequence[tuple[Array, Array]], k: Array, x: Array, at: Array, of: Array) -> ComplexArray:
     """Σ over k of products times exp(i k x), complex (points, sources)."""
     if not x.any():
-        return np.asarray(sum(one.T @ other for one, other in terms), dtype=complex)
+        return np.asarray(sum(left.T @ right for left, right in terms), dtype=complex)
     here, there = np.exp(1j * k[:, None] * at), np.exp(-1j * k[:, None] * of)
-    return np.asarray(sum((one * here).T @ (other * there) for one, other in terms))
+    return np.asarray(sum((left * here).T @ (right * there) for left, right in terms))
 
 
 def _screw_of_the_layers(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
@@ -237,11 +240,11 @@ def _screw_of_the_layers(section: Section, source: tuple[Array, Array], point: t
     up = u * (b + fade * down)
     down = down - (images[0][1] if images[0] is not None else 0.0) * a
     up = up - (images[1][1] if images[1] is not None else 0.0) * b
-    found = np.zeros((2, len(z), len(zeta)))
+    stress = np.zeros((2, len(z), len(zeta)))
     for amplitude, distance, sign in ((down, z, 1.0), (up, h - z, -1.0)):
         if sign < 0 and not finite:
             continue
         faded = np.exp(-p * distance) * weight[:, None]
         wave = _sum([(faded, amplitude)], k, x, point[0], source[0])
-        found += np.stack([wave.real, -sign * wave.imag])
-    return found
+        stress += np.stack([wave.real, -sign * wave.imag])
+    return stress

@@ -46,10 +46,10 @@ def reflections(strips: tuple[Strip, ...], layer: int, k: Array, *, rigid: bool 
     last = len(strips) if rigid else len(strips) - 1
     for strip in reversed(strips[layer + 1 : last]):
         below = _through(_slid(below, strip.slip, k), strip, k)
-    own = strips[layer]
+    host = strips[layer]
     if layer < len(strips) - 1:
-        below = _slid(below, own.slip, k)
-    return _reflection(above, own, up=True), _reflection(below, own)
+        below = _slid(below, host.slip, k)
+    return _reflection(above, host, up=True), _reflection(below, host)
 
 
 def antiplane_reflections(
@@ -63,12 +63,15 @@ def antiplane_reflections(
     last = len(strips) if rigid else len(strips) - 1
     for strip in reversed(strips[layer + 1 : last]):
         below = _tanh(_slid_antiplane(below, strip.slip, k), strip, k)
-    own = strips[layer]
+    host = strips[layer]
     if layer < len(strips) - 1:
-        below = _slid_antiplane(below, own.slip, k)
+        below = _slid_antiplane(below, host.slip, k)
     with np.errstate(invalid="ignore"):
-        found = [np.where(np.isinf(one), -1.0, (own.shear - one) / (own.shear + one)) for one in (above, below)]
-    return found[0], found[1]
+        reflected = [
+            np.where(np.isinf(impedance), -1.0, (host.shear - impedance) / (host.shear + impedance))
+            for impedance in (above, below)
+        ]
+    return reflected[0], reflected[1]
 
 
 def shifted(amplitudes: Array, p: Array) -> Array:
@@ -99,8 +102,8 @@ def _reflection(stiffness: Array, strip: Strip, *, up: bool = False) -> Array:
     into, out = _wave(strip, up=up), _wave(strip, up=not up)
     if np.isinf(stiffness).any():
         return np.broadcast_to(-np.linalg.inv(out[1]) @ into[1], stiffness.shape)
-    found: Array = -np.linalg.solve(out[0] - stiffness @ out[1], into[0] - stiffness @ into[1])
-    return found
+    reflection: Array = -np.linalg.solve(out[0] - stiffness @ out[1], into[0] - stiffness @ into[1])
+    return reflection
 
 
 def _through(stiffness: Array, strip: Strip, k: Array, *, up: bool = False) -> Array:
@@ -110,9 +113,9 @@ def _through(stiffness: Array, strip: Strip, k: Array, *, up: bool = False) -> A
     p = k * strip.thickness
     shift = np.exp(-p)[:, None, None] * (np.eye(2) + p[:, None, None] * np.array([[0.0, 1.0], [0.0, 0.0]]))
     returned = shift @ back @ shift
-    traction, displacement = (one + other @ returned for one, other in zip(near, far, strict=True))
-    found: Array = traction @ np.linalg.inv(displacement)
-    return found
+    traction, displacement = (at_near + at_far @ returned for at_near, at_far in zip(near, far, strict=True))
+    stiffness_through: Array = traction @ np.linalg.inv(displacement)
+    return stiffness_through
 
 
 def _slid(stiffness: Array, slip: float, k: Array, *, up: bool = False) -> Array:
@@ -127,11 +130,11 @@ def _slid(stiffness: Array, slip: float, k: Array, *, up: bool = False) -> Array
         compliance = np.linalg.inv(stiffness)
     # A traction on what lies above pushes it, the same on what lies below pulls it.
     sign = 1.0 if up else -1.0
-    found = np.zeros_like(stiffness)
+    slid = np.zeros_like(stiffness)
     if math.isinf(slip):
         with np.errstate(divide="ignore"):
-            found[:, 1, 1] = 1 / compliance[:, 1, 1]
-        return found
+            slid[:, 1, 1] = 1 / compliance[:, 1, 1]
+        return slid
     compliance[:, 0, 0] += sign * slip * k
     solved: Array = np.linalg.inv(compliance)
     return solved
@@ -141,12 +144,12 @@ def _tanh(stiffness: Array, strip: Strip, k: Array) -> Array:
     """Antiplane stiffness at the near side of a strip, from that at its far side."""
     t = np.tanh(k * strip.thickness)
     with np.errstate(invalid="ignore"):
-        found: Array = np.where(
+        ratio: Array = np.where(
             np.isinf(stiffness),
             strip.shear / np.maximum(t, 1e-300),
             strip.shear * (stiffness + strip.shear * t) / (strip.shear + stiffness * t),
         )
-    return found
+    return ratio
 
 
 def _slid_antiplane(stiffness: Array, slip: float, k: Array) -> Array:
@@ -155,5 +158,5 @@ def _slid_antiplane(stiffness: Array, slip: float, k: Array) -> Array:
     if math.isinf(slip):
         return np.zeros_like(stiffness)
     with np.errstate(divide="ignore"):
-        found: Array = 1 / (1 / stiffness + slip * k)
-    return found
+        slid: Array = 1 / (1 / stiffness + slip * k)
+    return slid

@@ -102,17 +102,17 @@ class Padding:
         # Waves along x are kept as rows, so that the lines across lie side by side.
         waves = [xp.empty((mx // 2 + 1, max(loaded, ny)), dtype=kind) for _ in loads]
         for into, load in zip(waves, loads, strict=True):
-            for some in fft.portions(load, loaded, mx):
-                into[:, some] = fft.rfft(load[some, :], n=mx).T
-        for some in fft.portions(load, mx // 2 + 1, my):
-            mixed = mix([fft.fft(one[some, :loaded], n=my) for one in waves], some)
+            for portion in fft.portions(load, loaded, mx):
+                into[:, portion] = fft.rfft(load[portion, :], n=mx).T
+        for portion in fft.portions(load, mx // 2 + 1, my):
+            mixed = mix([fft.fft(wave[portion, :loaded], n=my) for wave in waves], portion)
             for into, padded in zip(waves, mixed, strict=True):
-                into[some, :ny] = fft.ifft(padded, overwrite_x=True)[:, :ny]
+                into[portion, :ny] = fft.ifft(padded, overwrite_x=True)[:, :ny]
         fields = []
-        for one in waves:
+        for wave in waves:
             field: Array = xp.empty((ny, nx), dtype=load.dtype)
-            for some in fft.portions(load, ny, mx):
-                field[some, :] = fft.irfft(one[:, some].T, n=mx)[:, :nx]
+            for portion in fft.portions(load, ny, mx):
+                field[portion, :] = fft.irfft(wave[:, portion].T, n=mx)[:, :nx]
             fields.append(field)
         return fields
 
@@ -132,8 +132,8 @@ class Convolution:
         """Field (ny, nx) under a load (ny, nx), in nothing but the array API standard."""
         spectrum = self.spectrum.T
 
-        def mix(waves: list[ComplexArray], some: slice) -> list[ComplexArray]:
-            waves[0] *= spectrum[some, :]
+        def mix(waves: list[ComplexArray], part: slice) -> list[ComplexArray]:
+            waves[0] *= spectrum[part, :]
             return waves
 
         return self.padding.through([load], mix)[0]

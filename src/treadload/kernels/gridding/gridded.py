@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.kernels.gridding.lattice import Source, as_lattices, by_lattices, loaded, summed
+from treadload.kernels.gridding.lattice import Source, by_lattices, loaded, padded_cells, summed
 from treadload.kernels.gridding.precorrected import FINE, FINEST, Kept, interpolated, nodes_of, on_nodes, window
 
 # Measured, in pairs of a point and a cell: a padded cell of a lattice, and a cell near a point, corrected.
@@ -37,16 +37,16 @@ def on_grid(
         return fields, "none"
     ways = [way[1:] for way in _cheapest(*part, depths, method, kept)]
     for way in set(ways):
-        rows = [row for row, one in enumerate(ways) if one == way]
+        rows = [row for row, row_way in enumerate(ways) if row_way == way]
         name, nodes = way
         if name == "fft":
             near = None if kept is None else partial(on_nodes, kept=kept, whole=True)
             fields[rows] = by_lattices(part[0], depths[rows], *part[1:], near)
             continue
-        for one in np.ndindex(source.load.shape[1:-2]):
-            load = replace(part[0], load=part[0].load[:, *one])
+        for index in np.ndindex(source.load.shape[1:-2]):
+            load = replace(part[0], load=part[0].load[:, *index])
             alone = summed if name == "direct" else partial(interpolated, nodes=nodes, kept=kept)
-            fields[(rows, slice(None), *one)] = alone(load, depths[rows], *part[1:])
+            fields[(rows, slice(None), *index)] = alone(load, depths[rows], *part[1:])
     return fields, "+".join(sorted({name for name, _ in ways}))
 
 
@@ -67,8 +67,7 @@ def _cheapest(
     """Cost, way, and nodes in the shorter side of a cell to interpolate from, at each depth."""
     ny, nx = source.load.shape[-2:]
     sides = ((nx, x, source.dx), (ny, y, source.dy))
-    lattices = [(cells, as_lattices(at, size, cells)) for cells, at, size in sides]
-    padded = math.prod(sum(cells + count for _, count, _, _ in several) for cells, several in lattices)
+    padded = math.prod(padded_cells(at, size, cells) for cells, at, size in sides)
     ways: list[_Way] = [
         (_LATTICE_COST * padded, "fft", 0),
         (len(x) * len(y) * (nx + 1.0) * (ny + 1.0), "direct", 0),

@@ -64,22 +64,33 @@ class Source:
     half: float = 0.5
 
 
-def of_corners(corners: Corners, dx: float, dy: float) -> Kernels:
-    """Fields of a uniform cell: the alternating sums of some functions over its four corners."""
+@dataclass(frozen=True, eq=False)
+class _OfCorners:
+    """`Kernels` of a uniform cell: the alternating sums of some functions over its four corners."""
 
-    def kernels(x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
-        m, n = shape
-        # Neighbouring offsets share their corners: one more corner than offsets each way.
-        corner_x = (x[:, None] + dx * (np.arange(n + 1) - 0.5)).reshape(1, -1)
-        corner_y = (y[:, None] + dy * (np.arange(m + 1) - 0.5)).reshape(-1, 1)
-        for values, uses in corners(corner_x, corner_y, z):
-            if not np.ndim(values):
-                continue
-            ends = values.reshape(len(y), m + 1, len(x), n + 1)
+    corners: Corners
+    dx: float
+    dy: float
+
+    def __call__(self, x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+        for ends, uses in self.at_corners(x, y, shape, z):
             lines = ends[..., 1:] - ends[..., :-1]
             yield lines[:, 1:] - lines[:, :-1], uses
 
-    return kernels
+    def at_corners(self, x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+        """The functions at the corners (b, m + 1, a, n + 1) of the cells at these offsets."""
+        m, n = shape
+        # Neighbouring offsets share their corners: one more corner than offsets each way.
+        corner_x = (x[:, None] + self.dx * (np.arange(n + 1) - 0.5)).reshape(1, -1)
+        corner_y = (y[:, None] + self.dy * (np.arange(m + 1) - 0.5)).reshape(-1, 1)
+        for values, uses in self.corners(corner_x, corner_y, z):
+            if np.ndim(values):
+                yield values.reshape(len(y), m + 1, len(x), n + 1), uses
+
+
+def of_corners(corners: Corners, dx: float, dy: float) -> Kernels:
+    """Fields of a uniform cell: the alternating sums of some functions over its four corners."""
+    return _OfCorners(corners, dx, dy)
 
 
 def over_depths(functions: AtDepth, depths: Array, mean: Array) -> tuple[AtDepth, Array]:
@@ -90,9 +101,9 @@ def over_depths(functions: AtDepth, depths: Array, mean: Array) -> tuple[AtDepth
     sums: dict[float, list[tuple[float, float]]] = {}
     stand = []
     for weights in mean:
-        own = [(float(weight), float(depth)) for weight, depth in zip(weights, depths, strict=True) if weight]
-        depth = min(depth for _, depth in own)
-        while sums.setdefault(depth, own) != own:
+        levels = [(float(weight), float(depth)) for weight, depth in zip(weights, depths, strict=True) if weight]
+        depth = min(depth for _, depth in levels)
+        while sums.setdefault(depth, levels) != levels:
             depth = math.nextafter(depth, math.inf)
         stand.append(depth)
 
@@ -103,7 +114,10 @@ def over_depths(functions: AtDepth, depths: Array, mean: Array) -> tuple[AtDepth
             return
         weights, each = zip(*sums[z], strict=True)
         for parts in zip(*(functions(*place, depth) for depth in each), strict=True):
-            yield sum(weight * values for weight, (values, _) in zip(weights, parts, strict=True)), parts[0][1]
+            total = weights[0] * parts[0][0]
+            for weight, (values, _) in zip(weights[1:], parts[1:], strict=True):
+                total = total + weight * values
+            yield total, parts[0][1]
 
     return summed, np.array(stand)
 
@@ -188,8 +202,8 @@ def _between_coarse(count: int) -> tuple[Array, float]:
     t = at - low
     weights = np.zeros((count, n))
     for k in range(4):
-        others = [j for j in range(4) if j != k]
-        weights[np.arange(count), low + k] = np.prod([(t - j) / (k - j) for j in others], axis=0)
+        neighbours = [j for j in range(4) if j != k]
+        weights[np.arange(count), low + k] = np.prod([(t - j) / (k - j) for j in neighbours], axis=0)
     return weights, first
 
 
@@ -251,11 +265,16 @@ def summed(source: Source, depths: Array, x: Array, y: Array) -> Array:
     _, ny, nx = source.load.shape
     # Offsets rise while cells fall.
     turned = {k: source.load[k, ::-1, ::-1] for k in range(3) if source.load[k].any()}
+    kernels = source.kernels
+    if isinstance(kernels, _OfCorners):
+        # The alternating sums are taken of the load, once, in place of all functions.
+        kernels = kernels.at_corners
+        turned = {k: np.diff(np.diff(np.pad(load, 1), axis=0), axis=1) for k, load in turned.items()}
     fields = np.zeros((len(depths), source.components, len(y), len(x)))
     for rows, columns in blocks(len(y), len(x), ny * nx):
         first_x, first_y = x[columns] - dx * (nx - 1), y[rows] - dy * (ny - 1)
         for field, depth in zip(fields, depths, strict=True):
-            for values, uses in source.kernels(first_x, first_y, (ny, nx), float(depth)):
+            for values, uses in kernels(first_x, first_y, (ny, nx), float(depth)):
                 for k, component in uses:
                     if k in turned:
                         field[component, rows, columns] += np.einsum("bman,mn->ba", values, turned[k])
@@ -276,18 +295,31 @@ def as_lattices(x: Array, dx: float, cells: int) -> list[tuple[float, int, Indic
 
     cells: of the load, along x. Points further apart go onto lattices of their own, which then cost less.
     """
-    at = x / dx
-    whole = np.floor(at + _SAME_PLACE)
-    place = at - whole
-    order = np.argsort(place, kind="stable")
-    cuts = np.nonzero(np.diff(place[order]) > _SAME_PLACE)[0] + 1
-    runs: list[Indices] = []
-    for alike in np.split(order, cuts):
-        rising = alike[np.argsort(whole[alike], kind="stable")]
-        runs += np.split(rising, np.nonzero(np.diff(whole[rising]) > cells + 1)[0] + 1)
+    place, whole, runs = _runs(x, dx, cells)
     lattices: list[tuple[float, int, Indices, Indices]] = []
-    for members in runs:
+    for members in np.split(*runs):
         first, last = whole[members].min(), whole[members].max()
         start = dx * (first + place[members].mean())
         lattices.append((float(start), int(last - first) + 1, members, (whole[members] - first).astype(int)))
     return lattices
+
+
+def padded_cells(x: Array, dx: float, cells: int) -> int:
+    """Cells of the lattices that coordinates form and of the load, of all lattices together, as in `as_lattices`."""
+    _, whole, (order, cuts) = _runs(x, dx, cells)
+    rising = whole[order]
+    counts = rising[np.append(cuts - 1, len(x) - 1)] - rising[np.append(0, cuts)] + 1
+    return int(counts.sum()) + cells * len(counts)
+
+
+def _runs(x: Array, dx: float, cells: int) -> tuple[Array, Array, tuple[Indices, Indices]]:
+    """Places of coordinates in their cells, their cells, and an order with cuts between what forms a lattice."""
+    at = x / dx
+    whole = np.floor(at + _SAME_PLACE)
+    place = at - whole
+    order = np.argsort(place, kind="stable")
+    alike = np.append(0, np.cumsum(np.diff(place[order]) > _SAME_PLACE))
+    rising = np.lexsort((whole[order], alike))
+    order, alike = order[rising], alike[rising]
+    apart = (np.diff(alike) > 0) | (np.diff(whole[order]) > cells + 1)
+    return place, whole, (order, np.flatnonzero(apart) + 1)

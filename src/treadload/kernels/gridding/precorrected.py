@@ -39,12 +39,18 @@ FINE = Order(12, 13.0)
 ROUGH = Order(8, 8.0)
 """3e-7, for a third of the corrections: where the largest of many values is looked for."""
 
+Shape = tuple[int, int]
+
 # Most nodes in the shorter side of a cell.
 FINEST = 5
 # Places within a cell that differ by less than this part of it are one.
 _SAME = 1e-9
 # Fields on nodes are kept so many cells around the load, for loads whose sizes are multiples of so many.
 _MARGIN, _ALIKE = 12, 4
+# Numbers in a matrix that is better not sparse.
+_SMALL = 4096
+# Cells and nodes by which the sizes of loads that share spectra differ at most.
+_SPARE = 8
 
 
 def nodes_of(source: Source, nodes: int) -> tuple[int, int]:
@@ -70,7 +76,7 @@ class Kept:
     nodes: first node, in cells, and field on a lattice of nodes (nz, components, count_y, count_x), by the load and
     where in a cell the lattice stands. lacking: see `_lacking`, by depth, cells near and the places of points.
     spectra: see `on_lattice`. order: of the polynomials. ready: for how many nodes in the shorter side of a cell
-    fields are kept.
+    fields are kept. padded: see `sizes`.
     """
 
     order: Order
@@ -78,6 +84,22 @@ class Kept:
     lacking: dict[tuple[Any, ...], Array] = field(default_factory=dict)
     spectra: dict[tuple[Any, ...], list[Spectrum]] = field(default_factory=dict)
     ready: set[int] = field(default_factory=set)
+    padded: dict[tuple[Any, ...], list[tuple[Shape, Shape]]] = field(default_factory=dict)
+
+    def sizes(self, place: tuple[Any, ...], cells: Shape, nodes: Shape) -> tuple[Shape, Shape]:
+        """Cells of a load and nodes of its lattice, padded so that loads of nearly the same shape share spectra.
+
+        place: depths and first node, from the load's first cell. cells, nodes: the fewest that will do.
+        """
+        sizes = self.padded.setdefault(place, [])
+        for both in sizes:
+            spare = [size - n for size, n in zip(sum(both, ()), (*cells, *nodes), strict=True)]
+            if min(spare) >= 0 and max(spare) <= _SPARE:
+                return both
+        more = [-n % _ALIKE for n in cells]
+        both = (cells[0] + more[0], cells[1] + more[1]), (nodes[0] + more[0], nodes[1] + more[1])
+        sizes.append(both)
+        return both
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,11 +107,11 @@ class Keeper:
     """What is kept of each kernel, by what it depends on. order: of the polynomials."""
 
     order: Order = FINE
-    known: dict[tuple[Any, ...], Kept] = field(default_factory=dict)
+    by_kernel: dict[tuple[Any, ...], Kept] = field(default_factory=dict)
 
     def of(self, *kernel: Any) -> Kept:
         """What is kept of a kernel, at first nothing."""
-        return replace(self.known.setdefault(kernel, Kept(self.order)), order=self.order)
+        return replace(self.by_kernel.setdefault(kernel, Kept(self.order)), order=self.order)
 
     def with_order(self, order: Order) -> Keeper:
         """The same with polynomials of another order."""
@@ -114,6 +136,9 @@ def interpolated(source: Source, depths: Array, x: Array, y: Array, nodes: int, 
     for y0, count_y, from_y in across.lattices():
         for x0, count_x, from_x in along.lattices():
             at_nodes = on_nodes(source, depths, (count_y, count_x), source.dx * x0, source.dy * y0, kept)
+            if isinstance(from_x, np.ndarray) and isinstance(from_y, np.ndarray):
+                fields += from_y @ at_nodes @ from_x.T
+                continue
             for row, component in np.ndindex(fields.shape[:2]):
                 if at_nodes[row, component].any():
                     fields[row, component] += (from_x @ (from_y @ at_nodes[row, component]).T).T
@@ -148,25 +173,25 @@ def on_nodes(
     if whole and any(abs(place) > _SAME for place, *_ in ends):
         return on_lattice(source, depths, shape, x0, y0)
     key = (source.load.tobytes(), *(n for *_, n in ends), *depths, *(round(place / _SAME) for place, *_ in ends))
-    known = kept.nodes.get(key)
-    if known is None or any(
-        low < own or low + count > own + size
-        for (_, low, count, _), own, size in zip(ends, known[:2], known[2].shape[-2:], strict=True)
+    patch = kept.nodes.get(key)
+    if patch is None or any(
+        low < start or low + count > start + size
+        for (_, low, count, _), start, size in zip(ends, patch[:2], patch[2].shape[-2:], strict=True)
     ):
         lows = [min(low, -_MARGIN) for _, low, _, _ in ends]
-        counts = [max(low + count, n + _MARGIN) - own for (_, low, count, n), own in zip(ends, lows, strict=True)]
-        more = [-n % _ALIKE for *_, n in ends]
-        # Loads of nearly the same shape share the transforms of their kernels.
+        counts = [max(low + count, n + _MARGIN) - start for (_, low, count, n), start in zip(ends, lows, strict=True)]
+        corner = tuple(place + low for (place, *_), low in zip(ends, lows, strict=True))
+        cells, nodes = kept.sizes(
+            (*depths, *(round(at / _SAME) for at in corner)), source.load.shape[-2:], (counts[0], counts[1])
+        )
+        more = [size - n for size, n in zip(cells, source.load.shape[-2:], strict=True)]
         wide = replace(
             source, load=np.pad(source.load.reshape(3, *source.load.shape[-2:]), ((0, 0), *((0, k) for k in more)))
         )
-        fields = on_lattice(
-            wide, depths, (counts[0] + more[0], counts[1] + more[1]), source.dx * (lows[1] + ends[1][0]),
-            source.dy * (lows[0] + ends[0][0]), spectra=kept.spectra,
-        )  # fmt: skip
-        known = kept.nodes[key] = lows[0], lows[1], fields
-    row, column = (low - own for (_, low, _, _), own in zip(ends, known[:2], strict=True))
-    part = known[2][..., row : row + shape[0], column : column + shape[1]]
+        fields = on_lattice(wide, depths, nodes, source.dx * corner[1], source.dy * corner[0], spectra=kept.spectra)
+        patch = kept.nodes[key] = lows[0], lows[1], fields
+    row, column = (low - start for (_, low, _, _), start in zip(ends, patch[:2], strict=True))
+    part = patch[2][..., row : row + shape[0], column : column + shape[1]]
     return part.reshape(*part.shape[:2], *alone, *shape)
 
 
@@ -222,22 +247,31 @@ class _Stencils:
         at = nodes * (place + 0.5) - 0.5
         first = np.floor(at + nodes * _SAME).astype(int) - stencil // 2 + 1
         away = (at - first)[:, None, None] - np.arange(stencil)
-        others = ~np.eye(stencil, dtype=bool)
+        off_diagonal = ~np.eye(stencil, dtype=bool)
         apart = np.subtract.outer(np.arange(stencil), np.arange(stencil))
         # Lagrange's polynomials.
-        weights = np.where(others, away, 1.0).prod(axis=2) / np.where(others, apart, 1).prod(axis=1)
+        weights = np.where(off_diagonal, away, 1.0).prod(axis=2) / np.where(off_diagonal, apart, 1).prod(axis=1)
         return cls(nodes, cell, place, first, weights)
 
-    def lattices(self) -> Iterator[tuple[float, int, sparse.csr_array]]:
-        """First point, in cells, number of points, and the matrix (m, number) to the points, of each lattice."""
+    def lattices(self) -> Iterator[tuple[float, int, Array | sparse.csr_array]]:
+        """First point, in cells, number of points, and the matrix (m, number) to the points, of each lattice.
+
+        A small matrix is an array, which costs less to make.
+        """
         at = (self.nodes * self.cell + self.first)[:, None] + np.arange(self.stencil)
         cells, node = np.divmod(at, self.nodes)
         start, count = int(cells.min()), int(np.ptp(cells)) + 1
         points = np.broadcast_to(np.arange(len(at))[:, None], at.shape)
         for k in range(self.nodes):
             here = node == k
-            entries = self.weights[here], (points[here], cells[here] - start)
-            yield float(start + self._at[k]), count, sparse.csr_array(entries, shape=(len(at), count))
+            weights, places = self.weights[here], (points[here], cells[here] - start)
+            matrix: Array | sparse.csr_array
+            if len(at) * count <= _SMALL:
+                matrix = np.zeros((len(at), count))
+                matrix[places] = weights
+            else:
+                matrix = sparse.csr_array((weights, places), shape=(len(at), count))
+            yield float(start + self._at[k]), count, matrix
 
     def near(self, width: int) -> _Near:
         """Cells up to `width` from that of each point."""
@@ -275,7 +309,7 @@ def _correct(field: Array, source: Source, depth: float, along: _Near, across: _
     along, across = along.of(columns), across.of(rows)
     # One cell without load on each side stands for all that lie beyond.
     load = np.pad(source.load, ((0, 0), (1, 1), (1, 1)))
-    cells_y, cells_x = (np.clip(one.cells + 1, 0, n + 1) for one, n in ((across, ny), (along, nx)))
+    cells_y, cells_x = (np.clip(axis.cells + 1, 0, n + 1) for axis, n in ((across, ny), (along, nx)))
     (first_y, place_y), (first_x, place_x) = across.places, along.places
     near = cells_y.shape[1] * cells_x.shape[1]
     for part_y, part_x in blocks(len(first_y), len(first_x), near):
@@ -284,10 +318,10 @@ def _correct(field: Array, source: Source, depth: float, along: _Near, across: _
         own_x = [np.flatnonzero(place_x == k) for k in range(part_x.start, part_x.start + lacking.shape[1])]
         for points_y, several in zip(own_y, lacking, strict=True):
             lines = load[:, cells_y[points_y]]
-            for points_x, one in zip(own_x, several, strict=True):
+            for points_x, weights in zip(own_x, several, strict=True):
                 # (load, rows, cells, columns, cells)
                 patches = lines[..., cells_x[points_x]].transpose(1, 3, 0, 2, 4)
-                part = patches.reshape(len(points_y), len(points_x), -1) @ one
+                part = patches.reshape(len(points_y), len(points_x), -1) @ weights
                 field[:, rows[points_y][:, None], columns[points_x]] += part.transpose(2, 0, 1)
 
 
@@ -297,7 +331,7 @@ def _lacking(source: Source, depth: float, along: _Near, across: _Near, kept: Ke
     along, across: points at the places.
     """
     shape = across.cells.shape[1], along.cells.shape[1]
-    at_y, at_x = (np.round(one.first / _SAME) for one in (across, along))
+    at_y, at_x = (np.round(axis.first / _SAME) for axis in (across, along))
     key = (depth, *shape, across.back.shape[2], at_y.tobytes(), at_x.tobytes())
     if kept is not None and key in kept.lacking:
         return kept.lacking[key]
@@ -313,7 +347,7 @@ def _lacking(source: Source, depth: float, along: _Near, across: _Near, kept: Ke
             missing = values - (from_y @ table @ from_x.T).reshape(values.shape)
         for k, component in served:
             whole[:, :, k, ..., component] += missing.transpose(0, 2, 1, 3)
-    found = whole.reshape(len(at_y), len(at_x), -1, source.components)
+    lacking = whole.reshape(len(at_y), len(at_x), -1, source.components)
     if kept is not None:
-        kept.lacking[key] = found
-    return found
+        kept.lacking[key] = lacking
+    return lacking

@@ -36,34 +36,6 @@ _NEAR = 24
 _SIDE = 4
 
 
-def bilinear_on_grid(
-    load: Array,
-    dx: float,
-    dy: float,
-    depths: Array,
-    shear: float,
-    poisson: Medium,
-    x: Array,
-    y: Array,
-    method: Method = "auto",
-    *,
-    moves: bool = True,
-) -> tuple[Array, Array, str]:
-    """Stress and displacement on the grid of any coordinates x and y.
-
-    load: (3, ny, nx), Pa, values at the centres of the cells. dx, dy: cell, m. depths: (nz,), m, >= 0.
-    shear: shear modulus, Pa. poisson: Poisson's ratio, or what stands in its place where the half-space is another
-    along z; shear is then that of the horizontal plane. x: (mx,), y: (my,): coordinates relative to the centre of the
-    first cell, m, in any order. moves: False leaves the displacement out, zero.
-    Returns stress (nz, 6, my, mx), Pa, displacement (nz, 3, my, mx), m, and the methods, see
-    `kernels.gridding.gridded.on_grid`.
-    """
-    both, used = bilinear_sums_on_grid(load, dx, dy, depths, np.eye(len(depths)), poisson, x, y, method, moves=moves)
-    if not moves:
-        return both, np.zeros((len(both), 3, *both.shape[2:])), used
-    return both[:, :6], both[:, 6:] / shear, used
-
-
 def bilinear_sums_on_grid(
     load: Array,
     dx: float,
@@ -80,8 +52,8 @@ def bilinear_sums_on_grid(
 ) -> tuple[Array, str]:
     """As `kernels.half_space.interior.sums_on_grid`, of such a load."""
     summed, stand = over_depths(hat_kernels(dx, dy, poisson, moves=moves), depths, mean)
-    own = None if kept is None else kept.of("bilinear", poisson, dx, dy, *depths, mean.tobytes(), moves)
-    return on_grid(Source(load, dx, dy, summed, 9 if moves else 6, half=1.0), stand, x, y, method, own)
+    slot = None if kept is None else kept.of("bilinear", poisson, dx, dy, *depths, mean.tobytes(), moves)
+    return on_grid(Source(load, dx, dy, summed, 9 if moves else 6, half=1.0), stand, x, y, method, slot)
 
 
 def bilinear_spectrum(load: Array, dx: float, dy: float, x0: float, y0: float) -> Spectrum:

@@ -99,9 +99,9 @@ class _Integrals:
         s2, d2 = (a + r) ** 2 + z * z, (a - r) ** 2 + z * z
         s, m, rest = np.sqrt(s2), 4 * a * r / s2, d2 / s2
         rest = np.where(np.abs(rest) < _RIM, _RIM, rest)
-        zero, one = np.zeros_like(rest), np.ones_like(rest)
-        first = elliprf(zero, rest, one)
-        part = elliprd(zero, rest, one) / 3
+        zero, ones = np.zeros_like(rest), np.ones_like(rest)
+        first = elliprf(zero, rest, ones)
+        part = elliprd(zero, rest, ones) / 3
         second = first - m * part
         # ∫ J0 J0 and ∫ J1 J1 of arguments a t and r t under e^(-z t).
         i000 = 2 / (math.pi * s) * first
@@ -148,5 +148,5 @@ def _third(rest: Any, p: Any) -> Any:
         d = (root_p + root_x) * (root_p + root_y) * (root_p + root_z)
         total += share * 6 / d * elliprc(np.ones_like(d), 1 + (p - x) * (p - y) * (p - z) / d**2)
         share /= 4
-        x, y, z, p = ((one + moved) / 4 for one in (x, y, z, p))
+        x, y, z, p = ((term + moved) / 4 for term in (x, y, z, p))
     return total + share * elliprj(x, y, z, p)

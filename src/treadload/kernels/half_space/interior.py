@@ -88,8 +88,8 @@ def sums_on_grid(
 
     summed, stand = over_depths(corners, depths, mean)
     source = Source(load, dx, dy, of_corners(_mirrored(summed, dx, dy), dx, dy), 9 if moves else 6)
-    own = None if kept is None else kept.of("uniform", poisson, dx, dy, *depths, mean.tobytes(), moves)
-    both, used = on_grid(source, stand, x, y, method, own)
+    slot = None if kept is None else kept.of("uniform", poisson, dx, dy, *depths, mean.tobytes(), moves)
+    both, used = on_grid(source, stand, x, y, method, slot)
     _add_standing_load(both, load, dx, dy, mean @ is_surface(depths, dx, dy), poisson, x, y)
     return both, used
 

@@ -69,19 +69,19 @@ class UprightMedium:
         def sheared(part: Any, of: Callable[[Any], Any]) -> Any:
             return _real(unit * modes.sheared * part, [of(f) for f in at])
 
-        along, across, one, s = modes.along, modes.across, np.ones_like(modes.decay), modes.decay
+        along, across, ones, s = modes.along, modes.across, np.ones_like(modes.decay), modes.decay
         s3, sway = unit * modes.transverse, unit * modes.sway
         yield pressed(along - across, _turn_x) + pressed(across, _turn), ((_P, _XX),)
         yield pressed(along - across, _turn_y) + pressed(across, _turn), ((_P, _YY),)
-        yield -pressed(one, _turn), ((_P, _ZZ),)
+        yield -pressed(ones, _turn), ((_P, _ZZ),)
         yield pressed(along - across, _log_r), ((_P, _XY),)
         yield pressed(s, _log_y), ((_P, _XZ),)
         yield pressed(s, _log_x), ((_P, _YZ),)
         yield sheared(s, _turn_y) - sheared(s, _turn) - unit * _turn_y(swayed), ((_QX, _XZ),)
         yield sheared(s, _turn_x) - sheared(s, _turn) - unit * _turn_x(swayed), ((_QY, _YZ),)
         yield unit * _log_r(swayed) - sheared(s, _log_r), ((_QX, _YZ), (_QY, _XZ))
-        yield -sheared(one, _log_y), ((_QX, _ZZ),)
-        yield -sheared(one, _log_x), ((_QY, _ZZ),)
+        yield -sheared(ones, _log_y), ((_QX, _ZZ),)
+        yield -sheared(ones, _log_x), ((_QY, _ZZ),)
         cross_x, cross_y = sheared(along - across, _slope_x), sheared(along - across, _slope_y)
         twist_x, twist_y = 2 * s3 * _slope_x(swayed), 2 * s3 * _slope_y(swayed)
         yield sheared(along, _log_y) - cross_y + twist_y, ((_QX, _XX),)
@@ -104,7 +104,7 @@ class UprightMedium:
         yield sheared(out, _cross) - sway * _cross(swayed), ((_QX, _UY), (_QY, _UX))
 
     @property
-    def own(self) -> float:
+    def beneath(self) -> float:
         """σ_xx and σ_yy of a uniform pressure where it stands itself, over it."""
         return float((self.modes.pressed * self.modes.across).sum().real)
 
@@ -177,7 +177,7 @@ def fields_of(
 
 def own_share(medium: Medium) -> float:
     """σ_xx and σ_yy of a uniform pressure where it stands itself on the surface, over it."""
-    return medium.own if isinstance(medium, UprightMedium) else -2 * medium
+    return medium.beneath if isinstance(medium, UprightMedium) else -2 * medium
 
 
 def _real(weights: Any, values: list[Any]) -> Any:

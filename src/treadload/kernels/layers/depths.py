@@ -29,11 +29,11 @@ def on_interface(depths: ArrayLike, interfaces: ArrayLike) -> BoolArray:
 
 def snapped(depths: Sequence[float] | Array, interfaces: Array) -> Array:
     """Depths (n,), m, those on an interface as exactly its own number; the nearest one's where two are so near."""
-    given = np.asarray(depths, dtype=float)
-    if not len(interfaces) or not len(given):
-        return given
-    nearest = interfaces[np.abs(given[:, None] - interfaces[None]).argmin(axis=1)]
-    return np.where(same_depth(given, nearest) & (given > 0), nearest, given)
+    wanted = np.asarray(depths, dtype=float)
+    if not len(interfaces) or not len(wanted):
+        return wanted
+    nearest = interfaces[np.abs(wanted[:, None] - interfaces[None]).argmin(axis=1)]
+    return np.where(same_depth(wanted, nearest) & (wanted > 0), nearest, wanted)
 
 
 def layers_at(depths: Sequence[float] | Array, interfaces: Array, below: bool | Sequence[bool] | Array) -> Array:

@@ -82,8 +82,8 @@ def synthesise_discs(
         distinct = np.unique(r)
         distinct = distinct[np.concatenate([[True], np.diff(distinct) > _SAME * farthest])]
         edges = panels(radius, float(distinct[-1]), planes.clearance)
-        few = len(distinct) <= _POINTS * (len(edges) - 1)
-        knots[radius] = (distinct, None) if few else (_points(edges), edges)
+        tabulated = len(distinct) <= _POINTS * (len(edges) - 1)
+        knots[radius] = (distinct, None) if tabulated else (_points(edges), edges)
     tables = integrals({radius: nodes for radius, (nodes, _) in knots.items()}, planes, length)
     for disc, (dx, dy), r in zip(discs, across, distance, strict=True):
         nodes, edges_or_none = knots[disc.radius]

@@ -54,7 +54,7 @@ class Images:
 
     depth: (n,), m, > 0. normal, coupling, transverse, difference: (n,), 1/Pa: parts of k·u_z by p, of k·i u_k
     by p (and k·u_z by the shear i q_k), of k·u_t by q_t, and of k·i u_k by i q_k less k·u_t by q_t.
-    held: False if a frictionless interface lets the top drift under shear: transverse and difference are NaN.
+    bonded: False if a frictionless interface lets the top drift under shear: transverse and difference are NaN.
     residual: largest error of the fit, relative to the compliance of the whole at that wavenumber, or to 0.1 % of
     the top layer's (1 % on a rigid base) where the whole is less.
     """
@@ -64,7 +64,7 @@ class Images:
     coupling: Array
     transverse: Array
     difference: Array
-    held: bool
+    bonded: bool
     residual: float
 
     def at(self, wavenumbers: Array) -> Array:
@@ -81,7 +81,7 @@ def fit_images(stack: Stack) -> Images:
     Accuracy: a residual below 1e-6 for roads with moduli up to six decades apart; up to 1e-4 where incompressible
     layers lie between loose interfaces and a rigid base.
     """
-    held = 0.0 not in stack.spring
+    bonded = 0.0 not in stack.spring
     length = _longest(stack)
     first = stack.faded(stack.thickness[0])
     near, far = _NEAREST * first, _FARTHEST * length
@@ -98,19 +98,19 @@ def fit_images(stack: Stack) -> Images:
     fades = np.exp(-np.outer(samples, depth))
     parts = np.full((4, depth.size), math.nan)
     residual = 0.0
-    for row in range(4 if held else 2):
+    for row in range(4 if bonded else 2):
         # Normal and coupling are measured against the normal compliance, the two of shear against the transverse.
         scale = 0 if row < 2 else 2
         weight = 1 / np.maximum(np.abs(whole[scale]), floor * top[scale])
         equations, sides = weight[::2, None] * fades[::2], weight[::2] * change[row, ::2]
-        if held or row == 0:
+        if bonded or row == 0:
             limit = _LIMIT * weight[0]
             equations = np.vstack([equations, np.full(depth.size, limit)])
             sides = np.append(sides, limit * (end[row] - top[row]))
         parts[row] = np.linalg.lstsq(equations, sides, rcond=1e-15)[0]
         residual = max(residual, float(np.abs(weight * (fades @ parts[row] - change[row])).max()))
     normal, coupling, transverse, difference = parts
-    return Images(depth, normal, coupling, transverse, difference, held, residual)
+    return Images(depth, normal, coupling, transverse, difference, bonded, residual)
 
 
 def surface_compliance(wavenumbers: Array, stack: Stack) -> Array:
@@ -143,7 +143,7 @@ def _sums(images: Images, ny: int, nx: int, dx: float, dy: float, first: float) 
     x, y = first + dx * (np.arange(nx + 1) - 0.5)[None, :], dy * (np.arange(ny + 1) - 0.5)[:, None]
     total = np.zeros((6, ny + 1, nx + 1))
     xy, squared = x * y, x**2 + y**2
-    shear = images.held
+    shear = images.bonded
     for b, n, c, t, d in zip(
         images.depth, images.normal, images.coupling, images.transverse, images.difference, strict=True
     ):
@@ -175,10 +175,10 @@ def half_space_compliance(stack: Stack, layer: int) -> Array:
     Source: Johnson (1985), Contact Mechanics, section 3; of layers that are another along z that of
     `kernels.layers.upright`.
     """
-    shear, poisson, own = stack.shear[layer], stack.poisson[layer], stack.upright_of(layer)
-    if own is None:
+    shear, poisson, upright = stack.shear[layer], stack.poisson[layer], stack.upright_of(layer)
+    if upright is None:
         return np.array([1 - poisson, -(1 - 2 * poisson) / 2, 1.0, -poisson]) / float(shear)
-    xx, zz, xz, transverse = own.half_space(shear, poisson)
+    xx, zz, xz, transverse = upright.half_space(shear, poisson)
     return np.array([zz, xz, transverse, xx - transverse])
 
 

@@ -53,11 +53,11 @@ def jump(k: Array, stack: Stack, interface: float, depths: Sequence[float], belo
     count = next(number for number, slab in enumerate(slabs) if slab.bottom == interface) + 1
     upper = _Upper.of(k, slabs[:count], springs[: count - 1])
     body = bodies[count]
-    one, zero = np.ones_like(k), np.zeros_like(k)
+    ones, zero = np.ones_like(k), np.zeros_like(k)
     moved: Array
     under: Array
-    compliance = np.stack([np.stack([body.plane.xx * one, body.plane.xz * one]),
-                           np.stack([body.plane.xz * one, body.plane.zz * one])])  # fmt: skip
+    compliance = np.stack([np.stack([body.plane.xx * ones, body.plane.xz * ones]),
+                           np.stack([body.plane.xz * ones, body.plane.zz * ones])])  # fmt: skip
     stiffness = _times(upper.stiffness, _inverse(_unit(k) + _times(compliance, upper.stiffness)))
     swaying = upper.transverse / (1 + body.transverse * upper.transverse)
     fields, sliding = np.zeros((len(depths), 4, 2, len(k))), np.zeros((len(depths), 2, len(k)))
@@ -69,12 +69,12 @@ def jump(k: Array, stack: Stack, interface: float, depths: Sequence[float], belo
     force: Array
     shear: Array
     swayed: Array
-    force, shear = -stiffness, -swaying * one
+    force, shear = -stiffness, -swaying * ones
     under, swayed_under = body.plane.under(force), body.transverse * shear
     on = [row for row, z in enumerate(depths) if z == interface]
     put([row for row in on if below[row]], under, force, swayed_under, shear)
     # Upwards: a bottom that moves by so much moves all above it.
-    moved, swayed = under + _unit(k), swayed_under + one
+    moved, swayed = under + _unit(k), swayed_under + ones
     put([row for row in on if not below[row]], moved, force, swayed, shear)
     for number in range(count - 1, -1, -1):
         top = slabs[number - 1].bottom if number else 0.0
@@ -96,8 +96,8 @@ def _downwards(
     force, shear = at
     for slab, body in zip(slabs, bodies, strict=True):
         rows = [row for row, z in enumerate(depths) if z > 0 and z == slab.bottom]
-        moved, force = slab.down(body.held, force)
-        swayed, shear = slab.down_transverse(body.held_transverse, shear)
+        moved, force = slab.down(body.sprung, force)
+        swayed, shear = slab.down_transverse(body.sprung_transverse, shear)
         put([row for row in rows if not (below[row] and body.slides)], moved, force, swayed, shear)
         if body.slides:
             low = [row for row in rows if below[row]]
@@ -108,7 +108,7 @@ def _downwards(
 class _Upper:
     """Slabs from the surface, free, down to the interface.
 
-    stiffness (2, 2, nk) and transverse (nk,): of the underside. bare, held: of the underside of what
+    stiffness (2, 2, nk) and transverse (nk,): of the underside. bare, sprung: of the underside of what
     lies above each slab, without and with the spring between them. springs: below each slab but the last, Pa/m.
     """
 
@@ -118,33 +118,33 @@ class _Upper:
     stiffness: Array
     transverse: Array
     bare: list[tuple[Array, Array]]
-    held: list[tuple[Array, Array]]
+    sprung: list[tuple[Array, Array]]
 
     @classmethod
     def of(cls, k: Array, slabs: Sequence[Slab], springs: Sequence[float]) -> _Upper:
         nothing: tuple[Array, Array] = np.zeros((2, 2, len(k))), np.zeros_like(k)
         bare: list[tuple[Array, Array]] = [nothing]
-        held: list[tuple[Array, Array]] = [nothing]
+        compliances: list[tuple[Array, Array]] = [nothing]
         plane: Array
         plane, transverse = _stiffness(slabs[0])
         for slab, spring in zip(slabs[1:], springs, strict=True):
             bare.append((plane, transverse))
-            held.append(_through(k, spring, plane, transverse))
-            plane, transverse = held[-1]
-            own, own_transverse = _stiffness(slab)
+            compliances.append(_through(k, spring, plane, transverse))
+            plane, transverse = compliances[-1]
+            slab_stiffness, own_transverse = _stiffness(slab)
             c, t = _compliance(slab), _turned(slab)
             rest = _times(plane, _inverse(_unit(k) + _times(c, plane)))
-            plane = own + _times(np.swapaxes(t, 0, 1), _times(rest, t))
+            plane = slab_stiffness + _times(np.swapaxes(t, 0, 1), _times(rest, t))
             swaying = transverse / (1 + slab.c_transverse * transverse)
             transverse = own_transverse + slab.t_transverse**2 * swaying
-        return cls(k, slabs, springs, plane, transverse, bare, held)
+        return cls(k, slabs, springs, plane, transverse, bare, compliances)
 
     def up(
         self, number: int, moved: Array, swayed: Array
     ) -> tuple[tuple[Array, Array], tuple[Array, Array], tuple[Array, Array]]:
         """At the top of a slab whose bottom moves: displacement there, that above its spring, and force."""
         slab = self.slabs[number]
-        stiff, swaying = self.held[number]
+        stiff, swaying = self.sprung[number]
         top = _times(_inverse(_unit(self.k) + _times(_compliance(slab), stiff)), _times(_turned(slab), moved))
         turned = slab.t_transverse * swayed / (1 + slab.c_transverse * swaying)
         force, shear = -_times(stiff, top), -swaying * turned
@@ -188,8 +188,8 @@ def _unit(k: Array) -> Array:
     return np.broadcast_to(unit, (2, 2, len(k)))
 
 
-def _times(one: Array, other: Array) -> Array:
-    product: Array = np.einsum("ijk,jlk->ilk", one, other)
+def _times(first: Array, second: Array) -> Array:
+    product: Array = np.einsum("ijk,jlk->ilk", first, second)
     return product
 
 

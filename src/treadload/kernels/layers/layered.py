@@ -66,13 +66,15 @@ class Stack:
 
     def lift_of(self, layer: int) -> Scalars:
         """Horizontal normal stress by vertical where nothing strains horizontally: ν / (1 - ν) in isotropy."""
-        own = self.upright_of(layer)
-        return self.poisson[layer] / (1 - self.poisson[layer]) if own is None else own.lift
+        upright = self.upright_of(layer)
+        return self.poisson[layer] / (1 - self.poisson[layer]) if upright is None else upright.lift
 
     @property
     def moduli(self) -> list[float]:
         """Shear moduli of all layers, in the plane and across it: of real moduli, for scales."""
-        return [float(one) for one in self.shear] + [own.shear for own in self.upright if own is not None]
+        return [float(shear) for shear in self.shear] + [
+            upright.shear for upright in self.upright if upright is not None
+        ]
 
     def faded(self, depth: float) -> float:
         """How deep a depth, m, lies for waves: they fall at least like e^{-k times it}; itself in isotropy."""
@@ -80,8 +82,8 @@ class Stack:
             return depth
         total, top = 0.0, 0.0
         for layer, end in enumerate([*self.interfaces[: len(self.shear) - 1], math.inf]):
-            own = self.upright_of(layer)
-            rate = 1.0 if own is None else own.fade(float(self.shear[layer]), float(self.poisson[layer]))
+            upright = self.upright_of(layer)
+            rate = 1.0 if upright is None else upright.fade(float(self.shear[layer]), float(self.poisson[layer]))
             total += rate * max(0.0, min(depth, end) - top)
             top = end
         return total
@@ -142,8 +144,8 @@ def transfer(wavenumbers: ArrayLike, stack: Stack, depths: Sequence[float], belo
     put([i for i, z in enumerate(depths) if z <= 0], bodies[0].plane.under(force), bodies[0].transverse * shear)
     for slab, body in zip(slabs, bodies[1:], strict=True):
         rows = [i for i, z in enumerate(depths) if z > 0 and z == slab.bottom]
-        moved, force = slab.down(body.held, force)
-        swayed, shear = slab.down_transverse(body.held_transverse, shear)
+        moved, force = slab.down(body.sprung, force)
+        swayed, shear = slab.down_transverse(body.sprung_transverse, shear)
         put([i for i in rows if not (below[i] and body.slides)], moved, swayed)
         if body.slides:
             put([i for i in rows if below[i]], body.plane.under(force), body.transverse * shear)
@@ -152,19 +154,19 @@ def transfer(wavenumbers: ArrayLike, stack: Stack, depths: Sequence[float], belo
 
 @dataclass(frozen=True)
 class _Compliance:
-    """Of a body at its top, k u = S f: S = [[xx, xz], [xz, zz]] / one and det = det S · one; all (nk,).
+    """Of a body at its top, k u = S f: S = [[xx, xz], [xz, zz]] / scale and det = det S · scale; all (nk,).
 
-    one: 1, or 0 where the body holds nothing along x.
+    scale: 1, or 0 where the body holds nothing along x.
     """
 
-    one: Scalars
+    scale: Scalars
     xx: Scalars
     zz: Scalars
     xz: Scalars
     det: Scalars
 
     def under(self, force: Array) -> Array:
-        """Displacement (2, 2, nk) under forces (2, 2, nk), where `one` is 1."""
+        """Displacement (2, 2, nk) under forces (2, 2, nk), where `scale` is 1."""
         return np.stack([self.xx * force[0] + self.xz * force[1], self.xz * force[0] + self.zz * force[1]])
 
 
@@ -172,14 +174,14 @@ class _Compliance:
 class Body:
     """All that lies below a depth.
 
-    plane, transverse: compliance at its top. held, held_transverse: the same with the spring that holds the layer
-    above, the transverse one as (one, compliance). slides: whether there is such a spring.
+    plane, transverse: compliance at its top. sprung, sprung_transverse: the same with the spring that holds the layer
+    above, the transverse one as (scale, compliance). slides: whether there is such a spring.
     """
 
     plane: _Compliance
     transverse: Scalars
-    held: _Compliance
-    held_transverse: tuple[Scalars, Scalars]
+    sprung: _Compliance
+    sprung_transverse: tuple[Scalars, Scalars]
     slides: bool
 
     @classmethod
@@ -187,13 +189,17 @@ class Body:
         """With a spring, Pa/m, between it and a layer whose shear modulus gives the scale."""
         if spring == math.inf:
             return cls(plane, transverse, plane, (1.0, transverse), False)
-        # The spring adds k / spring to the compliance xx; as multiples of `one` neither 0 nor inf occurs.
+        # The spring adds k / spring to the compliance xx; as multiples of `scale` neither 0 nor inf occurs.
         scale = spring + k * np.abs(shear)
-        one, free = spring / scale, k / scale
-        held = _Compliance(
-            one, one * plane.xx + free, one * plane.zz, one * plane.xz, one * plane.det + free * plane.zz
+        scaled_spring, free = spring / scale, k / scale
+        at_rigid_bond = _Compliance(
+            scaled_spring,
+            scaled_spring * plane.xx + free,
+            scaled_spring * plane.zz,
+            scaled_spring * plane.xz,
+            scaled_spring * plane.det + free * plane.zz,
         )
-        return cls(plane, transverse, held, (one, one * transverse + free), True)
+        return cls(plane, transverse, at_rigid_bond, (scaled_spring, scaled_spring * transverse + free), True)
 
 
 @dataclass(frozen=True)
@@ -239,9 +245,9 @@ class Slab:
         # What couples both directions vanishes at ν = 0, or 0.25, but for cubes of a: written out where a is small.
         lean, bend = tilt - pull, cross - chi * squeeze * square
         if len(short):
-            few = a < _SHORT
-            lean = np.where(few, 4 * poisson * two + 2 * a * np.expm1(-a) ** 2 - 2 * odd, lean)
-            bend = np.where(few, (1 - squeeze) * more * square - 2 * odd * (two + 2 * aa), bend)
+            brief = a < _SHORT
+            lean = np.where(brief, 4 * poisson * two + 2 * a * np.expm1(-a) ** 2 - 2 * odd, lean)
+            bend = np.where(brief, (1 - squeeze) * more * square - 2 * odd * (two + 2 * aa), bend)
         tanh = two / (1 + ee)
         return cls(
             bottom,
@@ -289,8 +295,8 @@ class Slab:
         (cx, cz, cc, cd), (txx, txz, tzx, tzz, td) = self.c, self.t
         sum_, xx, zz, xz = self._together(s)
         row = txx * xx + txz * xz, txx * xz + txz * zz
-        other = tzx * xx + tzz * xz, tzx * xz + tzz * zz
-        px, pz = (row[0] * txx + row[1] * txz) / sum_, (other[0] * tzx + other[1] * tzz) / sum_
+        second_row = tzx * xx + tzz * xz, tzx * xz + tzz * zz
+        px, pz = (row[0] * txx + row[1] * txz) / sum_, (second_row[0] * tzx + second_row[1] * tzz) / sum_
         pc = (row[0] * tzx + row[1] * tzz) / sum_
         det = cd + cz * px + cx * pz - 2 * cc * pc + td * td * s.det / sum_
         return _Compliance(1.0, cx + px, cz + pz, cc + pc, det)
@@ -304,25 +310,25 @@ class Slab:
         ax, az = kz * x - kc * z, kx * z - kc * x
         return (
             np.stack([xx * x + xz * z, xz * x + zz * z]),
-            np.stack([s.one * x + s.zz * ax - s.xz * az, s.one * z + s.xx * az - s.xz * ax]),
+            np.stack([s.scale * x + s.zz * ax - s.xz * az, s.scale * z + s.xx * az - s.xz * ax]),
         )
 
     def _together(self, s: _Compliance) -> tuple[Scalars, Scalars, Scalars, Scalars]:
         """Determinant of 1 + K S; (S⁻¹ + K)⁻¹ times that: xx, zz, xz."""
         kx, kz, kc, kd = self.k
-        together = s.one + kx * s.xx + kz * s.zz + 2 * kc * s.xz + kd * s.det
+        together = s.scale + kx * s.xx + kz * s.zz + 2 * kc * s.xz + kd * s.det
         return together, s.xx + s.det * kz, s.zz + s.det * kx, s.xz - s.det * kc
 
     def up_transverse(self, s: tuple[Scalars, Scalars]) -> Scalars:
         """As `up`, of the transverse part."""
-        one, compliance = s
-        return self.c_transverse + self.t_transverse**2 * compliance / (one + self.k_transverse * compliance)
+        base, compliance = s
+        return self.c_transverse + self.t_transverse**2 * compliance / (base + self.k_transverse * compliance)
 
     def down_transverse(self, s: tuple[Scalars, Scalars], force: Array) -> tuple[Array, Array]:
         """As `down`, of the transverse part."""
-        one, compliance = s
-        carried = self.t_transverse * force / (one + self.k_transverse * compliance)
-        return compliance * carried, one * carried
+        base, compliance = s
+        carried = self.t_transverse * force / (base + self.k_transverse * compliance)
+        return compliance * carried, base * carried
 
 
 def upwards(k: Array, stack: Stack, depths: Sequence[float]) -> tuple[list[Slab], list[Body]]:
@@ -338,9 +344,9 @@ def upwards(k: Array, stack: Stack, depths: Sequence[float]) -> tuple[list[Slab]
     for layer, thickness, bottom, spring in reversed(parts):
         shear = stack.shear[layer]
         bodies.append(Body.of(plane, transverse, k, spring, shear))
-        own = stack.upright_of(layer)
-        slabs.append(Slab.of(k, shear, stack.poisson[layer], thickness, bottom, own))
-        plane, transverse = slabs[-1].up(bodies[-1].held), slabs[-1].up_transverse(bodies[-1].held_transverse)
+        upright = stack.upright_of(layer)
+        slabs.append(Slab.of(k, shear, stack.poisson[layer], thickness, bottom, upright))
+        plane, transverse = slabs[-1].up(bodies[-1].sprung), slabs[-1].up_transverse(bodies[-1].sprung_transverse)
     bodies.append(Body.of(plane, transverse, k, math.inf, 1.0))
     return slabs[::-1], bodies[::-1]
 
@@ -349,11 +355,13 @@ def _half_space(ones: Array, stack: Stack) -> tuple[_Compliance, Scalars]:
     """Compliance of the last layer as a half-space, plane and transverse."""
     shear, poisson, upright = stack.shear[-1], stack.poisson[-1], stack.upright_of(-1)
     if upright is not None:
-        xx, zz, xz, transverse = (one * ones for one in upright.half_space(shear, poisson))
+        xx, zz, xz, transverse = (entry * ones for entry in upright.half_space(shear, poisson))
         return _Compliance(1.0, xx, zz, xz, xx * zz - xz * xz), transverse
     shear, squeeze = shear * ones, 2 - 4 * poisson
-    own = (2 + squeeze) / (4 * shear)
-    return _Compliance(1.0, own, own, -squeeze / (4 * shear), (1 + squeeze) / (4 * shear * shear)), 1 / shear
+    diagonal = (2 + squeeze) / (4 * shear)
+    return _Compliance(
+        1.0, diagonal, diagonal, -squeeze / (4 * shear), (1 + squeeze) / (4 * shear * shear)
+    ), 1 / shear
 
 
 def pieces(stack: Stack, depths: Sequence[float]) -> list[tuple[int, float, float, float]]:

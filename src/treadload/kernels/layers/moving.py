@@ -99,11 +99,11 @@ class Path:
         at = x - self.origin
         legendre = np.polynomial.legendre.legvander((nodes - centre) / half, _POINTS - 1)
         lines = np.zeros((len(nodes), len(x)), complex)
-        for one in np.unique(half):
+        for half_length in np.unique(half):
             # ∫ Pₙ(u) exp(i w u) du = 2 iⁿ jₙ(w).
             order = np.arange(_POINTS)[:, None]
-            bessel = spherical_jn(order, np.abs(one * at)) * np.where(at < 0, -1.0, 1.0) ** order
-            rows = half == one
+            bessel = spherical_jn(order, np.abs(half_length * at)) * np.where(at < 0, -1.0, 1.0) ** order
+            rows = half == half_length
             lines[rows] = (legendre[rows] * (2 * order.T + 1)) @ (1j**order * bessel)
         # Spectra count phases from x = 0.
         lines *= self.weights[block, None] * np.exp(1j * (np.outer(centre, at) + (nodes * self.origin)[:, None]))
@@ -230,10 +230,10 @@ def _kernels(body: Body, levels: Sequence[Level], kx: Array, ky: Array) -> Compl
     shape = len(ky), len(kx)
     k = np.hypot(kx[None, :], ky[:, None]).ravel()
 
-    def rows(stack: Stack, some: Sequence[Level]) -> ComplexArray:
-        solved = transfer(k, stack, [level.depth for level in some], [level.below for level in some])
-        joined: ComplexArray = np.concatenate([solved.plane.reshape(len(some), 8, -1), solved.transverse], axis=1)
-        return joined.reshape(len(some), 10, *shape)
+    def rows(stack: Stack, levels: Sequence[Level]) -> ComplexArray:
+        solved = transfer(k, stack, [level.depth for level in levels], [level.below for level in levels])
+        joined: ComplexArray = np.concatenate([solved.plane.reshape(len(levels), 8, -1), solved.transverse], axis=1)
+        return joined.reshape(len(levels), 10, *shape)
 
     kernels = rows(body.stack(kx, len(ky)), levels)
     split = [number for number, level in enumerate(levels) if level.split]

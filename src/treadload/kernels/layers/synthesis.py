@@ -51,14 +51,14 @@ class Accuracy:
     """How finely waves are taken.
 
     fall: they are cut where they have fallen to e^-fall. smallest: panels of wavenumbers start at this over the
-    length of the problem. few, some: points of a panel below all lengths, and among those of the layers.
+    length of the problem. least_points, usual_points: of a panel below all lengths, and among those of the layers.
     precision: in which waves, and the half-space split off, are multiplied and added up.
     """
 
     fall: float
     smallest: float
-    few: int
-    some: int
+    least_points: int
+    usual_points: int
     precision: type[np.floating[Any]] = np.float64
 
 
@@ -141,7 +141,9 @@ def rule(limit: float, reach: float, length: float, accuracy: Accuracy = FULL) -
         calm = low * length < _CALM
         high = accuracy.smallest / length if low == 0 else (_STRIDE if calm else _RATIO) * low
         high = min(limit, high, low + widest)
-        count = (accuracy.few if calm else accuracy.some) + math.ceil(0.5 * (high - low) * reach * _MORE)
+        count = (accuracy.least_points if calm else accuracy.usual_points) + math.ceil(
+            0.5 * (high - low) * reach * _MORE
+        )
         points, share = _gauss(count)
         nodes.append(0.5 * (high - low) * points + 0.5 * (high + low))
         weights.append(0.5 * (high - low) * share)
@@ -179,37 +181,37 @@ def synthesise_cells(
     """
     (kx_all, wx_all), (ky_all, wy_all) = along, across
     sources = sorted(set().union(*(_FROM[component] for component in components)))
-    sheared = any(cells.load[1:].any() for one in loads for cells in one)
+    sheared = any(cells.load[1:].any() for load in loads for cells in load)
     uses = [_PRESSED, _SHEARED] if sheared else [_PRESSED]
-    functions = sorted({one for use in uses for source in sources for one in use[source]})
+    functions = sorted({function for use in uses for source in sources for function in use[source]})
     smallest = math.hypot(kx_all[0], ky_all[0])
     rows = [int(np.searchsorted(ky_all, plane.limit, side="right")) for plane in planes]
     ky_all, wy_all = ky_all[: max(rows)], wy_all[: max(rows)]
     back = _back(ky_all, wy_all / math.pi**2, y).astype(precision)
-    transforms = [_Transform.of(one, ky_all, precision) for one in loads]
+    transforms = [_Transform.of(load, ky_all, precision) for load in loads]
     sums = np.zeros((len(pairs), len(sources), *((len(y), len(x)) if at is None else at.shape)), precision)
     step = max(1, _BLOCK // max(rows))
     for start in range(0, len(kx_all), step):
         kx, wx = kx_all[start : start + step], wx_all[start : start + step]
         if all(kx[0] > plane.limit for plane in planes):
             break
-        spectra = [one.at(kx, ky_all) for one in transforms]
+        spectra = [transform.at(kx, ky_all) for transform in transforms]
         out = _back(kx, wx, x).astype(precision, copy=False)
         short_x, short_y = kx.astype(precision, copy=False), ky_all.astype(precision, copy=False)[:, None]
         for number, (plane, n) in enumerate(zip(planes, rows, strict=True)):
-            served = [(place, load) for place, (load, own) in enumerate(pairs) if own == number]
+            served = [(place, load) for place, (load, plane) in enumerate(pairs) if plane == number]
             count = int(np.searchsorted(kx, plane.limit, side="right"))
             if not count or not served:
                 continue
             exact = plane.radial(kx[:count], ky_all[:n], functions, smallest)
-            radial = {own: values.astype(precision, copy=False) for own, values in exact.items()}
+            radial = {number: values.astype(precision, copy=False) for number, values in exact.items()}
             for place, load in served:
                 waves = _waves(spectra[load][..., :n, :count], radial, short_x[:count], short_y[:n], sources)
                 _add(sums[place], waves, back[:, :n], out[:, :count], at)
     places = dict(zip(sources, range(len(sources)), strict=True))
     fields = np.empty((len(components), *sums[:, 0].shape), precision)
-    for number, (total, (_, own)) in enumerate(zip(sums, pairs, strict=True)):
-        _components(total, places, planes[own], components, fields[:, number])
+    for number, (total, (_, index)) in enumerate(zip(sums, pairs, strict=True)):
+        _components(total, places, planes[index], components, fields[:, number])
     return fields.swapaxes(0, 1)
 
 
@@ -229,19 +231,19 @@ class _Transform:
         """With the way into ky, in a precision."""
         together: list[tuple[Cells, list[float]]] = []
         for cells in loads:
-            alike = next((places for one, places in together if _moved_along(one, cells)), None)
+            alike = next((places for group, places in together if _moved_along(group, cells)), None)
             if alike is None:
                 together.append((cells, [cells.x0]))
             else:
                 alike.append(cells.x0)
-        sheared = any(one.load[1:].any() for one, _ in together)
+        sheared = any(cells.load[1:].any() for cells, _ in together)
         parts = []
-        for one, places in together:
+        for block, places in together:
             # Grooves and the rim of the grid bear nothing.
-            rows, columns = (np.flatnonzero(one.load.any(axis=(0, axis))) for axis in (2, 1))
-            into = _towards(ky, one.dy, one.y0, rows, one.order).astype(precision, copy=False)
-            load = one.load[: 3 if sheared else 1, rows[:, None], columns].astype(precision, copy=False)
-            parts.append((one, places, into, load, columns))
+            rows, columns = (np.flatnonzero(block.load.any(axis=(0, axis))) for axis in (2, 1))
+            into = _towards(ky, block.dy, block.y0, rows, block.order).astype(precision, copy=False)
+            load = block.load[: 3 if sheared else 1, rows[:, None], columns].astype(precision, copy=False)
+            parts.append((block, places, into, load, columns))
         return cls(parts, precision)
 
     def at(self, kx: Array, ky: Array) -> Array:
@@ -265,10 +267,10 @@ class _Transform:
         return spectrum
 
 
-def _moved_along(one: Cells, other: Cells) -> bool:
+def _moved_along(cells: Cells, reference: Cells) -> bool:
     """Whether cells are the same load moved along x."""
-    same = (one.dx, one.dy, one.y0, one.order) == (other.dx, other.dy, other.y0, other.order)
-    return same and (one.load is other.load or np.array_equal(one.load, other.load))
+    same = (cells.dx, cells.dy, cells.y0, cells.order) == (reference.dx, reference.dy, reference.y0, reference.order)
+    return same and (cells.load is reference.load or np.array_equal(cells.load, reference.load))
 
 
 def _towards(k: Array, width: float, first: float, cells: Any, order: int) -> Array:
@@ -365,8 +367,8 @@ def _components(
     nu, double = plane.poisson, 2 * plane.shear
     lifted = nu if plane.lift is None else plane.lift * (1 - nu)
 
-    def normal(own: int, other: int) -> Array:
-        stress: Array = double * (total[place[own]] + nu * total[place[other]]) - lifted * total[place[_FZ]]
+    def normal(along: int, across: int) -> Array:
+        stress: Array = double * (total[place[along]] + nu * total[place[across]]) - lifted * total[place[_FZ]]
         return stress / (1 - nu)
 
     make = (

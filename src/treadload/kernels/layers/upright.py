@@ -111,7 +111,7 @@ class _Series:
 
     def at(self, phase: Array) -> tuple[Array, Array, Array]:
         """C (3, nk), K (3, nk) and T (5, nk), the last row of T its determinant."""
-        c, k, t = (np.polynomial.polynomial.polyval(phase, one) for one in (self.c, self.k, self.t))
+        c, k, t = (np.polynomial.polynomial.polyval(phase, coefficients) for coefficients in (self.c, self.k, self.t))
         return c, k, np.concatenate([t, [t[0] * t[3] - t[1] * t[2]]])
 
 
@@ -134,7 +134,7 @@ def _series(plate: float, lift: float, along: float) -> _Series:
     # The first terms on the diagonals are those of ζ, but of K's zz that of ζ³; the others are held against them.
     first = np.abs([c[1, 0, 0], c[1, 1, 1], k[1, 0, 0], k[3, 1, 1], 1.0])
     powers = np.array([1, 1, 1, 3, 0])
-    last = np.abs([[one[n] for one in (c[:, 0, 0], c[:, 1, 1], k[:, 0, 0], k[:, 1, 1])] for n in (-2, -1)]).max(
+    last = np.abs([[entry[n] for entry in (c[:, 0, 0], c[:, 1, 1], k[:, 0, 0], k[:, 1, 1])] for n in (-2, -1)]).max(
         axis=0
     )
     last = np.append(last, np.abs(t[-2:]).max())

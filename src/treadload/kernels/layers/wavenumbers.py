@@ -26,7 +26,7 @@ _RATIO = 3.0
 # Most radians that half a panel turns, and the points that resolve them with the layers' own features: 1e-10.
 _PHASE, _POINTS = 7.0, 14
 # Where every feature of the field is far larger than the panel, fewer points give the same.
-_CALM, _FEW = 0.02, 8
+_CALM, _LEAST_POINTS = 0.02, 8
 # Interpolation in ln k: steps of this size with polynomials of this degree leave 1e-11.
 _STEP, _DEGREE = 0.15, 7
 
@@ -44,7 +44,7 @@ def quadrature(limit: float, reach: float, length: float) -> tuple[Array, Array]
     low, high = panels(limit, reach, length)
     nodes, weights = [], []
     for start, end in zip(low, high, strict=True):
-        points, share = gauss(_FEW if end * length < _CALM else _POINTS)
+        points, share = gauss(_LEAST_POINTS if end * length < _CALM else _POINTS)
         nodes.append(0.5 * (end - start) * points + 0.5 * (end + start))
         weights.append(0.5 * (end - start) * share)
     return np.concatenate(nodes), np.concatenate(weights)

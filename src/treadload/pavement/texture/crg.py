@@ -170,7 +170,7 @@ def read_crg(path: Path) -> CurvedGrid:
     constant = {
         "banking": road.get("reference_line_start_b", 0.0), "slope": road.get("reference_line_start_s", 0.0),
     }  # fmt: skip
-    banking, slope = (named.get(one, np.full(len(u), constant[one])) for one in ("banking", "slope"))
+    banking, slope = (named.get(axis, np.full(len(u), constant[axis])) for axis in ("banking", "slope"))
     if not np.isfinite(banking).all() or not np.isfinite(slope[1:]).all():
         raise InputError(f"{path.name!r} has a banking or slope that is no number")
     slope = np.concatenate([[0.0], slope[1:]])
@@ -181,10 +181,10 @@ def read_crg(path: Path) -> CurvedGrid:
 
 def _parted(raw: bytes) -> tuple[list[str], bytes | None]:
     """Lines before the one of $$$$, and what comes after it; None of no such line."""
-    found = re.search(rb"^\$\$\$\$[^\r\n]*(\r\n|\n|\r)", raw, re.MULTILINE)
-    if found is None:
+    marker = re.search(rb"^\$\$\$\$[^\r\n]*(\r\n|\n|\r)", raw, re.MULTILINE)
+    if marker is None:
         return raw.decode("latin-1").splitlines(), None
-    return raw[: found.start()].decode("latin-1").splitlines(), raw[found.end() :]
+    return raw[: marker.start()].decode("latin-1").splitlines(), raw[marker.end() :]
 
 
 def _blocks(lines: list[str]) -> dict[str, list[str]]:
@@ -202,7 +202,7 @@ def _blocks(lines: list[str]) -> dict[str, list[str]]:
 
 
 def _numbers(lines: list[str], name: str) -> dict[str, float]:
-    found = {}
+    options = {}
     for line in lines:
         pair = _KEY.match(line)
         try:
@@ -212,12 +212,12 @@ def _numbers(lines: list[str], name: str) -> dict[str, float]:
             raise InputError(f"{name!r}: expected NAME = number, got {one_line(line)!r}") from error
         if not math.isfinite(value):
             raise InputError(f"{name!r}: {pair[1]} is no finite number: {pair[2]}")
-        found[pair[1].lower()] = value
-    return found
+        options[pair[1].lower()] = value
+    return options
 
 
-def _check_modifiers(found: Mapping[str, float], name: str) -> None:
-    active = [key for key, value in found.items() if value != _NEUTRAL.get(key, math.nan)]
+def _check_modifiers(options: Mapping[str, float], name: str) -> None:
+    active = [key for key, value in options.items() if value != _NEUTRAL.get(key, math.nan)]
     if active:
         raise InputError(
             f"{name!r} changes its data by {active[0].upper()} in $ROAD_CRG_MODS, which is not followed here; apply "
@@ -225,14 +225,14 @@ def _check_modifiers(found: Mapping[str, float], name: str) -> None:
         )
 
 
-def _options(found: Mapping[str, float], name: str) -> dict[str, float]:
+def _options(options: Mapping[str, float], name: str) -> dict[str, float]:
     for axis in ("u", "v"):
-        mode = found.get(f"border_mode_{axis}", KEEP)
+        mode = options.get(f"border_mode_{axis}", KEEP)
         if mode not in range(5):
             raise InputError(f"{name!r}: BORDER_MODE_{axis.upper()} must be 0, 1, 2, 3 or 4, got {mode:g}")
-    if any(found.get(f"border_smooth_u{one}", 0.0) for one in ("beg", "end")):
+    if any(options.get(f"border_smooth_u{end}", 0.0) for end in ("beg", "end")):
         raise InputError(f"{name!r} smooths its borders (BORDER_SMOOTH_U…), which is not followed here; set it to 0")
-    return {key: value for key, value in found.items() if key.startswith("border_")}
+    return {key: value for key, value in options.items() if key.startswith("border_")}
 
 
 def _channels(lines: list[str], name: str) -> tuple[str, list[tuple[str, float | None]]]:
@@ -249,7 +249,7 @@ def _channels(lines: list[str], name: str) -> tuple[str, list[tuple[str, float |
             channels.append(_channel(rest, name))
         elif tag.upper() != "U":
             raise InputError(f"{name!r}: expected #:, D: or U: in $KD_Definition, got {one_line(line)!r}")
-    if not any(one == "z" for one, _ in channels):
+    if not any(name == "z" for name, _ in channels):
         raise InputError(f"{name!r} defines no long section (D:long section …) in $KD_Definition")
     return kind, channels
 
@@ -278,13 +278,13 @@ def _across(road: Mapping[str, float], places: list[float | None], name: str) ->
     """Places of the sections across, m: of their own, or by two of right border, left border and increment."""
     if len(places) < 2:
         raise InputError(f"{name!r} has {len(places)} long section; a grid needs two or more")
-    given = [one for one in places if one is not None]
+    stated = [place for place in places if place is not None]
     count = len(places)
-    if given:
-        if len(given) < count or len(set(given)) < count:
+    if stated:
+        if len(stated) < count or len(set(stated)) < count:
             raise InputError(f"{name!r}: every long section needs a v of its own, or none of them")
-        return np.array(given)
-    right, left, step = (road.get(f"long_section_v_{one}") for one in ("right", "left", "increment"))
+        return np.array(stated)
+    right, left, step = (road.get(f"long_section_v_{edge}") for edge in ("right", "left", "increment"))
     if right is None and left is None and step is not None:
         right, left = -0.5 * (count - 1) * step, 0.5 * (count - 1) * step
     elif right is not None and left is None and step is not None:

@@ -49,14 +49,14 @@ def mean_profile_depth(texture: Texture, *, spike_slope: float = 3.0, sample: fl
     """
     positive("spike_slope", spike_slope, "1", "3 is that of ISO 13473-1")
     step = texture.dx
-    chosen = next((one for one in _SAMPLES if step <= one * (1 + 1e-6)), None) if sample is None else sample
+    chosen = next((length for length in _SAMPLES if step <= length * (1 + 1e-6)), None) if sample is None else sample
     if chosen is None or chosen not in _SAMPLES or step > chosen * (1 + 1e-6):
         raise InputError(
             f"ISO 13473-1 samples every 0.5 or 1 mm, and this texture has points every {step * 1e3:.4g} mm; "
             "measure it finer"
         )
-    found = [_line(row, step, chosen, spike_slope) for row in texture.heights]
-    segments = np.concatenate(found)
+    profiles = [_line(row, step, chosen, spike_slope) for row in texture.heights]
+    segments = np.concatenate(profiles)
     valid = np.isfinite(segments)
     if not valid.any():
         raise InputError(
@@ -144,7 +144,7 @@ def map_profile_depth(texture: Texture, *, patch: float = SEGMENT) -> float:
         for row in _pieces(heights.shape[0], texture.dy, patch)
         for column in _pieces(heights.shape[1], texture.dx, patch)
     ]
-    return float(np.mean([np.mean(_quarters(one)) for one in squares]))
+    return float(np.mean([np.mean(_quarters(square)) for square in squares]))
 
 
 def _pieces(count: int, step: float, size: float) -> list[slice]:
@@ -159,8 +159,8 @@ def _levelled(heights: Array) -> Array:
     terms = np.array(
         [np.ones(heights.size), x.ravel(), y.ravel()] if ny > 1 else [np.ones(heights.size), x.ravel()]
     ).T
-    found, *_ = np.linalg.lstsq(terms, heights.ravel(), rcond=None)
-    return np.asarray(heights - (terms @ found).reshape(ny, nx))
+    coefficients, *_ = np.linalg.lstsq(terms, heights.ravel(), rcond=None)
+    return np.asarray(heights - (terms @ coefficients).reshape(ny, nx))
 
 
 def _quarters(level: Array) -> list[float]:

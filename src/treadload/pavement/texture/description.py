@@ -54,10 +54,10 @@ class Texture:
             raise InputError(
                 f"the texture has {int(np.isinf(heights).sum())} infinite heights; write NaN where none was measured"
             )
-        known = heights[np.isfinite(heights)]
-        if not known.size:
+        finite = heights[np.isfinite(heights)]
+        if not finite.size:
             raise InputError(f"all {heights.size} heights of the texture are NaN; at least one must be a length in m")
-        relief = float(known.max() - known.min())
+        relief = float(finite.max() - finite.min())
         if relief > _HIGHEST:
             raise InputError(
                 f"the heights of the texture differ by {relief:.3g} m, more than any ({_HIGHEST * 1e3:g} mm); "
@@ -168,8 +168,8 @@ class Texture:
         parts = (self.heights.shape, self.dx, self.dy, self.periodic, self.shortest)
         return sha256(repr(parts).encode() + np.ascontiguousarray(self.heights).tobytes()).hexdigest()
 
-    def __eq__(self, other: object) -> bool:
-        return self._digest == other._digest if isinstance(other, Texture) else NotImplemented
+    def __eq__(self, texture: object) -> bool:
+        return self._digest == texture._digest if isinstance(texture, Texture) else NotImplemented
 
     def __hash__(self) -> int:
         return hash(self._digest)
@@ -179,17 +179,17 @@ class Texture:
         size = f"profile of {nx} points every {self.dx * 1e3:.4g} mm" if ny == 1 else (
             f"{nx} x {ny} points every {self.dx * 1e3:.4g} x {self.dy * 1e3:.4g} mm"
         )  # fmt: skip
-        told = f"texture, {size}, rms height {self.rms_height * 1e3:.3g} mm, rms slope {self.rms_slope:.3g}"
+        text = f"texture, {size}, rms height {self.rms_height * 1e3:.3g} mm, rms slope {self.rms_slope:.3g}"
         if self.dropouts:
-            told += f", {self.dropouts} heights not known"
-        return f"{told}; {self.source}" if self.source else told
+            text += f", {self.dropouts} heights not known"
+        return f"{text}; {self.source}" if self.source else text
 
     def __repr__(self) -> str:
         return f"<{self}>"
 
     def summary(self) -> str:
         """What it is and what was done to it."""
-        return "\n".join([str(self), *(f"- {one}" for one in self.treated)])
+        return "\n".join([str(self), *(f"- {step}" for step in self.treated)])
 
 
 def _places(count: int, step: float, periodic: bool) -> Array:
@@ -204,8 +204,8 @@ def _between(at: Array, first: float, step: float, count: int, periodic: bool) -
     part = place - low
     both = [low.astype(int), low.astype(int) + 1]
     if periodic:
-        return [one % count for one in both], part
+        return [index % count for index in both], part
     # Mirrored in the outermost points; one point alone is everywhere.
     turn = max(2 * (count - 1), 1)
-    folded = [one % turn for one in both]
-    return [np.where(one > count - 1, turn - one, one) if count > 1 else 0 * one for one in folded], part
+    folded = [index % turn for index in both]
+    return [np.where(index > count - 1, turn - index, index) if count > 1 else 0 * index for index in folded], part

@@ -52,7 +52,7 @@ def read_texture(
     if suffix == ".crg":
         return read_crg(path).texture()
     if suffix in ENDINGS:
-        measured = read_surface_map(path, given=(spacing, units, decimal))
+        measured = read_surface_map(path, options=(spacing, units, decimal))
         # Seen from above, y of an instrument runs to the left of its x; that of a road to the right.
         return Texture(measured.heights[::-1], measured.dx, measured.dy, source=measured.source)
     if suffix in (".nc", ".nc4", ".h5", ".cdf"):
@@ -129,7 +129,7 @@ def of_matrix(
 ) -> Texture:
     """Texture of an array of heights (ny, nx) in a unit, m if left out; one row or one column is a profile."""
     try:
-        steps = tuple(float(one) for one in np.atleast_1d(np.asarray(spacing, dtype=float)))
+        steps = tuple(float(step) for step in np.atleast_1d(np.asarray(spacing, dtype=float)))
     except (TypeError, ValueError):
         steps = ()
     if len(steps) not in (1, 2):
@@ -148,17 +148,17 @@ def _netcdf(path: Path, units: str | None) -> Texture:
     if len(named) != 1:
         raise InputError(f"{path.name!r} must hold one variable of heights over (y, x) or x, found {named or 'none'}")
     part = data[named[0]]
-    asked = {} if units is None else {"heights": units, "x": units, "y": units}
+    units_of = {} if units is None else {"heights": units, "x": units, "y": units}
     if part.dtype.kind not in "iuf":
         raise InputError(f"{path.name!r}: {named[0]} must hold numbers in m or the like, got {part.dtype}")
-    factor = factor_of("heights", part.attrs.get("units"), "m", asked, where=path.name, bare=None)
+    factor = factor_of("heights", part.attrs.get("units"), "m", units_of, where=path.name, bare=None)
     if part.dims == ("x", "y"):
         part = part.transpose("y", "x")
     steps = {}
     for name in part.dims:
         if name not in part.coords or part[name].size < 2:
             raise InputError(f"{path.name!r} needs the coordinate {name} of {named[0]}, two places or more")
-        unit = factor_of(str(name), part[name].attrs.get("units"), "m", asked, where=path.name, bare=None)
+        unit = factor_of(str(name), part[name].attrs.get("units"), "m", units_of, where=path.name, bare=None)
         places = unit * part[name].to_numpy().astype(float)
         step = np.diff(places)
         if (

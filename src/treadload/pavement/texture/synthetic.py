@@ -78,10 +78,10 @@ def self_affine(
     half[np.ix_(across.astype(int) % points, along)] = amplitude * np.exp(1j * phase)
     # The origin of the waves is the corner, at -size/2.
     heights = fft.irfft2(half, s=(points, points)) * points**2
-    told = f"rms slope {rms_slope:g}" if rms_height is None else f"rms height {rms_height * 1e3:g} mm"
+    relief = f"rms slope {rms_slope:g}" if rms_height is None else f"rms height {rms_height * 1e3:g} mm"
     source = (
         f"self-affine, Hurst exponent {hurst:g}, waves of {shortest * 1e3:.4g} to {size * 1e3:.4g} mm, flat beyond "
-        f"{flat * 1e3:.4g} mm, {told}, seed {seed}"
+        f"{flat * 1e3:.4g} mm, {relief}, seed {seed}"
     )
     return Texture(heights, size / points, size / points, True, size / most, source)
 

@@ -40,8 +40,8 @@ def fill_dropouts(texture: Texture, *, most: float = 0.2) -> Texture:
     heights = texture.heights.copy()
     rows, place = np.flatnonzero((~unknown).any(axis=1)), np.arange(heights.shape[1])
     for row in rows:
-        known = ~unknown[row]
-        heights[row] = np.interp(place, place[known], heights[row, known])
+        valid = ~unknown[row]
+        heights[row] = np.interp(place, place[valid], heights[row, valid])
     for column in range(heights.shape[1]) if rows.size < heights.shape[0] else ():
         heights[:, column] = np.interp(np.arange(heights.shape[0]), rows, heights[rows, column])
     return texture.changed(heights, f"{count} drop-outs ({100 * share:.1f} %) filled between their neighbours")
@@ -95,10 +95,10 @@ def level(texture: Texture, *, order: Literal[0, 1, 2] = 1) -> Texture:
     x, y = np.linspace(-1, 1, nx)[None, :], (np.linspace(-1, 1, ny) if ny > 1 else np.zeros(1))[:, None]
     powers = [(i, j) for i in range(order + 1) for j in range(order + 1 - i) if ny > 1 or not j]
     terms = np.array([(x**i * y**j).ravel() for i, j in powers]).T
-    known = np.isfinite(texture.heights).ravel()
-    found, *_ = np.linalg.lstsq(terms[known], texture.heights.ravel()[known], rcond=None)
+    valid = np.isfinite(texture.heights).ravel()
+    coefficients, *_ = np.linalg.lstsq(terms[valid], texture.heights.ravel()[valid], rcond=None)
     shape = {0: "mean", 1: "plane", 2: "paraboloid"}[order]
-    return texture.changed(texture.heights - (terms @ found).reshape(ny, nx), f"levelled: {shape} taken out")
+    return texture.changed(texture.heights - (terms @ coefficients).reshape(ny, nx), f"levelled: {shape} taken out")
 
 
 def band_pass(texture: Texture, *, shortest: float | None = None, longest: float | None = None) -> Texture:
@@ -133,12 +133,12 @@ def band_pass(texture: Texture, *, shortest: float | None = None, longest: float
         kept = fft.irfft2(fft.rfft2(heights - mean) * stays, s=(ny, nx))
     else:
         kept = fft.mirrored_waves(fft.mirrored_waves(heights - mean) * stays, back=True)
-    told = " and ".join(
+    band = " and ".join(
         [f"shorter than {short * 1e3:.4g} mm"] * (shortest is not None)
         + [f"longer than {long * 1e3:.4g} mm"] * (longest is not None)
     )
     finest = max(texture.finest_wave, short)
-    return texture.changed(kept, f"waves {told} taken out", shortest=finest)
+    return texture.changed(kept, f"waves {band} taken out", shortest=finest)
 
 
 def cut(texture: Texture, *, length: float, x: float = 0.0, width: float | None = None, y: float = 0.0) -> Texture:
@@ -147,8 +147,8 @@ def cut(texture: Texture, *, length: float, x: float = 0.0, width: float | None 
     across = texture.width if width is None else width
     columns = _reach("length", texture.x, texture.dx, x, length)
     rows = slice(None) if texture.is_profile else _reach("width", texture.y, texture.dy, y, across)
-    told = f"cut to {length * 1e3:.4g} mm about x = {x * 1e3:.4g} mm"
-    return texture.changed(texture.heights[rows, columns], told, periodic=False)
+    note = f"cut to {length * 1e3:.4g} mm about x = {x * 1e3:.4g} mm"
+    return texture.changed(texture.heights[rows, columns], note, periodic=False)
 
 
 def _reach(name: str, places: Array, step: float, middle: float, size: float) -> slice:

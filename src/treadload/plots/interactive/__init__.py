@@ -4,6 +4,7 @@ Functions of datasets, as all figures of the house, so that a file is enough; th
 extra "app" brings.
 """
 
+from treadload.plots.interactive.browser_grids import MOST_HELD, held_numbers, profile_held, section_held
 from treadload.plots.interactive.cut import Cut, depth_slice, profiles
 from treadload.plots.interactive.drawing import figure
 from treadload.plots.interactive.field import (
@@ -18,7 +19,6 @@ from treadload.plots.interactive.field import (
     with_outline,
     zones_field,
 )
-from treadload.plots.interactive.held import MOST_HELD, held_numbers, profile_held, section_held
 from treadload.plots.interactive.maps import difference_map, linked_maps, marked
 from treadload.plots.interactive.places import Place, places_of
 from treadload.plots.interactive.solid import tread
@@ -26,7 +26,6 @@ from treadload.plots.interactive.theme import DARK, LIGHT, Theme, colour_scale, 
 from treadload.plots.interactive.view import (
     CONFIG,
     LinkedView,
-    any_view,
     contact_view,
     link_script,
     plotly_script,
@@ -44,7 +43,6 @@ __all__ = [
     "LinkedView",
     "Place",
     "Theme",
-    "any_view",
     "choices",
     "colour_scale",
     "contact_view",

@@ -35,7 +35,7 @@ class Cut:
 
     def __post_init__(self) -> None:
         numbers = (*self.start, *self.end)
-        if not all(math.isfinite(one) for one in numbers) or not self.length > 0:
+        if not all(math.isfinite(number) for number in numbers) or not self.length > 0:
             raise InputError(f"a cut needs two points that differ, got {self.start} and {self.end} m")
 
     @classmethod
@@ -76,13 +76,13 @@ class Cut:
 
     def cells(self, data: xr.Dataset) -> tuple[Array, Array, Array]:
         """The same for the cells of a map: their centres on a line along or across travel, else points close by."""
-        for own, name in ((1, "x"), (0, "y")):
-            if self.start[own] == self.end[own]:
-                low, high = sorted((self.start[1 - own], self.end[1 - own]))
+        for axis, name in ((1, "x"), (0, "y")):
+            if self.start[axis] == self.end[axis]:
+                low, high = sorted((self.start[1 - axis], self.end[1 - axis]))
                 at = data[name].to_numpy()
                 at = at[(at >= low) & (at <= high)]
                 if len(at) > 1:
-                    fixed = np.full(len(at), self.start[own])
+                    fixed = np.full(len(at), self.start[axis])
                     return (at - low, at, fixed) if name == "x" else (at - low, fixed, at)
         return self.points(_step(data) / 4)
 
@@ -92,7 +92,7 @@ class Cut:
             return x * MM, f"x, direction of travel (mm), at y = {signed(self.start[1] * MM)} mm"
         if self.start[0] == self.end[0]:
             return y * MM, f"y, right of travel (mm), at x = {signed(self.start[0] * MM)} mm"
-        ends = [signed(one, 0) for one in (*self.start_mm, *self.end_mm)]
+        ends = [signed(number, 0) for number in (*self.start_mm, *self.end_mm)]
         return where * MM, "from ({}, {}) to ({}, {}) mm, distance (mm)".format(*ends)
 
 
@@ -133,8 +133,8 @@ def profiles(
     look = theme_of(theme)
     data = fields_of(source)
     traces, unit, label = _curves(data, cut, look, names)
-    for number, (words, other) in enumerate((overlaid or {}).items()):
-        over = fields_of(other, "pressure")
+    for number, (words, overlay) in enumerate((overlaid or {}).items()):
+        over = fields_of(overlay, "pressure")
         where, x, y = cut.cells(over)
         values = sampled(np.nan_to_num(plane(over, "pressure")), *_centres(over), x, y, smooth=False) * KPA
         at, _ = cut.axis(where, x, y)
@@ -168,12 +168,12 @@ def depth_slice(
     # Sorting copies whatever is in it.
     data = data[[key for key in data if key == name or not {"x", "y", "point"} & set(data[key].dims)]].sortby("depth")
     at, label, values = _below(data, name, cut)
-    told = shown(data[name])
-    values = values * told.factor
-    reach = data[name].to_numpy() * told.factor if whole else values
-    trace, shapes = section_trace(at, values, data, name, told.unit, look, reach)
-    words = str(data[name].attrs.get("long_name", told.words))
-    bar = {"title": {"text": told.unit if told.unit != "–" else ""}, "thickness": 11, "outlinecolor": look.rule}
+    display = shown(data[name])
+    values = values * display.factor
+    reach = data[name].to_numpy() * display.factor if whole else values
+    trace, shapes = section_trace(at, values, data, name, display.unit, look, reach)
+    words = str(data[name].attrs.get("long_name", display.words))
+    bar = {"title": {"text": display.unit if display.unit != "–" else ""}, "thickness": 11, "outlinecolor": look.rule}
     layout = {
         "height": height, "margin": {"l": 62, "r": 20, "t": 40, "b": 50}, "shapes": shapes,
         "title": {"text": f"<b>{words[:1].upper()}{words[1:]}</b>", "x": 0.01, "font": {"size": 13}},
@@ -195,9 +195,9 @@ def section_trace(
     layers = Layers.of(data)
     down = data["depth"].to_numpy() * MM
     sides = depth_edges(down, layers)
-    known = reach[np.isfinite(reach)]
-    both = name not in VARIABLE.values() and float(known.min(initial=0.0)) < 0
-    scale = limits(np.abs(known) if both else known)
+    finite = reach[np.isfinite(reach)]
+    both = name not in VARIABLE.values() and float(finite.min(initial=0.0)) < 0
+    scale = limits(np.abs(finite) if both else finite)
     trace: Trace = {
         "type": "heatmap", "x": edges(at), "y": sides, "z": values.astype(np.float32), "hoverongaps": False,
         "colorscale": colour_scale("signed" if both else "strain", look.name),
@@ -228,16 +228,20 @@ def depth_edges(down: Array, layers: Layers) -> Array:
 def _below(data: xr.Dataset, name: str, cut: Cut | None) -> tuple[Array, str, Array]:
     """Places along a line, mm, its label, values (nz, n) below it."""
     if "point" in data.dims:
-        x, y = (data[one].to_numpy() for one in ("x", "y"))
+        x, y = (data[axis].to_numpy() for axis in ("x", "y"))
         where = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
         line = Cut((float(x[0]), float(y[0])), (float(x[-1]), float(y[-1])))
         at, label = line.axis(where, x, y)
         return at, label, np.asarray(data[name].transpose("depth", "point").to_numpy(), dtype=float)
     field = np.asarray(data[name].transpose("depth", "y", "x").to_numpy(), dtype=float)
-    for other, axis, words in (("y", 1, "x, direction of travel"), ("x", 2, "y, right of travel")):
-        if data.sizes[other] == 1 and data.sizes["x" if other == "y" else "y"] > 1:
-            at = data["x" if other == "y" else "y"].to_numpy() * MM
-            return at, f"{words} (mm), at {other} = {signed(float(data[other][0]) * MM)} mm", np.take(field, 0, axis)
+    for across, axis, words in (("y", 1, "x, direction of travel"), ("x", 2, "y, right of travel")):
+        if data.sizes[across] == 1 and data.sizes["x" if across == "y" else "y"] > 1:
+            at = data["x" if across == "y" else "y"].to_numpy() * MM
+            return (
+                at,
+                f"{words} (mm), at {across} = {signed(float(data[across][0]) * MM)} mm",
+                np.take(field, 0, axis),
+            )
     if cut is None:
         raise InputError(
             "a section of a response in plan needs a cut: Cut.along(response), Cut.across(response) or any"
@@ -279,15 +283,15 @@ def _curves(data: xr.Dataset, cut: Cut, look: Theme, names: Mapping[str, str] | 
     for number, (name, words) in enumerate(chosen.items()):
         if name not in data:
             raise InputError(f"this profile needs {name}; the dataset has {', '.join(map(str, data.data_vars))}")
-        told = shown(data[name])
-        unit = unit or told.unit
+        display = shown(data[name])
+        unit = unit or display.unit
         rows = range(data.sizes["depth"]) if "depth" in data[name].dims else [None]
         for row in rows:
-            one = data[name] if row is None else data[name].isel(depth=row)
-            field = np.asarray(one.transpose("y", "x").to_numpy(), dtype=float) * told.factor
+            sheet = data[name] if row is None else data[name].isel(depth=row)
+            field = np.asarray(sheet.transpose("y", "x").to_numpy(), dtype=float) * display.factor
             text = words if row is None else f"{words}, {MM * float(data['depth'][row]):g} mm deep"
             values = sampled(field, *_centres(data), x, y, smooth=not contact)
-            curve = _curve(at, values, text, look.cases[(row or 0) % len(look.cases)], told.unit, steps=contact)
+            curve = _curve(at, values, text, look.cases[(row or 0) % len(look.cases)], display.unit, steps=contact)
             curve["line"]["dash"] = ("solid", "dash", "dot")[number % 3]
             traces.append(curve)
     return traces, unit, label
@@ -321,8 +325,8 @@ def _largest(source: Source) -> tuple[float, float]:
     data = fields_of(source)
     for name in ("pressure", *VARIABLE.values(), "extension_strain"):
         if name in data:
-            one = data.isel(depth=0) if "depth" in data[name].dims else data
-            values = np.nan_to_num(plane(one, name), nan=-np.inf)
+            sheet = data.isel(depth=0) if "depth" in data[name].dims else data
+            values = np.nan_to_num(plane(sheet, name), nan=-np.inf)
             row, column = np.unravel_index(int(values.argmax()), values.shape)
             return float(data["x"][column]), float(data["y"][row])
     return float(data["x"].mean()), float(data["y"].mean())

@@ -38,7 +38,7 @@ def cells(field: Field, axes: tuple[str, str], theme: Theme, bar: dict[str, Any]
     values = field.values.astype(np.float32)
     unit = f" {field.unit}" if field.unit and field.unit != "–" else ""
     zones = field.kind == "zones"
-    said = "%{z:.4~g}" + unit
+    value_text = "%{z:.4~g}" + unit
     trace: Trace = {
         "type": "heatmap", "x": field.plan.x_edges, "y": field.plan.y_edges, "z": values,
         "xaxis": axes[0], "yaxis": axes[1], "zmin": field.scale.low, "zmax": field.scale.high,
@@ -47,31 +47,31 @@ def cells(field: Field, axes: tuple[str, str], theme: Theme, bar: dict[str, Any]
     }  # fmt: skip
     if zones:
         trace["customdata"] = np.array(["open", "sticks", "slips"])[np.nan_to_num(values).astype(int)]
-        said = "%{customdata}"
+        value_text = "%{customdata}"
     elif field.logarithmic:
         with np.errstate(over="ignore"):
             trace["customdata"] = 10.0**field.values
-        said = "%{customdata:.2e}" + unit
-    trace["hovertemplate"] = f"x %{{x:.1f}} mm, y %{{y:.1f}} mm<br>{said}<extra></extra>"
+        value_text = "%{customdata:.2e}" + unit
+    trace["hovertemplate"] = f"x %{{x:.1f}} mm, y %{{y:.1f}} mm<br>{value_text}<extra></extra>"
     return trace
 
 
 def overlays(field: Field, axes: tuple[str, str], theme: Theme) -> list[Trace]:
     """Outlines, arrows, strokes and the mark of the peak on a map."""
-    made = [_lines(_outline(mask, plan), axes, getattr(theme, _LINE[role][0]), _LINE[role][1], f"outline {role}")
+    traces = [_lines(_outline(mask, plan), axes, getattr(theme, _LINE[role][0]), _LINE[role][1], f"outline {role}")
             for mask, plan, role in field.outlines if mask.any()]  # fmt: skip
     for lines, name in ((_arrows(field.arrows), "arrows"), (_strokes(field.strokes), "strokes")):
         if len(lines[0]):
-            made.append(_lines(lines, axes, theme.halo, 3.2, f"{name} halo", 0.7))
-            made.append(_lines(lines, axes, theme.ink, 1.3, name))
+            traces.append(_lines(lines, axes, theme.halo, 3.2, f"{name} halo", 0.7))
+            traces.append(_lines(lines, axes, theme.ink, 1.3, name))
     if field.peak is not None:
         x, y, text = field.peak
         peak = marks([(x, y, text)], axes, theme, "peak")
         # Towards the middle of the map, or a long text would leave it, and beside the line of a cut through the peak.
-        sides = ((one[0] + one[-1]) / 2 for one in (field.plan.x_edges, field.plan.y_edges))
+        sides = ((edges[0] + edges[-1]) / 2 for edges in (field.plan.x_edges, field.plan.y_edges))
         right, down = (at > middle for at, middle in zip((x, y), sides, strict=True))
-        made.append(peak | {"textposition": f"{'top' if down else 'bottom'} {'left' if right else 'right'}"})
-    return made
+        traces.append(peak | {"textposition": f"{'top' if down else 'bottom'} {'left' if right else 'right'}"})
+    return traces
 
 
 def marks(places: Sequence[tuple[float, float, str]], axes: tuple[str, str], theme: Theme, name: str) -> Trace:
@@ -88,7 +88,7 @@ def marks(places: Sequence[tuple[float, float, str]], axes: tuple[str, str], the
         }
     else:
         # The ring twice: paper around it, so that it shows on dark and bright cells.
-        places = [one for one in places for _ in range(2)]
+        places = [place for place in places for _ in range(2)]
         look = {
             "mode": "markers+text", "cliponaxis": False,
             "textfont": {"color": theme.ink, "size": 11, "weight": "bold", "shadow": _shadow(theme)},
@@ -108,19 +108,19 @@ def plan_axes(number: int, plan: Plan, domain: tuple[float, float, float, float]
 
     domain: left, right, bottom, top of the page, 0 to 1.
     """
-    own = "" if number == 1 else str(number)
+    suffix = "" if number == 1 else str(number)
     along: dict[str, Any] = {
-        "domain": list(domain[:2]), "anchor": f"y{own}", "title": {"text": X_LABEL},
+        "domain": list(domain[:2]), "anchor": f"y{suffix}", "title": {"text": X_LABEL},
         "range": [float(plan.x_edges[0]), float(plan.x_edges[-1])],
     }  # fmt: skip
     right: dict[str, Any] = {
-        "domain": list(domain[2:]), "anchor": f"x{own}", "title": {"text": Y_LABEL}, "scaleanchor": f"x{own}",
+        "domain": list(domain[2:]), "anchor": f"x{suffix}", "title": {"text": Y_LABEL}, "scaleanchor": f"x{suffix}",
         "scaleratio": 1, "range": [float(plan.y_edges[-1]), float(plan.y_edges[0])],
     }  # fmt: skip
     if number > 1:
         along["matches"], right["matches"] = "x", "y"
         del right["scaleanchor"], right["scaleratio"]
-    return {f"xaxis{own}": along, f"yaxis{own}": right}
+    return {f"xaxis{suffix}": along, f"yaxis{suffix}": right}
 
 
 def heading(
@@ -188,20 +188,20 @@ def _outline(mask: BoolArray, plan: Plan) -> tuple[Array, Array]:
 def _runs(segments: Array) -> Array:
     """Segments (n, 2, 2) along x or y, those that continue each other joined."""
     joined = []
-    for along, other in ((0, 1), (1, 0)):
-        own = segments[segments[:, 0, other] == segments[:, 1, other]]
-        own = own[own[:, 0, along] != own[:, 1, along]]
-        if not len(own):
+    for along, across in ((0, 1), (1, 0)):
+        straight = segments[segments[:, 0, across] == segments[:, 1, across]]
+        straight = straight[straight[:, 0, along] != straight[:, 1, along]]
+        if not len(straight):
             continue
-        ends = np.sort(own[:, :, along], axis=1)
-        order = np.lexsort((ends[:, 0], own[:, 0, other]))
-        ends, level = ends[order], own[order, 0, other]
+        ends = np.sort(straight[:, :, along], axis=1)
+        order = np.lexsort((ends[:, 0], straight[:, 0, across]))
+        ends, level = ends[order], straight[order, 0, across]
         starts = np.concatenate([[True], (level[1:] != level[:-1]) | (ends[1:, 0] > ends[:-1, 1] + 1e-9)])
         first = np.nonzero(starts)[0]
         last = np.concatenate([first[1:], [len(ends)]]) - 1
         run = np.empty((len(first), 2, 2))
         run[:, 0, along], run[:, 1, along] = ends[first, 0], ends[last, 1]
-        run[:, :, other] = level[first, None]
+        run[:, :, across] = level[first, None]
         joined.append(run)
     return np.concatenate(joined) if joined else np.zeros((0, 2, 2))
 

@@ -102,10 +102,10 @@ def shear_field(contact: Source) -> Field:
     arrows = np.stack([plan.x[columns], plan.y[rows], cut * along[rows, columns], cut * right[rows, columns]], -1)
     touching = _touching(data, values > 0)
     outlines: list[tuple[BoolArray, Plan, str]] = []
-    if "state" in data and "shear_round_off" not in data.attrs:
+    if "state" in data and "negligible_shear" not in data.attrs:
         state = plane(data, "state")
         outlines = [(state == 1, plan, "stick"), (state == 2, plan, "slip")]
-    title = str(data.attrs.get("shear_round_off", "Shear of the tire on the road"))
+    title = str(data.attrs.get("negligible_shear", "Shear of the tire on the road"))
     return _thinned(
         Field(
             "shear", "shear on the road", "kPa", plan, np.where(touching, values, np.nan), "shear", scale,
@@ -171,31 +171,42 @@ def variable_field(
     if not {"x", "y"} <= set(data[name].dims):
         over = ", ".join(map(str, data[name].dims)) or "no dimension"
         raise InputError(f"a map is drawn of a variable over y and x, {name} is over {over}")
-    one = data if depth is None else at_depth(data, depth)
-    said = []
-    if "component" in one[name].dims:
-        one = one.sel(component=component) if component else one.isel(component=0)
-        said.append(str(one["component"].values))
-    if "depth" in one[name].dims:
-        depth, one = float(one["depth"][0]), one.isel(depth=0)
-    one = one.isel(dict.fromkeys([dim for dim in one[name].dims if dim not in ("x", "y")], 0))
-    told: Shown = shown(data[name])
-    plan, values = Plan.of(one), plane(one, name) * told.factor
-    if told.logarithmic:
-        return _thinned(_decades(name, told.words, plan, values, _outline(contact or source)))
-    words = " ".join([str(data[name].attrs.get("long_name", told.words)), *said])
+    level = data if depth is None else at_depth(data, depth)
+    notes = []
+    if "component" in level[name].dims:
+        level = level.sel(component=component) if component else level.isel(component=0)
+        notes.append(str(level["component"].values))
+    if "depth" in level[name].dims:
+        depth, level = float(level["depth"][0]), level.isel(depth=0)
+    level = level.isel(dict.fromkeys([dim for dim in level[name].dims if dim not in ("x", "y")], 0))
+    display: Shown = shown(data[name])
+    plan, values = Plan.of(level), plane(level, name) * display.factor
+    if display.logarithmic:
+        return _thinned(_decades(name, display.words, plan, values, _outline(contact or source)))
+    words = " ".join([str(data[name].attrs.get("long_name", display.words)), *notes])
     title = f"{words[:1].upper()}{words[1:]}" + (f", {place_in_words(depth)}" if depth is not None else "")
-    known = values[np.isfinite(values)]
-    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     if low < 0:
-        most = _robust(known)
+        most = _robust(finite)
         kind, scale = "signed", Limits(-most, most, max(-low, high) > 1.001 * most)
     else:
         kind, scale = "strain", limits(values) if high > 0 else Limits(0.0, 1.0)
-    unit = "" if told.unit == "–" else told.unit
+    unit = "" if display.unit == "–" else display.unit
     peak = _peak(plan, np.abs(values) if kind == "signed" else values, unit, values)
     return _thinned(
-        Field(name, told.words, told.unit, plan, values, kind, scale, title, _outline(contact or source), peak=peak)
+        Field(
+            name,
+            display.words,
+            display.unit,
+            plan,
+            values,
+            kind,
+            scale,
+            title,
+            _outline(contact or source),
+            peak=peak,
+        )
     )
 
 
@@ -210,8 +221,10 @@ def damage_field(verdict: Source) -> Field:
         values = -np.log10(passes)
     values = np.where(np.isfinite(values), values, np.nan)
     high = float(np.nanmax(values, initial=-300.0))
-    known = bool(np.isfinite(values).any())
-    scale = Limits(math.floor(high) - _DECADES + 1.0, max(high, math.floor(high) + 0.1)) if known else Limits(-6, 0)
+    any_damage = bool(np.isfinite(values).any())
+    scale = (
+        Limits(math.floor(high) - _DECADES + 1.0, max(high, math.floor(high) + 0.1)) if any_damage else Limits(-6, 0)
+    )
     drawn = np.zeros((0, 4))
     if {"crack_angle", "extension_strain"} <= set(data.variables):
         extension, angle = plane(data, "extension_strain"), plane(data, "crack_angle")
@@ -221,7 +234,7 @@ def damage_field(verdict: Source) -> Field:
             lines = strokes(weight, np.cos(angle), np.sin(angle), plan.x, plan.y, _SIGNIFICANT * most)
             drawn = np.concatenate([lines.middles, lines.halves], axis=1)
     peak = None
-    if known:
+    if any_damage:
         row, column = peak_of(values)
         peak = (float(plan.x[column]), float(plan.y[row]), f"{float(passes[row, column]):.2g} passes")
     return _thinned(
@@ -235,25 +248,25 @@ def damage_field(verdict: Source) -> Field:
 def choices(source: Source) -> dict[str, str]:
     """All maps that `field_of` can make of a source: name → words, the plainest first."""
     data = fields_of(source)
-    held = set(data.variables)
+    variables = set(data.variables)
     first = {
-        "pressure": "contact pressure" if "pressure" in held else "",
-        "shear": "shear, its arrows, stick and slip" if {"traction_x", "traction_y"} <= held else "",
-        "state": "stick and slip" if "state" in held else "",
+        "pressure": "contact pressure" if "pressure" in variables else "",
+        "shear": "shear, its arrows, stick and slip" if {"traction_x", "traction_y"} <= variables else "",
+        "state": "stick and slip" if "state" in variables else "",
         **{
             name: f"largest extension, {NAMES[strain]}, its directions"
             for strain, name in VARIABLE.items()
-            if {name, "principal_direction_1" if strain == "principal" else "in_plane_angle_1"} <= held
+            if {name, "principal_direction_1" if strain == "principal" else "in_plane_angle_1"} <= variables
         },
-        "damage": "damage of one passage, traces of the cracks" if "allowable_passes" in held else "",
+        "damage": "damage of one passage, traces of the cracks" if "allowable_passes" in variables else "",
     }
-    others = {
-        str(name): str(one.attrs.get("long_name", str(name).replace("_", " ")))
-        for name, one in data.data_vars.items()
-        if {"x", "y"} <= set(one.dims) and one.dtype.kind in "fiu"
+    further = {
+        str(name): str(variable.attrs.get("long_name", str(name).replace("_", " ")))
+        for name, variable in data.data_vars.items()
+        if {"x", "y"} <= set(variable.dims) and variable.dtype.kind in "fiu"
     }
     plain = {name: words for name, words in first.items() if words}
-    return {**plain, **{name: words for name, words in others.items() if name not in plain}}
+    return {**plain, **{name: words for name, words in further.items() if name not in plain}}
 
 
 def field_of(source: Source, name: str, *, depth: float | None = None, contact: Source | None = None) -> Field:
@@ -261,16 +274,16 @@ def field_of(source: Source, name: str, *, depth: float | None = None, contact: 
 
     Raises InputError for a name that the source does not have.
     """
-    known = choices(source)
-    if name not in known:
-        raise InputError(f"there is no map of {name!r} here; {nearest(name, known)}")
+    names = choices(source)
+    if name not in names:
+        raise InputError(f"there is no map of {name!r} here; {nearest(name, names)}")
     plain: dict[str, Callable[[Source], Field]] = {
         "pressure": pressure_field, "shear": shear_field, "state": zones_field, "damage": damage_field,
     }  # fmt: skip
     if name in plain:
         return plain[name](source)
     for strain, variable in VARIABLE.items():
-        if name == variable and "its directions" in known[name]:
+        if name == variable and "its directions" in names[name]:
             first = float(np.atleast_1d(fields_of(source)["depth"].to_numpy())[0])
             read: Strain = "principal" if strain == "principal" else "in-plane"
             return extension_field(source, depth=first if depth is None else depth, strain=read, contact=contact)
@@ -301,9 +314,9 @@ def _decades(
     )
 
 
-def _robust(known: Array) -> float:
+def _robust(finite: Array) -> float:
     """End of a scale about zero: all but single cells that stand far out."""
-    scale = limits(np.abs(known))
+    scale = limits(np.abs(finite))
     return scale.high
 
 
@@ -319,11 +332,11 @@ def _outline(source: Source) -> tuple[tuple[BoolArray, Plan, str], ...]:
     return () if mask is None else ((mask, Plan.of(data), "contact"),)
 
 
-def _peak(plan: Plan, values: Array, unit: str, told: Array | None = None) -> tuple[float, float, str] | None:
+def _peak(plan: Plan, values: Array, unit: str, shown_values: Array | None = None) -> tuple[float, float, str] | None:
     row, column = peak_of(values)
     if not values.size or not values[row, column] > 0:
         return None
-    text = measure(float((values if told is None else told)[row, column]))
+    text = measure(float((values if shown_values is None else shown_values)[row, column]))
     return float(plan.x[column]), float(plan.y[row]), f"{text} {unit}".strip()
 
 
@@ -339,11 +352,11 @@ def _thinned(whole: Field) -> Field:
         values = values[::side, ::side]
     else:
         blocks = values.reshape(values.shape[0] // side, side, values.shape[1] // side, side)
-        known = np.isfinite(blocks)
-        count = known.sum(axis=(1, 3))
+        finite = np.isfinite(blocks)
+        count = finite.sum(axis=(1, 3))
         with np.errstate(invalid="ignore"):
-            values = np.where(known, blocks, 0.0).sum(axis=(1, 3)) / np.where(count, count, np.nan)
-    x_edges, y_edges = (one[: size * side + 1 : side] for one, size in (
+            values = np.where(finite, blocks, 0.0).sum(axis=(1, 3)) / np.where(count, count, np.nan)
+    x_edges, y_edges = (edges[: size * side + 1 : side] for edges, size in (
         (whole.plan.x_edges, values.shape[1]), (whole.plan.y_edges, values.shape[0])))  # fmt: skip
     plan = Plan((x_edges[1:] + x_edges[:-1]) / 2, (y_edges[1:] + y_edges[:-1]) / 2, x_edges, y_edges)
     return replace(whole, plan=plan, values=values, blocks=side)

@@ -95,7 +95,7 @@ def marked(places: Sequence[Place], count: int, *, theme: str | Theme = "light")
 
 
 def _marks(places: Sequence[Place], axes: tuple[str, str], look: Theme) -> Trace:
-    spots = [(MM * one.x, MM * one.y, one.text) for one in places if one.x is not None]
+    spots = [(MM * place.x, MM * place.y, place.text) for place in places if place.x is not None]
     return marks(spots, axes, look, "places")
 
 
@@ -116,44 +116,44 @@ def difference_map(
     differ the second is brought to the first's: pressure and shear as means over its cells, which keep the load,
     anything else between its points. Returns the figure. Raises InputError where one lacks the map.
     """
-    one, other = field_of(first, name, depth=depth), field_of(second, name, depth=depth)
-    if one.kind == "zones":
+    left, right = field_of(first, name, depth=depth), field_of(second, name, depth=depth)
+    if left.kind == "zones":
         raise InputError("stick and slip have no difference; compare the shear")
-    if one.unit != other.unit:
-        other = replace(other, values=other.values * _to_unit(one, other), unit=one.unit)
-    same = _same_cells(one.plan, other.plan)
-    brought = other.values if same else _brought(other, one.plan)
-    a, b = np.nan_to_num(one.values), np.nan_to_num(brought)
-    there = np.isfinite(one.values) | np.isfinite(brought)
+    if left.unit != right.unit:
+        right = replace(right, values=right.values * _to_unit(left, right), unit=left.unit)
+    same = _same_cells(left.plan, right.plan)
+    brought = right.values if same else _brought(right, left.plan)
+    a, b = np.nan_to_num(left.values), np.nan_to_num(brought)
+    there = np.isfinite(left.values) | np.isfinite(brought)
     difference = np.where(there, a - b, np.nan)
-    known = np.abs(difference[there])
-    most = float(np.quantile(known, _QUIET)) if known.size else 1.0
-    most = most if most > 0 else float(known.max(initial=0.0)) or 1.0
-    both = Limits(-most, most, bool(known.size and known.max() > 1.001 * most))
-    if one.kind == "signed" or other.kind == "signed":
-        high = max(abs(one.scale.low), one.scale.high, other.scale.high)
+    sizes = np.abs(difference[there])
+    most = float(np.quantile(sizes, _QUIET)) if sizes.size else 1.0
+    most = most if most > 0 else float(sizes.max(initial=0.0)) or 1.0
+    both = Limits(-most, most, bool(sizes.size and sizes.max() > 1.001 * most))
+    if left.kind == "signed" or right.kind == "signed":
+        high = max(abs(left.scale.low), left.scale.high, right.scale.high)
         shared, kind = Limits(-high, high), "signed"
     else:
-        shared, kind = limits(a, b) if not one.logarithmic else Limits(
-            min(one.scale.low, other.scale.low), max(one.scale.high, other.scale.high)), one.kind  # fmt: skip
+        shared, kind = limits(a, b) if not left.logarithmic else Limits(
+            min(left.scale.low, right.scale.low), max(left.scale.high, right.scale.high)), left.kind  # fmt: skip
     row, column = peak_of(np.abs(difference))
-    unit = "decades" if one.logarithmic else one.unit
+    unit = "decades" if left.logarithmic else left.unit
     peak = None
     if there.any() and difference[row, column]:
         text = f"{measure(float(difference[row, column]))} {unit}"
-        peak = (float(one.plan.x[column]), float(one.plan.y[row]), text)
+        peak = (float(left.plan.x[column]), float(left.plan.y[row]), text)
     third = Field(
-        f"{name}_difference", f"{labels[0]} less {labels[1]}", unit, one.plan, difference, "signed", both,
-        f"{labels[0]} less {labels[1]}", one.outlines, peak=peak,
+        f"{name}_difference", f"{labels[0]} less {labels[1]}", unit, left.plan, difference, "signed", both,
+        f"{labels[0]} less {labels[1]}", left.outlines, peak=peak,
     )  # fmt: skip
     pair = [replace(field, scale=shared, kind=kind, title=f"{label}: {field.words}")
-            for field, label in ((one, labels[0]), (other, labels[1]))]  # fmt: skip
+            for field, label in ((left, labels[0]), (right, labels[1]))]  # fmt: skip
     return linked_maps([*pair, third], cut=cut, theme=theme, width=width)
 
 
-def _same_cells(one: Plan, other: Plan) -> bool:
+def _same_cells(plan: Plan, reference: Plan) -> bool:
     return all(a.shape == b.shape and np.allclose(a, b, rtol=0, atol=1e-6) for a, b in (
-        (one.x_edges, other.x_edges), (one.y_edges, other.y_edges)))  # fmt: skip
+        (plan.x_edges, reference.x_edges), (plan.y_edges, reference.y_edges)))  # fmt: skip
 
 
 def _brought(field: Field, plan: Plan) -> Array:
@@ -167,9 +167,9 @@ def _brought(field: Field, plan: Plan) -> Array:
     return sampled(field.values, field.plan.x, field.plan.y, x, y, smooth=True)
 
 
-def _to_unit(one: Field, other: Field) -> float:
+def _to_unit(field: Field, reference: Field) -> float:
     """Factor from the unit of the second map to that of the first, both of pressure."""
     pascals = {"kPa": 1e3, "MPa": 1e6}
-    if one.unit not in pascals or other.unit not in pascals:
-        raise InputError(f"the two maps are in {one.unit or '1'} and {other.unit or '1'}, which do not compare")
-    return pascals[other.unit] / pascals[one.unit]
+    if field.unit not in pascals or reference.unit not in pascals:
+        raise InputError(f"the two maps are in {field.unit or '1'} and {reference.unit or '1'}, which do not compare")
+    return pascals[reference.unit] / pascals[field.unit]

@@ -71,7 +71,7 @@ window.treadloadLine = (maps, { x0, y0, x1, y1 }) => {
   });
 };
 
-// What the page holds of fields over x and y, and reads along a line: `plots/interactive/held.py` says what a grid is.
+// What the page holds of fields over x and y, and reads along a line: `plots/interactive/browser_grids.py` says what a grid is.
 (() => {
   const decoded = new WeakMap();
   const floats = (text) => {

@@ -35,35 +35,37 @@ def places_of(source: Source) -> list[Place]:
     in the plane, at every depth; of a life the worst y of every criterion, which has no x.
     """
     data = fields_of(source)
-    held: dict[str, Any] = {str(name): one for name, one in data.variables.items()}
-    if "worst_x" in held and "worst_strain" in held:
-        strain = float(held["worst_strain"]) * MICRO
-        passes = float(held["worst_passes"])
-        x, y, depth = (float(held[f"worst_{name}"]) for name in ("x", "y", "depth"))
+    variables: dict[str, Any] = {str(name): variable for name, variable in data.variables.items()}
+    if "worst_x" in variables and "worst_strain" in variables:
+        strain = float(variables["worst_strain"]) * MICRO
+        passes = float(variables["worst_passes"])
+        x, y, depth = (float(variables[f"worst_{name}"]) for name in ("x", "y", "depth"))
         how = ", ".join(str(data.attrs[key]) for key in ("strain", "reading") if key in data.attrs)
-        told = f"verdict: {measure(strain)} microstrain{f' ({how})' if how else ''}, {passes:.2g} passes"
-        return [Place(x, y, told, depth)]
-    if "worst_y" in held and "criterion" in held:
-        years = data["life_years"].to_numpy() if "life_years" in held else np.full(data.sizes["criterion"], np.nan)
-        return [Place(None, float(y), f"{name}: {measure(float(one))} years")
-                for name, y, one in zip(data["criterion"].to_numpy().tolist(), data["worst_y"].to_numpy(), years,
+        text = f"verdict: {measure(strain)} microstrain{f' ({how})' if how else ''}, {passes:.2g} passes"
+        return [Place(x, y, text, depth)]
+    if "worst_y" in variables and "criterion" in variables:
+        years = (
+            data["life_years"].to_numpy() if "life_years" in variables else np.full(data.sizes["criterion"], np.nan)
+        )
+        return [Place(None, float(y), f"{name}: {measure(float(year))} years")
+                for name, y, year in zip(data["criterion"].to_numpy().tolist(), data["worst_y"].to_numpy(), years,
                                         strict=True)]  # fmt: skip
-    if not {"x", "y"} <= set(held):
+    if not {"x", "y"} <= set(variables):
         return []
     across, down = (np.atleast_1d(data[name].to_numpy()) for name in ("x", "y"))
-    if "pressure" in held:
+    if "pressure" in variables:
         row, column = peak_of(values := plane(data, "pressure"))
         return [
             Place(
                 float(across[column]), float(down[row]), f"largest pressure: {measure(KPA * values[row, column])} kPa"
             )
         ]
-    made = []
+    places = []
     for name, words in (("principal_strain_1", "in space"), ("in_plane_strain_1", "in the horizontal plane")):
-        for number in range(data.sizes.get("depth", 0) if name in held else 0):
+        for number in range(data.sizes.get("depth", 0) if name in variables else 0):
             row, column = peak_of(values := plane(data.isel(depth=number), name))
             depth = float(data["depth"][number])
             most = measure(MICRO * values[row, column])
-            told = f"largest extension {words}, {MM * depth:g} mm deep: {most} microstrain"
-            made.append(Place(float(across[column]), float(down[row]), told, depth))
-    return made
+            text = f"largest extension {words}, {MM * depth:g} mm deep: {most} microstrain"
+            places.append(Place(float(across[column]), float(down[row]), text, depth))
+    return places

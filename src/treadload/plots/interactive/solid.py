@@ -34,10 +34,10 @@ def tread(contact: Source, *, theme: str | Theme = "light", height: float = 520.
     data = data.isel(x=slice(None, None, step), y=slice(None, None, step))
     plan, pressure = Plan.of(data), np.nan_to_num(plane(data, "pressure") * KPA)
     relief = -plane(data, "initial_gap") * MM
-    known = relief[np.isfinite(relief)]
-    if not known.size:
+    finite = relief[np.isfinite(relief)]
+    if not finite.size:
         raise InputError("this contact has no tread to draw: its initial gap is unknown everywhere")
-    low = max(float(np.quantile(known, 1 - _SHOWN)), _lowest_touched(relief, pressure) * 1.5)
+    low = max(float(np.quantile(finite, 1 - _SHOWN)), _lowest_touched(relief, pressure) * 1.5)
     relief = np.where(relief >= low, relief, np.nan)
     scale = limits(pressure)
     steps = colour_scale("pressure", look.name)

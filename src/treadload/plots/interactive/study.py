@@ -22,7 +22,11 @@ _TALL, _LEFT, _RIGHT, _ABOVE, _BELOW = 620.0, 62.0, 96.0, 44.0, 50.0
 def study_maps(study: Source) -> dict[str, str]:
     """Fields over x and y that a study has kept: name → words."""
     data = View.of(study).data
-    return {str(name): shown(one).words for name, one in data.data_vars.items() if set(PLANE) <= set(one.dims)}
+    return {
+        str(name): shown(variable).words
+        for name, variable in data.data_vars.items()
+        if set(PLANE) <= set(variable.dims)
+    }
 
 
 def study_curve(study: Source, name: str, along: str, at: Mapping[str, int], *, theme: str | Theme = "light") -> Any:
@@ -40,8 +44,12 @@ def study_curve(study: Source, name: str, along: str, at: Mapping[str, int], *, 
     line, axis = field.isel(cut).to_numpy(), view.data[along] if along in view.data.coords else None
     how = shown(field, name)
     numeric = axis is not None and axis.dtype.kind in "fiu"
-    told = shown(axis, along) if axis is not None else None
-    x = axis.to_numpy() * told.factor if numeric and axis is not None and told is not None else np.arange(len(line))
+    display = shown(axis, along) if axis is not None else None
+    x = (
+        axis.to_numpy() * display.factor
+        if numeric and axis is not None and display is not None
+        else np.arange(len(line))
+    )
     values = np.where(np.isfinite(line), line * how.factor, np.nan)
     here = index[along]
     failed = view.failed({dim: number for dim, number in index.items() if dim != along})
@@ -54,10 +62,10 @@ def study_curve(study: Source, name: str, along: str, at: Mapping[str, int], *, 
         {"type": "scatter", "mode": "markers", "x": x[failed], "y": np.full(int(failed.sum()), foot),
          "name": "failed", "marker": {"size": 9, "symbol": "x", "color": look.muted}},
     ]  # fmt: skip
-    what = ", ".join(one for one in (f"<b>{how.words[:1].upper()}{how.words[1:]}</b>", beside(view, field)) if one)
-    across: dict[str, Any] = {"title": {"text": told.label if told is not None else along}}
+    what = ", ".join(part for part in (f"<b>{how.words[:1].upper()}{how.words[1:]}</b>", beside(view, field)) if part)
+    across: dict[str, Any] = {"title": {"text": display.label if display is not None else along}}
     if axis is not None and not numeric:
-        across |= {"tickvals": list(range(len(x))), "ticktext": [str(one) for one in axis.to_numpy()]}
+        across |= {"tickvals": list(range(len(x))), "ticktext": [str(name) for name in axis.to_numpy()]}
     layout = {
         "height": 330, "margin": {"l": 74, "r": 20, "t": 40, "b": 52}, "showlegend": False, "xaxis": across,
         "yaxis": {"title": {"text": how.label}},
@@ -82,8 +90,8 @@ def study_map(
     how = shown(field, name)
     cut = {dim: index.get(dim, 0) for dim in map(str, field.dims) if dim not in PLANE}
     values = field.isel(cut).transpose(*PLANE).to_numpy() * how.factor
-    known = field.to_numpy() * how.factor
-    finite = known[np.isfinite(known)]
+    scaled = field.to_numpy() * how.factor
+    finite = scaled[np.isfinite(scaled)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     signed = low < 0 < high
     if signed:
@@ -115,6 +123,6 @@ def placed(view: View, at: Mapping[str, int]) -> dict[str, int]:
     sizes = {dim: view.data["status"].sizes[dim] for dim in view.dims}
     for dim, number in at.items():
         if dim not in sizes or not 0 <= int(number) < sizes[dim]:
-            told = ", ".join(f"{one} 0 to {size - 1}" for one, size in sizes.items())
-            raise InputError(f"the study has no value {number} of {dim}; it has {told}")
+            choices = ", ".join(f"{dim} 0 to {size - 1}" for dim, size in sizes.items())
+            raise InputError(f"the study has no value {number} of {dim}; it has {choices}")
     return {dim: int(at.get(dim, 0)) for dim in view.dims}

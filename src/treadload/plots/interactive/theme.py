@@ -78,8 +78,8 @@ def colour_scale(kind: str, theme: str = "light") -> list[list[Any]]:
             colour: Any = sequential(kind)(share)[:3]
         else:
             base, low, high = _BRIGHT[kind]
-            own, weight = mpl.colormaps[base](low + (high - low) * share)[:3], min(1.0, number / _FADE)
-            colour = tuple(weight * a + (1 - weight) * b for a, b in zip(own, paper, strict=True))
+            colour_map, weight = mpl.colormaps[base](low + (high - low) * share)[:3], min(1.0, number / _FADE)
+            colour = tuple(weight * a + (1 - weight) * b for a, b in zip(colour_map, paper, strict=True))
         steps.append([share, _text(colour)])
     return steps
 

@@ -12,14 +12,14 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from treadload import figure_registry
 from treadload.composing import Source
-from treadload.errors import InputError
 from treadload.files import check_suffix, write_whole
+from treadload.plots.interactive.browser_grids import profile_held
 from treadload.plots.interactive.cut import Cut, profiles
 from treadload.plots.interactive.drawing import figure
 from treadload.plots.interactive.field import (
     Field,
-    choices,
     damage_field,
     extension_field,
     field_of,
@@ -27,7 +27,6 @@ from treadload.plots.interactive.field import (
     shear_field,
     with_outline,
 )
-from treadload.plots.interactive.held import profile_held
 from treadload.plots.interactive.maps import WIDTH, laid_out, linked_maps
 from treadload.plots.interactive.places import places_of
 from treadload.plots.interactive.solid import tread
@@ -59,16 +58,16 @@ class LinkedView:
     @property
     def height(self) -> int:
         """Of the page, pixels."""
-        return int(sum(one.layout.height for one in self.figures.values()) + 60 + 40 * len(self.warnings))
+        return int(sum(drawn.layout.height for drawn in self.figures.values()) + 60 + 40 * len(self.warnings))
 
     def to_html(self) -> str:
         """The whole page with all that it needs inside."""
         look = self.theme
         parts = "".join(
-            one.to_html(full_html=False, include_plotlyjs=False, config=CONFIG, div_id=f"tl-{name}")
-            for name, one in self.figures.items()
+            drawn.to_html(full_html=False, include_plotlyjs=False, config=CONFIG, div_id=f"tl-{name}")
+            for name, drawn in self.figures.items()
         )
-        said = "".join(f'<p class="warning">Warning: {html.escape(text)}</p>' for text in self.warnings)
+        warnings = "".join(f'<p class="warning">Warning: {html.escape(text)}</p>' for text in self.warnings)
         below = 'document.getElementById("tl-profile")' if "profile" in self.figures else "null"
         load = json.dumps({"ink": look.ink, "grids": [], **self.load}).replace("<", "\\u003c")
         return (
@@ -76,7 +75,7 @@ class LinkedView:
             f"<style>body{{margin:0;padding:8px 12px;background:{look.paper};color:{look.ink};font:14px {FONT}}}"
             f"h1{{font-size:16px;margin:2px 0 6px}}.warning{{border-left:3px solid {look.slip};padding:2px 8px;"
             f"margin:4px 0;font-size:13px}}</style><script>{plotly_script()}</script></head><body>"
-            f"<h1>{html.escape(self.title)}</h1>{said}{parts}<script>{link_script()}"
+            f"<h1>{html.escape(self.title)}</h1>{warnings}{parts}<script>{link_script()}"
             f'window.treadloadLink(document.getElementById("tl-maps"),{below},{load});</script></body></html>'
         )
 
@@ -114,6 +113,7 @@ def link_script() -> str:
     return resources.files("treadload.plots.interactive").joinpath("page.js").read_text(encoding="utf-8")
 
 
+@figure_registry.figure("Contact", "Footprint", name="interactive")
 def contact_view(
     contact: Source, *, measured: Source | None = None, cut: Cut | None = None, theme: str | Theme = "light"
 ) -> LinkedView:
@@ -141,6 +141,7 @@ def contact_view(
     return LinkedView("Contact", figures, look, load, tuple(getattr(contact, "warnings", ())))
 
 
+@figure_registry.figure("Response", name="interactive")
 def response_view(
     response: Source, *, contact: Source | None = None, cut: Cut | None = None, theme: str | Theme = "light"
 ) -> LinkedView:
@@ -164,6 +165,7 @@ def response_view(
     return LinkedView("Response of the road", figures, look, load, tuple(getattr(response, "warnings", ())))
 
 
+@figure_registry.figure("Verdict", name="interactive")
 def verdict_view(verdict: Source, *, theme: str | Theme = "light") -> LinkedView:
     """Damage of one passage with the traces of cracks beside the extension that was read, and the worst point."""
     look, data = theme_of(theme), fields_of(verdict, "allowable_passes", "extension_strain")
@@ -172,33 +174,24 @@ def verdict_view(verdict: Source, *, theme: str | Theme = "light") -> LinkedView
     return LinkedView("Verdict", figures, look, {}, tuple(getattr(verdict, "warnings", ())))
 
 
-def any_view(source: Source, names: Sequence[str] = (), *, theme: str | Theme = "light") -> LinkedView:
-    """Linked maps of whatever a result holds over x and y. names: of `choices`; left out, the first two."""
-    look, known = theme_of(theme), list(choices(source))
-    if not known:
-        raise InputError("this result holds nothing over x and y that a map could show")
-    fields = [field_of(source, name) for name in (names or known[:2])]
-    return LinkedView("Maps", {"maps": linked_maps(fields, theme=look)}, look)
-
-
 def _through(stages: Sequence[Sequence[Field]], words: Sequence[str], cut: Cut, look: Theme) -> Any:
     """Linked maps with a slider through stages, each with maps of its own."""
     room = 58.0 if len(stages) > 1 else 0.0
     traces: list[dict[str, Any]] = []
     owner: list[int] = []
-    told = []
+    page_notes = []
     layout: dict[str, Any] = {}
     for number, fields in enumerate(stages):
-        own, page = laid_out(fields, theme=look, width=WIDTH, cut=cut, below=room)
+        drawn, page = laid_out(fields, theme=look, width=WIDTH, cut=cut, below=room)
         layout = layout or page
-        told.append(page["annotations"])
-        traces += [{**trace, "visible": number == 0} for trace in own]
-        owner += [number] * len(own)
+        page_notes.append(page["annotations"])
+        traces += [{**trace, "visible": number == 0} for trace in drawn]
+        owner += [number] * len(drawn)
     if len(stages) > 1:
         layout["margin"]["b"] += room
         steps = [
             {"label": label, "method": "update",
-             "args": [{"visible": [one == number for one in owner]}, {"annotations": told[number]}]}
+             "args": [{"visible": [map_ == number for map_ in owner]}, {"annotations": page_notes[number]}]}
             for number, label in enumerate(words)
         ]  # fmt: skip
         layout["sliders"] = [{"steps": steps, "active": 0, "currentvalue": {"prefix": "depth "}, "pad": {"t": 38},

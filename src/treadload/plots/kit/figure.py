@@ -16,6 +16,8 @@ from treadload.plots.kit.style import figure_of
 
 # Points per inch of the picture in a notebook, and those of the page it stands on.
 _SHARP, _PAGE = 200.0, 100.0
+# Pixels across a small picture: twice those of a page, so that it is sharp on every screen.
+_ACROSS = 720
 
 
 class ShownFigure(Figure):
@@ -42,6 +44,10 @@ class ShownFigure(Figure):
         stream = io.BytesIO()
         super().savefig(stream, format=kind, **how)
         write_whole(path, stream.getvalue())
+
+    def thumbnail(self) -> bytes:
+        """A small PNG of the figure."""
+        return png(self, dpi=_ACROSS / self.get_figwidth())
 
     def _repr_png_(self) -> tuple[bytes, dict[str, Any]]:
         image = png(self, dpi=_SHARP)

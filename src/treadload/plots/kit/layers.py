@@ -49,8 +49,8 @@ class Layers:
         """What a response's attributes `interfaces` (m), `layer_names` (JSON) and `side` say; else one layer."""
         # A file gives back a list of one as a number.
         ends = np.atleast_1d(np.asarray(data.attrs.get("interfaces", []), dtype=float)) * MM
-        given = data.attrs.get("layer_names", "[]")
-        names = [str(name) for name in (json.loads(given) if isinstance(given, str) else given)]
+        layer_names = data.attrs.get("layer_names", "[]")
+        names = [str(name) for name in (json.loads(layer_names) if isinstance(layer_names, str) else layer_names)]
         if len(names) == len(ends) and len(ends):
             names.append("rigid base")
         names += [""] * (len(ends) + 1 - len(names))

@@ -36,8 +36,10 @@ _LABEL = 46
 # A colour scale is cut when the peak stands this far above all but the highest 0.5 % of the loaded cells.
 _OUTSTANDING = 1.3
 _HIGHEST = 0.995
-# Shear below this part of the largest pressure is round-off: ten times the solvers' usual tolerance of μp.
-_ROUND_OFF = 1e-5
+# Shear below this part of the largest pressure is not drawn. A tire that rolls freely leaves so much, because the
+# road below it gives way sideways as (1 - 2ν)/G: 2e-4 of the peak pressure on asphalt, 4e-4 on half its stiffness. It
+# changes stresses in the road by less than the cells do, and tells nothing of friction.
+_NEGLIGIBLE = 1e-3
 
 
 def fields_of(source: Source, *names: str) -> xr.Dataset:
@@ -50,30 +52,32 @@ def fields_of(source: Source, *names: str) -> xr.Dataset:
         )
     missing = [name for name in names if name not in data.variables]
     if missing:
-        known = ", ".join(sorted(map(str, data.data_vars))) or "nothing"
-        raise InputError(f"this figure needs {', '.join(missing)}; the dataset has {known}")
-    return without_round_off(data)
+        present = ", ".join(sorted(map(str, data.data_vars))) or "nothing"
+        raise InputError(f"this figure needs {', '.join(missing)}; the dataset has {present}")
+    return without_negligible_shear(data)
 
 
-def without_round_off(data: xr.Dataset) -> xr.Dataset:
-    """A contact whose shear is round-off of the solver without that shear; any other dataset as it is.
+def without_negligible_shear(data: xr.Dataset) -> xr.Dataset:
+    """A contact whose shear is below 0.1 % of the peak pressure without that shear; any other dataset as it is.
 
-    Solvers keep slip and shear to a tolerance of the friction bound μp, so that shear below a part of the largest
-    pressure says nothing. The attribute `shear_round_off` then is a sentence for the figure.
+    Such shear is real where tire and road are of different elastic constants, and round-off elsewhere; a figure would
+    give it a colour scale of its own. The attribute `negligible_shear` then is a sentence for the figure, with the
+    largest value.
     """
     names = ("traction_x", "traction_y")
     if "pressure" not in data or any(name not in data for name in names) or "depth" in data.dims:
         return data
-    shear, pressure = (
-        max(float(np.nanmax(np.abs(data[name].to_numpy()), initial=0.0)) for name in each)
-        for each in (names, ("pressure",))
-    )
-    if not 0 < shear < _ROUND_OFF * pressure:
+    shear = float(np.nanmax(np.hypot(*(data[name].to_numpy() for name in names)), initial=0.0))
+    pressure = float(np.nanmax(data["pressure"].to_numpy(), initial=0.0))
+    if not 0 < shear < _NEGLIGIBLE * pressure:
         return data
-    said = f"no shear: {shear * KPA:.2g} kPa is round-off under a peak pressure of {stress_in_words(pressure)}"
+    note = (
+        f"shear below {100 * _NEGLIGIBLE:g} % of the peak pressure is not drawn: at most {stress_in_words(shear)} "
+        f"under {stress_in_words(pressure)}"
+    )
     bare = {name: data[name] * 0.0 for name in names}
     return data.assign({name: part.assign_attrs(data[name].attrs) for name, part in bare.items()}).assign_attrs(
-        shear_round_off=said
+        negligible_shear=note
     )
 
 
@@ -84,8 +88,8 @@ def at_depth(data: xr.Dataset, depth: float) -> xr.Dataset:
     depths = data["depth"].to_numpy()
     nearest = int(np.argmin(np.abs(depths - depth)))
     if not same_depth(depths[nearest], depth):
-        known = ", ".join(f"{d:g}" for d in depths)
-        raise InputError(f"the response has no depth {depth:g} m, it has {known} m")
+        levels = ", ".join(f"{d:g}" for d in depths)
+        raise InputError(f"the response has no depth {depth:g} m, it has {levels} m")
     return data.isel(depth=nearest)
 
 
@@ -217,11 +221,11 @@ def colour_bar(mesh: Any, ax: Axes, label: str, scale: Limits, beyond: float = 0
 
 def borders(mask: BoolArray, plan: Plan) -> Array:
     """Segments (n, 2, 2) in mm between the cells of a mask (ny, nx) and the others."""
-    held = np.pad(mask, 1)
-    rows, columns = np.nonzero(held[1:-1, 1:] != held[1:-1, :-1])
+    padded = np.pad(mask, 1)
+    rows, columns = np.nonzero(padded[1:-1, 1:] != padded[1:-1, :-1])
     x, y = plan.x_edges, plan.y_edges
     upright = np.stack([np.stack([x[columns], y[rows]], -1), np.stack([x[columns], y[rows + 1]], -1)], axis=1)
-    rows, columns = np.nonzero(held[1:, 1:-1] != held[:-1, 1:-1])
+    rows, columns = np.nonzero(padded[1:, 1:-1] != padded[:-1, 1:-1])
     level = np.stack([np.stack([x[columns], y[rows]], -1), np.stack([x[columns + 1], y[rows]], -1)], axis=1)
     segments: Array = np.concatenate([upright, level])
     return segments

@@ -57,7 +57,7 @@ class Section:
     def of(cls, response: Source, along: str | None = None, at: float | None = None) -> Section:
         """The section of a response along "travel" or "across" it, at a y or x in m or through the worst point."""
         data = fields_of(response, "principal_strain_1", "principal_direction_1", "depth")
-        name, other = _axis(data, along)
+        name, across = _axis(data, along)
         if data.sizes.get("depth", 1) < 2 or data.sizes[name] < 2:
             raise InputError(
                 "a section needs at least two depths and two points, the response has "
@@ -69,12 +69,12 @@ class Section:
             raise InputError(
                 f"a section needs depths that differ and lie in the road, the response has {top:g} to {bottom:g} m"
             )
-        data = data.isel({other: _position(data, other, at)})
+        data = data.isel({across: _position(data, across, at)})
         direction = data["principal_direction_1"].transpose("depth", name, "component").to_numpy()
         return cls(
             data,
             name,
-            float(data[other]) * MM,
+            float(data[across]) * MM,
             data[name].to_numpy() * MM,
             data["depth"].to_numpy() * MM,
             data["principal_strain_1"].transpose("depth", name).to_numpy() * MICRO,

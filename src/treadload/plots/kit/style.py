@@ -19,8 +19,8 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import offset_copy
 
-from treadload.accessors import offers
 from treadload.errors import InputError, nearest
+from treadload.registry import COLOUR_MAPS
 
 INK = "#1b1f24"
 MUTED = "#5b6470"
@@ -104,13 +104,17 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
     return inside
 
 
-@offers("colour_map", "str")
+@COLOUR_MAPS.register("matplotlib")
 def named_map(name: str) -> Colormap:
     """A colour map of matplotlib by its name. Raises InputError for one that is not known."""
     if name not in mpl.colormaps:
-        said = nearest(name, list(mpl.colormaps))
-        known = said if said.startswith("did") else "known are jet, turbo, viridis, gray and others of matplotlib"
-        raise InputError(f"no colour map {name!r}; {known}")
+        suggestion = nearest(name, list(mpl.colormaps))
+        hint = (
+            suggestion
+            if suggestion.startswith("did")
+            else "known are jet, turbo, viridis, gray and others of matplotlib"
+        )
+        raise InputError(f"no colour map {name!r}; {hint}")
     return mpl.colormaps[name]
 
 
@@ -165,8 +169,8 @@ def halo(width: float = 2.5) -> list[withStroke]:
 def ink_on(colour: Any) -> str:
     """Of ink and paper, that which stands out more from a colour of matplotlib, by the contrast of WCAG 2."""
 
-    def light(one: Any) -> float:
-        parts = np.array(to_rgb(one))
+    def light(colour: Any) -> float:
+        parts = np.array(to_rgb(colour))
         linear = np.where(parts <= 0.03928, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
         return float(linear @ (0.2126, 0.7152, 0.0722))
 

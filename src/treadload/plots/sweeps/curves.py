@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import Drawing, figure
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.shown import Shown, numbers, shown
 from treadload.plots.kit.style import (
@@ -29,10 +30,10 @@ from treadload.plots.kit.style import (
     sequential,
     styled,
 )
-from treadload.plots.sweeps.reading import View
+from treadload.plots.sweeps.reading import View, main_readings
 
 # Lines of one figure, and of how many a legend tells each.
-_LINES, _TOLD = 12, 6
+_LINES, _IN_LEGEND = 12, 6
 # A range that spans so much is drawn in its logarithms where those are asked for.
 _DECADES = 3.0
 # Panels of a figure.
@@ -43,6 +44,35 @@ _NEAR = 0.5
 _WIDE = 62
 
 
+# Results of one page in curves, and inputs that they are drawn against.
+_CURVES, _AGAINST = 4, 4
+
+
+def _against_inputs(data: xr.Dataset) -> Iterator[Drawing]:
+    """Panels of the main results, for each input."""
+    view = View.of(data)
+    names = main_readings(view, _CURVES)
+    inputs = [*view.numeric, *(name for name in view.inputs if view.data[name].dtype.kind not in "fiu")]
+    lines = (
+        "A line for each value of a second input, the others in their middle" if view.is_product else "A dot a case"
+    )
+    for name in inputs[:_AGAINST] if names else ():
+        yield Drawing(
+            {"of": names, "against": name},
+            f"Against {shown(view.data[name], name).words}",
+            f"{lines}; crosses stand where cases failed.",
+        )
+
+
+def _slips(data: xr.Dataset) -> bool:
+    try:
+        slip_input(View.of(data))
+    except InputError:
+        return False
+    return True
+
+
+@figure("Sweep", name="curve")
 @styled
 def study_curve(
     study: Source,
@@ -68,6 +98,9 @@ def study_curve(
     return figure
 
 
+@figure(
+    "Sweep", name="curves", title="Against an input", wide=True, order=0, when=_against_inputs
+)  # fmt: skip
 @styled
 def study_curves(
     study: Source,
@@ -86,28 +119,32 @@ def study_curves(
     names = list(of) or list(view.readings()[:_PANELS])
     if not names or len(names) > _PANELS:
         raise InputError(
-            f"panels show 1 to {_PANELS} results, got {len(names)}; name some of {_some(view.readings())}"
+            f"panels show 1 to {_PANELS} results, got {len(names)}; name some of {_listed(view.readings())}"
         )
     columns = min(len(names), 3 if len(names) in (3, 5, 6) else 2)
     rows = -(-len(names) // columns)
     figure = new_figure(3.7 * columns + 0.6, 3.35 * rows + 0.4)
     axes = figure.subplots(rows, columns, squeeze=False)
-    told: dict[str, tuple[list[Line2D], Shown]] = {}
+    by_words: dict[str, tuple[list[Line2D], Shown]] = {}
     for number, panel in enumerate(axes.flat):
         if number < len(names):
             handles, of_lines = _draw(panel, view, names[number], against, by, at, letters=34)
             if of_lines is not None:
-                told.setdefault(of_lines.words, (handles, of_lines))
+                by_words.setdefault(of_lines.words, (handles, of_lines))
         else:
             panel.set_visible(False)
-    if told:
-        handles, of_lines = next(iter(told.values()))
-        few = _few(handles)
-        legend = figure.legend(handles=few, loc="outside lower center", ncols=len(few), title=of_lines.words)
+    if by_words:
+        handles, of_lines = next(iter(by_words.values()))
+        thinned = _thinned(handles)
+        legend = figure.legend(handles=thinned, loc="outside lower center", ncols=len(thinned), title=of_lines.words)
         legend.get_title().set_fontsize(8.5)
     return figure
 
 
+@figure(
+    "Sweep", name="slip_curve", title="Slip curve", order=1,
+    caption="Shear force over friction times load, against creepage.", when=_slips,
+)  # fmt: skip
 @styled
 def study_slip_curve(
     study: Source, *, by: str | None = None, at: Mapping[str, Any] | None = None, ax: Axes | None = None
@@ -123,16 +160,16 @@ def study_slip_curve(
     creepage, friction, load = (view.reading(name) for name in (f"creepage_{along}", "friction", "normal_load"))
     share = (force / (friction * load)).rename("share")
     second = _by(view, share, varied, by)
-    index, told = view.chosen(share, [varied, *([second] if second else [])], at)
+    index, notes = view.chosen(share, [varied, *([second] if second else [])], at)
     figure, ax = figure_and_axes(ax, 6.4, 4.1)
     handles = []
     for look, label, place in _lines(view, second, share):
-        x, y = (numbers(one.isel({**index, **place})) for one in (creepage, share))
+        x, y = (numbers(points.isel({**index, **place})) for points in (creepage, share))
         order = np.argsort(x)
         handles += ax.plot(x[order], y[order], "o-" if view.is_product else "o", ms=3.4, label=label, color=look)
-    known = np.concatenate([line.get_ydata() for line in handles])
+    shares = np.concatenate([line.get_ydata() for line in handles])
     # A limit that no wheel comes near would squeeze the curves.
-    for limit in (one for one in (-1.0, 1.0) if np.nanmax(one * known) > _NEAR):
+    for limit in (side for side in (-1.0, 1.0) if np.nanmax(side * shares) > _NEAR):
         ax.axhline(limit, color=MUTED, lw=0.8, ls=(0, (4, 2)))
         ax.annotate("whole contact slides", (0.99, limit), xycoords=("axes fraction", "data"), xytext=(0, 2),
                     textcoords="offset points", ha="right", va="bottom", fontsize=8, color=MUTED)  # fmt: skip
@@ -142,7 +179,7 @@ def study_slip_curve(
     ax.set_xlabel(f"creepage along {along} (–)")
     ax.set_ylabel("Q/μP: shear force over friction × load (–)")
     where = "negative creepage drives" if along == "x" else "force of the road, to the right"
-    headline(ax, "Slip curve", under([*told, where, view.counted()]))
+    headline(ax, "Slip curve", under([*notes, where, view.counted()]))
     if second:
         _legend(ax, handles, shown(view.data[second], second))
     return figure
@@ -181,7 +218,7 @@ def _draw(
         _dots(ax, view, field, along, by, at, letters)
         return [], None
     second = _by(view, field, along, by)
-    index, told = view.chosen(field, [dim, *([second] if second else [])], at)
+    index, notes = view.chosen(field, [dim, *([second] if second else [])], at)
     x, ticks = _axis(view.data[along])
     what, across = shown(field, of), shown(view.data[along], along)
     handles: list[Line2D] = []
@@ -199,7 +236,7 @@ def _draw(
     elif is_logarithmic(x):
         ax.set_xscale("log")
     _finish(ax, what, across, numbers(field))
-    headline(ax, capital(what.words), under([*told, view.counted()], letters), letters)
+    headline(ax, capital(what.words), under([*notes, view.counted()], letters), letters)
     return handles, shown(view.data[second], second) if second else None
 
 
@@ -208,7 +245,7 @@ def _dots(
 ) -> None:
     """A result of cases that stand in a list, against one of their inputs, coloured by another."""
     (dim,) = map(str, view.data[along].dims)
-    index, told = view.chosen(field, [dim], at)
+    index, notes = view.chosen(field, [dim], at)
     what, across = shown(field), shown(view.data[along], along)
     x, ticks = _axis(view.data[along])
     values = what.factor * numbers(field.isel(index))
@@ -235,7 +272,7 @@ def _dots(
     if ticks:
         ax.set_xticks(range(len(ticks)), ticks)
     _finish(ax, what, across, values)
-    headline(ax, capital(what.words), under([*told, view.counted()], letters), letters)
+    headline(ax, capital(what.words), under([*notes, view.counted()], letters), letters)
 
 
 def _finish(ax: Axes, what: Shown, across: Shown, values: np.ndarray) -> None:
@@ -245,10 +282,10 @@ def _finish(ax: Axes, what: Shown, across: Shown, values: np.ndarray) -> None:
     # Of lines that are drawn: others may lie decades away.
     drawn = [np.asarray(line.get_ydata(), dtype=float) for line in ax.get_lines() if line.get_marker() != "x"]
     seen = np.concatenate(drawn) if drawn else values
-    known = seen[np.isfinite(seen) & (seen > 0)]
-    if what.logarithmic and known.size and known.max() > _DECADES * known.min():
+    positive = seen[np.isfinite(seen) & (seen > 0)]
+    if what.logarithmic and positive.size and positive.max() > _DECADES * positive.min():
         ax.set_yscale("log")
-        near = known.max() < 100 * known.min()
+        near = positive.max() < 100 * positive.min()
         ax.yaxis.set_major_locator(LogLocator(10, subs=(1.0, 2.0, 5.0) if near else (1.0,)))
         ax.yaxis.set_major_formatter(FuncFormatter(logarithmic_tick))
         ax.yaxis.set_minor_formatter(NullFormatter())
@@ -276,20 +313,20 @@ def _lines(view: View, second: str, field: xr.DataArray) -> list[tuple[Any, str,
 
 
 def _legend(ax: Axes, handles: Sequence[Line2D], how: Shown) -> None:
-    told = _few(handles)
-    if len(handles) > 3 or max(len(str(one.get_label())) for one in told) > 14:
-        legend_below(ax, told, columns=min(3, len(told)))
+    thinned = _thinned(handles)
+    if len(handles) > 3 or max(len(str(handle.get_label())) for handle in thinned) > 14:
+        legend_below(ax, thinned, columns=min(3, len(thinned)))
     else:
-        ax.legend(handles=told)
+        ax.legend(handles=thinned)
     legend = ax.get_legend()
     assert legend is not None
     legend.set_title(how.words)
     legend.get_title().set_fontsize(8.5)
 
 
-def _few(handles: Sequence[Line2D]) -> list[Line2D]:
+def _thinned(handles: Sequence[Line2D]) -> list[Line2D]:
     """As many lines as a legend tells, evenly of all."""
-    most = min(len(handles), _TOLD)
+    most = min(len(handles), _IN_LEGEND)
     return [handles[k] for k in np.unique(np.linspace(0, len(handles) - 1, most).round().astype(int))]
 
 
@@ -298,20 +335,20 @@ def _by(view: View, field: xr.DataArray, along: str, by: str | None) -> str:
     if by is not None:
         name = by if not by or by in field.dims else view.input(by)
         if name and (name not in field.dims or name == along):
-            raise InputError(f"lines cannot be told apart by {by}; take {_some([str(d) for d in field.dims])}")
+            raise InputError(f"lines cannot be told apart by {by}; take {_listed([str(d) for d in field.dims])}")
         return name
     if not view.is_product:
         return ""
-    others = [str(dim) for dim in field.dims if dim != along and field.sizes[dim] > 1]
-    own = [dim for dim in others if dim in view.dims]
-    return next(iter([*own, *(dim for dim in others if field.sizes[dim] <= _TOLD)]), "")
+    free = [str(dim) for dim in field.dims if dim != along and field.sizes[dim] > 1]
+    varied = [dim for dim in free if dim in view.dims]
+    return next(iter([*varied, *(dim for dim in free if field.sizes[dim] <= _IN_LEGEND)]), "")
 
 
 def _axis(axis: xr.DataArray) -> tuple[np.ndarray, list[str]]:
     """Places on an axis, and texts for them where it has no numbers."""
     if axis.dtype.kind in "fiu":
         return numbers(axis), []
-    names = [str(one) for one in axis.to_numpy()]
+    names = [str(text) for text in axis.to_numpy()]
     distinct = list(dict.fromkeys(names))
     return np.array([distinct.index(name) for name in names], dtype=float), distinct
 
@@ -341,10 +378,10 @@ def _cross(ax: Axes, x: np.ndarray, colour: Any, number: int = 0) -> None:
                 transform=ax.get_xaxis_transform(), zorder=5)  # fmt: skip
 
 
-def under(told: Sequence[str], letters: int = _WIDE) -> str:
+def under(notes: Sequence[str], letters: int = _WIDE) -> str:
     """Parts of the line under a title, on as many lines as they need."""
     lines: list[str] = []
-    for part in (one for one in told if one):
+    for part in (note for note in notes if note):
         if lines and len(lines[-1]) + len(part) + 2 <= letters * 1.25:
             lines[-1] += f", {part}"
         else:
@@ -357,5 +394,5 @@ def capital(words: str) -> str:
     return words[:1].upper() + words[1:]
 
 
-def _some(names: Sequence[str]) -> str:
+def _listed(names: Sequence[str]) -> str:
     return ", ".join(names[:12]) or "none"

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
@@ -14,12 +15,13 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.figure_registry import Drawing, figure
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import edges, limits
 from treadload.plots.kit.shown import Shown, numbers, shown
 from treadload.plots.kit.style import INK, MUTED, RULE, figure_of, halo, headline, ink_on, measure, sequential, styled
 from treadload.plots.sweeps.curves import capital, is_logarithmic, logarithmic_tick, solid, under
-from treadload.plots.sweeps.reading import PLANE, View, said
+from treadload.plots.sweeps.reading import PLANE, View, main_readings, place_in_words
 
 # Maps of small multiples, across and down.
 _ACROSS, _DOWN = 5, 4
@@ -29,6 +31,27 @@ _LEAST = 0.02
 _WRITTEN = 64
 
 
+# Results and fields of one page in maps.
+_MAPS, _FIELDS = 2, 2
+
+
+def _main_maps(data: xr.Dataset) -> Iterator[Drawing]:
+    view = View.of(data)
+    for name in main_readings(view, _MAPS) if len(view.numeric) > 1 else ():
+        yield Drawing({"of": name}, capital(shown(view.reading(name), name).words))
+
+
+def _fields(data: xr.Dataset) -> Iterator[Drawing]:
+    fields = [str(name) for name, variable in data.data_vars.items() if {"x", "y"} <= set(variable.dims)]
+    for name in fields[:_FIELDS]:
+        yield Drawing({"of": name}, capital(shown(data[name], name).words))
+
+
+@figure(
+    "Sweep", name="map", title="Over two inputs", order=2,
+    caption="Over the two inputs of most values; what is varied besides stands in its middle.",
+    when=_main_maps,
+)  # fmt: skip
 @styled
 def study_map(
     study: Source, of: str, x: str = "", y: str = "", *, at: Mapping[str, Any] | None = None, ax: Axes | None = None
@@ -45,11 +68,11 @@ def study_map(
     dims = tuple(dict.fromkeys(str(view.data[name].dims[0]) for name in (first, second)))
     if len(dims) == 1 and dims[0] not in field.dims:
         raise InputError(f"{of} is not over {first} and {second}")
-    index, told = view.chosen(field, dims, at)
-    one = field.isel(index)
+    index, notes = view.chosen(field, dims, at)
+    sheet = field.isel(index)
     what = shown(field, of)
     across, up = shown(view.data[first], first), shown(view.data[second], second)
-    values = what.factor * numbers(one.transpose(*dims[::-1]))
+    values = what.factor * numbers(sheet.transpose(*dims[::-1]))
     figure, ax = figure_and_axes(ax, 6.2, 4.3)
     norm = _norm(what, values)
     colours = solid("strain" if what.unit == "microstrain" else "pressure")
@@ -77,7 +100,7 @@ def study_map(
     ax.set_xlabel(across.label)
     ax.set_ylabel(up.label)
     ax.spines[["top", "right"]].set_visible(False)
-    headline(ax, capital(what.words), under([*told, view.counted()]))
+    headline(ax, capital(what.words), under([*notes, view.counted()]))
     return figure
 
 
@@ -89,8 +112,8 @@ def _cells(
     columns, rows = np.argsort(x), np.argsort(y)
     x, y, values, failed = x[columns], y[rows], values[np.ix_(rows, columns)], failed[np.ix_(rows, columns)]
     across, up = (
-        np.exp(edges(np.log(one), 1.0)) if is_logarithmic(one) else edges(one, max(abs(one[0]), 1.0))
-        for one in (x, y)
+        np.exp(edges(np.log(values), 1.0)) if is_logarithmic(values) else edges(values, max(abs(values[0]), 1.0))
+        for values in (x, y)
     )
     mesh = ax.pcolormesh(across, up, np.ma.masked_invalid(values), cmap=colours, norm=norm, rasterized=True)
     for row, column in zip(*np.nonzero(failed), strict=True):
@@ -109,12 +132,16 @@ def _cells(
         lines = ax.contour(x, y, values, colors=INK, linewidths=0.7, norm=norm, levels=7)
         for text in ax.clabel(lines, fontsize=8, fmt=lambda value: _number(value, what)):
             text.set_path_effects([*halo(2)])
-    for scale, one in ((ax.set_xscale, x), (ax.set_yscale, y)):
-        if is_logarithmic(one):
+    for scale, centres in ((ax.set_xscale, x), (ax.set_yscale, y)):
+        if is_logarithmic(centres):
             scale("log")
     return mesh
 
 
+@figure(
+    "Sweep", name="multiples", title="Fields", wide=True, order=3,
+    caption="In plan, one colour scale for all cases shown.", when=_fields,
+)  # fmt: skip
 @styled
 def study_multiples(
     study: Source, of: str, across: str = "", down: str = "", *, at: Mapping[str, Any] | None = None
@@ -132,8 +159,8 @@ def study_multiples(
         raise InputError(f"maps are drawn of a field over y and x, {of} is over {over}; draw its curve")
     first, second = _two(view, across, down)
     dims = [first, *([second] if second else [])]
-    index, told = view.chosen(field, [*dims, *PLANE], at)
-    columns, rows = _some(field.sizes[first], _ACROSS), _some(field.sizes[second], _DOWN) if second else [0]
+    index, chosen = view.chosen(field, [*dims, *PLANE], at)
+    columns, rows = _spread(field.sizes[first], _ACROSS), _spread(field.sizes[second], _DOWN) if second else [0]
     maps = {
         (row, column): np.asarray(
             field.isel({**index, first: column, **({second: row} if second else {})}).transpose(*PLANE).to_numpy()
@@ -142,8 +169,8 @@ def study_multiples(
         for column in columns
     }
     what = shown(field, of)
-    scale = limits(*(what.factor * one for one in maps.values()))
-    box = _box(np.stack([np.nan_to_num(np.abs(one)) for one in maps.values()]).max(axis=0))
+    scale = limits(*(what.factor * sheet for sheet in maps.values()))
+    box = _box(np.stack([np.nan_to_num(np.abs(sheet)) for sheet in maps.values()]).max(axis=0))
     x, y = (1e3 * numbers(view.data[dim]) for dim in ("x", "y"))
     x_edges, y_edges = edges(x[box[1]]), edges(y[box[0]])
     size = 10.4 / max(3, len(columns))
@@ -169,15 +196,17 @@ def study_multiples(
         ax.set_xlim(x_edges[0], x_edges[-1])
         ax.set_ylim(y_edges[-1], y_edges[0])
         if r == 0:
-            ax.set_title(said(view.data[first], column, first), fontsize=9, fontweight="normal", loc="center")
+            ax.set_title(
+                place_in_words(view.data[first], column, first), fontsize=9, fontweight="normal", loc="center"
+            )
         if c == 0:
-            ax.set_ylabel((f"{said(view.data[second], row, second)}\n" if second else "") + "y (mm)")
+            ax.set_ylabel((f"{place_in_words(view.data[second], row, second)}\n" if second else "") + "y (mm)")
         if r == len(rows) - 1:
             ax.set_xlabel("x, travel (mm)")
     if mesh is not None:
         bar = figure.colorbar(mesh, ax=axes, label=what.label, extend=scale.extend, pad=0.01, aspect=34)
         bar.outline.set(edgecolor=RULE, linewidth=0.7)
-    notes = under([*told, view.counted(view.data["status"])], 90)
+    notes = under([*chosen, view.counted(view.data["status"])], 90)
     figure.suptitle(capital(what.words), x=0.01, ha="left", fontsize=11.5, fontweight="bold")
     if notes:
         figure.supxlabel(notes, x=0.01, ha="left", fontsize=8.5, color=MUTED)
@@ -186,11 +215,11 @@ def study_multiples(
 
 def _pair(view: View, x: str, y: str) -> tuple[str, str]:
     """Two inputs that are numbers. Raises InputError."""
-    given = [view.input(name) for name in (x, y) if name]
-    wrong = next((name for name in given if name not in view.numeric), None)
-    free = [name for name in view.numeric if name not in given]
-    needed = 2 - len(given)
-    if wrong is not None or len(free) < needed or len(set(given)) < len(given):
+    fixed = [view.input(name) for name in (x, y) if name]
+    wrong = next((name for name in fixed if name not in view.numeric), None)
+    free = [name for name in view.numeric if name not in fixed]
+    needed = 2 - len(fixed)
+    if wrong is not None or len(free) < needed or len(set(fixed)) < len(fixed):
         raise InputError(
             f"a map needs two inputs that are numbers and have several values; this study has "
             f"{', '.join(view.numeric) or 'none'}"
@@ -201,20 +230,20 @@ def _pair(view: View, x: str, y: str) -> tuple[str, str]:
 
 def _two(view: View, across: str, down: str) -> tuple[str, str]:
     """Dimensions of small multiples: one or two."""
-    given = [str(view.data[view.input(name)].dims[0]) for name in (across, down) if name]
-    free = sorted((dim for dim in view.dims if dim not in given), key=lambda dim: -view.data.sizes[dim])
-    first = given.pop(0) if across else free.pop(0)
-    second = given.pop(0) if down else next((dim for dim in free if view.data.sizes[dim] > 1), "")
+    fixed = [str(view.data[view.input(name)].dims[0]) for name in (across, down) if name]
+    free = sorted((dim for dim in view.dims if dim not in fixed), key=lambda dim: -view.data.sizes[dim])
+    first = fixed.pop(0) if across else free.pop(0)
+    second = fixed.pop(0) if down else next((dim for dim in free if view.data.sizes[dim] > 1), "")
     return first, second
 
 
 def _norm(what: Shown, values: np.ndarray) -> Normalize:
-    known = values[np.isfinite(values)]
-    if what.logarithmic and (known > 0).any() and known.max() > 3 * known[known > 0].min():
-        return LogNorm(float(known[known > 0].min()), float(known.max()))
-    if not known.size:
+    finite = values[np.isfinite(values)]
+    if what.logarithmic and (finite > 0).any() and finite.max() > 3 * finite[finite > 0].min():
+        return LogNorm(float(finite[finite > 0].min()), float(finite.max()))
+    if not finite.size:
         return Normalize(0.0, 1.0)
-    low, high = float(known.min()), float(known.max())
+    low, high = float(finite.min()), float(finite.max())
     return Normalize(low, high if high > low else low + 1.0)
 
 
@@ -224,7 +253,7 @@ def _number(value: float, what: Shown) -> str:
     return f"{value:.2g}" if abs(value) < 1 else measure(value).replace("-", "\u2212")
 
 
-def _some(count: int, most: int) -> list[int]:
+def _spread(count: int, most: int) -> list[int]:
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int)).tolist()  # type: ignore[no-any-return]
 
 
@@ -233,8 +262,8 @@ def _box(largest: np.ndarray) -> tuple[slice, slice]:
     seen = largest > _LEAST * largest.max()
     if not seen.any():
         return slice(None), slice(None)
-    found = []
+    spans = []
     for axis in (1, 0):
         places = np.flatnonzero(seen.any(axis=axis))
-        found.append(slice(max(0, int(places[0]) - 1), int(places[-1]) + 2))
-    return found[0], found[1]
+        spans.append(slice(max(0, int(places[0]) - 1), int(places[-1]) + 2))
+    return spans[0], spans[1]

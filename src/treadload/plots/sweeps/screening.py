@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.shown import Shown, shown
@@ -20,6 +21,10 @@ _MOST = 12
 _LINE, _FAR = 0.05, 0.72
 
 
+@figure(
+    "Tornado", name="tornado", main=True, title="Tornado", wide=True,
+    caption="The result with one input at an end of its range, the others as in the base case.",
+)  # fmt: skip
 @styled
 def tornado_bars(tornado: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of a result from the base case to both ends of every input, the largest swing on top.
@@ -68,6 +73,10 @@ def tornado_bars(tornado: Source, *, ax: Axes | None = None) -> Figure:
     return figure
 
 
+@figure(
+    "Sobol", name="sobol", main=True, title="Sobol indices", wide=True,
+    caption="Share of the variance of the result over the ranges that is due to each input.",
+)  # fmt: skip
 @styled
 def sobol_bars(sobol: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of first-order and total Sobol indices of every input with their 95 % intervals.
@@ -95,11 +104,15 @@ def sobol_bars(sobol: Source, *, ax: Axes | None = None) -> Figure:
     ax.grid(True, axis="x")
     ax.set_xlabel("share of the variance (–)")
     ax.legend(loc="lower right")
-    told = f"{_place(data)}{data.attrs.get('blocks', 0):g} blocks of {data.attrs.get('cases', 0):g} cases"
-    headline(ax, f"Sobol indices of the {_reading(data).words}", f"{told}; bars: 95 % intervals")
+    blocks = f"{_place(data)}{data.attrs.get('blocks', 0):g} blocks of {data.attrs.get('cases', 0):g} cases"
+    headline(ax, f"Sobol indices of the {_reading(data).words}", f"{blocks}; bars: 95 % intervals")
     return figure
 
 
+@figure(
+    "Morris", name="morris", main=True, title="Morris screening",
+    caption="Right: inputs that matter. High: inputs whose effect bends or depends on others.",
+)  # fmt: skip
 @styled
 def morris_effects(morris: Source, *, ax: Axes | None = None) -> Figure:
     """Spread σ of the effects of every input against their mean size μ*, with its 95 % interval.
@@ -135,8 +148,8 @@ def morris_effects(morris: Source, *, ax: Axes | None = None) -> Figure:
     open_axes(ax)
     ax.set_xlabel(f"μ*: mean size of the effect ({what.unit or '–'})")
     ax.set_ylabel(f"σ: spread of the effect ({what.unit or '–'})")
-    told = f"{data.attrs.get('trajectories', 0):g} trajectories of {data.attrs.get('cases', 0):g} cases"
-    headline(ax, f"Effects on the {what.words}", f"{_place(data)}over the whole range of each input, {told}")
+    trajectories = f"{data.attrs.get('trajectories', 0):g} trajectories of {data.attrs.get('cases', 0):g} cases"
+    headline(ax, f"Effects on the {what.words}", f"{_place(data)}over the whole range of each input, {trajectories}")
     return figure
 
 
@@ -144,7 +157,7 @@ def _reading(data: xr.Dataset) -> Shown:
     """How the result that was asked for is drawn."""
     name = str(data.attrs.get("of", "reading"))
     values = np.concatenate(
-        [np.ravel(data[one].to_numpy()) for one in ("reading_low", "reading_high", "absolute_effect") if one in data]
+        [np.ravel(data[key].to_numpy()) for key in ("reading_low", "reading_high", "absolute_effect") if key in data]
         or [np.zeros(1)]
     )
     return shown(xr.DataArray(values, dims="case", attrs={"units": str(data.attrs.get("unit", "1"))}), name)

@@ -52,22 +52,22 @@ def faces(stones: Any, stress: Array, x: Array, y: Array, z: Array, thickness: A
     sizes = {2: tall * step[1], 1: tall * step[0], 0: np.broadcast_to(step[0] * step[1], stones.shape)}
     parts: list[list[Array]] = []
     for axis, size in sizes.items():
-        for one, other in ((slice(None, -1), slice(1, None)), (slice(1, None), slice(None, -1))):
-            own = tuple(one if number == axis else slice(None) for number in range(3))
-            beside = tuple(other if number == axis else slice(None) for number in range(3))
+        for inner, outer in ((slice(None, -1), slice(1, None)), (slice(1, None), slice(None, -1))):
+            near_side = tuple(inner if number == axis else slice(None) for number in range(3))
+            beside = tuple(outer if number == axis else slice(None) for number in range(3))
             # A stone beside another has no bond to mortar there.
-            bonded: BoolArray = inside[own] & ~inside[beside]
-            normal = outwards[own][bonded] + outwards[beside][bonded]
+            bonded: BoolArray = inside[near_side] & ~inside[beside]
+            normal = outwards[near_side][bonded] + outwards[beside][bonded]
             length = np.linalg.norm(normal, axis=-1, keepdims=True)
             straight = np.zeros(3)
-            straight[2 - axis] = 1.0 if one.start is None else -1.0
+            straight[2 - axis] = 1.0 if inner.start is None else -1.0
             normal = np.where(length > 1e-9, normal / np.maximum(length, 1e-9), straight)
-            traction = np.einsum("nij,nj->ni", 0.5 * (tensor[own][bonded] + tensor[beside][bonded]), normal)
+            traction = np.einsum("nij,nj->ni", 0.5 * (tensor[near_side][bonded] + tensor[beside][bonded]), normal)
             across = (traction * normal).sum(axis=-1)
             along = np.linalg.norm(traction - across[:, None] * normal, axis=-1)
-            middle = 0.5 * (places[own][bonded] + places[beside][bonded])
-            area = size[own][bonded] * np.abs(normal @ straight)
-            parts.append([*middle.T, stones[own][bonded], area, across, along])
+            middle = 0.5 * (places[near_side][bonded] + places[beside][bonded])
+            area = size[near_side][bonded] * np.abs(normal @ straight)
+            parts.append([*middle.T, stones[near_side][bonded], area, across, along])
     return Faces(*(np.concatenate(several) for several in zip(*parts, strict=True)))
 
 

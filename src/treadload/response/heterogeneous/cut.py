@@ -47,17 +47,17 @@ def shares(stones: Spheres, x: Array, y: Array, z: Array) -> tuple[Any, Any, Arr
         share = inside.reshape(nz, _SUB, ny, _SUB, nx, _SUB).mean(axis=(1, 3, 5))
         larger = share > most[block]
         holder[block][larger], most[block][larger] = number, share[larger]
-        own = np.where(larger, share, 0.0).ravel()
-        fill = np.argsort(-own, kind="stable")[: round(4 / 3 * math.pi * r**3 / math.prod(steps))]
-        mine = np.zeros(own.size, bool)
-        mine[fill[own[fill] > 0]] = True
+        covered = np.where(larger, share, 0.0).ravel()
+        fill = np.argsort(-covered, kind="stable")[: round(4 / 3 * math.pi * r**3 / math.prod(steps))]
+        mine = np.zeros(covered.size, bool)
+        mine[fill[covered[fill] > 0]] = True
         fullest[block][mine.reshape(share.shape)] = number
     return fullest, holder, most
 
 
-def mixed(own: Array, matrix: float, share: Array) -> Array:
+def mixed(stiffness: Array, matrix: float, share: Array) -> Array:
     """A modulus (n,), Pa, of cells of which a share is stone, by the mean of their compliances; voids are whole."""
     cut = share < 1
-    result: Array = own.copy()
-    result[cut] = 1 / (share[cut] / own[cut] + (1 - share[cut]) / matrix)
+    result: Array = stiffness.copy()
+    result[cut] = 1 / (share[cut] / stiffness[cut] + (1 - share[cut]) / matrix)
     return result

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,32 +22,45 @@ _RAVELLING = 0.95
 _BORDER = 0.25
 
 
+@dataclass(frozen=True, eq=False)
+class Fields:
+    """Stress, Pa, and strain (6, nz, ny, nx) of a material in the window."""
+
+    stress: Array
+    strain: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Packing:
+    """Aggregates on the cells of a window.
+
+    numbers: of stones by cells (nz, ny, nx), 0 for mortar. group: of each stone. places: centres x, y and depth, m,
+    of the cells of the grid. radius: of the largest stone, m, 0 if unknown.
+    """
+
+    numbers: Any
+    group: Any
+    places: tuple[Array, Array, Array]
+    grid: Grid
+    radius: float
+
+
 def readings(
-    numbers: Any,
-    group: Any,
-    stress: Array,
-    strain: Array,
-    stress_alone: Array,
-    strain_alone: Array,
-    bonds: Faces,
-    places: tuple[Array, Array, Array],
-    grid: Grid,
-    radius: float,
-    strength: float | None,
-    pressure: float,
+    packing: Packing, with_stones: Fields, alone: Fields, bonds: Faces, strength: float | None, pressure: float
 ) -> xr.Dataset:
     """The dataset of a `Heterogeneous`.
 
-    numbers: of stones by cells (nz, ny, nx), 0 for mortar. group: of each stone. stress, strain: (6, nz, ny, nx), of
-    the mortar with stones, and of the mortar alone. places: centres x, y and depth, m. radius: of the largest stone,
-    m, 0 if unknown. strength: of the bond, Pa. pressure: the load's largest, Pa.
+    with_stones, alone: of the mortar with stones, and of the mortar alone. strength: of the bond, Pa. pressure: the
+    load's largest, Pa.
     """
-    x, y, z = places
+    numbers, group, grid, radius = packing.numbers, packing.group, packing.grid, packing.radius
+    stress, strain = with_stones.stress, with_stones.strain
+    x, y, z = packing.places
     inner = _inner(x, y, z, grid, radius)
     mortar, stone = inner & (numbers == 0), inner & (numbers > 0)
     volume = np.broadcast_to(grid.thickness[:, None, None], numbers.shape)
     tension, extension = largest_principal(stress), largest_principal(strain)
-    tension_alone, extension_alone = largest_principal(stress_alone), largest_principal(strain_alone)
+    tension_alone, extension_alone = largest_principal(alone.stress), largest_principal(alone.strain)
 
     def percentiles(values: Array, where: Any) -> list[float]:
         return [share_below(values[where], volume[where], share / 100) for share in PERCENTILES]

@@ -10,6 +10,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from treadload import variables
 from treadload.errors import ConvergenceError, InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.kernels.eigenstrain import operator
@@ -21,8 +22,9 @@ from treadload.materials.aggregates import Spheres, Window, check_apart
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS
 from treadload.response.heterogeneous.bonds import faces
+from treadload.response.heterogeneous.cell_error import BASIS, caveats, largest, soft_errors
 from treadload.response.heterogeneous.cut import mixed, shares
-from treadload.response.heterogeneous.readings import readings
+from treadload.response.heterogeneous.readings import Fields, Packing, readings
 from treadload.response.heterogeneous.solution import Heterogeneous
 from treadload.response.loads import GridLoad, Load, gather
 from treadload.response.solve import solve_response
@@ -71,7 +73,9 @@ def compute_heterogeneous(
     eigenstrain in cells, below a free surface, see `kernels.eigenstrain.inclusions`. Limits: one Poisson's ratio and
     modulus around the stones, that of the mortar also outside of the window; layers below do not feel the stones; the
     contact does not either, which is right for a tire, a thousand times softer than the road; a stone's border is
-    made of steps, so the peak in the cells beside it never converges: percentiles do.
+    made of steps, so the peak in the cells beside it never converges: percentiles do. The error of the mean strain of
+    soft stones and voids by these steps is `soft_strain_error`, a fit to finite elements, see
+    `response.heterogeneous.cell_error`.
     Returns a Heterogeneous. Raises InputError for what cannot be, ConvergenceError where the equations stay unsolved.
     """
     start = time.perf_counter()
@@ -99,38 +103,46 @@ def compute_heterogeneous(
 
     tell("cells of eigenstrain")
     apply = operator.cells(grid, matrix.shear_modulus, matrix.poisson, averaged=True, single=grid.bytes > _DOUBLE)
-    known = np.array([_moduli(one.material) for one in groups])[group]
-    stiff = np.concatenate([[False], (known >= _moduli(matrix)).all(axis=1)])[holder]
+    moduli = np.array([_moduli(group.material) for group in groups])[group]
+    stiff = np.concatenate([[False], (moduli >= _moduli(matrix)).all(axis=1)])[holder]
     cut = stiff & (share < 1)
     inside = stiff | (numbers > 0)
     # Of a cell of a soft stone all is stone.
     of, part = np.where(stiff, holder, numbers)[inside] - 1, np.where(stiff, share, 1.0)[inside]
-    stiffness = mixed(known[of, 0], _moduli(matrix)[0], part), mixed(known[of, 1], _moduli(matrix)[1], part)
+    stiffness = mixed(moduli[of, 0], _moduli(matrix)[0], part), mixed(moduli[of, 1], _moduli(matrix)[1], part)
     tell("stones")
-    found = equivalent(
+    inclusion = equivalent(
         apply, alone, inside, stiffness, _moduli(matrix), grid.thickness, tolerance=_TOLERANCE, most=_ITERATIONS
     )
-    if not found.residual < 10 * _TOLERANCE:
+    if not inclusion.residual < 10 * _TOLERANCE:
         raise ConvergenceError(
-            f"the stress around the stones reached a residual of {found.residual:.2g} in {found.iterations} "
-            f"iterations of {found.method}, not {_TOLERANCE:g}; lessen the contrast of stiff and soft stones in one "
-            "window",
-            found.residual,
+            f"the stress around the stones reached a residual of {inclusion.residual:.2g} in {inclusion.iterations} "
+            f"iterations of {inclusion.method}, not {_TOLERANCE:g}; lessen the contrast of stiff and soft stones in "
+            "one window",
+            inclusion.residual,
         )
-    strain = strain_from_stress(found.stress, matrix.modulus, matrix.poisson) + found.eigenstrain
+    strain = strain_from_stress(inclusion.stress, matrix.modulus, matrix.poisson) + inclusion.eigenstrain
     if cut.any():
         # Parts behind one another bear one stress; a cell has the strain of the part that it stands for.
-        one = np.vstack([_moduli(matrix), known])[numbers[cut]]
-        mean = found.stress[:3, cut].sum(axis=0) / 3
-        strain[:, cut] = found.stress[:, cut] / one[:, 1]
-        strain[:3, cut] += mean / one[:, 0] - mean / one[:, 1]
-    radii = np.concatenate([one.radius for one in spheres]) if spheres else np.empty(0)
-    bonds = faces(numbers * _bonded(numbers, group, groups), found.stress, x, y, grid.depths, grid.thickness)
+        cut_moduli = np.vstack([_moduli(matrix), moduli])[numbers[cut]]
+        mean = inclusion.stress[:3, cut].sum(axis=0) / 3
+        strain[:, cut] = inclusion.stress[:, cut] / cut_moduli[:, 1]
+        strain[:3, cut] += mean / cut_moduli[:, 0] - mean / cut_moduli[:, 1]
+    radii = np.concatenate([sphere.radius for sphere in spheres]) if spheres else np.empty(0)
+    bonds = faces(numbers * _bonded(numbers, group, groups), inclusion.stress, x, y, grid.depths, grid.thickness)
     pressure = max((_largest_pressure(load) for load in placed), default=0.0)
     dataset = readings(
-        numbers, group, found.stress, strain, alone, strain_from_stress(alone, matrix.modulus, matrix.poisson),
-        bonds, (x, y, grid.depths), grid, float(radii.max(initial=0.0)), bond_strength, pressure,
+        Packing(numbers, group, (x, y, grid.depths), grid, float(radii.max(initial=0.0))),
+        Fields(inclusion.stress, strain), Fields(alone, strain_from_stress(alone, matrix.modulus, matrix.poisson)),
+        bonds, bond_strength, pressure,
     )  # fmt: skip
+    contrasts = (moduli / _moduli(matrix)).min(axis=1)
+    depths = np.concatenate([sphere.z for sphere in spheres]) if spheres else radii
+    errors = soft_errors(numbers, radii, depths, contrasts, x, y, grid.depths)
+    if errors.size:
+        dataset = dataset.assign(variables.dataset({"soft_strain_error": ((), largest(errors))}, {}))
+        dataset.attrs["error_estimate"] = BASIS
+        warnings += caveats(errors, max(block.spacing))
     dataset.attrs |= {
         "mortar": str(matrix), "aggregates": "; ".join(map(str, groups)), "spacing": block.spacing[0],
         "window_x": float(at[0]), "window_y": float(at[1]),
@@ -148,8 +160,8 @@ def compute_heterogeneous(
             "several seeds"
         )
     stats = {
-        "seconds": time.perf_counter() - start, "iterations": found.iterations, "residual": found.residual,
-        "method": found.method, "cells": int(numbers.size), "bytes": apply.bytes,
+        "seconds": time.perf_counter() - start, "iterations": inclusion.iterations, "residual": inclusion.residual,
+        "method": inclusion.method, "cells": int(numbers.size), "bytes": apply.bytes,
     }  # fmt: skip
     return Heterogeneous(dataset, stats, (*warnings, *response.warnings), placed, road, tuple(groups), bond_strength)
 
@@ -167,11 +179,11 @@ class _Block:
 
 def _groups(stones: Any) -> list[Aggregates]:
     groups = [stones] if isinstance(stones, Aggregates) else list(stones) if isinstance(stones, Sequence) else []
-    if not groups or not all(isinstance(one, Aggregates) for one in groups):
+    if not groups or not all(isinstance(group, Aggregates) for group in groups):
         raise InputError(
-            f"stones must be Aggregates or a list of them, got {type(stones).__name__}; see tl.Aggregates.random"
+            f"stones must be Aggregates or a list of them, got {type(stones).__name__}; see its random()"
         )
-    if any(one.scanned for one in groups) and len(groups) > 1:
+    if any(group.scanned for group in groups) and len(groups) > 1:
         raise InputError("a scan of stones says what every cell is: it cannot be put together with other stones")
     return groups
 
@@ -275,20 +287,20 @@ def _stones(
     holder, share = numbers.copy(), np.zeros(numbers.shape)
     group: list[int] = []
     spheres: list[Spheres] = []
-    for which, one in enumerate(groups):
-        balls = one.spheres(block.window, spheres)
+    for which, packing in enumerate(groups):
+        balls = packing.spheres(block.window, spheres)
         if balls is not None and shared:
-            own, nearest, part = shares(balls, block.x, block.y, block.grid.depths)
+            of_cells, nearest, part = shares(balls, block.x, block.y, block.grid.depths)
         else:
-            own = one.numbers(balls, block.x, block.y, block.grid.depths)
-            nearest, part = own, (own > 0).astype(float)
-        found = np.unique(own[own > 0])
+            of_cells = packing.numbers(balls, block.x, block.y, block.grid.depths)
+            nearest, part = of_cells, (of_cells > 0).astype(float)
+        present = np.unique(of_cells[of_cells > 0])
         if balls is None:
-            own = nearest = np.searchsorted(found, own) * (own > 0) + (own > 0)
+            of_cells = nearest = np.searchsorted(present, of_cells) * (of_cells > 0) + (of_cells > 0)
         larger = part > share
         holder[larger], share[larger] = len(group) + nearest[larger], part[larger]
-        numbers[own > 0] = len(group) + own[own > 0]
-        count = len(balls.x) if balls is not None else len(found)
+        numbers[of_cells > 0] = len(group) + of_cells[of_cells > 0]
+        count = len(balls.x) if balls is not None else len(present)
         group += [which] * count
         if balls is not None:
             spheres.append(balls)
@@ -300,13 +312,13 @@ def _stones(
             f"none of the {len(group)} stones holds the centre of a cell of {block.spacing[0] * 1e3:g} mm; take a "
             "smaller spacing"
         )
-    told = []
+    warnings = []
     if lost:
-        told.append(
+        warnings.append(
             f"{lost} of {len(group)} stones hold no cell's centre and are left out; take a smaller spacing, or count "
             "them as mortar"
         )
-    return numbers, np.array(group, int), spheres, told, holder, share
+    return numbers, np.array(group, int), spheres, warnings, holder, share
 
 
 def _moduli(material: Elastic | None) -> tuple[float, float]:

@@ -135,7 +135,7 @@ def row_edges(among: tuple[Course, ...], cell: float, depth: float, count: int |
         edges = spread_edges(top, bottom, cell, ratio, MOST_ROWS)
     else:
         edges = graded_edges(top, bottom, cell, count)
-    for inside in {z for one in among for z in (one.top, one.bottom) if top < z < bottom}:
+    for inside in {z for course in among for z in (course.top, course.bottom) if top < z < bottom}:
         nearest = 1 + int(np.abs(edges[1:-1] - inside).argmin())
         if abs(edges[nearest] - inside) > 0.45 * min(np.diff(edges)[nearest - 1 : nearest + 1]):
             edges = np.sort(np.append(edges, inside))

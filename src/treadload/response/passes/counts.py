@@ -14,10 +14,10 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.plasticity.state import deviator
 from treadload.kernels.tensors import von_mises
-from treadload.response.passes.asked import FEW_ROWS, SEARCHED, Asked
 from treadload.response.passes.box import Box, row_edges
+from treadload.response.passes.problem import FEW_ROWS, SEARCHED, Problem
 from treadload.response.passes.steady import Track
-from treadload.response.passes.stepping import Record, Told
+from treadload.response.passes.stepping import Outcome, Record
 
 
 def told_counts(passes: int) -> Iterator[float]:
@@ -52,7 +52,7 @@ def power_law_strain(stress: Array, materials: Sequence[Any], firsts: Sequence[i
     return result
 
 
-def by_power_law(question: Asked, passes: int, laws: set[type]) -> tuple[Box, list[Record], Told]:
+def by_power_law(question: Problem, passes: int, laws: set[type]) -> tuple[Box, list[Record], Outcome]:
     """Passes after a law of passes, evaluated as a whole."""
     if len(laws) > 1:
         raise InputError(
@@ -61,7 +61,7 @@ def by_power_law(question: Asked, passes: int, laws: set[type]) -> tuple[Box, li
         )
     low_x, high_x, low_y, high_y = question.extent
     step, half = question.spacing, 0.5 * max(high_x - low_x, high_y - low_y)
-    places = [round(one / step) for one in question.offsets]
+    places = [round(offset / step) for offset in question.offsets]
     more = math.ceil(half / step)
     nx, ny = (math.ceil((high - low) / step) + 2 * more for low, high in ((low_x, high_x), (low_y, high_y)))
     left, right = -min(0, *places), max(0, *places)
@@ -75,7 +75,7 @@ def by_power_law(question: Asked, passes: int, laws: set[type]) -> tuple[Box, li
     wide = question.stress(box.x, box.y0 + step * np.arange(-right, box.ny + left), box.depths)
     track = Track.of(replace(box, nx=1), materials)
     by_place = power_law_strain(wide, materials, [right - place for place in places], box.ny)
-    exponents = np.array([0.0 if one is None else one.law.exponent for one in materials])[:, None]
+    exponents = np.array([0.0 if material is None else material.law.exponent for material in materials])[:, None]
     records, last = [], np.zeros((6, *box.shape))
     for number in told_counts(passes):
         # Each place has had its part of the passes, and all follow the law of their number.
@@ -88,6 +88,8 @@ def by_power_law(question: Asked, passes: int, laws: set[type]) -> tuple[Box, li
         )  # fmt: skip
         last = strain
     strengths = [
-        float(von_mises(wide[:, row]).max()) / one.elastic.modulus for row, one in enumerate(materials) if one
+        float(von_mises(wide[:, row]).max()) / material.elastic.modulus
+        for row, material in enumerate(materials)
+        if material
     ]
-    return box, records, Told({"verdict": "ratchetting", "yield_strain": max(strengths)}, {}, ())
+    return box, records, Outcome({"verdict": "ratchetting", "yield_strain": max(strengths)}, {}, ())

@@ -87,10 +87,10 @@ def _cells(box: Box, road: Pavement, wide: int) -> Array:
     half, middle = 0.5 * np.diff(box.edges), box.depths
     depths = (middle[:, None] + half[:, None] * _NODES).ravel()
     x, y = box.dx * np.arange(wide), box.dy * np.arange(1 - box.ny, box.ny)
-    one = (GridLoad(Grid(1, 1, box.dx, box.dy, 0.0, 0.0), np.ones((1, 1))),)
+    unit_cell = (GridLoad(Grid(1, 1, box.dx, box.dy, 0.0, 0.0), np.ones((1, 1))),)
     top = Pavement.half_space(road.layers[0].resolved)
     solved = answers(
-        [Question(one, place, depths) for place in (road, top)], View(x, y, components=range(6)),
+        [Question(unit_cell, place, depths) for place in (road, top)], View(x, y, components=range(6)),
         side="below", speed=None, mean_over=None,
     )  # fmt: skip
     stress = solved[0].fields.stress - solved[1].fields.stress

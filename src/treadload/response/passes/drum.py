@@ -33,10 +33,10 @@ from treadload.materials import PassesPowerLaw
 from treadload.pavement import Pavement
 from treadload.response.layered import View
 from treadload.response.loads import GridLoad
-from treadload.response.passes.asked import Asked, asked
 from treadload.response.passes.box import Box, over_strength, row_edges
 from treadload.response.passes.dents import Dents
 from treadload.response.passes.fields import cautions, passes_dataset
+from treadload.response.passes.problem import Problem, Zone, problem_of
 from treadload.response.passes.solution import Passes
 from treadload.response.passes.steady import Pass, Track, roll, taken
 from treadload.response.passes.stepping import (
@@ -78,7 +78,7 @@ class _Rolled:
     dents: Dents
     load: float
     near: NormalSolution
-    found: list[NormalSolution] = field(default_factory=list)
+    contacts: list[NormalSolution] = field(default_factory=list)
 
     def pressed(self, old: Array) -> Callable[[Array], Array]:
         """Stress of the drum on a track with a plastic strain (6, nz, ny), by what this pass has changed of it."""
@@ -132,20 +132,20 @@ def roll_drum(
     cell = _cell(spacing, drum)
     pair = Pair.of(drum, road, road_compliance="layers")
     elastic = _elastic(drum, pair, load)
-    question = asked(elastic, road, speed, None, depth, layers, None, None, progress)
-    if any(isinstance(one.material.law, PassesPowerLaw) for one in question.courses):
+    question = problem_of(elastic, road, Zone(None, depth, layers), speed=speed, tell=progress)
+    if any(isinstance(course.material.law, PassesPowerLaw) for course in question.courses):
         raise InputError(
             "a PassesPowerLaw has no flow that the drum could feel: give VonMises, MohrCoulomb, DruckerPrager or "
             "Perzyna"
         )
     box = _box(question, drum, elastic, cell)
-    records, rolled, told, attrs = _grown(question, drum, pair, box, load, int(passes), tolerance)
+    records, rolled, words, attrs = _grown(question, drum, pair, box, load, int(passes), tolerance)
     data = passes_dataset(road, question.courses, rolled.box, records, attrs)
     data = data.merge(_of_contacts(rolled, drum), combine_attrs="override")
     seconds = time.perf_counter() - start
-    stats = {"seconds": seconds, "rounds": sum(one.rounds for one in records), "box": str(rolled.box)}
+    stats = {"seconds": seconds, "rounds": sum(record.rounds for record in records), "box": str(rolled.box)}
     return Passes(
-        data, stats, (*cautions(road, question.courses, records), *told), (), road, speed, drum, float(load)
+        data, stats, (*cautions(road, question.courses, records), *words), (), road, speed, drum, float(load)
     )
 
 
@@ -180,9 +180,9 @@ def _elastic(drum: Tire, pair: Pair, load: float) -> GridLoad:
 
 def _pressed(drum: Tire, pair: Pair, grid: Grid, load: float) -> GridLoad:
     influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest)
-    found = solve_normal(influence, drum.surface.height_map(grid), load=load, tolerance=1e-3)
-    check_border(found.pressure, grid)
-    return GridLoad(grid, found.pressure)
+    normal = solve_normal(influence, drum.surface.height_map(grid), load=load, tolerance=1e-3)
+    check_border(normal.pressure, grid)
+    return GridLoad(grid, normal.pressure)
 
 
 def _half(load: GridLoad) -> float:
@@ -190,7 +190,7 @@ def _half(load: GridLoad) -> float:
     return 0.5 * float(load.grid.dx * (load.pressure > 0).any(axis=0).sum())
 
 
-def _box(question: Asked, drum: Tire, elastic: GridLoad, cell: tuple[float, float] | None) -> Box:
+def _box(question: Problem, drum: Tire, elastic: GridLoad, cell: tuple[float, float] | None) -> Box:
     """Around the contact and what yields under it on the elastic road."""
     half, fixed, grid = _half(elastic), drum.surface.fixed_grid, elastic.grid
     top, last = question.courses[0].top, question.courses[-1].bottom
@@ -219,7 +219,7 @@ def _box(question: Asked, drum: Tire, elastic: GridLoad, cell: tuple[float, floa
 
 
 def _grown(
-    question: Asked, drum: Tire, pair: Pair, box: Box, load: float, passes: int, tolerance: float
+    question: Problem, drum: Tire, pair: Pair, box: Box, load: float, passes: int, tolerance: float
 ) -> tuple[list[Record], _Rolled, tuple[str, ...], dict[str, Any]]:
     """All passes, in a box that holds what yields and what touches."""
     fixed = drum.surface.fixed_grid is not None
@@ -228,14 +228,14 @@ def _grown(
         track = Track.of(box, [question.material_at(float(z)) for z in box.depths])
         rolled = _rolled(question, drum, pair, box, load)
         try:
-            records, ends, told, attrs = _run(question, rolled, track, passes, tolerance)
+            records, ends, words, attrs = _run(question, rolled, track, passes, tolerance)
         except BorderError as cut:
             if fixed:
                 raise
             box = box.grown(*([GROWN] * 2 if cut.along else [0.0] * 2), *([GROWN] * 2 if cut.across else [0.0] * 2))
             continue
         if not (ends > REACHED).any():
-            return records, rolled, told, attrs
+            return records, rolled, words, attrs
         check_depth(question, ends)
         if fixed and (ends[:4] > REACHED).any():
             raise InputError(
@@ -246,14 +246,16 @@ def _grown(
     raise too_far(box)
 
 
-def _rolled(question: Asked, drum: Tire, pair: Pair, box: Box, load: float) -> _Rolled:
+def _rolled(question: Problem, drum: Tire, pair: Pair, box: Box, load: float) -> _Rolled:
     grid = Grid(box.nx, box.ny, box.dx, box.dy, box.x0, box.y0)
     influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest)
     gap = drum.surface.height_map(grid)
-    one = GridLoad(Grid(1, 1, box.dx, box.dy, 0.0, 0.0), np.ones((1, 1)))
+    unit_load = GridLoad(Grid(1, 1, box.dx, box.dy, 0.0, 0.0), np.ones((1, 1)))
     x, y = box.dx * np.arange(1 - box.nx, box.nx), box.dy * np.arange(1 - box.ny, box.ny)
     view = View(x, y, components=range(6))
-    (kernel,) = answers([Question((one,), question.road, box.depths)], view, side="below", speed=None, mean_over=None)
+    (kernel,) = answers(
+        [Question((unit_load,), question.road, box.depths)], view, side="below", speed=None, mean_over=None
+    )
     near = solve_normal(influence, gap, load=load, tolerance=1e-4)
     return _Rolled(
         box, grid, gap, influence, Below.of(kernel.fields.stress), Dents.of(box, question.road), load, near
@@ -261,43 +263,43 @@ def _rolled(question: Asked, drum: Tire, pair: Pair, box: Box, load: float) -> _
 
 
 def _run(
-    question: Asked, rolled: _Rolled, track: Track, passes: int, tolerance: float
+    question: Problem, rolled: _Rolled, track: Track, passes: int, tolerance: float
 ) -> tuple[list[Record], Any, tuple[str, ...], dict[str, Any]]:
     box = rolled.box
     duration = 0.0 if question.speed is None else box.dx / question.speed
 
-    def one(number: int, states: Sequence[State]) -> tuple[Pass, float]:
+    def one_pass(number: int, states: Sequence[State]) -> tuple[Pass, float]:
         question.tell(f"pass {number} of at most {passes}")
         pressed = rolled.pressed(track.whole(states)[0])
         done = roll(track, pressed, states, duration=duration, tolerance=tolerance)
         check_border(rolled.near.pressure, rolled.grid)
-        rolled.found.append(rolled.near)
+        rolled.contacts.append(rolled.near)
         return done, 0.0
 
-    records, ends, error = follow(track, passes, one, deepest=question.courses[-1].bottom, rests=True)
+    records, ends, error = follow(track, passes, one_pass, deepest=question.courses[-1].bottom, rests=True)
     if error is not None:
-        number = len(rolled.found) + 1
+        number = len(rolled.contacts) + 1
         raise ConvergenceError(
             f"the plastic strain of pass {number} still changed by {error.residual:.1e} of itself, above "
             f"{tolerance:.1e}: under this load the road has no steady pass; lower the load, give a law that hardens, "
             "or raise the tolerance",
             error.residual,
         )
-    told, words = verdict_of(track, records, failed=False, straight=True)
-    return records, ends, words, told
+    verdicts, words = verdict_of(track, records, failed=False, straight=True)
+    return records, ends, words, verdicts
 
 
 def _of_contacts(rolled: _Rolled, drum: Tire) -> xr.Dataset:
     """What each pass finds of the contact."""
-    grid, found = rolled.grid, rolled.found
-    pressure = np.array([one.pressure for one in found])
+    grid, contacts = rolled.grid, rolled.contacts
+    pressure = np.array([contact.pressure for contact in contacts])
     touching = pressure > 0
     moment = (pressure * grid.x).sum(axis=(1, 2)) * grid.cell_area
     radius = getattr(drum.surface, "outer_radius", None)
-    force = np.full(len(found), np.nan) if radius is None else moment / radius
+    force = np.full(len(contacts), np.nan) if radius is None else moment / radius
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
         "pressure": (("pass", "y", "x"), pressure),
-        "approach": (("pass",), np.array([one.approach for one in found])),
+        "approach": (("pass",), np.array([contact.approach for contact in contacts])),
         "contact_length": (("pass",), touching.any(axis=1).sum(axis=1) * grid.dx),
         "contact_width": (("pass",), touching.any(axis=2).sum(axis=1) * grid.dy),
         "contact_area": (("pass",), touching.sum(axis=(1, 2)) * grid.cell_area),

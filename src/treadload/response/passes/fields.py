@@ -34,38 +34,40 @@ def passes_dataset(
 
     among: the courses that can yield. attrs: what else it says of itself. by_pass: more fields, one number a pass.
     """
-    strain = np.array([one.strain for one in records])
+    strain = np.array([record.strain for record in records])
     across = box.y0 + box.dy * np.arange(-box.ny, 2 * box.ny)
     profile = surface_profile(strain, box, road, across)
     dims = ("pass", "depth", "y")
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
         **{f"plastic_strain_{name}": (dims, strain[:, k]) for k, name in enumerate(COMPONENTS)},
         **{
-            f"residual_stress_{name}": (dims, np.array([one.residual[k] for one in records]))
+            f"residual_stress_{name}": (dims, np.array([record.residual[k] for record in records]))
             for k, name in enumerate(COMPONENTS)
         },
-        "equivalent_plastic_strain": (dims, np.array([one.hardening for one in records])),
+        "equivalent_plastic_strain": (dims, np.array([record.hardening for record in records])),
         "residual_displacement_z": (("pass", "across"), profile),
         "rut_depth": (("pass",), np.maximum(profile.max(axis=1), 0.0)),
         "heave": (("pass",), np.maximum(-profile.min(axis=1), 0.0)),
-        "plastic_increment": (("pass",), np.array([one.added for one in records])),
-        "plastic_left": (("pass",), np.array([one.left for one in records])),
-        "wheel_offset": (("pass",), np.array([one.offset for one in records])),
+        "plastic_increment": (("pass",), np.array([record.added for record in records])),
+        "plastic_left": (("pass",), np.array([record.left for record in records])),
+        "wheel_offset": (("pass",), np.array([record.offset for record in records])),
         **{name: (("pass",), values) for name, values in (by_pass or {}).items()},
     }
-    places = {"pass": np.array([float(one.number) for one in records]), "depth": box.depths, "y": box.y}
-    laws = ", ".join(dict.fromkeys(f"{type(one.material.law).__name__}" for one in among))
+    places = {"pass": np.array([float(record.number) for record in records]), "depth": box.depths, "y": box.y}
+    laws = ", ".join(dict.fromkeys(f"{type(course.material.law).__name__}" for course in among))
     # Infinity has no place among the attributes of a file.
-    told = {key: value for key, value in attrs.items() if not (isinstance(value, float) and math.isinf(value))}
+    finite_attrs = {
+        key: value for key, value in attrs.items() if not (isinstance(value, float) and math.isinf(value))
+    }
     return variables.dataset(
         fields, {**places, "across": across}, criterion=CRITERION, law=f"yields by {laws}", dx=box.dx, dy=box.dy,
-        row_edges=box.edges, **told,
+        row_edges=box.edges, **finite_attrs,
     )  # fmt: skip
 
 
 def cautions(road: Pavement, among: Sequence[Course], records: Sequence[Record]) -> Iterator[str]:
     """What to know of passes over a road."""
-    largest = max(float(one.hardening.max()) for one in records)
+    largest = max(float(record.hardening.max()) for record in records)
     if largest > _SMALL:
         yield (
             f"the plastic strain reaches {100 * largest:.1f} %, above {100 * _SMALL:g} %: strains are taken as small "
@@ -76,7 +78,7 @@ def cautions(road: Pavement, among: Sequence[Course], records: Sequence[Record])
             "the residual stress is that of a half-space of the yielding material; stress under the wheel and the "
             "rut are those of the layered road"
         )
-    elastic = {one.material.elastic for one in among}
+    elastic = {course.material.elastic for course in among}
     if len(elastic) > 1:
         yield (
             "layers of different stiffness yield: they stress each other as rows of a half-space of the geometric "

@@ -24,7 +24,7 @@ from treadload.response.passes.surface import surface_profile
 # Of the rut and of the largest plastic strain: above it a warning tells how to lower it.
 MOST = 0.10
 # Cells across and down that yield, from which on the change from cells of twice the size is an error: below a sphere
-# at 1.4 times the load of first yield, 2 rows, the rut grew 2.5 times on cells of two thirds, while 1 % was stated.
+# at 1.4 times the load of first yield, 2 rows, the rut grew 2.5 times on cells of two thirds, where that was 1 %.
 FEWEST = 4
 # Of the change from cells of twice the size.
 _SHARE = 2 / 3
@@ -33,7 +33,8 @@ _SHARE = 2 / 3
 _YIELDS, _BESIDE = 1e-3, 2
 HOW = (
     "two thirds of the change of the rut and of the largest mean plastic strain from cells of twice the size to "
-    "these: where errors are of first order in the size or better, cells of half the size change less"
+    "these: where errors are of first order in the size or better, cells of half the size change less; not estimated "
+    f"(NaN) while what yields is fewer than {FEWEST} cells deep or wide"
 )
 
 
@@ -45,7 +46,7 @@ def doubled(box: Box, among: Sequence[Course]) -> Box:
         for first, count, half, step in ((box.x0, box.nx, nx, box.dx), (box.y0, box.ny, ny, box.dy))
     )
     kept = [0]
-    stays = [z for one in among for z in (one.top, one.bottom)]
+    stays = [z for course in among for z in (course.top, course.bottom)]
     for row in range(1, len(box.edges) - 1):
         at_interface = any(math.isclose(box.edges[row], z) for z in stays)
         if at_interface or row - kept[-1] == 2:
@@ -63,7 +64,7 @@ def cut(box: Box, wide: Box, hardening: Array, along: Array, depth: float | None
     """
     least = _YIELDS * max(float(hardening.max()), np.finfo(float).tiny)
     rows, lines, columns = (
-        np.flatnonzero(one > least) for one in (hardening.max(axis=1), hardening.max(axis=0), along)
+        np.flatnonzero(amount > least) for amount in (hardening.max(axis=1), hardening.max(axis=0), along)
     )
     if not (rows.size and lines.size and columns.size):
         return box
@@ -125,22 +126,37 @@ def change(fine: Array, coarse: Array) -> Array:
 
 def relative(error: Array, value: Array) -> float:
     """The error after the last pass that both grids came to, as a part of the value; NaN where there is none."""
-    known = np.flatnonzero(np.isfinite(error) & (value > 0))
-    return float(error[known[-1]] / value[known[-1]]) if known.size else math.nan
+    finite = np.flatnonzero(np.isfinite(error) & (value > 0))
+    return float(error[finite[-1]] / value[finite[-1]]) if finite.size else math.nan
+
+
+def yielding(hardening: Array) -> tuple[int, int]:
+    """Cells down and across that yield. hardening: accumulated plastic strain of the cells (nz, ny) after a pass."""
+    yields = hardening > _YIELDS * max(float(hardening.max()), np.finfo(float).tiny)
+    return int(np.count_nonzero(yields.any(axis=1))), int(np.count_nonzero(yields.any(axis=0)))
+
+
+def enough_cells(hardenings: Sequence[Array]) -> Array:
+    """Of which passes the change from cells of twice the size is an error, (n,): of none where not of the last.
+
+    hardenings: see `yielding`, after each pass.
+    """
+    enough = np.array([min(yielding(field)) >= FEWEST for field in hardenings])
+    result: Array = enough & enough[-1]
+    return result
 
 
 def caveats(box: Box, off: tuple[float, float], verdicts: tuple[str, str], hardening: Array) -> Iterator[str]:
     """What to know of a grid.
 
-    off: errors of rut and strain, as parts of them. verdicts: on both grids. hardening: accumulated plastic strain of
-    the cells (nz, ny) after the last pass.
+    off: errors of rut and strain, as parts of them, NaN where they are not known. verdicts: on both grids.
+    hardening: see `yielding`, after the last pass.
     """
-    yields = hardening > _YIELDS * max(float(hardening.max()), np.finfo(float).tiny)
-    deep, wide = (int(np.count_nonzero(yields.any(axis=axis))) for axis in (1, 0))
+    deep, wide = yielding(hardening)
     if deep and min(deep, wide) < FEWEST:
         yield (
             f"what yields is {deep} cells deep and {wide} wide, fewer than the {FEWEST} from which on the error of "
-            "the grid is known: the rut may be off by as much as itself; lower spacing (now "
+            "the grid is estimated: the rut may be off by more than itself; lower spacing (now "
             f"{1e3 * box.dy:.3g} mm)"
         )
     if max(off) > MOST:

@@ -8,7 +8,7 @@ from treadload.errors import InputError
 from treadload.materials import PassesPowerLaw, Perzyna
 from treadload.pavement import Pavement
 from treadload.response.loads import GridLoad
-from treadload.response.passes.asked import asked, first_yield, probe
+from treadload.response.passes.problem import Zone, first_yield, probe, problem_of
 from treadload.response.passes.steady import Track
 from treadload.response.passes.verdict import elastic_factor, shakedown_factor
 
@@ -21,8 +21,8 @@ def limit_loads(load: GridLoad, road: Pavement, *, spacing: float | None, layers
 
     spacing, layers: as of `roll_passes`. Raises InputError for laws that know no limit.
     """
-    question = asked(load, road, 1.0, spacing, None, layers, None, None, None)
-    laws = {type(one.material.law) for one in question.courses}
+    question = problem_of(load, road, Zone(spacing, None, layers), speed=1.0)
+    laws = {type(course.material.law) for course in question.courses}
     if laws & {PassesPowerLaw, Perzyna}:
         names = " and ".join(sorted(law.__name__ for law in laws))
         raise InputError(

@@ -39,10 +39,10 @@ def melan_factor(road: Track, stress: Array) -> float:
     stress: (6, nz, ny, nx), Pa, of the load on the elastic road; before and behind it there is none.
     """
     largest = 0.0
-    for one in road.parts:
-        law = one.material.law
+    for part in road.parts:
+        law = part.material.law
         assert isinstance(law, VonMises)
-        s = deviator(stress[:, one.rows]) * _SCALE[:, None, None, None] / law.strength
+        s = deviator(stress[:, part.rows]) * _SCALE[:, None, None, None] / law.strength
         paths = np.moveaxis(s, 0, -1).reshape(-1, s.shape[-1], 6)
         largest = max(largest, enclosing(np.concatenate([paths, np.zeros_like(paths[:, :1])], axis=1)))
     return 1 / largest if largest > 0 else np.inf
@@ -73,8 +73,8 @@ def enclosing(paths: Array) -> float:
         far, near = off.argmax(axis=1), np.where(shares > 0, off, np.inf).argmin(axis=1)
         towards = most - least >= least - off[every, near]
         # Of the way to the far point, or back from the near one until its share is gone.
-        own = shares[every, near]
-        back = np.where(own < 1, own / np.where(own < 1, 1 - own, 1.0), np.inf)
+        share = shares[every, near]
+        back = np.where(share < 1, share / np.where(share < 1, 1 - share, 1.0), np.inf)
         step = np.where(
             towards,
             0.5 * (most - least) / np.where(most > 0, most, 1.0),

@@ -17,16 +17,16 @@ _SHARE = 0.25
 def patch_width(loads: Sequence[Any]) -> float:
     """Width of the loaded patches across travel, m: a quarter of the load stands on narrower ones.
 
-    loads: as cells, see `passes.asked`. In every line across travel a patch is a row of neighbouring cells with
+    loads: as cells, see `passes.problem`. In every line across travel a patch is a row of neighbouring cells with
     pressure; a load that is no grid is a patch as wide as it is.
     """
     widths, forces = [], []
-    for one in loads:
-        if isinstance(one, GridLoad):
-            width, force = _runs(one.pressure, one.grid.dy, one.grid.cell_area)
+    for load in loads:
+        if isinstance(load, GridLoad):
+            width, force = _runs(load.pressure, load.grid.dy, load.grid.cell_area)
         else:
-            low, high = one.extent_y
-            width, force = np.array([high - low]), np.array([one.pressure * (high - low) ** 2])
+            low, high = load.extent_y
+            width, force = np.array([high - low]), np.array([load.pressure * (high - low) ** 2])
         widths.append(width)
         forces.append(force)
     width, force = np.concatenate(widths), np.concatenate(forces)

@@ -9,15 +9,26 @@ from typing import Any, ClassVar
 import numpy as np
 import xarray as xr
 
+from treadload.citations import DENTS, PASSES
 from treadload.composing import BaseResult, Holds
-from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS
 from treadload.response.loads import PlacedLoad
 from treadload.response.passes.grid_error import relative
 from treadload.response.passes.verdict import in_words
+from treadload.rows import Row, row
 from treadload.tire import Tire
+from treadload.variables import SAMPLE
 
+# Row and variable by pass; of a drum as well.
+_BY_PASS = (
+    ("rut_depth",) * 2, ("heave",) * 2, ("largest_plastic_strain", "equivalent_plastic_strain"),
+    ("plastic_increment",) * 2,
+)  # fmt: skip
+_OF_DRUM = (
+    ("approach",) * 2, ("contact_length",) * 2, ("contact_width",) * 2, ("largest_pressure", "peak_pressure"),
+    ("rolling_resistance",) * 2,
+)  # fmt: skip
 _TENSORS = " ".join(f"{name}_{c}" for name in ("plastic_strain", "residual_stress") for c in COMPONENTS)
 
 
@@ -30,7 +41,8 @@ class Passes(BaseResult, group="passes"):
     and heave (m), plastic_increment and plastic_left, and wheel_offset (m); where laws are followed step by step
     peak_plastic_strain, the largest mean over a square of the width averaging_width (an attribute, m, half of
     that of the loaded patches), and peak_plastic_strain_error and rut_depth_error, as the attribute error_estimate
-    describes. attrs: verdict and criterion; elastic_load_factor, the part of the load at which the road first yields;
+    describes; NaN while fewer than four cells yield, down or across. attrs: verdict and criterion;
+    elastic_load_factor, the part of the load at which the road first yields;
     shakedown_load_factor where it was sought; falls, where the last pass adds less than the one before, by how much
     of it. stats: rounds, seconds, box.
     warnings: sentences. loads, road, speed: the question; of a drum on its track drum and normal_load, N, in the
@@ -38,6 +50,7 @@ class Passes(BaseResult, group="passes"):
     contact_width, contact_area, peak_pressure, pressure_centre_x and rolling_resistance.
     """
 
+    title: ClassVar[str] = "Load repetitions on a road that yields"
     holds: ClassVar[Holds] = Holds(
         {
             "pass": "pass", "depth": "depth", "y": "y", "across": "across",
@@ -45,7 +58,7 @@ class Passes(BaseResult, group="passes"):
             "residual_displacement_z": "pass across",
             "rut_depth heave plastic_increment plastic_left wheel_offset": "pass",
         },
-        known="equivalent_plastic_strain residual_displacement_z rut_depth",
+        not_nan="equivalent_plastic_strain residual_displacement_z rut_depth",
         numbers="yield_strain",
         texts="verdict criterion law",
         maybe_numbers="averaging_width shakedown_load_factor elastic_load_factor falls",
@@ -57,7 +70,7 @@ class Passes(BaseResult, group="passes"):
             "approach contact_length contact_width contact_area peak_pressure pressure_centre_x rolling_resistance":
                 "pass",
         },
-        asked={"drum": "x pressure approach contact_length contact_width contact_area peak_pressure"},
+        with_field={"drum": "x pressure approach contact_length contact_width contact_area peak_pressure"},
     )  # fmt: skip
 
     dataset: xr.Dataset
@@ -79,59 +92,46 @@ class Passes(BaseResult, group="passes"):
         """The verdict as headlines tell it, with what more passes may change."""
         return in_words(self.verdict, self.dataset.attrs.get("falls"))
 
-    def summary(self) -> str:
-        """The verdict, the rut and where it yields most, by pass."""
+    @property
+    def heading(self) -> str:
+        """The law of the road."""
+        return str(self.dataset.attrs["law"])
+
+    def cites(self) -> tuple[str, ...]:
+        """Methods of plastic strain under passes; those of the contact, too, where a drum rolls."""
+        return (*PASSES, *(() if self.drum is None else DENTS))
+
+    def rows(self) -> tuple[Row, ...]:
+        """Where it first yields, the rut pass by pass, errors of the grid, where it yields most, the verdict."""
         data, attrs = self.dataset, self.dataset.attrs
         numbers = data["pass"].to_numpy()
-        lines = [f"Verdict after {numbers[-1]:g} pass(es): {self.in_words}; {attrs['law']}"]
-        for name, words in (
-            ("elastic_load_factor", "first yields at"),
-            ("shakedown_load_factor", "shakes down up to"),
-        ):
-            if name in attrs and np.isfinite(attrs[name]):
-                lines.append(f"the road {words} {100 * attrs[name]:.3g} % of this load")
-        lines.append("pass   rut mm   heave mm   largest plastic strain %   added by the pass %")
-        shown = np.unique(np.linspace(0, len(numbers) - 1, 10).round().astype(int))
-        for row in shown:
-            one = data.isel({"pass": row})
-            lines.append(
-                f"{numbers[row]:<6g} {_mm(one['rut_depth']):>6}   {_mm(one['heave']):>8}   "
-                f"{100 * float(one['equivalent_plastic_strain'].max()):>24.3g}   "
-                f"{100 * float(one['plastic_increment']):>19.3g}"
-            )
+        lines = [
+            row(name, attrs[name])
+            for name in ("elastic_load_factor", "shakedown_load_factor")
+            if name in attrs and np.isfinite(attrs[name])
+        ]
+        of_drum = _OF_DRUM if "pressure" in data else ()
+        for number in np.unique(np.linspace(0, len(numbers) - 1, 10).round().astype(int)):
+            lines += [
+                row(key, float(data[name][number].max()), group=f"pass {numbers[number]:g}", display=SAMPLE.get(key))
+                for key, name in (*_BY_PASS, *of_drum)
+            ]
         if {"peak_plastic_strain", "rut_depth_error", "peak_plastic_strain_error"} <= set(data):
-            lines.append(
-                f"error of the grid: rut {_part(data, 'rut_depth')}, largest plastic strain as a mean over "
-                f"{1e3 * float(attrs.get('averaging_width', np.nan)):.3g} mm, "
-                f"{100 * float(data['peak_plastic_strain'][-1]):.3g} %, "
-                f"{_part(data, 'peak_plastic_strain')}, by cells of twice the size"
-            )
-        if "pressure" in data:
-            lines.append("pass   sinks mm   contact long mm   wide mm   peak kPa   resists N")
-            for row in shown:
-                one = data.isel({"pass": row})
-                lines.append(
-                    f"{numbers[row]:<6g} {_mm(one['approach']):>8}   {_mm(one['contact_length']):>15}   "
-                    f"{_mm(one['contact_width']):>7}   {float(one['peak_pressure']) / 1e3:>8.4g}   "
-                    f"{float(one['rolling_resistance']):>9.4g}"
-                )
+            mean = f"mean over {1e3 * float(attrs.get('averaging_width', np.nan)):.3g} mm"
+            lines.append(row("peak_plastic_strain", float(data["peak_plastic_strain"][-1]), note=mean))
+            lines += [
+                row(f"{name}_error", f"{_part(data, name)}, by cells of twice the size")
+                for name in ("rut_depth", "peak_plastic_strain")
+            ]
         last = data["equivalent_plastic_strain"].isel({"pass": -1}).to_numpy()
         if last.any():
-            row, column = np.unravel_index(int(last.argmax()), last.shape)
-            lines.append(
-                f"most strained at y = {float(data['y'][column]) * 1e3:.1f} mm, "
-                f"{float(data['depth'][row]) * 1e3:.1f} mm deep"
-            )
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
-
-    __repr__ = first_line
+            deep, across = np.unravel_index(int(last.argmax()), last.shape)
+            place = f"at y = {float(data['y'][across]) * 1e3:.1f} mm, {float(data['depth'][deep]) * 1e3:.1f} mm deep"
+            lines.append(row("largest_plastic_strain", float(last.max()), note=place))
+        return (*lines, row("verdict", f"after {numbers[-1]:g} pass(es): {self.in_words}"))
 
 
 def _part(data: xr.Dataset, name: str) -> str:
     """Error of a number after the last pass that has it, as a part of the number."""
     off = relative(data[f"{name}_error"].to_numpy(), data[name].to_numpy())
-    return f"{100 * off:.2g} %" if np.isfinite(off) else "unknown"
-
-
-def _mm(length: xr.DataArray) -> str:
-    return f"{float(length) * 1e3:.3g}"
+    return f"{100 * off:.2g} %" if np.isfinite(off) else "not estimated"

@@ -11,9 +11,9 @@ from treadload.errors import InputError
 from treadload.materials import PassesPowerLaw
 from treadload.pavement import Pavement
 from treadload.response.loads import Load, gather
-from treadload.response.passes.asked import asked
 from treadload.response.passes.counts import by_power_law
 from treadload.response.passes.fields import cautions, passes_dataset
+from treadload.response.passes.problem import Zone, problem_of
 from treadload.response.passes.solution import Passes
 from treadload.response.passes.stepping import by_steps
 
@@ -53,18 +53,20 @@ def roll_passes(
     that reaches the box.
     """
     start = time.perf_counter()
-    question = asked(loads, road, speed, spacing, depth, layers, offsets, wander, progress)
+    question = problem_of(
+        loads, road, Zone(spacing, depth, layers), speed=speed, offsets=offsets, wander=wander, tell=progress
+    )
     if isinstance(passes, bool) or not isinstance(passes, int | np.integer) or passes < 1:
         raise InputError(f"passes must be a whole number >= 1, got {passes!r}")
     if not 1e-8 <= tolerance <= 0.1:
         raise InputError(f"tolerance must lie in [1e-8, 0.1], got {tolerance:g}; 1e-3 is the default")
-    laws = {type(one.material.law) for one in question.courses}
+    laws = {type(course.material.law) for course in question.courses}
     if PassesPowerLaw in laws:
-        box, records, told = by_power_law(question, int(passes), laws)
+        box, records, outcome = by_power_law(question, int(passes), laws)
     else:
-        box, records, told = by_steps(question, int(passes), tolerance)
-    data = passes_dataset(road, question.courses, box, records, told.attrs, told.fields)
+        box, records, outcome = by_steps(question, int(passes), tolerance)
+    data = passes_dataset(road, question.courses, box, records, outcome.attrs, outcome.fields)
     seconds = time.perf_counter() - start
-    stats = {"seconds": seconds, "rounds": sum(one.rounds for one in records), "box": str(box), **told.stats}
-    warnings = (*cautions(road, question.courses, records), *told.warnings)
+    stats = {"seconds": seconds, "rounds": sum(record.rounds for record in records), "box": str(box), **outcome.stats}
+    warnings = (*cautions(road, question.courses, records), *outcome.warnings)
     return Passes(data, stats, warnings, gather(loads), road, speed)

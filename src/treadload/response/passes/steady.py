@@ -78,9 +78,9 @@ class Track:
     def of(cls, box: Box, layers: Sequence[ElastoPlastic | None]) -> Track:
         """layers: the material of each row, None where it is elastic."""
         box.check_size()
-        known = next(one for one in layers if one is not None)
-        poisson = known.elastic.poisson
-        stiffness = np.sqrt([0.0 if one is None else one.elastic.shear_modulus for one in layers])
+        yielding_layer = next(layer for layer in layers if layer is not None)
+        poisson = yielding_layer.elastic.poisson
+        stiffness = np.sqrt([0.0 if layer is None else layer.elastic.shear_modulus for layer in layers])
         parts, first = [], 0
         for row in range(1, len(layers) + 1):
             if row == len(layers) or layers[row] != layers[first]:
@@ -96,7 +96,7 @@ class Track:
     @cached_property
     def yield_strain(self) -> float:
         """Smallest strain at yield of the materials: of strength over modulus."""
-        return min(one.material.yield_strain for one in self.parts)
+        return min(part.material.yield_strain for part in self.parts)
 
     def residual(self, strain: Array) -> Array:
         """Stress (6, nz, ny), Pa, of plastic strain (6, nz, ny) that no longer varies along travel."""
@@ -111,7 +111,7 @@ class Track:
 
     def virgin(self) -> tuple[State, ...]:
         """The states of its parts before the first pass."""
-        return tuple(State.virgin((one.rows.stop - one.rows.start, self.box.ny)) for one in self.parts)
+        return tuple(State.virgin((part.rows.stop - part.rows.start, self.box.ny)) for part in self.parts)
 
     def whole(self, states: Sequence[State]) -> tuple[Array, Array]:
         """Plastic strain (6, nz, ny) and equivalent plastic strain (nz, ny) of the states of its parts."""
@@ -170,15 +170,15 @@ def roll(
         if rounds > 1:
             stress[..., 1:] += road.stress(change[..., 1:])
             stress[..., 0] += road.residual(change[..., 0])
-        after, found, ends, along = _march(road, stress, old[..., None] + change, before, duration, steps)
-        found -= old[..., None]
-        size, moved = float(np.linalg.norm(found)), float(np.linalg.norm(found - change))
+        after, plastic, ends, along = _march(road, stress, old[..., None] + change, before, duration, steps)
+        plastic -= old[..., None]
+        size, moved = float(np.linalg.norm(plastic)), float(np.linalg.norm(plastic - change))
         residual = moved / size if size else 0.0
-        if residual <= tolerance or np.abs(found - change).max() <= least:
+        if residual <= tolerance or np.abs(plastic - change).max() <= least:
             return Pass(after, rounds, ends, along)
         if rounds >= _PATIENCE and residual > _FAR:
             break
-        change = mixing.next(change, found)
+        change = mixing.next(change, plastic)
     raise NoSteadyPassError(residual)
 
 
@@ -189,7 +189,7 @@ def _march(
 
     stress, strain: of which the trial stress is made, the first column far behind; strain is the plastic one.
     """
-    found, ends, columns = np.zeros_like(strain), np.zeros(5), strain.shape[-1]
+    plastic, ends, columns = np.zeros_like(strain), np.zeros(5), strain.shape[-1]
     along = np.zeros(columns)
     after = []
     for part, start in zip(road.parts, before, strict=True):
@@ -202,16 +202,16 @@ def _march(
             time = duration if 0 < column < columns - 1 else 0.0
             state = _stepped(part.law, come_from, driven[column], state, time, steps)
             come_from = driven[column]
-            found[:, part.rows, :, column] = state.strain
+            plastic[:, part.rows, :, column] = state.strain
             if state is not last:
                 along[column] = max(along[column], float((state.hardening - last.hardening).max()))
         added = state.hardening - start.hardening
         ends[2], ends[3] = max(ends[2], added[:, 0].max()), max(ends[3], added[:, -1].max())
-        if part.rows.stop == found.shape[1]:
+        if part.rows.stop == plastic.shape[1]:
             ends[4] = float(added[-1].max())
         after.append(state)
     ends[:2] = along[[0, -1]]
-    return tuple(after), found, ends, along[1:]
+    return tuple(after), plastic, ends, along[1:]
 
 
 def _stepped(law: ReturnMap, begin: Array, end: Array, state: State, duration: float, steps: int) -> State:

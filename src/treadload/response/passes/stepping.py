@@ -12,7 +12,6 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.plasticity.state import State
-from treadload.response.passes.asked import FEW_ROWS, SEARCHED, Asked, probe
 from treadload.response.passes.box import Box, over_strength, row_edges
 from treadload.response.passes.grid_error import (
     HOW,
@@ -20,10 +19,12 @@ from treadload.response.passes.grid_error import (
     change,
     cut,
     doubled,
+    enough_cells,
     largest_mean,
     relative,
     rut_depths,
 )
+from treadload.response.passes.problem import FEW_ROWS, SEARCHED, Problem, probe
 from treadload.response.passes.steady import NoSteadyPassError, Pass, Track, roll
 from treadload.response.passes.verdict import at_rest, elastic_factor, judged, shakedown_factor, still_falls
 
@@ -53,7 +54,7 @@ class Record:
 
 
 @dataclass(frozen=True, eq=False)
-class Told:
+class Outcome:
     """Beside the records: attributes of the dataset, entries of stats, sentences, and fields by pass."""
 
     attrs: dict[str, Any]
@@ -62,69 +63,73 @@ class Told:
     fields: dict[str, Array] = field(default_factory=dict)
 
 
-def by_steps(question: Asked, passes: int, tolerance: float) -> tuple[Box, list[Record], Told]:
+def by_steps(question: Problem, passes: int, tolerance: float) -> tuple[Box, list[Record], Outcome]:
     """Passes of laws that are followed step by step, in a box that holds what yields."""
     box = probe(question)
     if box is None:
         return _nothing(question, passes)
     box, coarse = _coarse(question, box, passes, tolerance)
     for _ in range(GROWTHS + 1):
-        records, ends, told = _run(question, _track(question, box), passes, tolerance)
+        records, ends, outcome = _run(question, _track(question, box), passes, tolerance)
         if not (ends > REACHED).any():
-            return box, records, _with_error(question, (box, records, told), coarse)
+            return box, records, _with_error(question, (box, records, outcome), coarse)
         check_depth(question, ends)
         box = grown(question, box, ends, question.across)
     raise too_far(box)
 
 
-def _track(question: Asked, box: Box) -> Track:
+def _track(question: Problem, box: Box) -> Track:
     box.check_size()
     question.tell(f"operator of {box.nx} x {box.ny} cells in {len(box.depths)} rows")
     return Track.of(box, [question.material_at(float(z)) for z in box.depths])
 
 
-def _coarse(question: Asked, box: Box, passes: int, tolerance: float) -> tuple[Box, tuple[Box, list[Record], Told]]:
+def _coarse(
+    question: Problem, box: Box, passes: int, tolerance: float
+) -> tuple[Box, tuple[Box, list[Record], Outcome]]:
     """The box, grown and cut on cells of twice the size until it just holds what yields, and the passes on these."""
     question.tell("passes on cells of twice the size, for the error of the grid")
     for last in range(GROWTHS + 1):
         wide = doubled(box, question.courses)
         if wide.too_large:
             box.check_size()
-        records, ends, told = _run(question, _track(question, wide), passes, tolerance, seeks=False)
+        records, ends, outcome = _run(question, _track(question, wide), passes, tolerance, seeks=False)
         if not (ends > REACHED).any() or last == GROWTHS:
             break
         check_depth(question, ends)
         box = grown(question, box, ends, question.across)
-    along = np.max([one.along for one in records if one.along is not None], axis=0, initial=0.0)
-    return cut(box, wide, records[-1].hardening, along, question.depth), (wide, records, told)
+    along = np.max([record.along for record in records if record.along is not None], axis=0, initial=0.0)
+    return cut(box, wide, records[-1].hardening, along, question.depth), (wide, records, outcome)
 
 
 def _with_error(
-    question: Asked, fine: tuple[Box, list[Record], Told], coarse: tuple[Box, list[Record], Told]
-) -> Told:
+    question: Problem, fine: tuple[Box, list[Record], Outcome], coarse: tuple[Box, list[Record], Outcome]
+) -> Outcome:
     """What is told of the passes, with the error of their grid."""
     both = [
         (
-            rut_depths([one.strain for one in records], box, question.road),
-            np.array([largest_mean(one.hardening, box, question.mean_over) for one in records]),
+            rut_depths([record.strain for record in records], box, question.road),
+            np.array([largest_mean(record.hardening, box, question.mean_over) for record in records]),
         )
         for box, records, _ in (fine, coarse)
     ]
     ruts, strains = zip(*both, strict=True)
-    told = fine[2]
+    outcome = fine[2]
+    enough = enough_cells([record.hardening for record in fine[1]])
+    errors = [np.where(enough, change(*values), np.nan) for values in (ruts, strains)]
     fields = {
         "peak_plastic_strain": strains[0],
-        "rut_depth_error": change(*ruts),
-        "peak_plastic_strain_error": change(*strains),
+        "rut_depth_error": errors[0],
+        "peak_plastic_strain_error": errors[1],
     }
-    off = relative(change(*ruts), ruts[0]), relative(change(*strains), strains[0])
-    verdicts = told.attrs["verdict"], coarse[2].attrs["verdict"]
-    attrs = told.attrs | {"averaging_width": question.mean_over, "error_estimate": HOW}
-    warnings = (*told.warnings, *caveats(fine[0], off, verdicts, fine[1][-1].hardening))
-    return replace(told, attrs=attrs, warnings=warnings, fields=fields)
+    off = relative(errors[0], ruts[0]), relative(errors[1], strains[0])
+    verdicts = outcome.attrs["verdict"], coarse[2].attrs["verdict"]
+    attrs = outcome.attrs | {"averaging_width": question.mean_over, "error_estimate": HOW}
+    warnings = (*outcome.warnings, *caveats(fine[0], off, verdicts, fine[1][-1].hardening))
+    return replace(outcome, attrs=attrs, warnings=warnings, fields=fields)
 
 
-def check_depth(question: Asked, ends: Array) -> None:
+def check_depth(question: Problem, ends: Array) -> None:
     """Raise InputError where the plastic zone reaches the depth that was asked for. ends: see `Pass`."""
     if ends[4] > REACHED and question.depth is not None:
         raise InputError(
@@ -133,7 +138,7 @@ def check_depth(question: Asked, ends: Array) -> None:
         )
 
 
-def grown(question: Asked, box: Box, ends: Array, cell: float) -> Box:
+def grown(question: Problem, box: Box, ends: Array, cell: float) -> Box:
     """The box, larger on the sides that the plastic zone reaches. ends: see `Pass`. cell: that sets its rows, m."""
     reached = np.where(ends > REACHED, GROWN, 0.0)
     box = box.grown(*reached[:4].tolist())
@@ -155,14 +160,14 @@ def too_far(box: Box) -> InputError:
 
 
 def _run(
-    question: Asked, track: Track, passes: int, tolerance: float, *, seeks: bool = True
-) -> tuple[list[Record], Array, Told]:
+    question: Problem, track: Track, passes: int, tolerance: float, *, seeks: bool = True
+) -> tuple[list[Record], Array, Outcome]:
     """All passes over a track, and what of the largest strain of a pass yields at the sides of the box at most.
 
     seeks: whether to look for the load that would shake down where this one has no steady pass.
     """
     box = track.box
-    places = [round(one / box.dy) for one in question.offsets]
+    places = [round(offset / box.dy) for offset in question.offsets]
     left, right = -min(0, *places), max(0, *places)
     # The load moved to the right stands still in a frame that moves to the left.
     y = box.y0 + box.dy * np.arange(-right, box.ny + left)
@@ -170,7 +175,7 @@ def _run(
     wide = _mean_stress(question, box, y)
     duration = 0.0 if question.speed is None or not question.speed > 0 else box.dx / question.speed
 
-    def one(number: int, states: Sequence[State]) -> tuple[Pass, float]:
+    def one_pass(number: int, states: Sequence[State]) -> tuple[Pass, float]:
         place = places[(number - 1) % len(places)]
         question.tell(f"pass {number} of {passes}")
         stress = stress_at(place)
@@ -179,7 +184,7 @@ def _run(
     def stress_at(place: int) -> Array:
         return wide[:, :, right - place : right - place + box.ny]
 
-    records, ends, error = follow(track, passes, one, deepest=question.courses[-1].bottom)
+    records, ends, error = follow(track, passes, one_pass, deepest=question.courses[-1].bottom)
     attrs: dict[str, Any] = {"elastic_load_factor": elastic_factor(track, wide)}
     warnings: tuple[str, ...] = ()
     if error is not None and seeks:
@@ -192,11 +197,11 @@ def _run(
             f"itself): the road ratchets; it would shake down under {100 * factor:.0f} % of this load; lower the "
             "load, or give a law that hardens",
         )
-    told, more = verdict_of(track, records, failed=error is not None, straight=len(question.offsets) == 1)
-    return records, ends, Told(attrs | told, {"memory_mb": track.bars.bytes / 1e6}, warnings + more)
+    verdicts, more = verdict_of(track, records, failed=error is not None, straight=len(question.offsets) == 1)
+    return records, ends, Outcome(attrs | verdicts, {"memory_mb": track.bars.bytes / 1e6}, warnings + more)
 
 
-def _mean_stress(question: Asked, box: Box, y: Array) -> Array:
+def _mean_stress(question: Problem, box: Box, y: Array) -> Array:
     """Stress (6, nz, m, nx), Pa, on the elastic road, at places y (m,), m: means over cells across.
 
     At their centres alone it would depend on where the edges of ribs lie in their cells.
@@ -210,14 +215,14 @@ def _mean_stress(question: Asked, box: Box, y: Array) -> Array:
 def follow(
     track: Track,
     passes: int,
-    one: Callable[[int, Sequence[State]], tuple[Pass, float]],
+    pass_of: Callable[[int, Sequence[State]], tuple[Pass, float]],
     *,
     deepest: float,
     rests: bool = False,
 ) -> tuple[list[Record], Array, NoSteadyPassError | None]:
     """Passes over a track, one after the other, until they are done, or what yields reaches a side of the box.
 
-    one: the pass of a number over these states, and the place of the wheel, m. deepest: bottom of what can yield, m.
+    pass_of: the pass of a number over these states, and the place of the wheel, m. deepest: bottom of yielding, m.
     rests: whether to stop after a pass that adds as little as shakedown means. Returns what each left, what of the
     largest plastic strain was added at the sides of the box at most, see `Pass`, and why there is no next pass.
     """
@@ -226,9 +231,9 @@ def follow(
     closed = track.box.edges[-1] >= deepest * (1 - 1e-9)
     for number in range(1, passes + 1):
         try:
-            done, offset = one(number, states)
-        except NoSteadyPassError as found:
-            error = found
+            done, offset = pass_of(number, states)
+        except NoSteadyPassError as error_raised:
+            error = error_raised
             break
         states, old, before = done.states, strain, hardening
         strain, hardening = track.whole(states)
@@ -254,7 +259,7 @@ def verdict_of(
     """Attributes that tell what passes come to, and sentences. failed: a pass has no steady state. straight: all
     passes follow one line.
     """
-    added_by, left_by = [one.added for one in records], [one.left for one in records]
+    added_by, left_by = [record.added for record in records], [record.left for record in records]
     verdict = "ratchetting" if failed else judged(added_by, left_by, track.yield_strain)
     attrs: dict[str, Any] = {"yield_strain": track.yield_strain, "verdict": verdict}
     falls = still_falls(added_by)
@@ -266,7 +271,7 @@ def verdict_of(
     )
 
 
-def _nothing(question: Asked, passes: int) -> tuple[Box, list[Record], Told]:
+def _nothing(question: Problem, passes: int) -> tuple[Box, list[Record], Outcome]:
     """A load under which nothing yields."""
     low_x, high_x, low_y, high_y = question.extent
     step = question.spacing
@@ -279,15 +284,15 @@ def _nothing(question: Asked, passes: int) -> tuple[Box, list[Record], Told]:
     materials = [question.material_at(float(z)) for z in box.depths]
     stress = question.stress(box.x, box.y, box.depths)
     most, yield_strain = 0.0, math.inf
-    for row, one in enumerate(materials):
-        if one is None:
+    for row, material in enumerate(materials):
+        if material is None:
             continue
-        most = max(most, 1 + float(over_strength(one, stress[:, row]).max()))
-        yield_strain = min(yield_strain, one.yield_strain)
+        most = max(most, 1 + float(over_strength(material, stress[:, row]).max()))
+        yield_strain = min(yield_strain, material.yield_strain)
     records = [Record(n, zeros, zeros[0], zeros, 0.0, 0.0, 0.0, 0) for n in sorted({1, passes})]
     attrs = {
         "verdict": "elastic",
         "yield_strain": yield_strain,
         "elastic_load_factor": 1 / most if most else math.inf,
     }
-    return box, records, Told(attrs, {}, ())
+    return box, records, Outcome(attrs, {}, ())

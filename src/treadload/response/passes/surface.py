@@ -42,7 +42,7 @@ def layers_change(strain: Array, box: Box, road: Pavement, places: Any) -> Array
 
     strain: as of `surface_profile`. places: (m,), numbers of cells across, the first of the box 0.
     """
-    return np.asarray(np.mean([_change(strain, box, places, stack_of(one)) for one in road.bond_limits], axis=0))
+    return np.asarray(np.mean([_change(strain, box, places, stack_of(limit)) for limit in road.bond_limits], axis=0))
 
 
 def _half_space(strain: Array, box: Box, places: Array, poisson: float) -> Array:
@@ -51,7 +51,7 @@ def _half_space(strain: Array, box: Box, places: Array, poisson: float) -> Array
     wide = np.zeros((*strain.shape[:-1], last - first))
     wide[..., -first : box.ny - first] = strain
     moved = moved_by_endless(Cells(1, last - first, box.dx, box.dy, box.edges), poisson)
-    profiles = [moved(one[..., None])[2, 0, :, 0] for one in wide.reshape(-1, *wide.shape[-3:])]
+    profiles = [moved(strains[..., None])[2, 0, :, 0] for strains in wide.reshape(-1, *wide.shape[-3:])]
     result: Array = np.reshape(profiles, (*strain.shape[:-3], last - first))[..., places - first]
     return result
 

@@ -64,7 +64,7 @@ def in_words(verdict: str, falls: float | None) -> str:
 def elastic_factor(road: Track, stress: Array) -> float:
     """Part of a load, of stress (6, nz, ny, nx), Pa, at which the first point yields; infinite where none does."""
     # Yield functions of virgin materials are a part that grows with the load, less the strength.
-    most = 1 + max(float(over_strength(one.material, stress[:, one.rows]).max()) for one in road.parts)
+    most = 1 + max(float(over_strength(part.material, stress[:, part.rows]).max()) for part in road.parts)
     return 1 / most if most > 0 else np.inf
 
 
@@ -74,7 +74,7 @@ def shakedown_factor(road: Track, stress: Array, *, most: float = 1.0, duration:
     stress: (6, nz, ny, nx), Pa, on the elastic road. By Melan's theorem where all laws are Prager's; else found by
     passes, a few for a load, halving between yield and `most`, within 3 % of the part between both.
     """
-    if all(unbounded(one.material.law) for one in road.parts):
+    if all(unbounded(part.material.law) for part in road.parts):
         return min(melan_factor(road, stress), most)
     low, high = min(elastic_factor(road, stress), most), most
     for _ in range(_STEPS):

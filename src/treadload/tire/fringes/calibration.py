@@ -68,8 +68,8 @@ class ReferencePlane:
             if getattr(self, name) is not None:
                 positive(name, getattr(self, name), "metres")
         lengths = [getattr(self, name) for name in ("distance", "baseline", "period")]
-        given = [one is not None for one in lengths]
-        if any(given) != all(given) or all(given) == bool(self.heights):
+        present = [length is not None for length in lengths]
+        if any(present) != all(present) or all(present) == bool(self.heights):
             raise InputError(
                 "a reference plane needs either heights= of further planes, or distance=, baseline= and period= "
                 "together"
@@ -99,28 +99,28 @@ class ReferencePlane:
             return np.full(shape, c), np.full(shape, 1 / self.distance), math.nan
         phases = np.stack(list(differences))
         heights = np.asarray(self.heights)[:, None]
-        known = np.isfinite(phases).all(axis=0)
-        if known.sum() < _FEWEST:
+        valid = np.isfinite(phases).all(axis=0)
+        if valid.sum() < _FEWEST:
             raise InputError(
-                f"the planes are seen together in {int(known.sum())} pixels, {_FEWEST} at least are needed; use "
+                f"the planes are seen together in {int(valid.sum())} pixels, {_FEWEST} at least are needed; use "
                 "planes that fill the picture, bright and not saturated"
             )
         terms = _terms(shape)
-        rows, found = terms[known], phases[:, known]
+        rows, valid_phases = terms[valid], phases[:, valid]
         if len(self.heights) == 1:
-            weights = np.linalg.lstsq(rows, found[0] / heights[0], rcond=None)[0]
+            weights = np.linalg.lstsq(rows, valid_phases[0] / heights[0], rcond=None)[0]
             c, e = terms @ weights, np.zeros(shape)
         else:
             # Δφ = h c + h Δφ e: linear in both, first pixel by pixel, then over the picture.
-            each = np.stack([np.broadcast_to(heights, found.shape), heights * found], axis=2)
+            each = np.stack([np.broadcast_to(heights, valid_phases.shape), heights * valid_phases], axis=2)
             normal = np.einsum("kpi,kpj->pij", each, each)
             # Scaled, so that neither column is lost beside the other.
             size = np.sqrt(np.einsum("pii->pi", normal))
             normal /= size[:, :, None] * size[:, None, :]
-            right = np.einsum("kpi,kp->pi", each, found) / size
-            own = np.linalg.solve(normal, right[..., None])[..., 0] / size
-            c, e = (terms @ np.linalg.lstsq(rows, own[:, k], rcond=None)[0] for k in range(2))
-        left = found / (c[known] + e[known] * found) - heights
+            right = np.einsum("kpi,kp->pi", each, valid_phases) / size
+            solution = np.linalg.solve(normal, right[..., None])[..., 0] / size
+            c, e = (terms @ np.linalg.lstsq(rows, solution[:, k], rcond=None)[0] for k in range(2))
+        left = valid_phases / (c[valid] + e[valid] * valid_phases) - heights
         return c, e, float(np.sqrt((left**2).mean()))
 
     def points(self, difference: Array, c: Array, e: Array) -> Points:
@@ -161,20 +161,22 @@ class CameraProjector:
 
     def __post_init__(self) -> None:
         for name in ("camera", "projector"):
-            given = getattr(self, name)
+            matrix_rows = getattr(self, name)
             try:
-                matrix = np.asarray(given, dtype=float)
+                matrix = np.asarray(matrix_rows, dtype=float)
             except (TypeError, ValueError):
                 matrix = np.zeros(0)
             if matrix.shape != (3, 4) or not np.isfinite(matrix).all():
-                raise InputError(f"the matrix of the {name} must have 3 rows of 4 finite numbers, got {given!r}")
+                raise InputError(
+                    f"the matrix of the {name} must have 3 rows of 4 finite numbers, got {matrix_rows!r}"
+                )
             if np.linalg.matrix_rank(matrix[:, :3]) < 3:
                 raise InputError(
                     f"the left 3 x 3 of the matrix of the {name} is singular, so it has no lens; calibrate a pinhole"
                 )
             object.__setattr__(self, name, tuple(tuple(map(float, row)) for row in matrix))
-        both = [np.asarray(one) for one in (self.camera, self.projector)]
-        lenses = [np.linalg.solve(one[:, :3], -one[:, 3]) for one in both]
+        both = [np.asarray(matrix) for matrix in (self.camera, self.projector)]
+        lenses = [np.linalg.solve(matrix[:, :3], -matrix[:, 3]) for matrix in both]
         if np.linalg.norm(lenses[0] - lenses[1]) < _GRAZING * max(map(np.linalg.norm, lenses)):
             raise InputError(
                 "camera and projector stand in one place: their lenses must lie apart for heights to show"
@@ -200,11 +202,11 @@ class CameraProjector:
         planes = np.stack(
             [eye[0] - u[..., None] * eye[2], eye[1] - v[..., None] * eye[2], line - place[..., None] * of[2]], axis=-2
         )
-        known = np.isfinite(phase)
+        valid = np.isfinite(phase)
         where = np.full((*phase.shape, 3), np.nan)
         moves = np.full((*phase.shape, 3), np.nan)
-        if known.any():
-            left, right = planes[known][..., :3], -planes[known][..., 3]
+        if valid.any():
+            left, right = planes[valid][..., :3], -planes[valid][..., 3]
             size = np.linalg.norm(left, axis=2)
             flat = np.abs(np.linalg.det(left)) < _GRAZING * size.prod(axis=1)
             if flat.all():
@@ -219,7 +221,7 @@ class CameraProjector:
             push[:, 2] = reach * turning
             moved = np.linalg.solve(left, push[..., None])[..., 0]
             solved[flat] = moved[flat] = np.nan
-            where[known], moves[known] = solved * self.unit, moved * self.unit
+            where[valid], moves[valid] = solved * self.unit, moved * self.unit
         return Points(where[..., 0], where[..., 1], where[..., 2], np.abs(moves[..., 2]))
 
 

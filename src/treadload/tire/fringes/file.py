@@ -9,9 +9,9 @@ from typing import Literal
 
 from treadload.errors import InputError
 from treadload.files import parse_toml, text_of
-from treadload.tire.fringes.asked import SHADOW, STEEPEST, Evaluation, Pattern
 from treadload.tire.fringes.calibration import CameraProjector, ReferencePlane
 from treadload.tire.fringes.measure import FringeScan, measure_fringes
+from treadload.tire.fringes.patterns import SHADOW, STEEPEST, Evaluation, Pattern
 from treadload.tire.fringes.pictures import read_pictures
 from treadload.units import Angle, Length, Number
 
@@ -42,7 +42,9 @@ class PatternFile:
         tread = read_pictures(self.tread, folder, f"{about}, tread", steps)
         reference = self.reference
         plane = None if reference is None else read_pictures(reference, folder, f"{about}, reference", steps)
-        planes = [read_pictures(one, folder, f"{about}, plane {k + 1}", steps) for k, one in enumerate(self.planes)]
+        planes = [
+            read_pictures(plane, folder, f"{about}, plane {k + 1}", steps) for k, plane in enumerate(self.planes)
+        ]
         return Pattern(self.fringes, tread, plane, tuple(planes), self.shifts)
 
 
@@ -80,12 +82,12 @@ class FringeFile:
     @property
     def calibration(self) -> ReferencePlane | CameraProjector:
         """The one that is given. Raises InputError."""
-        given = [one for one in (self.reference_plane, self.projector) if one is not None]
-        if len(given) != 1:
+        models = [model for model in (self.reference_plane, self.projector) if model is not None]
+        if len(models) != 1:
             raise InputError(
-                f"a measurement with fringes has [reference_plane] or [projector], one of them, got {len(given)}"
+                f"a measurement with fringes has [reference_plane] or [projector], one of them, got {len(models)}"
             )
-        return given[0]
+        return models[0]
 
     def evaluation(self) -> Evaluation:
         """How the pictures are evaluated."""
@@ -113,6 +115,6 @@ def read_fringes(path: str | os.PathLike[str]) -> FringeScan:
 
     file = Path(path)
     text = text_of(file, "a TOML file that names the pictures")
-    asked: FringeFile = read(FringeFile, parse_toml(text, str(file)), str(file), folder=file.parent)
-    calibration, evaluation = asked.calibration, asked.evaluation()
-    return measure_fringes([one.read(file.parent) for one in asked.patterns], calibration, evaluation)
+    fringe_file: FringeFile = read(FringeFile, parse_toml(text, str(file)), str(file), folder=file.parent)
+    calibration, evaluation = fringe_file.calibration, fringe_file.evaluation()
+    return measure_fringes([pattern.read(file.parent) for pattern in fringe_file.patterns], calibration, evaluation)

@@ -28,8 +28,8 @@ def second_harmonic(gamma: float, contrast: float = 1.0) -> float:
     Source: Guo, He and Chen (2004), Appl. Opt. 43, 2906, for the series of cos^2γ(φ/2).
     """
     phase = TURN * (np.arange(_AVERAGE) + 0.5) / _AVERAGE
-    given = light(phase, gamma, contrast)
-    return float((given * np.cos(2 * phase)).sum() / (given * np.cos(phase)).sum())
+    grey = light(phase, gamma, contrast)
+    return float((grey * np.cos(2 * phase)).sum() / (grey * np.cos(phase)).sum())
 
 
 def gamma_of(ratio: float, contrast: float = 1.0) -> float:

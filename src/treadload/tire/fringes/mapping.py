@@ -44,7 +44,7 @@ def as_travelled(x: Array, y: Array, travel: str) -> tuple[Array, Array]:
 def usual_spacing(x: Array, y: Array) -> float:
     """Median distance between neighbours along both axes of the picture, m."""
     steps = [np.hypot(np.diff(x, axis=axis), np.diff(y, axis=axis)) for axis in (0, 1)]
-    joined = np.concatenate([one[np.isfinite(one)] for one in steps])
+    joined = np.concatenate([step[np.isfinite(step)] for step in steps])
     return float(np.median(joined)) if joined.size else math.nan
 
 
@@ -53,11 +53,11 @@ def not_steep(height: Array, pixel: float, steepest: float) -> BoolArray:
 
     A pixel that sees both sides of a wall sees neither's height.
     """
-    known = np.isfinite(height)
-    high = ndimage.maximum_filter(np.where(known, height, -np.inf), 3)
-    low = ndimage.minimum_filter(np.where(known, height, np.inf), 3)
+    finite = np.isfinite(height)
+    high = ndimage.maximum_filter(np.where(finite, height, -np.inf), 3)
+    low = ndimage.minimum_filter(np.where(finite, height, np.inf), 3)
     within: BoolArray = high - low <= 2 * math.tan(steepest) * pixel
-    return within & known
+    return within & finite
 
 
 def onto_cells(x: Array, y: Array, height: Array, deviation: Array, spacing: float) -> CellMeans:
@@ -77,11 +77,11 @@ def onto_cells(x: Array, y: Array, height: Array, deviation: Array, spacing: flo
         spread = (np.sqrt(np.bincount(cell, deviation**2, nx * ny)) / count).reshape(ny, nx)
     filled = 0
     for values in (mean, spread):
-        known = np.isfinite(values)
+        finite = np.isfinite(values)
         around = np.ones((3, 3))
-        near = ndimage.convolve(known.astype(float), around, mode="constant")
-        total = ndimage.convolve(np.where(known, values, 0.0), around, mode="constant")
-        between = ~known & (near >= _ENOUGH)
+        near = ndimage.convolve(finite.astype(float), around, mode="constant")
+        total = ndimage.convolve(np.where(finite, values, 0.0), around, mode="constant")
+        between = ~finite & (near >= _ENOUGH)
         values[between] = total[between] / near[between]
         filled = max(filled, int(between.sum()) if values is mean else 0)
     grid = Grid(nx, ny, spacing, spacing, -0.5 * (nx - 1) * spacing, -0.5 * (ny - 1) * spacing)

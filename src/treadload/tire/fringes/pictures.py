@@ -36,17 +36,18 @@ def read_pictures(names: str | Sequence[str], folder: Path, what: str, steps: in
         first: Array | None = None
         pictures: list[Array] = []
         for file in files:
-            one = _array(file) if file.suffix.lower() == ".npy" else _picture(file)
-            if one.ndim != 2:
-                raise InputError(f"{file} must hold one grey picture (rows, columns), got shape {one.shape}")
-            first = one if first is None else first
-            if one.shape != first.shape or one.dtype != first.dtype:
+            picture = _array(file) if file.suffix.lower() == ".npy" else _picture(file)
+            if picture.ndim != 2:
+                raise InputError(f"{file} must hold one grey picture (rows, columns), got shape {picture.shape}")
+            first = picture if first is None else first
+            if picture.shape != first.shape or picture.dtype != first.dtype:
                 raise InputError(
-                    f"{what}: {file.name} has {one.shape[1]} x {one.shape[0]} pixels of {one.dtype}, {files[0].name} "
-                    f"{first.shape[1]} x {first.shape[0]} of {first.dtype}; all steps need one camera and one size"
+                    f"{what}: {file.name} has {picture.shape[1]} x {picture.shape[0]} pixels of {picture.dtype}, "
+                    f"{files[0].name} {first.shape[1]} x {first.shape[0]} of {first.dtype}; all steps need one "
+                    "camera and one size"
                 )
-            pictures.append(one)
-            _check_size(len(files) * one.size, LARGEST_STACK, what)
+            pictures.append(picture)
+            _check_size(len(files) * picture.size, LARGEST_STACK, what)
         stack = np.stack(pictures)
     if steps is not None and len(stack) != steps:
         raise InputError(
@@ -64,7 +65,7 @@ def _files(names: str | Sequence[str], folder: Path, what: str) -> list[Path]:
         if not listed:
             raise InputError(f"{what}: no file is called {str(folder / names)!r}; check the folder and the name")
         if len(numbers) == len(listed):
-            counted = [int(one) for one in numbers]
+            counted = [int(number) for number in numbers]
             missing = sorted(set(range(counted[0], counted[-1] + 1)) - set(counted))
             if missing:
                 raise InputError(
@@ -108,7 +109,7 @@ def _picture(file: Path) -> Array:
                 if image.mode in ("RGB", "RGBA", "LA"):
                     bands = image.split()
                     values = [np.asarray(band) for band in bands[: 1 if image.mode == "LA" else 3]]
-                    if any((values[0] != other).any() for other in values[1:]):
+                    if any((values[0] != row_value).any() for row_value in values[1:]):
                         raise InputError(f"{file} is a colour picture; save it in grey, of one channel of the camera")
                     return values[0]
                 if image.mode not in _GREY:

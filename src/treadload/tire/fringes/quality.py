@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
+
+from treadload.describing import Described
+from treadload.rows import Row, row
 
 
 @dataclass(frozen=True)
-class FringeQuality:
+class FringeQuality(Described):
     """How pictures of fringes were understood, and how far to trust them.
 
     shape: rows and columns. fringes, steps: of each pattern. kept: share of pixels with a height. shadow, saturated,
@@ -40,31 +44,27 @@ class FringeQuality:
     coverage: float
     warnings: tuple[str, ...] = ()
 
-    def __str__(self) -> str:
+    title: ClassVar[str] = "Measurement with fringes"
+
+    def rows(self) -> tuple[Row, ...]:
+        """Pictures, shares of pixels, modulation, gamma, deviation of heights, and the height map."""
         patterns = ", ".join(f"{n} steps of {f:g}" for n, f in zip(self.steps, self.fringes, strict=True))
-        rows, columns = self.shape
-        gone = [
-            f"{share:.1%} {why}"
-            for share, why in (
-                (self.shadow, "in shadow"),
-                (self.saturated, "saturated"),
-                (self.unsure, "of uncertain order"),
-                (self.steep, "at walls"),
-            )
-            if share > 0
-        ]
-        noise = "noise unknown" if math.isnan(self.noise) else f"noise {self.noise:.2g}"
-        found = "not told" if math.isnan(self.gamma) else f"{self.gamma:.2f}"
-        deviation = "unknown" if math.isnan(self.deviation) else f"{self.deviation * 1e3:.3f} mm"
+        without = {
+            "in shadow": self.shadow, "saturated": self.saturated, "of uncertain order": self.unsure,
+            "at walls": self.steep,
+        }  # fmt: skip
+        gone = ", ".join(f"{share:.1%} {why}" for why, share in without.items() if share > 0)
+        taken = "not corrected" if self.corrected == 1 else f"corrected for {self.corrected:.2f}"
         lines = [
-            f"{columns} x {rows} pixels; {patterns} fringes",
-            f"{self.kept:.1%} of the pixels have a height" + (f"; {', '.join(gone)}" if gone else ""),
-            f"modulation {self.modulation:.3g} grey levels, {noise}, {self.spared:.1%} of the pixels kept without "
-            "their saturated steps",
-            f"gamma {found}, {'not corrected' if self.corrected == 1 else f'corrected for {self.corrected:.2f}'}",
-            f"standard deviation of a height by noise {deviation} (median)"
-            + ("" if math.isnan(self.plane_residual) else f", planes within {self.plane_residual * 1e3:.3f} mm rms"),
-            f"height map on cells of {self.cell * 1e3:.3g} mm, {self.coverage:.1%} of them with a height, "
-            f"{self.filled} between pixels",
+            row("pixels", f"{self.shape[1]} x {self.shape[0]}; {patterns} fringes"),
+            row("kept_pixels", self.kept, note=gone),
+            row("pixels_without_steps", self.spared),
+            row("fringe_modulation", self.modulation),
+            row("grey_noise", self.noise),
+            row("gamma", self.gamma, note=taken),
+            row("fringe_deviation", self.deviation),
         ]
-        return "\n".join(lines + [f"warning: {text}" for text in self.warnings])
+        if not math.isnan(self.plane_residual):
+            lines.append(row("plane_residual", self.plane_residual))
+        cells = f"cells of {self.cell * 1e3:.3g} mm, {self.coverage:.1%} of them with a height, {self.filled} between"
+        return (*lines, row("grid", f"{cells} pixels"))

@@ -113,8 +113,8 @@ def look(rig: Rig, heights: Heights, low: float, high: float) -> Seen:
     ray /= -ray[:, 2:]
 
     def surface(x: Array, y: Array) -> Array:
-        found = np.asarray(heights(x, y), dtype=float)
-        return np.where(np.isfinite(found), found, low)
+        elevation = np.asarray(heights(x, y), dtype=float)
+        return np.where(np.isfinite(elevation), elevation, low)
 
     drop = lens[2] - np.linspace(high, low, _MARCH + 1)
     upper, lower = np.full(len(ray), drop[0]), np.full(len(ray), drop[-1])
@@ -155,7 +155,7 @@ def _lit(rig: Rig, surface: Heights, places: Array, high: float, shape: tuple[in
     place = seen[:, 0 if rig.model.across == "u" else 1] / seen[:, 2]
     # Beyond its edges the projector gives no light.
     shade[np.logical_not((place >= -0.5) & (place <= rig.model.width - 0.5))] = 0.0
-    return Seen(*(one.reshape(shape) for one in (x, y, z, place, shade)))
+    return Seen(*(field.reshape(shape) for field in (x, y, z, place, shade)))
 
 
 def pictures_of(

@@ -35,7 +35,7 @@ class Steps:
     used: Array
 
     @property
-    def known(self) -> BoolArray:
+    def valid(self) -> BoolArray:
         """Where there is a phase."""
         return np.isfinite(self.phase)
 
@@ -85,13 +85,13 @@ def solve_steps(pictures: Array, shifts: Sequence[float] | None = None, saturati
         if kept.sum() < FEWEST or _is_open(rows):
             continue
         values = grey[np.ix_(kept, here)].astype(np.float64)
-        found = np.linalg.lstsq(rows, values, rcond=None)[0]
-        parts[:, here] = found
+        solution = np.linalg.lstsq(rows, values, rcond=None)[0]
+        parts[:, here] = solution
         scatter = np.linalg.inv(rows.T @ rows)[1:, 1:]
         # Across the direction of (cos φ, sin φ), over its length.
-        square = found[1] ** 2 + found[2] ** 2
+        square = solution[1] ** 2 + solution[2] ** 2
         with np.errstate(divide="ignore", invalid="ignore"):
-            across = np.stack([-found[2], found[1]])
+            across = np.stack([-solution[2], solution[1]])
             spread[here] = np.sqrt(np.einsum("ik,ij,jk->k", across, scatter, across)) / square
     modulation = np.hypot(parts[1], parts[2])
     return Steps(

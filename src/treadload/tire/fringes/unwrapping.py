@@ -53,7 +53,7 @@ def unwrap_by_periods(phases: Sequence[Array], fringes: Sequence[float], deviati
     Raises InputError where no difference comes down to one fringe.
     Source: Zuo et al. (2016), Opt. Lasers Eng. 85, 84-103.
     """
-    rungs = _ladder([_Rung(*one) for one in zip(map(float, fringes), phases, deviations, strict=True)])
+    rungs = _ladder([_Rung(*row) for row in zip(map(float, fringes), phases, deviations, strict=True)])
     # Of one turn or less: folded so that it is centred on the projector.
     base = rungs[0]
     centre = math.pi * base.fringes
@@ -68,21 +68,21 @@ def unwrap_by_periods(phases: Sequence[Array], fringes: Sequence[float], deviati
             miss = np.abs(guess - high.phase - TURN * order) / math.pi
             unsure |= miss > SURE
             spread = np.hypot(deviation * grown, high.deviation) / math.pi
-        known = spread[np.isfinite(spread)]
-        margin = max(margin, float(np.median(known))) if known.size else margin
+        finite = spread[np.isfinite(spread)]
+        margin = max(margin, float(np.median(finite))) if finite.size else margin
         phase, deviation = high.phase + TURN * order, high.deviation
     return Unwrapped(
         np.where(unsure, np.nan, phase), int(unsure.sum()), tuple(rung.fringes for rung in rungs), margin
     )
 
 
-def _ladder(own: list[_Rung]) -> list[_Rung]:
+def _ladder(patterns: list[_Rung]) -> list[_Rung]:
     """Rungs from one fringe or less to the finest, with differences where the patterns themselves do not reach."""
-    own = sorted(own, key=lambda rung: rung.fringes)
-    for low, high in pairwise(own):
+    patterns = sorted(patterns, key=lambda rung: rung.fringes)
+    for low, high in pairwise(patterns):
         if high.fringes - low.fringes < _SAME:
             raise InputError(f"two patterns have {low.fringes:g} fringes; give each once")
-    rungs, level = own, own
+    rungs, level = patterns, patterns
     while rungs[0].fringes > ONE_TURN + _SAME:
         level = sorted(
             (
@@ -97,10 +97,10 @@ def _ladder(own: list[_Rung]) -> list[_Rung]:
             key=lambda rung: rung.fringes,
         )
         if not level:
-            told = ", ".join(f"{rung.fringes:g}" for rung in own)
+            counts = ", ".join(f"{rung.fringes:g}" for rung in patterns)
             raise InputError(
-                f"patterns of {told} fringes do not tell which fringe a pixel is on: add one of a single fringe, or "
-                "choose counts whose differences come down to one, such as 64, 63 and 56"
+                f"patterns of {counts} fringes do not tell which fringe a pixel is on: add one of a single fringe, "
+                "or choose counts whose differences come down to one, such as 64, 63 and 56"
             )
         rungs = sorted([*level, *rungs], key=lambda rung: rung.fringes)
     # Of rungs alike the measured one, or the first difference, serves.
@@ -131,17 +131,17 @@ def unwrap_over_picture(phase: Array, anchor: tuple[int, int], value: float) -> 
             "or give patterns of several fringe counts"
         ) from error
 
-    known = np.isfinite(phase)
+    valid = np.isfinite(phase)
     rows, columns = phase.shape
     row, column = anchor
-    if not (0 <= row < rows and 0 <= column < columns) or not known[row, column]:
+    if not (0 <= row < rows and 0 <= column < columns) or not valid[row, column]:
         raise InputError(
             f"the anchor at row {row}, column {column} has no phase: it must lie on a bright place of the "
             f"{rows} x {columns} pixels"
         )
-    parts, _ = ndimage.label(known)
+    parts, _ = ndimage.label(valid)
     here: BoolArray = parts == parts[row, column]
     unwrap: Any = unwrap_phase
     smooth = np.asarray(unwrap(np.ma.array(np.where(here, phase, 0.0), mask=~here), rng=0).filled(np.nan))
     turns = np.round((value - smooth[row, column]) / TURN)
-    return smooth + TURN * turns, int(known.sum() - here.sum())
+    return smooth + TURN * turns, int(valid.sum() - here.sum())

@@ -90,12 +90,12 @@ def across(direction: Array) -> tuple[Array, Array]:
 
 
 def _candidates(points: Array, normals: Array) -> list[tuple[Array, Array]]:
-    few = points[:: max(1, len(points) // 3000)]
-    smooth = _smoothed_normals(points, normals, few)
+    sample = points[:: max(1, len(points) // 3000)]
+    smooth = _smoothed_normals(points, normals, sample)
     raw = normals[:: max(1, len(points) // 3000)]
-    lines = [_meeting_line(few, raw), _meeting_line(few, smooth)]
+    lines = [_meeting_line(sample, raw), _meeting_line(sample, smooth)]
     principal = np.linalg.eigh(smooth.T @ smooth)[1].T[[0, 2]]
-    return lines + [(_centre(few, smooth, direction), direction) for direction in principal]
+    return lines + [(_centre(sample, smooth, direction), direction) for direction in principal]
 
 
 def _smoothed_normals(points: Array, normals: Array, at: Array) -> Array:

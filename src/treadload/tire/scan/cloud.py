@@ -29,16 +29,16 @@ def mesh_of_points(points: Array, name: str) -> tuple[Array, NDArray[np.int64]]:
     Cells without points stay open where more than two lie side by side; nothing is carried over a hole.
     Raises GeometryError when the points are too few or make no surface.
     """
-    given = len(points)
+    count = len(points)
     points = points[_single(points)]
     if len(points) < NEIGHBOURS**2:
         raise GeometryError(
-            f"the {given} points of {name!r} stand at {len(points)} places, too few for a surface; is it the right "
+            f"the {count} points of {name!r} stand at {len(points)} places, too few for a surface; is it the right "
             "file?"
         )
-    few = points[:: max(1, len(points) // SAMPLES)]
-    normals, spacing = _normals(few, len(points))
-    axis = fit_axis(few, normals)
+    sample = points[:: max(1, len(points) // SAMPLES)]
+    normals, spacing = _normals(sample, len(points))
+    axis = fit_axis(sample, normals)
     first, second = across(axis.direction)
     place = points - axis.origin
     x, y, z = place @ first, place @ axis.direction, place @ second
@@ -62,13 +62,13 @@ def mesh_of_points(points: Array, name: str) -> tuple[Array, NDArray[np.int64]]:
     grid = _cells(key, r, turn, y, rows * round_cells, LAYER * axis.radius)
     grid = [bridged(part.reshape(rows, round_cells)) for part in grid]
     radius, angle, along = grid
-    known = np.isfinite(radius)
-    number = np.cumsum(known.ravel()).reshape(known.shape) - 1
-    whole, beside = known[:-1] & known[1:], np.roll(number, -1, axis=1)
+    finite = np.isfinite(radius)
+    number = np.cumsum(finite.ravel()).reshape(finite.shape) - 1
+    whole, beside = finite[:-1] & finite[1:], np.roll(number, -1, axis=1)
     quad = whole & np.roll(whole, -1, axis=1)
     a, b, c, d = number[:-1][quad], beside[:-1][quad], number[1:][quad], beside[1:][quad]
     faces = np.concatenate([np.stack([a, c, b], axis=1), np.stack([b, c, d], axis=1)])
-    radius, angle, along = radius[known], angle[known], along[known]
+    radius, angle, along = radius[finite], angle[finite], along[finite]
     vertices = (
         axis.origin
         + np.outer(radius * np.sin(angle), first)
@@ -86,13 +86,13 @@ def _single(points: Array) -> NDArray[np.int64]:
     return np.sort(order[fresh])
 
 
-def _normals(few: Array, count: int) -> tuple[Array, float]:
+def _normals(sample: Array, count: int) -> tuple[Array, float]:
     """Normals of planes through the neighbours of each of a few points, and the distance between all `count`."""
-    distance, near = cKDTree(few).query(few, k=NEIGHBOURS)
-    around = few[near] - few[near].mean(axis=1, keepdims=True)
+    distance, near = cKDTree(sample).query(sample, k=NEIGHBOURS)
+    around = sample[near] - sample[near].mean(axis=1, keepdims=True)
     normal = np.linalg.eigh(np.einsum("nki,nkj->nij", around, around))[1][:, :, 0]
     # A circle round a point up to its farthest neighbour holds them all.
-    spacing = math.sqrt(math.pi / NEIGHBOURS) * float(np.median(distance[:, -1])) * math.sqrt(len(few) / count)
+    spacing = math.sqrt(math.pi / NEIGHBOURS) * float(np.median(distance[:, -1])) * math.sqrt(len(sample) / count)
     return np.asarray(normal, dtype=np.float64), spacing
 
 
@@ -119,16 +119,16 @@ def _cells(key: NDArray[np.int64], r: Array, turn: Array, y: Array, count: int, 
 
 def bridged(field: Array) -> Array:
     """The field (rows, columns) with runs of up to two empty cells along the turn filled from both their ends."""
-    known = np.isfinite(field)
-    holes = ~known
+    finite = np.isfinite(field)
+    holes = ~finite
     runs, count = ndimage.label(holes, structure=[[0, 0, 0], [1, 1, 1], [0, 0, 0]])
     length = np.bincount(runs.ravel(), minlength=count + 1)
     short = holes & (length[runs] <= BRIDGED)
     short[:, 0] = short[:, -1] = False
     row, column = np.nonzero(short)
     columns = np.arange(field.shape[1])
-    before = np.maximum.accumulate(np.where(known, columns, -1), axis=1)[row, column]
-    after = np.minimum.accumulate(np.where(known, columns, field.shape[1])[:, ::-1], axis=1)[:, ::-1][row, column]
+    before = np.maximum.accumulate(np.where(finite, columns, -1), axis=1)[row, column]
+    after = np.minimum.accumulate(np.where(finite, columns, field.shape[1])[:, ::-1], axis=1)[:, ::-1][row, column]
     inner = (before >= 0) & (after < field.shape[1])
     row, column, before, after = row[inner], column[inner], before[inner], after[inner]
     share = (column - before) / (after - before)

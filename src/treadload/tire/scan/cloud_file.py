@@ -10,7 +10,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from treadload.errors import GeometryError, InputError, how_to_install, reading, said
+from treadload.errors import GeometryError, InputError, error_line, how_to_install, reading
 from treadload.kernels.arrays import Array
 from treadload.registry import READERS
 from treadload.tire.scan.mesh_file import Triangles
@@ -53,8 +53,8 @@ def _of_text(path: Path) -> Triangles:
             )  # fmt: skip
     except (ValueError, UnicodeDecodeError) as error:
         raise InputError(
-            f"scan file {path.name!r} has a line that is no point x y z ({said(error)}); it may be truncated, or "
-            "have decimal commas: export it with decimal points"
+            f"scan file {path.name!r} has a line that is no point x y z ({error_line(error)}); it may be truncated, "
+            "or have decimal commas: export it with decimal points"
         ) from error
     return _checked(points, path)
 
@@ -81,18 +81,18 @@ def _of_las(path: Path) -> Triangles:
         reading(f"scan file {path.name!r}", path.suffix[1:].upper()),
         laspy.open(path, laz_backend=_unpacker(laspy)) as file,
     ):
-        told = int(file.header.point_count)
-        if not 0 < told <= min(MOST_POINTS, _MOST_PER_BYTE * path.stat().st_size):
+        count = int(file.header.point_count)
+        if not 0 < count <= min(MOST_POINTS, _MOST_PER_BYTE * path.stat().st_size):
             raise InputError(
-                f"scan file {path.name!r} says it holds {told} points in {path.stat().st_size} bytes, between 1 "
+                f"scan file {path.name!r} says it holds {count} points in {path.stat().st_size} bytes, between 1 "
                 f"and {MOST_POINTS} can be; it may be damaged, export or copy it again"
             )
         parts = [np.stack([part.x, part.y, part.z], axis=1) for part in file.chunk_iterator(1_000_000)]
         points = np.concatenate(parts) if parts else np.zeros((0, 3))
-    if len(points) != told:
+    if len(points) != count:
         raise InputError(
-            f"scan file {path.name!r} says it holds {told} points and has {len(points)}; it may be truncated, export "
-            "or copy it again"
+            f"scan file {path.name!r} says it holds {count} points and has {len(points)}; it may be truncated, "
+            "export or copy it again"
         )
     return _checked(np.asarray(points, dtype=np.float64), path)
 
@@ -162,14 +162,14 @@ def _of_e57(path: Path) -> Triangles:
         raise InputError(f"reading .e57 needs pye57, which is not installed; {how_to_install('clouds')}") from error
     _check_e57_header(path)
     with reading(f"scan file {path.name!r}", "E57"), pye57.E57(str(path)) as file:
-        told = [int(file.get_header(k).point_count) for k in range(file.scan_count)]
-        if not 0 < sum(told) <= MOST_POINTS or min(told) < 0:
+        counts = [int(file.get_header(k).point_count) for k in range(file.scan_count)]
+        if not 0 < sum(counts) <= MOST_POINTS or min(counts) < 0:
             raise InputError(
-                f"scan file {path.name!r} says it holds {sum(told)} points, between 1 and {MOST_POINTS} can "
+                f"scan file {path.name!r} says it holds {sum(counts)} points, between 1 and {MOST_POINTS} can "
                 "be; it may be damaged, or hold pictures only: export it again"
             )
         scans: list[dict[str, Any]] = [file.read_scan(k, ignore_missing_fields=True) for k in range(file.scan_count)]
-        points = np.concatenate([np.stack([one[f"cartesian{axis}"] for axis in "XYZ"], axis=1) for one in scans])
+        points = np.concatenate([np.stack([scan[f"cartesian{axis}"] for axis in "XYZ"], axis=1) for scan in scans])
     return _checked(np.asarray(points, dtype=np.float64), path)
 
 

@@ -67,7 +67,7 @@ def largest_piece(mesh: Mesh, name: str) -> tuple[Mesh, int]:
     sizes = np.bincount(of_face, area, number)
     first, second = np.argsort(sizes)[::-1][:2]
     if sizes[second] > ANOTHER * sizes[first]:
-        boxes = [mesh.vertices[piece == one] for one in (first, second)]
+        boxes = [mesh.vertices[piece == number] for number in (first, second)]
         low, high = np.maximum(*(box.min(axis=0) for box in boxes)), np.minimum(*(box.max(axis=0) for box in boxes))
         if (low > high).any():
             raise GeometryError(
@@ -75,5 +75,5 @@ def largest_piece(mesh: Mesh, name: str) -> tuple[Mesh, int]:
                 "the area of the larger; a scan holds one tire: cut the other out of it"
             )
     used, faces = renumbered(faces[of_face == first], count)
-    others = int((sizes > 0).sum()) - 1
-    return replace(mesh, vertices=mesh.vertices[used], faces=faces, watertight=False), others
+    pieces_left_out = int((sizes > 0).sum()) - 1
+    return replace(mesh, vertices=mesh.vertices[used], faces=faces, watertight=False), pieces_left_out

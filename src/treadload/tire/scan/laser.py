@@ -6,24 +6,26 @@ import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from treadload.describing import first_line
+from treadload.describing import Described
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.registry import READERS
+from treadload.rows import Row, row
 from treadload.tire.scan.cloud import bridged
 from treadload.tire.scan.laser_file import Lines, asked_of, read_lines
 from treadload.tire.scan.mesh_file import Triangles
 from treadload.variables import dataset
 
 # Lines nearer than this part of their usual distance are one; no surface is laid between those further apart.
-_ONE, _APART = 0.5, 3.0
+_SAME_LINE, _APART = 0.5, 3.0
 # From so many turns of a wheel on, lines are averaged over a whole step.
 _SEVERAL = 1.5
 # Points of a lattice: neighbouring lines are joined where there would be more.
@@ -41,33 +43,38 @@ def wheel_of_lines(path: Path) -> Triangles:
     road. Lines at one angle, of several turns or of a wheel that stood, are averaged; drop-outs of up to two lines
     are bridged from both sides. Raises InputError and GeometryError.
     """
-    asked = asked_of(path)
-    if not asked.turns:
+    laser = asked_of(path)
+    if not laser.turns:
         raise InputError(
             f"the laser of {path.name!r} moved over a piece of tread, of which no wheel can be made; make a height "
             "map of it, `treadload scan lines.toml -o tread.nc`, and name that in height_map"
         )
-    lines = read_lines(asked, path.parent)
+    lines = read_lines(laser, path.parent)
     angle, x, z, step = _joined(lines, 2 * math.pi)
     after = np.roll(np.arange(len(angle)), -1)
     near = (angle[after] - angle) % (2 * math.pi) < _APART * step
     # A tread that goes on behind the angle 0 has no end there.
     ends = 3 if near[-1] else 0
-    x, z = (bridged(np.pad(one, ((ends, ends), (0, 0)), mode="wrap").T).T[ends : ends + len(angle)] for one in (x, z))
-    known = np.isfinite(z) & np.isfinite(x) & (z > 0)
-    number = np.cumsum(known.ravel()).reshape(known.shape) - 1
-    both = known & known[after] & near[:, None]
+    x, z = (
+        bridged(np.pad(values, ((ends, ends), (0, 0)), mode="wrap").T).T[ends : ends + len(angle)]
+        for values in (x, z)
+    )
+    finite = np.isfinite(z) & np.isfinite(x) & (z > 0)
+    number = np.cumsum(finite.ravel()).reshape(finite.shape) - 1
+    both = finite & finite[after] & near[:, None]
     quad = both[:, :-1] & both[:, 1:]
-    a, b, c, d = (one[quad] for one in (number[:, :-1], number[:, 1:], number[after][:, :-1], number[after][:, 1:]))
+    a, b, c, d = (
+        corner[quad] for corner in (number[:, :-1], number[:, 1:], number[after][:, :-1], number[after][:, 1:])
+    )
     faces = np.concatenate([np.stack([a, c, b], axis=1), np.stack([b, c, d], axis=1)])
     if not len(faces):
         raise GeometryError(f"no two lines of {path.name!r} lie so near each other that a surface is between them")
-    turn, r, y = np.broadcast_to(angle[:, None], z.shape)[known], z[known], x[known]
+    turn, r, y = np.broadcast_to(angle[:, None], z.shape)[finite], z[finite], x[finite]
     return np.stack([-r * np.sin(turn), y, -r * np.cos(turn)], axis=1), faces
 
 
 @dataclass(frozen=True, eq=False)
-class LaserPiece:
+class LaserPiece(Described):
     """A piece of tread under a laser that moved over it.
 
     dataset: initial_gap over (y, x), m, levelled, NaN where nothing was measured. lines, dropouts: how many lines,
@@ -79,19 +86,19 @@ class LaserPiece:
     dropouts: float
     slopes: tuple[float, float]
 
-    def summary(self) -> str:
-        """What was read, in lines."""
-        gap = self.dataset["initial_gap"]
-        ahead, right = (math.degrees(math.atan(one)) for one in self.slopes)
-        return (
-            f"{self.lines} lines of a laser, {self.dropouts:.1%} of their points not measured\n"
-            f"{gap.sizes['x']} x {gap.sizes['y']} cells of {gap.attrs['dx'] * 1e3:.3g} mm, "
-            f"{float(gap.isnull().mean()):.1%} without a height\n"
-            f"levelled on its tops by {ahead:+.2f}° along travel and {right:+.2f}° across; "
-            f"the deepest cell lies {float(gap.max()) * 1e3:.1f} mm below them"
-        )
+    title: ClassVar[str] = "Piece of tread under a laser"
 
-    __repr__ = first_line
+    def rows(self) -> tuple[Row, ...]:
+        """Lines, cells, and the plane that was taken off."""
+        gap = self.dataset["initial_gap"]
+        ahead, right = (math.degrees(math.atan(slope)) for slope in self.slopes)
+        cells = f"{gap.sizes['x']} x {gap.sizes['y']} cells of {gap.attrs['dx'] * 1e3:.3g} mm"
+        return (
+            row("laser_lines", f"{self.lines}, {self.dropouts:.1%} of their points not measured"),
+            row("grid", f"{cells}, {float(gap.isnull().mean()):.1%} without a height"),
+            row("levelling", f"by {ahead:+.2f}° along travel and {right:+.2f}° across"),
+            row("deepest_cell", float(gap.max()), note="below the tops"),
+        )
 
 
 def piece_of_lines(path: str | os.PathLike[str]) -> LaserPiece:
@@ -100,16 +107,16 @@ def piece_of_lines(path: str | os.PathLike[str]) -> LaserPiece:
     The plane on the tops is taken off, since nobody mounts a laser or a piece exactly level. Cells without a point
     take the mean of their neighbours where five or more of these have one. Raises InputError and GeometryError.
     """
-    asked, name = asked_of(path), Path(path).name
-    if asked.turns:
+    laser, name = asked_of(path), Path(path).name
+    if laser.turns:
         raise InputError(f"the wheel of {name!r} turned before its laser; it is a scan of a tire, Tire.from_scan")
-    lines = read_lines(asked, Path(path).parent)
+    lines = read_lines(laser, Path(path).parent)
     place, x, z, step = _joined(lines, None)
     across = np.diff(x, axis=1)
     along = float(np.nanmedian(across)) if np.isfinite(across).any() else step
-    spacing = asked.spacing or _CELLS * max(step, along)
-    known = np.isfinite(z)
-    ahead, right, height = np.broadcast_to(place[:, None], z.shape)[known], x[known], z[known]
+    spacing = laser.spacing or _CELLS * max(step, along)
+    finite = np.isfinite(z)
+    ahead, right, height = np.broadcast_to(place[:, None], z.shape)[finite], x[finite], z[finite]
     ahead, right = ahead - 0.5 * (ahead.min() + ahead.max()), right - 0.5 * (right.min() + right.max())
     slopes = _plane_on_tops(ahead, right, height)
     level = height - slopes[0] * ahead - slopes[1] * right
@@ -147,18 +154,19 @@ def _joined(lines: Lines, turn: float | None) -> tuple[Array, Array, Array, floa
     way = float(np.ptp(reading))
     turns = 1.0 if turn is None else way / turn
     fewest = math.ceil(2 * min(way, turn or way) / step * lines.z.shape[1] / _MOST_POINTS) / 2
-    wide = step * max(_ONE if turns < _SEVERAL else 1.0, fewest)
+    wide = step * max(_SAME_LINE if turns < _SEVERAL else 1.0, fewest)
     # The first line lies amid the first bin, and those of later turns beside it.
     start = float(reading[0] if turn is not None else reading.min()) - 0.5 * wide
     reading = reading - start if turn is None else (reading - start) % turn
     bins = np.floor(reading / wide).astype(np.int64)
     order = np.argsort(bins, kind="stable")
     first = np.flatnonzero(np.r_[True, np.diff(bins[order]) > 0])
-    known = np.isfinite(lines.z)[order]
-    count = np.add.reduceat(known, first, axis=0, dtype=np.int64)
+    finite = np.isfinite(lines.z)[order]
+    count = np.add.reduceat(finite, first, axis=0, dtype=np.int64)
     with np.errstate(invalid="ignore", divide="ignore"):
         x, z = (
-            np.add.reduceat(np.where(known, one[order], 0.0), first, axis=0) / count for one in (lines.x, lines.z)
+            np.add.reduceat(np.where(finite, coordinate[order], 0.0), first, axis=0) / count
+            for coordinate in (lines.x, lines.z)
         )
     at = start + np.add.reduceat(reading[order], first) / np.diff(np.r_[first, len(order)])
     return at, x, z, max(step, wide)
@@ -181,11 +189,11 @@ def _plane_on_tops(ahead: Array, right: Array, height: Array) -> tuple[float, fl
 
 def _between(mean: Array) -> Array:
     """Cells without a point, from their neighbours where five or more have one."""
-    known = np.isfinite(mean)
+    finite = np.isfinite(mean)
     around = np.ones((3, 3))
-    near = ndimage.convolve(known.astype(float), around, mode="constant")
-    total = ndimage.convolve(np.where(known, mean, 0.0), around, mode="constant")
-    empty: NDArray[np.bool_] = ~known & (near >= 5)
+    near = ndimage.convolve(finite.astype(float), around, mode="constant")
+    total = ndimage.convolve(np.where(finite, mean, 0.0), around, mode="constant")
+    empty: NDArray[np.bool_] = ~finite & (near >= 5)
     out = mean.copy()
     out[empty] = total[empty] / near[empty]
     return out

@@ -22,7 +22,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from treadload.errors import InputError, said
+from treadload.errors import InputError, error_line
 from treadload.files import parse_toml, text_of
 from treadload.kernels.arrays import Array
 from treadload.labels import factor
@@ -133,8 +133,8 @@ def _unit(name: str, unit: str, si: str) -> float:
         return factor(unit, si)
     except InputError as error:
         such = {"m": "mm or m", "rad": "deg or rad"}[si]
-        other = ', "count"' if name == "encoder" else ""
-        raise InputError(f"{name} = {unit!r} is no unit such as {such}{other}") from error
+        counts = ', "count"' if name == "encoder" else ""
+        raise InputError(f"{name} = {unit!r} is no unit such as {such}{counts}") from error
 
 
 def is_laser(path: Path) -> bool:
@@ -156,34 +156,34 @@ def asked_of(path: str | os.PathLike[str]) -> LaserFile:
         raise InputError(
             f"{file} must hold the table [laser] and nothing besides but a title; see docs/howto/laser.md"
         )
-    asked: LaserFile = read(LaserFile, table["laser"], f"{file}, laser", folder=file.parent)
-    return asked
+    laser: LaserFile = read(LaserFile, table["laser"], f"{file}, laser", folder=file.parent)
+    return laser
 
 
-def read_lines(asked: LaserFile, folder: Path) -> Lines:
+def read_lines(laser: LaserFile, folder: Path) -> Lines:
     """The lines of the text that a table asks for. Raises InputError that names the file."""
-    path = folder / asked.file
+    path = folder / laser.file
     numbers, heading = _numbers(path)
-    if asked.layout == "rows":
+    if laser.layout == "rows":
         encoder, z = numbers[:, 0], numbers[:, 1:]
         x = _places(heading, z.shape[1], path)
     else:
         encoder, x, z = _gathered(numbers, path)
     if not np.isfinite(encoder).all():
         raise InputError(f"{path.name!r} has lines without a reading of the encoder, in its first column")
-    for mark in asked.invalid:
+    for mark in laser.invalid:
         z = np.where(z == mark, np.nan, z)
     with np.errstate(over="ignore", invalid="ignore"):
-        encoder = asked.step * (-encoder if asked.backward else encoder)
-        x = _unit("x", asked.x, "m") * (-x if asked.left else x)
-        z = _unit("z", asked.z, "m") * (-z if asked.towards == "axle" else z)
-        if asked.left if x.ndim > 1 else x[-1] < x[0]:
+        encoder = laser.step * (-encoder if laser.backward else encoder)
+        x = _unit("x", laser.x, "m") * (-x if laser.left else x)
+        z = _unit("z", laser.z, "m") * (-z if laser.towards == "axle" else z)
+        if laser.left if x.ndim > 1 else x[-1] < x[0]:
             x, z = x[..., ::-1], z[:, ::-1]
-        if asked.tilt:
+        if laser.tilt:
             # The profile lies in one plane: a turn in it about its zero.
-            cos, sin = math.cos(asked.tilt), math.sin(asked.tilt)
+            cos, sin = math.cos(laser.tilt), math.sin(laser.tilt)
             x, z = cos * x - sin * z, cos * z + sin * x
-        z = z + (asked.axle or 0.0)
+        z = z + (laser.axle or 0.0)
         size = np.nanmax(np.abs(z), initial=0.0) + np.nanmax(np.abs(x), initial=0.0) + np.abs(encoder).max()
     if not np.isfinite(z).any():
         raise InputError(f"{path.name!r} has no height: all its cells are empty, NaN or numbers that invalid lists")
@@ -201,7 +201,7 @@ def _numbers(path: Path) -> tuple[Array, list[str]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path.name!r} is no text in UTF-8: {said(error)}") from error
+        raise InputError(f"{path.name!r} is no text in UTF-8: {error_line(error)}") from error
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if len(lines) <= _FEWEST:
         raise InputError(f"{path.name!r} has {len(lines)} lines; a heading and {_FEWEST} more are the least")
@@ -219,7 +219,7 @@ def _numbers(path: Path) -> tuple[Array, list[str]]:
         numbers = np.loadtxt(body.split("\n"), delimiter=mark, ndmin=2, comments=None)
     except ValueError as error:
         raise InputError(
-            f"{path.name!r} has a cell that is no number, or lines of unlike length: {said(error)}"
+            f"{path.name!r} has a cell that is no number, or lines of unlike length: {error_line(error)}"
         ) from error
     if numbers.shape[1] != len(heading):
         raise InputError(
@@ -236,7 +236,8 @@ def _places(heading: list[str], columns: int, path: Path) -> Array:
         x = np.array([float(cell) for cell in heading[1:]])
     except ValueError as error:
         raise InputError(
-            f"the first line of {path.name!r} must have a word and then the places x of the columns ({said(error)})"
+            f"the first line of {path.name!r} must have a word and then the places x of the columns "
+            f"({error_line(error)})"
         ) from error
     if columns < _FEWEST or not np.isfinite(x).all() or not ((np.diff(x) > 0).all() or (np.diff(x) < 0).all()):
         raise InputError(
@@ -263,9 +264,9 @@ def _gathered(numbers: Array, path: Path) -> tuple[Array, Array, Array]:
             f"the points of {path.name!r} lie too unevenly over x: {width:.3g} columns of their usual step"
         )
     columns = round(width) + 1
-    known = np.isfinite(x) & np.isfinite(numbers[:, 2])
-    cell = of[known] * columns + np.rint((x[known] - low) / step).astype(np.int64)
+    valid = np.isfinite(x) & np.isfinite(numbers[:, 2])
+    cell = of[valid] * columns + np.rint((x[valid] - low) / step).astype(np.int64)
     count = np.bincount(cell, minlength=len(first) * columns)
     with np.errstate(invalid="ignore", divide="ignore"):
-        sums: Any = [np.bincount(cell, part[known], len(count)) / count for part in (x, numbers[:, 2])]
-    return numbers[first, 0], *(one.reshape(len(first), columns) for one in sums)
+        sums: Any = [np.bincount(cell, part[valid], len(count)) / count for part in (x, numbers[:, 2])]
+    return numbers[first, 0], *(cell_sum.reshape(len(first), columns) for cell_sum in sums)

@@ -75,8 +75,8 @@ def crown(top: Array, facet_sag: float, unrolled: Array, largest: float) -> floa
 
 def without_spikes(meridian: Array) -> Array:
     """A meridian without the places, one or two cells wide, that stand out; 0 where it is not known."""
-    known = np.where(np.isfinite(meridian), meridian, 0.0)
-    return np.asarray(ndimage.median_filter(known, size=5, mode="nearest"), dtype=np.float64)
+    filled = np.where(np.isfinite(meridian), meridian, 0.0)
+    return np.asarray(ndimage.median_filter(filled, size=5, mode="nearest"), dtype=np.float64)
 
 
 def facet_sag(vertices: Array, faces: NDArray[np.int64], envelope: Array) -> float:
@@ -88,8 +88,8 @@ def facet_sag(vertices: Array, faces: NDArray[np.int64], envelope: Array) -> flo
     r = np.hypot(vertices[:, 0], vertices[:, 2])
     with np.errstate(invalid="ignore"):
         high = r > envelope - TOP_BAND
-    few = faces[:: max(1, len(faces) // MOST_FACES)]
-    edge = few[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    sample = faces[:: max(1, len(faces) // MOST_FACES)]
+    edge = sample[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     edge = edge[high[edge].all(axis=1)]
     a, b = vertices[edge[:, 0]][:, [0, 2]], vertices[edge[:, 1]][:, [0, 2]]
     outer = 0.5 * (r[edge[:, 0]] + r[edge[:, 1]])
@@ -170,17 +170,17 @@ def shallowest_groove(unrolled: Array, top: Array) -> float:
     and its ripple is no groove. Voids are what a tenth of the turn is lower than.
     """
     void = top - row_quantile(unrolled, 0.1)
-    known = void[np.isfinite(void)]
-    return max(SHALLOWEST, float(np.median(known)) / 3) if known.size else SHALLOWEST
+    finite = void[np.isfinite(void)]
+    return max(SHALLOWEST, float(np.median(finite)) / 3) if finite.size else SHALLOWEST
 
 
 def with_floors(meridian: Array, crown_radius: float, floor: float) -> Array:
     """A meridian (ny,), m, whose unknown places amid the tread lie at a floor, m, where no groove's floor was met."""
-    known = np.flatnonzero(np.isfinite(meridian))
-    if not len(known) or np.nanmin(meridian) < crown_radius - SHALLOWEST:
+    present = np.flatnonzero(np.isfinite(meridian))
+    if not len(present) or np.nanmin(meridian) < crown_radius - SHALLOWEST:
         return meridian
     amid = np.arange(len(meridian))
-    unmet = ~np.isfinite(meridian) & (amid > known[0]) & (amid < known[-1])
+    unmet = ~np.isfinite(meridian) & (amid > present[0]) & (amid < present[-1])
     return np.asarray(np.where(unmet, floor, meridian), dtype=np.float64)
 
 
@@ -228,10 +228,10 @@ def wide_voids(y: Array, top: Array) -> BoolArray:
     left, right = np.maximum.accumulate(height), np.maximum.accumulate(height[::-1])[::-1]
     low = np.minimum(left, right) - height
     runs, count = ndimage.label(low > HOLLOW)
-    wide = [one[0] for one in ndimage.find_objects(runs, max_label=count) if np.ptp(y[one[0]]) > WIDEST]
+    wide = [run[0] for run in ndimage.find_objects(runs, max_label=count) if np.ptp(y[run[0]]) > WIDEST]
     out = np.zeros(len(y), dtype=bool)
-    for one in wide:
-        out[one] = True
+    for columns in wide:
+        out[columns] = True
     return out
 
 
@@ -244,21 +244,21 @@ def land_ratio(
     are not are voids. Land lies less than 3 mm, or half the depth of the shallowest of the grooves, below the tops
     carried on over grooves. What was not scanned at an angle with tread is as elsewhere.
     """
-    band = min([TOP_BAND, *(0.5 * one.depth for one in grooves)])
+    band = min([TOP_BAND, *(0.5 * groove.depth for groove in grooves)])
     bridged = top + groove_depth(y, top)
     rows = rows & ~wide_voids(y, top)
     usual = median_meridian(unrolled)
     turn = unrolled[rows]
     turn = turn[:, np.isfinite(turn).mean(axis=0) > 0.5]
     turn = np.where(np.isfinite(turn), turn, usual[rows][:, None])
-    known = np.isfinite(turn) & np.isfinite(bridged[rows])[:, None]
-    if not known.any():
+    finite = np.isfinite(turn) & np.isfinite(bridged[rows])[:, None]
+    if not finite.any():
         return math.nan
     with np.errstate(invalid="ignore"):
         land = turn > bridged[rows][:, None] - band
     place = np.flatnonzero(rows)
     amid = len(place) / (place[-1] - place[0] + 1)
-    return float(land[known].mean() * amid)
+    return float(land[finite].mean() * amid)
 
 
 def _crossing(y: Array, depth: Array, index: int, level: float) -> float:

@@ -10,7 +10,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from treadload.errors import GeometryError, InputError, TreadloadError, how_to_install, reading, said
+from treadload.errors import GeometryError, InputError, TreadloadError, error_line, how_to_install, reading
 from treadload.kernels.arrays import Array
 from treadload.registry import OURS, READERS, Entry
 from treadload.tire.scan.cloud import mesh_of_points
@@ -97,12 +97,12 @@ def _read(reader: Entry, path: Path) -> Triangles:
         return triangles
     who = f"scan file {path.name!r} could not be read by the reader {reader.name!r} of {reader.package}"
     try:
-        given, corners = reader.target(path)
-        vertices, faces = np.array(given, dtype=np.float64), np.array(corners)
+        points, corners = reader.target(path)
+        vertices, faces = np.array(points, dtype=np.float64), np.array(corners)
     except TreadloadError:
         raise
     except Exception as error:
-        raise InputError(f"{who}: {said(error)}; the file or that package is broken") from error
+        raise InputError(f"{who}: {error_line(error)}; the file or that package is broken") from error
     whole = faces.dtype.kind in "iu" or not faces.size
     if vertices.ndim != 2 or vertices.shape[1] != 3 or (faces.size and faces.shape[1:] != (3,)) or not whole:
         raise InputError(

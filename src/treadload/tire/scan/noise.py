@@ -63,11 +63,11 @@ def _from_planes(flat: Array, tread: BoolArray) -> float:
     spread = np.einsum("nki,nkj->nij", across, across)
     # Points in one line say nothing about the slope across it.
     flatness = np.linalg.eigvalsh(spread)
-    known = flatness[:, 0] > 0.02 * flatness[:, 1]
-    if known.sum() < FEWEST:
+    usable = flatness[:, 0] > 0.02 * flatness[:, 1]
+    if usable.sum() < FEWEST:
         return math.nan
-    slope = np.linalg.solve(spread[known], np.einsum("nki,nk->ni", across[known], rise[known])[..., None])[..., 0]
-    left = rise[known] - np.einsum("nki,ni->nk", across[known], slope)
+    slope = np.linalg.solve(spread[usable], np.einsum("nki,nk->ni", across[usable], rise[usable])[..., None])[..., 0]
+    left = rise[usable] - np.einsum("nki,ni->nk", across[usable], slope)
     free = NEIGHBOURS - 3
     # Median of chi-squared with so many degrees of freedom (Wilson and Hilferty).
     middle = free * (1 - 2 / (9 * free)) ** 3
@@ -123,15 +123,15 @@ def smoothed(flat: Array, use: BoolArray, length: float, noise: float) -> Array:
         return out
     extent = np.ptp(points[:, :2], axis=0)
     dense = math.pi * (REACH * length) ** 2 * len(points) / max(float(extent.prod()), 1e-12)
-    few = points[:: max(1, math.ceil(dense / MOST_NEIGHBOURS))]
-    tree = cKDTree(few[:, :2])
-    count = min(2 * MOST_NEIGHBOURS, len(few))
+    sample = points[:: max(1, math.ceil(dense / MOST_NEIGHBOURS))]
+    tree = cKDTree(sample[:, :2])
+    count = min(2 * MOST_NEIGHBOURS, len(sample))
     where = np.flatnonzero(use)
     for start in range(0, len(points), 20_000):
         at = points[start : start + 20_000]
         distance, near = tree.query(at[:, :2], k=count, distance_upper_bound=REACH * length)
-        inside = near < len(few)
-        around = few[np.where(inside, near, 0)]
+        inside = near < len(sample)
+        around = sample[np.where(inside, near, 0)]
         weight = np.where(inside, np.exp(-0.5 * (np.where(inside, distance, 0.0) / length) ** 2), 0.0)
         out[where[start : start + len(at)]] = _planes(at, around, weight, max(noise, 1e-5), length)
     return out

@@ -77,10 +77,10 @@ def _is_between(value: object, low: float, high: float) -> bool:
 
 def yes_no_auto(option: str, word: str) -> Choice:
     """What a word says of an option: True, False or "auto". Raises InputError."""
-    known: dict[str, Choice] = {"yes": True, "true": True, "no": False, "false": False, "auto": "auto"}
-    if word.strip().lower() not in known:
+    words: dict[str, Choice] = {"yes": True, "true": True, "no": False, "false": False, "auto": "auto"}
+    if word.strip().lower() not in words:
         raise InputError(f"{option} must be yes, no or auto, got {word!r}")
-    return known[word.strip().lower()]
+    return words[word.strip().lower()]
 
 
 def smooth_choice(word: str) -> Smooth:

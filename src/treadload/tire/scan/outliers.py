@@ -54,9 +54,9 @@ def without_needles(mesh: Mesh) -> tuple[Mesh, Moved]:
     wild |= _needles(mesh, wild)
     if not wild.any() or wild.sum() > max(MOST, len(points) // 1000):
         return mesh, Moved(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
-    moved, known = put_back(points, _links(mesh), wild)
-    moved[~known] = np.median(points, axis=0)
-    keep = known[mesh.faces].all(axis=1)
+    moved, settled = put_back(points, _links(mesh), wild)
+    moved[~settled] = np.median(points, axis=0)
+    keep = settled[mesh.faces].all(axis=1)
     chosen = np.flatnonzero(wild)
     return replace(mesh, vertices=moved, faces=mesh.faces[keep]), Moved(chosen, points[chosen])
 
@@ -86,11 +86,11 @@ def _needles(mesh: Mesh, ignore: BoolArray) -> BoolArray:
         return maybe
     near, wide = np.full(n, np.inf), np.zeros(n)
     for k in range(3):
-        some = maybe[mesh.faces[:, k]]
-        tip = mesh.faces[some, k]
-        np.minimum.at(near, tip, legs[k][some])
+        rows = maybe[mesh.faces[:, k]]
+        tip = mesh.faces[rows, k]
+        np.minimum.at(near, tip, legs[k][rows])
         # A ring is at most half as wide as it is long; one that holds its point is no nearer to it than that.
-        np.add.at(wide, tip, 0.5 * sides[(k + 1) % 3][some])
+        np.add.at(wide, tip, 0.5 * sides[(k + 1) % 3][rows])
     maybe &= near > NEEDLE * wide
     if not maybe.any():
         return np.asarray(maybe, dtype=bool)
@@ -100,18 +100,18 @@ def _needles(mesh: Mesh, ignore: BoolArray) -> BoolArray:
 
 def put_back(points: Array, links: csr_array, wild: BoolArray) -> tuple[Array, BoolArray]:
     """Points (n, k) with the wild ones at the median of their neighbours, from outside in; and which are known."""
-    points, known = points.copy(), ~wild
+    points, settled = points.copy(), ~wild
     left = list(np.flatnonzero(wild))
     while left:
         beside = {k: links.indices[links.indptr[k] : links.indptr[k + 1]] for k in left}
-        now = [k for k in left if known[beside[k]].any()]
+        now = [k for k in left if settled[beside[k]].any()]
         if not now:
             break
-        medians = [np.median(points[beside[k][known[beside[k]]]], axis=0) for k in now]
+        medians = [np.median(points[beside[k][settled[beside[k]]]], axis=0) for k in now]
         points[now] = medians
-        known[now] = True
+        settled[now] = True
         left = [k for k in left if k not in set(now)]
-    return points, known
+    return points, settled
 
 
 def find_outliers(mesh: Mesh, reference: Array, high: float) -> list[Indices]:
@@ -155,13 +155,13 @@ def without_outliers(mesh: Mesh, groups: list[Indices]) -> Mesh:
     wild[np.concatenate(groups)] = True
     r = np.maximum(np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2]), 1e-9)
     polar = np.stack([mesh.vertices[:, 0] / r, mesh.vertices[:, 1], mesh.vertices[:, 2] / r, r], axis=1)
-    moved, known = put_back(polar, _links(mesh), wild)
+    moved, settled = put_back(polar, _links(mesh), wild)
     x, z = moved[wild, 0], moved[wild, 2]
     at = moved[wild, 3] / np.maximum(np.hypot(x, z), 1e-12)
     vertices = mesh.vertices.copy()
     vertices[wild] = np.stack([x * at, moved[wild, 1], z * at], axis=1)
-    vertices[~known] = np.median(vertices, axis=0)
-    return replace(mesh, vertices=vertices, faces=mesh.faces[known[mesh.faces].all(axis=1)])
+    vertices[~settled] = np.median(vertices, axis=0)
+    return replace(mesh, vertices=vertices, faces=mesh.faces[settled[mesh.faces].all(axis=1)])
 
 
 def named(mesh: Mesh, reference: Array, groups: list[Indices], far: Moved, middle: float) -> list[Outlier]:
@@ -180,12 +180,12 @@ def named(mesh: Mesh, reference: Array, groups: list[Indices], far: Moved, middl
         x, y, z = mesh.vertices[index]
         height = float(np.linalg.norm(where - mesh.vertices[index]))
         outliers.append(Outlier(1, height, math.atan2(x, z), float(y) - middle))
-    return sorted(outliers, key=lambda one: -one.height)
+    return sorted(outliers, key=lambda outlier: -outlier.height)
 
 
 def in_words(outliers: list[Outlier], kept: bool, are_lugs: bool = False) -> str:
     """One sentence on what sticks out and was put back, or left. are_lugs: it was taken for the tread's own."""
-    points = sum(one.points for one in outliers)
+    points = sum(outlier.points for outlier in outliers)
     places = "one place" if len(outliers) == 1 else f"{len(outliers)} places"
     which = f"({outliers[0]})" if len(outliers) == 1 else f"(the highest {outliers[0]})"
     if are_lugs:
@@ -209,11 +209,11 @@ def tread_reference(vertices: Array, y: Array, top: Array, turn: Array, theta: A
     """
     step = float(y[1] - y[0])
     cells = 2 * math.ceil(BESIDE / step) + 1
-    known = np.isfinite(top) & (top > floor)
-    height = ndimage.maximum_filter1d(np.where(known, top, -np.inf), cells)
+    finite = np.isfinite(top) & (top > floor)
+    height = ndimage.maximum_filter1d(np.where(finite, top, -np.inf), cells)
     slope = np.gradient(np.where(np.isfinite(height), height, 0.0), step)
     usable = np.isfinite(height) & (np.abs(slope) < STEEPEST)
-    over = np.where(known[:, None], turn - top[:, None], np.nan)
+    over = np.where(finite[:, None], turn - top[:, None], np.nan)
     seen = np.isfinite(over).any(axis=0)
     high = np.zeros(len(theta))
     high[seen] = row_quantile(over[:, seen].T, 0.9)

@@ -291,8 +291,8 @@ def _check_seen(seen: _Unrolled, name: str) -> None:
         )
     # A box reaches its outer radius with its corners only; a tire that was scanned in parts has few of them.
     holes, count = ndimage.label(~np.tile(np.isfinite(seen.turn).any(axis=0), 2))
-    gaps = [one[0] for one in ndimage.find_objects(holes, max_label=count)]
-    corners = sum(one.stop - one.start > CORNER for one in gaps if 0 < one.start < seen.turn.shape[1])
+    gaps = [run[0] for run in ndimage.find_objects(holes, max_label=count)]
+    corners = sum(gap.stop - gap.start > CORNER for gap in gaps if 0 < gap.start < seen.turn.shape[1])
     if corners >= CORNERS:
         raise GeometryError(
             f"{name!r} is not round: it reaches its outer radius in {corners} places with more than {CORNER}° "
@@ -306,8 +306,8 @@ def _check_seen(seen: _Unrolled, name: str) -> None:
             )
         high = np.asarray(seen.top > seen.crown - EXTENT_DROP)
     runs, count = ndimage.label(~high)
-    gaps = [one[0] for one in ndimage.find_objects(runs, max_label=count)]
-    wide = [one for one in gaps if one.start > 0 and one.stop < len(high) and np.ptp(seen.y[one]) > APART]
+    gaps = [run[0] for run in ndimage.find_objects(runs, max_label=count)]
+    wide = [gap for gap in gaps if gap.start > 0 and gap.stop < len(high) and np.ptp(seen.y[gap]) > APART]
     for gap in wide:
         left, right = high[: gap.start].sum(), high[gap.stop :].sum()
         if min(left, right) > LIKE * max(left, right):
@@ -324,11 +324,11 @@ def _degrees(seen: _Unrolled) -> float:
 
 def _check_round(seen: _Unrolled, roundness: float, name: str) -> None:
     """A tire has the same radius at every angle, between its lugs as well; a box does not."""
-    known = np.asarray(np.isfinite(seen.turn).any(axis=0))
-    tops = np.full(len(known), -np.inf)
-    tops[known] = np.nanmax(seen.turn[:, known], axis=0)
+    seen_columns = np.asarray(np.isfinite(seen.turn).any(axis=0))
+    tops = np.full(len(seen_columns), -np.inf)
+    tops[seen_columns] = np.nanmax(seen.turn[:, seen_columns], axis=0)
     window = round(LUG_WINDOW / (seen.theta[1] - seen.theta[0]))
-    tops = ndimage.maximum_filter1d(tops, window, mode="wrap")[known]
+    tops = ndimage.maximum_filter1d(tops, window, mode="wrap")[seen_columns]
     middle = float(np.median(tops))
     out = float(np.quantile(np.abs(tops - middle), 0.9))
     if out > roundness * seen.crown:

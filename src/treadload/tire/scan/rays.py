@@ -31,9 +31,9 @@ class Caster:
 
     def moved(self, shift: Array) -> Caster:
         """The same mesh moved by a shift (3,), m; nothing is built again."""
-        other = copy(self)
-        other._shift = self._shift + shift
-        return other
+        caster = copy(self)
+        caster._shift = self._shift + shift
+        return caster
 
     def distances(self, origins: Array, directions: Array) -> Array:
         """(n,) distance in m along unit directions (n, 3) from origins (n, 3) to the first hit; NaN for none."""
@@ -135,8 +135,8 @@ def revolved(y: Array, radius: Array, reach: float, step: float = np.pi / 360) -
     step: angle of a facet, rad; half a degree cuts 5 µm under a wheel of 0.5 m.
     """
     theta = np.linspace(-reach, reach, max(2, int(np.ceil(2 * reach / step)) + 1))
-    nt, known = len(theta), np.isfinite(radius)
-    safe = np.where(known, radius, 0.0)
+    nt, finite = len(theta), np.isfinite(radius)
+    safe = np.where(finite, radius, 0.0)
     vertices = np.stack(
         [
             np.outer(safe, np.sin(theta)).ravel(),
@@ -145,7 +145,7 @@ def revolved(y: Array, radius: Array, reach: float, step: float = np.pi / 360) -
         ],
         axis=1,
     )
-    rows = np.flatnonzero(known[:-1] & known[1:])
+    rows = np.flatnonzero(finite[:-1] & finite[1:])
     first = (rows[:, None] * nt + np.arange(nt - 1)[None, :]).ravel()
     faces = np.concatenate(
         [np.stack([first, first + 1, first + nt], axis=1), np.stack([first + 1, first + nt + 1, first + nt], axis=1)]

@@ -62,10 +62,10 @@ class ScanSurface:
             self.vertices, self.faces, self.camber, self.meridian, self.envelope, self.report, self.fill_holes
         )
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, ScanSurface):
+    def __eq__(self, surface: object) -> bool:
+        if not isinstance(surface, ScanSurface):
             return NotImplemented
-        return self._digest == other._digest
+        return self._digest == surface._digest
 
     def __hash__(self) -> int:
         return hash(self._digest)
@@ -118,9 +118,9 @@ class ScanSurface:
 
     def with_report(self, report: ScanQuality) -> ScanSurface:
         """The same surface with another report, about the same radius; the ray casters are kept."""
-        other = replace(self, report=report)
-        other.__dict__.update({k: v for k, v in self.__dict__.items() if k in ("_caster", "_revolved", "coverage")})
-        return other
+        surface = replace(self, report=report)
+        surface.__dict__.update({k: v for k, v in self.__dict__.items() if k in ("_caster", "_revolved", "coverage")})
+        return surface
 
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap, m, cast vertically from the cell centres to the tread.
@@ -166,16 +166,16 @@ class ScanSurface:
         radius = self.report.crown_radius
         level = np.where(np.isfinite(low), low + radius - np.sqrt(radius**2 - grid.x**2), -np.inf)
         smooth = ndimage.median_filter(level, size=(1, 5), mode="nearest")
-        known = smooth[np.isfinite(smooth)]
-        if known.size == 0:
+        finite = smooth[np.isfinite(smooth)]
+        if finite.size == 0:
             raise GeometryError(
                 "the scan has no tread below the axle; choose another rotation=, so that the scanned part "
                 "faces the road"
             )
-        top = float(known.max())
+        top = float(finite.max())
         noise = _noise(np.where(smooth > top - CROWN_BAND, level, np.nan))
         # Without noise the top is right; with it the quantile still stands about one deviation too high.
-        return top - min(top - float(np.quantile(known, FIRST_CONTACT)) + noise, 4 * noise)
+        return top - min(top - float(np.quantile(finite, FIRST_CONTACT)) + noise, 4 * noise)
 
     @cached_property
     def coverage(self) -> tuple[float, int]:

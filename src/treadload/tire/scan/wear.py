@@ -63,8 +63,8 @@ def wear(new: ScanSurface, reference: ScanSurface) -> Wear:
     for now, _ in pairs:
         floors |= np.abs(y - now.centre) < 0.25 * now.width
     over = before[:, None] - turn
-    known = over[floors]
-    datum = float(np.nanmedian(known)) if np.isfinite(known).any() else 0.0
+    depths = over[floors]
+    datum = float(np.nanmedian(depths)) if np.isfinite(depths).any() else 0.0
     # Walls move sideways by tenths of a millimetre and up and down by millimetres.
     steep = np.abs(np.gradient(before, ACROSS)) > 0.5
     land = tread & ~low & ~steep

@@ -1,0 +1,285 @@
+"""The form at the left of a page: one renderer for the parts of any case, whatever tables it has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from nicegui import ui
+
+from treadload.app.elements import choosing, heading, plain, with_attributes
+from treadload.app.form import Checked, Form
+from treadload.app.form_field import LIST, Field
+from treadload.app.form_parts import Absent, Choosing, Group, Part, Rows
+from treadload.app.session import FILES, Session
+from treadload.app.tread_section import TreadSection
+from treadload.app.uploads import Uploads
+from treadload.errors import InputError
+
+
+class CaseForm(Uploads):
+    """The fields of a case, and what is wrong with them.
+
+    room: of the page whose form it is. changed: called with a form that the reader takes. files: buttons for files
+    that are no part of the case: text → suffixes and what is done with the kept name.
+    """
+
+    def __init__(
+        self, session: Session, room: str, changed: Callable[[Form], Any],
+        files: dict[str, tuple[tuple[str, ...], Callable[[str], Any]]] | None = None,
+    ) -> None:  # fmt: skip
+        super().__init__(session)
+        self._room, self._changed, self._files = room, changed, files or {}
+        self._shown: dict[str, tuple[Field, Any]] = {}
+        self._checked = Checked(None, {})
+        self._open: set[str] = set()
+        self._section: TreadSection | None = None
+
+    @property
+    def form(self) -> Form:
+        """As it stands."""
+        return self.session.forms[self._room]
+
+    def build(self) -> None:
+        """Put the fields on the page."""
+        super().build()
+        self._all()
+
+    @ui.refreshable_method
+    def _all(self) -> None:
+        self._shown.clear()
+        self._section = None
+        whole = self.form.parts(self.session.folder)
+        tables = [part for part in whole.parts if isinstance(part, Group | Rows)]
+        self._heading("Case", "")
+        self._parts([part for part in whole.parts if part not in tables])
+        self._more("", [part for part in whole.rest if not isinstance(part, Absent)])
+        for table in tables:
+            self._heading(table.label, table.path if table.can_go else "")
+            self._inside(table)
+        absent = [part for part in whole.rest if isinstance(part, Absent)]
+        if absent:
+            heading("Also solve")
+            self._parts(absent)
+        heading("Your case")
+        with ui.element("div").classes("line"):
+            self.upload("open a TOML …", (".toml",), None)
+            for text, (suffixes, opened) in self._files.items():
+                self.upload(text, suffixes, opened)
+            plain("begin anew", lambda: self.again(Form.first(self.form.command)))
+        for sentence in self.form.schema.broken:
+            ui.label(sentence).classes("warning")
+        self.check()
+
+    def _heading(self, text: str, path: str) -> None:
+        with ui.element("div").classes("title"):
+            heading(text)
+            if path:
+                self._remove(path, text)
+
+    def _inside(self, table: Group | Rows) -> None:
+        """What a table or a list holds."""
+        if isinstance(table, Rows):
+            for row in table.rows:
+                with ui.element("div").classes("layer"):
+                    with ui.element("div").classes("head"):
+                        ui.label(row.label)
+                        self._remove(row.path, row.label)
+                    self._inside(row)
+            plain(f"add to {table.label.lower()}", lambda: self.again(self.form.with_row(table.path, self._folder)))
+            return
+        self._parts(table.parts)
+        if table.path == "tire.profile":
+            self._section = TreadSection()
+        files = [path for path in FILES if table.path.endswith(path.rpartition(".")[0])]
+        if files and not table.is_inline:
+            with ui.element("div").classes("line after"):
+                for path in files:
+                    text, suffixes = FILES[path]
+                    self.upload(text, suffixes, self._takes_file(f"{table.path}.{path.rpartition('.')[2]}"))
+        self._more(table.path, table.rest)
+
+    def _parts(self, parts: Iterable[Part]) -> None:
+        grid: Any = None
+        for part in parts:
+            framed = isinstance(part, Rows) or (isinstance(part, Group) and not part.is_inline)
+            if grid is None or framed:
+                grid = None if framed else ui.element("div").classes("fields")
+            if isinstance(part, Group) and part.is_inline:
+                self._inside(part)
+                grid = None
+            elif isinstance(part, Group | Rows):
+                with ui.element("div").classes("table"):
+                    with ui.element("div").classes("head"):
+                        with ui.label(part.label):
+                            if part.words:
+                                ui.tooltip(part.words)
+                        if part.can_go:
+                            self._remove(part.path, part.label)
+                    self._inside(part)
+            else:
+                with grid:
+                    self._leaf(part)
+
+    def _leaf(self, part: Field | Choosing | Absent) -> None:
+        if isinstance(part, Choosing):
+            self._choosing(part)
+        elif isinstance(part, Absent):
+            add = plain(
+                f"add {part.label.lower()}", lambda: self.again(self.form.with_added(part.path, self._folder))
+            )
+            add.tooltip(part.words)
+        else:
+            self.field(part)
+
+    def _more(self, path: str, rest: Sequence[Part]) -> None:
+        """Keys that the table does not give, put on the page when they are asked for."""
+        if not rest:
+            return
+        place = ui.element("div")
+
+        def show() -> None:
+            self._open ^= {path}
+            place.clear()
+            with place:
+                self._rest(path, rest, show)
+            self.check()
+
+        with place:
+            self._rest(path, rest, show)
+
+    def _rest(self, path: str, rest: Sequence[Part], show: Callable[[], None]) -> None:
+        is_open = path in self._open
+        if is_open:
+            self._parts(rest)
+        name = path or "the case"
+        button = plain("fewer" if is_open else f"{len(rest)} more …", show, label=f"other keys of {name}")
+        with_attributes(button, aria_expanded="true" if is_open else "false", data_more=path).classes("quiet")
+
+    def _remove(self, path: str, label: str) -> None:
+        remove = plain("remove", lambda: self.again(self.form.without(path, self._folder)), label=f"remove {label}")
+        with_attributes(remove, data_remove=path).classes("quiet")
+
+    def _choosing(self, part: Choosing) -> None:
+        options = dict(part.options)
+        if part.chosen not in options:
+            options[part.chosen] = "as it stands" if part.chosen or self.form.value(part.path) is not None else ""
+        select = choosing(options, part.chosen, part.label, lambda name: self._chosen(part, name))
+        with_attributes(select, data_choice=part.path)
+        if part.words:
+            select.tooltip(part.words)
+
+    def _chosen(self, part: Choosing, name: str) -> None:
+        if not name:
+            self.again(self.form.without(part.path, self._folder))
+            return
+        path = f"{part.path}.{name}" if part.is_key else part.path
+        ending = next((ending for ending in FILES if path.endswith(ending)), "")
+        form = self.form.with_added(path, self._folder, shape="" if part.is_key else name)
+        if ending and form.check(self._folder).case is None:
+            self.show_problem(f"choose the file below: “{FILES[ending][0]}”")
+            self._all.refresh()
+            return
+        self.again(form)
+
+    def _takes_file(self, path: str) -> Callable[[str], Any]:
+        return lambda name: self.again(self.form.with_added(path, self._folder, name))
+
+    @property
+    def _folder(self) -> Any:
+        return self.session.folder
+
+    def again(self, form: Form) -> None:
+        """The form has other fields than before."""
+        self.take(form)
+        self._solve()
+
+    def _solve(self) -> None:
+        if self.form.check(self._folder).case is not None:
+            self._changed(self.form)
+
+    def take(self, form: Form) -> None:
+        """Show another form, of a run or a file."""
+        self.session.forms[self._room] = form
+        self._all.refresh()
+
+    def check(self) -> None:
+        """Check the form, and show at each field whose its value is and what is wrong with it."""
+        self._checked = self.form.check(self._folder)
+        for path, (field, element) in self._shown.items():
+            wrong = self._checked.at(path, set(self._shown))
+            otherwise = self.form.default_of(field, self._checked.case)
+            is_given = self.form.value(path) is not None
+            # What a road of yours leaves out is no value of yours.
+            is_yours = is_given and self.form.is_yours(path)
+            hint = "yours" if is_yours else "default" if is_given or not otherwise else f"default: {otherwise}"
+            with_attributes(element, hint=hint).props(remove="error error-message")
+            element.classes(add="is-yours" if is_yours else "", remove="" if is_yours else "is-yours")
+            if wrong:
+                element.props["error"], element.props["error-message"] = True, wrong
+            element.update()
+        self._problems.clear()
+        with self._problems:
+            for text in self._checked.elsewhere(set(self._shown)):
+                ui.label(text).classes("problem")
+        self._has_problem = False
+        if self._section is not None:
+            self._section.draw(self.form)
+
+    def clear_problem(self) -> None:
+        """The problem is over; what is wrong with the fields of now is not."""
+        if self._has_problem:
+            self.check()
+
+    def field(self, field: Field) -> None:
+        """Put a field on the page."""
+        value = self._shown_text(field.shown(self.form.value(field.path)))
+        element: Any
+        if field.kind == "flag":
+            element = ui.switch(field.label, value=(value or field.otherwise) == "yes")
+            element.on_value_change(lambda event: self._typed(field, "yes" if event.value else "no"))
+            with_attributes(element, data_path=field.path)
+            element.props("dense").classes("switch")
+            if field.words:
+                element.tooltip(field.words)
+            return
+        if field.choices is not None:
+            options = dict(field.choices)
+            if value not in options:
+                options[value] = value
+            element = ui.select(options, value=value, label=field.label)
+            element.on_value_change(lambda event: self._typed(field, str(event.value or "")))
+            element.props("options-dense")
+        else:
+            element = ui.input(field.label, value=value)
+            with_attributes(element, suffix=field.unit).props('stack-label autocomplete="off"')
+            element.on("blur", lambda: self._typed(field, str(element.value or "")))
+            element.on("keydown.enter", lambda: self._typed(field, str(element.value or "")))
+        with_attributes(element, data_path=field.path).props("dense outlined")
+        is_wide = field.kind in (LIST, "text") and len(value) > 14
+        element.classes("field wide" if is_wide else "field")
+        if field.words:
+            element.tooltip(field.words)
+        self._shown[field.path] = (field, element)
+
+    def _shown_text(self, text: str) -> str:
+        """The name of a file as the user knows it, in place of that under which it is kept."""
+        return self.session.known_as(text)
+
+    def _typed(self, field: Field, text: str) -> None:
+        text = text.strip()
+        if text == self._shown_text(field.shown(self.form.value(field.path))):
+            return
+        before = self.form.table
+        self.session.forms[self._room] = self.form.with_text(field, self.session.files.get(text, text))
+        self.check()
+        if self.form.table != before:
+            self._solve()
+
+    def case_came(self, name: str, content: bytes) -> None:
+        """A case of the user's. Raises InputError."""
+        try:
+            text = content.decode("utf-8")
+        except UnicodeDecodeError as error:
+            raise InputError(f"{name} is not a text file in UTF-8") from error
+        self.again(Form.from_text(text, name, self.session.files, self.form.command))

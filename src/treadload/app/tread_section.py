@@ -1,0 +1,36 @@
+"""The cross-section of the tread of a profile, drawn while its numbers are typed."""
+
+from __future__ import annotations
+
+import json
+
+from treadload.app.figure_place import Place
+from treadload.app.form import Form, profile_of
+
+_POINTS = 241
+
+
+class TreadSection:
+    """A place for the cross-section, on the page that is being built."""
+
+    def __init__(self) -> None:
+        self._place = Place("section-of-tread", "cross-section of the tread")
+
+    def draw(self, form: Form) -> None:
+        """Draw the profile of a form; what stood there stays where its numbers are wrong."""
+        profile = profile_of(form)
+        if profile is None:
+            return
+        places = [profile.width * (number / (_POINTS - 1) - 0.5) for number in range(_POINTS)]
+        drop = profile.drop(places)  # type: ignore[arg-type]
+        axis = {"showgrid": False, "zeroline": False, "ticks": "outside", "tickfont": {"size": 10}}
+        figure = {
+            "data": [{"type": "scatter", "mode": "lines", "x": [1e3 * y for y in places], "hoverinfo": "skip",
+                      "y": [-1e3 * float(depth) for depth in drop], "line": {"color": "#8a94a0", "width": 2}}],
+            "layout": {"height": 120, "margin": {"l": 34, "r": 6, "t": 6, "b": 30},
+                       "font": {"size": 10, "color": "#8a94a0"},
+                       "paper_bgcolor": "rgba(0,0,0,0)", "plot_bgcolor": "rgba(0,0,0,0)",
+                       "xaxis": {**axis, "title": {"text": "y (mm)", "standoff": 2}},
+                       "yaxis": {**axis, "title": {"text": "mm"}}},
+        }  # fmt: skip
+        self._place.draw(json.dumps(figure))

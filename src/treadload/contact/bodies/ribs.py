@@ -1,0 +1,82 @@
+"""Ribs with free sides on a belt: a tread that is the same along travel only.
+
+The compliance of a rib is that of its cross-section (`kernels.sections`). Ribs that stand apart do not feel each
+other through their thin common undertread: at the depth of a truck's grooves that is 1.6 % of the compliance under
+loads that do not vary along travel, and less under others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from treadload.contact.bodies.body import Body, Offsets, Rows, Strip, Waves
+from treadload.contact.bodies.section_tables import face_table
+from treadload.kernels.arrays import Array
+from treadload.materials import Elastic
+from treadload.tire.ribs import RibGroup
+
+# Wider cells, as those on which a contact is located, share the elements of these, m.
+_WIDEST = 3e-3
+_SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class Ribs(Body):
+    """Ribs of a tread, body 1. groups: of ribs that stand apart. material: their rubber.
+
+    layer: the same rubber without grooves, which stands for the ribs where a single number is asked for.
+    """
+
+    groups: tuple[RibGroup, ...]
+    material: Elastic
+    layer: Body
+
+    def normal(self, at: Offsets) -> Array:
+        """As in `Body`: none, all is in the strips."""
+        return np.zeros((at.ny, at.nx))
+
+    def tangential(self, at: Offsets) -> Array:
+        """As in `Body`: none, all is in the strips."""
+        return np.zeros((3, at.ny, at.nx))
+
+    def coupling(self, at: Offsets) -> Array:
+        """As in `Body`: none, all is in the strips."""
+        return np.zeros((2, at.ny, at.nx))
+
+    def compliance(self, waves: Waves) -> Array:
+        """As in `Body`, of the layer."""
+        return np.asarray(self.layer.compliance(waves))
+
+    def across(self, k: Array) -> Array:
+        """As in `Body`, of the layer."""
+        return self.layer.across(k)
+
+    @property
+    def striped(self) -> bool:
+        """As in `Body`."""
+        return True
+
+    def strips(self, rows: Rows) -> tuple[Strip, ...]:
+        """As in `Body`: rows whose middle lies on a face; the first and the last of a rib reach to its walls."""
+        y, half = rows.y, 0.5 * rows.dy
+        strips = []
+        for group in self.groups:
+            numbers, edges = [], []
+            for left, right in group.faces:
+                number = np.flatnonzero((y >= left - _SAME) & (y <= right + _SAME))
+                if number.size:
+                    ends = np.stack([y[number] - half, y[number] + half], axis=1)
+                    ends[0, 0], ends[-1, 1] = left, right
+                    numbers.append(number)
+                    edges.append(ends)
+            if not numbers:
+                continue
+            number, relative = np.concatenate(numbers), np.concatenate(edges) - group.centre
+            if group.mirrored:
+                relative = -relative[::-1, ::-1]
+            section = group.section.for_cells(min(rows.dy, _WIDEST))
+            table = face_table(section, self.material.poisson).on_cells(relative, rows.dy)
+            strips.append(Strip(number, table, self.material.modulus, group.mirrored))
+        return tuple(strips)

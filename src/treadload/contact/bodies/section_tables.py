@@ -1,0 +1,106 @@
+"""Tables of cross-sections, kept in memory and in the user's cache folder: a section is solved once.
+
+A file holds one table, for E = 1 Pa. It is written whole or not at all, and made again, without a word, where it is
+missing, damaged, or of another version. TREADLOAD_CACHE names another folder; empty, it keeps tables in memory only.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import io
+import os
+import zipfile
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import platformdirs
+
+from treadload.errors import TreadloadError
+from treadload.files import write_whole
+from treadload.kernels.arrays import Array
+from treadload.kernels.sections import FaceTable, Section, face_compliance
+
+# Raised with every change of the elements or of what a file holds.
+_VERSION = 1
+# Tables in memory, and on the disk: a few MB each.
+_KEPT, _MOST_FILES = 8, 40
+# Lengths of sections are compared to so many decimals of a metre: ribs that differ by round-off share a table.
+_DECIMALS = 9
+
+
+def face_table(section: Section, poisson: float) -> FaceTable:
+    """Displacement of the face of a section of E = 1 Pa, solved, or taken from an earlier time. poisson: ν < ½."""
+    return _table(_rounded(section), float(poisson))
+
+
+@lru_cache(maxsize=_KEPT)
+def _table(section: Section, poisson: float) -> FaceTable:
+    path = _path(section, poisson)
+    table = None if path is None else _read(path, section, poisson)
+    if table is None:
+        table = face_compliance(section, poisson)
+        if path is not None:
+            _write(path, table)
+    return table
+
+
+def _rounded(section: Section) -> Section:
+    def near(lengths: tuple[float, ...]) -> tuple[float, ...]:
+        return tuple(round(length, _DECIMALS) + 0.0 for length in lengths)
+
+    ribs = tuple((round(left, _DECIMALS) + 0.0, round(right, _DECIMALS) + 0.0) for left, right in section.ribs)
+    first, last = near(section.ends)
+    height, draft = near((section.height, section.draft))
+    return Section(ribs, height, near(section.floors), (first, last), draft, section.halvings)
+
+
+def _path(section: Section, poisson: float) -> Path | None:
+    """Where the table of a section lies; None where tables are not kept on the disk."""
+    folder = os.environ.get("TREADLOAD_CACHE")
+    if folder == "":
+        return None
+    place = Path(folder) if folder else platformdirs.user_cache_path("treadload", appauthor=False)
+    name = hashlib.sha256(f"{_VERSION} {section!r} {poisson!r}".encode()).hexdigest()[:32]
+    return place / "sections" / f"{name}.npz"
+
+
+def _read(path: Path, section: Section, poisson: float) -> FaceTable | None:
+    """The table of a file; None where there is none, or where it does not hold what it should."""
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            description, waves, compliance = (stored[name] for name in ("description", "waves", "compliance"))
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        return None
+    nodes = 3 * section.mesh.face_lines.size
+    sound = (
+        str(description) == _description(section, poisson)
+        and waves.ndim == 1
+        and compliance.shape == (waves.size, nodes, nodes)
+        and bool(np.isfinite(compliance).all())
+    )
+    return FaceTable(section, poisson, _read_only(waves), _read_only(compliance)) if sound else None
+
+
+def _write(path: Path, table: FaceTable) -> None:
+    """Write the file of a table, where that can be done, and remove the oldest of many."""
+    content = io.BytesIO()
+    description = _description(table.section, table.poisson)
+    np.savez(content, description=description, waves=table.waves, compliance=table.compliance)
+    # A folder that cannot be written costs time, and no result.
+    with contextlib.suppress(OSError, TreadloadError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, content.getvalue(), sync=False)
+        files = sorted(path.parent.glob("*.npz"), key=lambda file: file.stat().st_mtime)
+        for file in files[:-_MOST_FILES]:
+            file.unlink(missing_ok=True)
+
+
+def _description(section: Section, poisson: float) -> str:
+    return f"treadload section {_VERSION}: {section!r}, poisson {poisson!r}"
+
+
+def _read_only(values: Array) -> Array:
+    values.flags.writeable = False
+    return values

@@ -1,0 +1,98 @@
+"""The contacts of a response solved again on other cells: shifted by half a cell, or twice as large."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from treadload.composing import Source
+from treadload.contact import Contact, solve_contact
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.response import Response, solve_response
+from treadload.tire import Tire
+
+COARSER = 2.0
+
+
+def shifted_contacts(response: Source) -> list[Contact]:
+    """The contacts of a response on cells half a cell beside. Raises InputError where they cannot be solved again."""
+    return [_again(contact, 1.0, (0.5, 0.5)) for contact in _solvable(response).contacts]
+
+
+def coarser(response: Source) -> Response:
+    """A response to its contacts on cells twice as large. Raises InputError where they cannot be solved again."""
+    solved = _solvable(response)
+    contacts = solved.contacts
+    places: dict[str, Array | None] = {}
+    for name in ("x", "y"):
+        at = solved.dataset[name].to_numpy()
+        of_the_contact = len(contacts) == 1 and np.array_equal(at, contacts[0].dataset[name].to_numpy())
+        places[name] = None if of_the_contact else at
+    assert solved.road is not None
+    depths = solved.dataset["depth"].to_numpy()
+    with solving_coarser(cell_of(response)):
+        wide = [_again(contact, COARSER, (0.0, 0.0)) for contact in contacts]
+    x, y = places["x"], places["y"]
+    return solve_response(wide, solved.road, depths=depths, x=x, y=y, speed=solved.speed, side=solved.side)
+
+
+@contextmanager
+def solving_coarser(cell: float) -> Iterator[None]:
+    """An InputError inside says that it is about the coarser grid. cell: side of the cells asked for, m."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(
+            f"error_estimate solves the contact on cells of {COARSER * cell * 1e3:g} mm as well, twice the spacing "
+            f"of {cell * 1e3:g} mm: {error}; or leave error_estimate out"
+        ) from error
+
+
+def cell_of(response: Source) -> float:
+    """Side of the cells of a response's contacts, m."""
+    return float(_solvable(response).contacts[0].dataset.attrs["dx"])
+
+
+def _solvable(response: Source) -> Response:
+    if not isinstance(response, Response) or not response.contacts:
+        raise InputError(
+            "a second grid needs the contacts of the response, and this one does not have them: solve that of a "
+            "contact, tl.solve_response(contact, road, depths=...), or give the shifted contact yourself"
+        )
+    for contact in response.contacts:
+        check_two_grids(contact.tire)
+        if "road_height" in contact.dataset:
+            raise InputError(
+                "a second grid solves the contact again, and its relief is not kept; give the shifted "
+                "contact yourself"
+            )
+    return response
+
+
+def _again(contact: Contact, factor: float, offset: tuple[float, float]) -> Contact:
+    """A contact on cells larger by a factor, or moved by parts of a cell."""
+    return solve_contact(
+        contact.tire,
+        contact.road,
+        contact.rolling,
+        spacing=factor * float(contact.dataset.attrs["dx"]),
+        offset=offset,
+        tolerance=float(contact.stats.get("tolerance", 1e-6)),
+        road_compliance="layers" if contact.stats.get("layers_solved") else "half_space",
+    )
+
+
+def check_two_grids(tire: Tire | None) -> None:
+    """Raise InputError for what can be solved on its own cells only; None stands for a recorded footprint."""
+    if what := known_on_its_cells(tire):
+        raise InputError(f"an error estimate solves the contact on two grids, and {what} has one; leave it out")
+
+
+def known_on_its_cells(tire: Tire | None) -> str:
+    """What is known on its own cells only, in words; empty for what others know too. None: a recorded footprint."""
+    if tire is None:
+        return "a recorded footprint"
+    return "" if tire.fixed_grid is None else "a height map"

@@ -1,0 +1,165 @@
+"""Surfaces that are the same along travel only: one dense block a wave for every group of neighbouring rows.
+
+Displacements (u_x, u_y, u_n) under loads (q_x, q_y, p). Along travel a product is a convolution, by FFT; across, the
+rows of a group are coupled by a matrix, and rows of different groups are not. In the frame (q_x, q_y, -p) →
+(u_x, u_y, -u_n), with u_x and q_x in quadrature, these matrices are real and symmetric.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from treadload.kernels import fft
+from treadload.kernels.arrays import Array, ComplexArray, IntArray
+
+# Displacements from those of the frame; loads go the other way, by the conjugate.
+_FRAME = np.array([1j, 1.0, -1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Dense blocks of groups of rows.
+
+    rows: numbers (n,) of the rows of every group, none in two. blocks: (length // 2 + 1, 3 n, 3 n) of every group,
+    m/Pa: all rows of the first component, then of the second and the third; complex where displacements are sought
+    elsewhere than at the cells. length: cells along travel after which
+    loads repeat.
+    """
+
+    rows: tuple[IntArray, ...]
+    blocks: tuple[Array | ComplexArray, ...]
+    length: int
+    _parts: dict[tuple[tuple[int, ...], tuple[int, ...], str], list[tuple[IntArray, Array]]] = field(
+        default_factory=dict, init=False, repr=False
+    )
+
+    def displacement(self, loads: Array, by: tuple[int, ...], of: tuple[int, ...], columns: int) -> Array:
+        """Displacement (of, ny, columns), m, by loads (by, ny, nx), Pa, in the precision of the loads.
+
+        by, of: which components: 0 along travel, 1 across, 2 normal.
+        """
+        waves = fft.rfft(loads, n=self.length, axis=-1)
+        for wave, component in zip(waves, by, strict=True):
+            wave *= _FRAME[component].conjugate()
+        moved: ComplexArray = np.zeros((len(of), *waves.shape[1:]), waves.dtype)
+        real = loads.dtype
+        for rows, blocks in self._blocks(by, of, real):
+            # (waves, groups, rows): groups of as many rows are multiplied at once.
+            groups = np.ascontiguousarray(waves[:, rows].transpose(3, 1, 0, 2))
+            column = groups.reshape(*groups.shape[:2], -1, 1)
+            turned = np.iscomplexobj(blocks)
+            product = blocks @ column if turned else (blocks @ column.view(real)).view(waves.dtype)
+            moved[:, rows] = product.reshape(*groups.shape[:2], len(of), -1).transpose(2, 1, 3, 0)
+        for wave, component in zip(moved, of, strict=True):
+            wave *= _FRAME[component]
+        field_: Array = fft.irfft(moved, n=self.length, axis=-1)[..., :columns]
+        return field_
+
+    def _blocks(
+        self, by: tuple[int, ...], of: tuple[int, ...], real: np.dtype[np.floating[Any]]
+    ) -> list[tuple[IntArray, Array]]:
+        """Rows (groups, n) of groups of as many rows, and their blocks (waves, groups, of n, by n) in a precision."""
+        key = by, of, real.char
+        if key not in self._parts:
+            kind = np.result_type(real, np.complex64) if np.iscomplexobj(self.blocks[0]) else real
+            sizes = sorted({rows.size for rows in self.rows})
+            alike = [[number for number, rows in enumerate(self.rows) if rows.size == size] for size in sizes]
+            self._parts[key] = [
+                (
+                    np.stack([self.rows[number] for number in numbers]),
+                    np.stack([self._block(self.blocks[number], by, of) for number in numbers], axis=1).astype(kind),
+                )
+                for numbers in alike
+            ]
+        return self._parts[key]
+
+    @staticmethod
+    def _block(block: Array | ComplexArray, by: tuple[int, ...], of: tuple[int, ...]) -> Array | ComplexArray:
+        """The part of a block that gives some components by some others."""
+        count = block.shape[1] // 3
+        parts = block.reshape(-1, 3, count, 3, count)[:, list(of)][:, :, :, list(by)]
+        return parts.reshape(-1, len(of) * count, len(by) * count)
+
+    def alone(self, component: int, places: int) -> Array:
+        """Mean displacement of a cell by its own load at distances of 0, 1, … cells along travel: (places,), m/Pa."""
+        diagonal = np.concatenate(
+            [np.diagonal(self._block(b, (component,), (component,)), axis1=1, axis2=2) for b in self.blocks], axis=1
+        )
+        along: Array = fft.irfft(diagonal.mean(1) + 0j, n=self.length)[:places]
+        return along
+
+
+@dataclass(frozen=True, eq=False)
+class StripInverse:
+    """The inverse of strips and of a convolution together, on rows that repeat after a length along travel.
+
+    index: rows (n,) of the strips. inverse: (length // 2 + 1, m n, m n), Pa/m. components: which, as in `Strips`.
+    """
+
+    index: IntArray
+    inverse: Array
+    components: tuple[int, ...]
+    length: int
+
+    @classmethod
+    def of(cls, strips: Strips, components: tuple[int, ...], kernels: dict[tuple[int, int], Array]) -> StripInverse:
+        """From strips of a length, and what a convolution adds.
+
+        kernels: (ny, length // 2 + 1) at distances of 0, 1, … cells across and along: u_i by the load j, i ≤ j, of
+        parity (-1)^([i = 0] + [j = 0]) along and (-1)^([i = 1] + [j = 1]) across.
+        """
+        index = np.concatenate(strips.rows)
+        count, many = index.size, len(components)
+        whole = np.zeros((strips.length // 2 + 1, many, count, many, count))
+        place = 0
+        for rows, block in zip(strips.rows, strips.blocks, strict=True):
+            size = rows.size
+            part = Strips._block(block, components, components).reshape(-1, many, size, many, size)
+            whole[:, :, place : place + size, :, place : place + size] = part
+            place += size
+        apart = index[:, None] - index
+        for (i, j), kernel in kernels.items():
+            odd_along, odd_across = (i == 0) != (j == 0), (i == 1) != (j == 1)
+            symbol = _along(kernel, strips.length, odd=odd_along)
+            # Into the frame: u_i = f_i S* and q_j = f_j S, so that the matrix is real.
+            symbol = symbol * (_FRAME[i].conjugate() * _FRAME[j])
+            rows_apart = symbol.real[np.abs(apart)].transpose(2, 0, 1)
+            if odd_across:
+                rows_apart = rows_apart * np.sign(apart)
+            at, to = components.index(i), components.index(j)
+            whole[:, at, :, to] += rows_apart
+            if i != j:
+                whole[:, to, :, at] += rows_apart.swapaxes(1, 2)
+        flat = whole.reshape(-1, many * count, many * count)
+        return cls(index, np.linalg.inv(flat).astype(np.float32), components, strips.length)
+
+    def __call__(self, fields: Array) -> Array:
+        """Loads (m, ny, nx) that give displacements (m, ny, nx) about, with nothing on rows of no strip."""
+        nx = fields.shape[-1]
+        many, count = len(self.components), self.index.size
+        waves = fft.rfft(fields[:, self.index].astype(np.float32, copy=False), n=self.length, axis=-1)
+        frame = _FRAME[list(self.components)].astype(np.complex64)[:, None, None]
+        waves = waves * frame.conjugate()
+        group = np.ascontiguousarray(waves.transpose(2, 0, 1)).reshape(-1, many * count, 1)
+        product = (self.inverse @ group.view(np.float32)).view(np.complex64)
+        loads = product.reshape(-1, many, count).transpose(1, 2, 0) * frame
+        spread = np.zeros(fields.shape, np.float32)
+        spread[:, self.index] = fft.irfft(loads, n=self.length, axis=-1)[..., :nx]
+        return spread
+
+
+def _along(kernel: Array, length: int, *, odd: bool) -> ComplexArray:
+    """Transform along travel (ny, length // 2 + 1) of a kernel known at distances ≥ 0 (ny, length // 2 + 1)."""
+    wrapped = np.zeros((kernel.shape[0], length))
+    half = length // 2
+    wrapped[:, : half + 1] = kernel[:, : half + 1]
+    wrapped[:, half + 1 :] = (-1 if odd else 1) * kernel[:, 1 : length - half][:, ::-1]
+    if odd:
+        wrapped[:, 0] = 0
+        if length % 2 == 0:
+            wrapped[:, half] = 0
+    transformed: ComplexArray = fft.rfft(wrapped, axis=-1)
+    return transformed

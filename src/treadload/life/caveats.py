@@ -1,0 +1,67 @@
+"""Values of a traffic that no road sees, and bonds beyond their tests: sentences for the warnings of a life."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from treadload.contact.friction.laws import law_of
+from treadload.damage.climate import Climate
+from treadload.damage.criterion import Criterion
+from treadload.damage.traffic import Traffic
+from treadload.life.seasons import Warm, beyond_data
+from treadload.life.wheels import Wheels
+from treadload.pavement import Pavement
+from treadload.plausible import doubt, load_doubt
+from treadload.tire import Tire
+
+
+def beyond_tables(road: Pavement, climate: Climate) -> tuple[str, ...]:
+    """Sentences on mixes that the climate takes beyond their tables: how far, and in which share of the passes."""
+    furthest_by_layer: dict[tuple[str, float], tuple[float, float]] = {}
+    for season in climate.seasons:
+        worst: dict[tuple[str, float], float] = {}
+        for name, value, limit in beyond_data(road, season):
+            far = worst.get((name, limit), limit)
+            worst[name, limit] = max(far, value) if value > limit else min(far, value)
+        for key, value in worst.items():
+            furthest, share = furthest_by_layer.get(key, (key[1], 0.0))
+            furthest = max(furthest, value) if value > key[1] else min(furthest, value)
+            furthest_by_layer[key] = furthest, share + season.share
+    return tuple(
+        f"{name} reaches {furthest:.0f} °C, beyond its table to {limit:g} °C, in {100 * share:.2g} % of the passes: "
+        "ln E is extrapolated there, laws stay at the limit"
+        for (name, limit), (furthest, share) in furthest_by_layer.items()
+    )
+
+
+def bond_doubts(criteria: Sequence[Criterion], warm: Sequence[Warm], wheels: Sequence[Wheels]) -> tuple[str, ...]:
+    """Sentences on bonds in seasons and under classes for which their strength was not tested."""
+    doubts = {
+        f"{criterion.name}: {text}": None
+        for season in warm
+        for k, criterion in enumerate(criteria)
+        if criterion.quantity.between_layers
+        for wheel in wheels
+        for text in season.criteria[k]
+        .passing(wheel.speed, season.criteria[k].depth(season.road), wheel.length)
+        .quantity.doubt.split("; ")
+        if text not in criterion.quantity.doubt
+    }
+    return tuple(doubts)
+
+
+def traffic_doubts(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str, ...]:
+    """Sentences on the classes of axles, how many there are, how that grows, and the temperatures."""
+    caveats = doubt("number of passes per year", traffic.passes_per_year) if traffic.passes_per_year else ()
+    caveats += doubt("annual growth", traffic.growth)
+    for row in traffic.classes:
+        _, width = (row.tire or tire).extent
+        caveats += load_doubt(row.wheel_load, width, row.name)
+        caveats += doubt("inflation pressure", row.inflation_pressure, row.name)
+        caveats += doubt("friction", law_of(row.friction).largest, row.name)
+        if row.speed is not None:
+            caveats += doubt("speed", row.speed, row.name)
+    for season in climate.seasons:
+        for temperature in season.temperatures:
+            caveats += doubt("temperature", temperature, season.name)
+    return caveats

@@ -1,0 +1,83 @@
+"""Contacts of a traffic: each state solved once, and near ones from each other."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from treadload.contact import Contact
+from treadload.contact.maneuver import STRAIGHT
+from treadload.life.wheels import State, contact_in_state
+from treadload.pavement import Pavement
+from treadload.tire import Tire
+
+Solved = TypeVar("Solved")
+# Cells of a tread from which on contacts gain from threads: smaller ones wait for each other at every step and take
+# up to half as long again on two threads as on one, measured.
+_MANY_CELLS = 80_000
+Progress = Callable[[int, int, str], None]
+"""Called with (done, of how many, what) after each solve of a contact or a response."""
+
+
+class Counter:
+    """How many solves of a total are done; threads may count at once."""
+
+    def __init__(self, total: int, progress: Progress | None) -> None:
+        self.total = total
+        self._done = itertools.count(1)
+        self._tell = progress or (lambda done, total, what: None)
+
+    def after(self, result: Solved, what: str) -> Solved:
+        """The result of one solve, counted."""
+        self._tell(next(self._done), self.total, what)
+        return result
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """Contacts of a tire with a road, on cells of a spacing, m; those solved are known."""
+
+    tire: Tire
+    spacing: float
+    solved: dict[State, Contact] = field(default_factory=dict)
+
+    def missing(self, states: Sequence[State]) -> list[State]:
+        """Those of some states that are not known yet, each once."""
+        return [state for state in dict.fromkeys(states) if state not in self.solved]
+
+    def solve(self, states: Sequence[State], road: Pavement, pool: Executor, count: Counter) -> None:
+        """Make the missing ones known, each from the nearest one known before in the same maneuver.
+
+        One maneuver under each load first: the others begin at its pressure, which shear hardly changes. road: in any
+        season, its moduli do not matter. Which one is the nearest does not depend on the order in which threads come
+        to their end.
+        """
+
+        def touch(pair: tuple[State, Contact | None]) -> Contact:
+            solved = contact_in_state(self.tire, road, pair[0], self.spacing, start=pair[1])
+            return count.after(solved, "contact")
+
+        missing = self.missing(states)
+        large = all(math.prod((state.tire or self.tire).extent) > _MANY_CELLS * self.spacing**2 for state in missing)
+        each = pool.map if large else map
+        firsts = list({state._replace(maneuver=STRAIGHT): state for state in reversed(missing)}.values())
+        for wave in (firsts[::-1], missing):
+            starts = [(state, self._near(state)) for state in self.missing(wave)]
+            self.solved.update(zip((state for state, _ in starts), each(touch, starts), strict=True))
+
+    def _near(self, state: State) -> Contact | None:
+        """The contact known whose load and pressure are nearest, relatively; None without one."""
+        of_tire = [earlier for earlier in self.solved if earlier.tire == state.tire]
+        alike = [earlier for earlier in of_tire if earlier.maneuver == state.maneuver]
+        # Of another maneuver the pressure alone serves, and that under the same load.
+        alike = alike or [earlier for earlier in of_tire if earlier.numbers == state.numbers]
+
+        def apart(candidate: State) -> float:
+            pairs = zip(state.numbers, candidate.numbers, strict=True)
+            return sum(abs(math.log(here / another)) for here, another in pairs)
+
+        return self.solved[min(alike, key=apart)] if alike else None

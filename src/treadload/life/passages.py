@@ -1,0 +1,173 @@
+"""Passages: what every class of axle does to every season's road, with few solves for many combinations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import xarray as xr
+
+from treadload.damage.climate import Season
+from treadload.damage.laws.fatigue import FatigueLaw
+from treadload.damage.miner import wander_of
+from treadload.kernels.arrays import Array
+from treadload.life.caveats import bond_doubts
+from treadload.life.climate import nodes, over_the_climate, warmth_of
+from treadload.life.contacts import Counter, Progress
+from treadload.life.design import Design
+from treadload.life.passage import Passing, solve_passings
+from treadload.life.seasons import laws_of, layer_temperatures, roads_of
+from treadload.life.threads import how_many, pool_of
+from treadload.life.wheels import Wheels, across, check_speed, states_of, wheels_of
+from treadload.response.input_caveats import overlapping, road_doubts
+
+
+@dataclass(frozen=True, eq=False)
+class Passages:
+    """Readings of the criteria as every class of axle passes in every season.
+
+    readings: (criterion, axle_class, season, turn, y): the peak under each axle of a group and, between them, the
+    valley: peak, valley, peak, ..., zeros behind the last. crack_angle, crack_dip: (criterion, axle_class, season,
+    y), rad, of the crack at the worst instant, in the season's road or the nearest that was solved. read_depth:
+    of the largest reading there, m.
+    layer_temperatures: (criterion, season), °C. contacts, responses: how many were really solved.
+    interpolation_error: the largest that interpolation over the climate does, measured on the heaviest class: the
+    relative error of its largest reading that would move damage as much; 0 if nothing was interpolated. moved: how
+    far a wheel was moved to stand on the common cells, m. laws: (criterion, axle_class, season), of the moduli that
+    were solved. warnings: sentences for the user.
+    """
+
+    readings: xr.DataArray
+    crack_angle: Array
+    crack_dip: Array
+    read_depth: Array
+    layer_temperatures: Array
+    contacts: int
+    responses: int
+    interpolation_error: float
+    moved: float
+    wheels: tuple[Wheels, ...]
+    laws: tuple[tuple[tuple[FatigueLaw, ...], ...], ...]
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def combinations(self) -> int:
+        """Classes times seasons."""
+        return int(self.readings.sizes["axle_class"] * self.readings.sizes["season"])
+
+
+def solve_passages(design: Design, *, workers: int | None = None, progress: Progress | None = None) -> Passages:
+    """What the laws read as every class of axle passes over the road in every season.
+
+    A point of the road sees the whole field along x as the wheels roll by. Each axle of a group is a cycle of its
+    own, less what is left of it before the next one comes; wheels side by side make one cycle.
+    workers: threads; all cores if left out. progress: called after every solve.
+    One contact is solved for each load, pressure and maneuver: the road's moduli do not matter to it. With many
+    seasons of one temperature each, the heaviest class is solved in all of them, and the others, criterion by
+    criterion, only in those from which splines give the harm of the heaviest class within the tolerance, see
+    `climate.nodes`.
+    Raises InputError, and ConvergenceError of a contact.
+    """
+    tire, road, criteria, contacts = design.tire, design.road, design.criteria, design.contacts
+    classes, seasons = design.traffic.classes, design.climate.seasons
+    for criterion in criteria:
+        criterion.depth(road)
+    warm = roads_of(road, criteria, seasons, classes)
+    distinct = warm.distinct
+    for row in classes:
+        check_speed(row, distinct[0].road)
+    temperatures = layer_temperatures(road, criteria, seasons)
+    states = [state for row in classes for state in states_of(row, tire)]
+    touched = len(contacts.missing(states))
+    count = Counter(touched + len(classes) * len(distinct), progress)
+    threads = how_many(workers)
+    with pool_of(threads) as pool:
+        contacts.solve(states, distinct[0].road, pool, count)
+        by_class = [[contacts.solved[state] for state in states_of(row, tire)] for row in classes]
+        y = across([contacts_of_class[0] for contacts_of_class in by_class], classes)
+        wheels = [
+            wheels_of(contacts_of_class, row, y) for contacts_of_class, row in zip(by_class, classes, strict=True)
+        ]
+        turns = 2 * max(len(wheel.x) for wheel in wheels) - 1
+
+        values = np.empty((len(classes), len(distinct), len(criteria), turns + 3, len(y)))
+
+        def solve_all(rows: Sequence[int], by_road: Sequence[tuple[int, list[int]]]) -> None:
+            """Into values, for classes, of roads those criteria; all by number."""
+            tasks = [(row, number, numbers) for row in rows for number, numbers in by_road]
+            passings = [
+                Passing(wheels[row], warm.by_class[row][number].reading(numbers), y, turns)
+                for row, number, numbers in tasks
+            ]
+            for (row, number, numbers), read in zip(
+                tasks, solve_passings(passings, pool, count, threads), strict=True
+            ):
+                values[row, number, numbers] = read
+
+        heaviest = int(np.argmax([row.wheel_load for row in classes]))
+        lighter = [row for row in range(len(classes)) if row != heaviest]
+        solve_all([heaviest], [(number, list(range(len(criteria)))) for number in range(len(distinct))])
+        warmths = [warmth_of(seasons, [road.road for road in roads]) for roads in warm.by_class]
+        warmth, laws = warmths[heaviest], laws_of(warm, temperatures)
+        kept, errors = [], []
+        for k, criterion in enumerate(criteria):
+            wander = wander_of(criterion.law_at(temperatures[k, 0]), design.traffic)
+            pilot, step = values[heaviest, :, k, :turns], float(y[1] - y[0])
+            yearly = partial(_yearly, laws=laws[k][heaviest], where=warm.where, seasons=seasons)
+            # Roads below a weather differ in several ways: holding their sum as close would ask for most of them.
+            single = warmth is not None and warmth.ndim == 1
+            chosen, error = nodes(warmth, pilot, design.tolerance, wander, step, yearly if single else None)
+            kept.append(chosen)
+            errors.append(error)
+        by_road = [(n, [k for k, chosen in enumerate(kept) if n in chosen]) for n in sorted(set().union(*kept))]
+        count.total = touched + len(distinct) + len(lighter) * len(by_road)
+        if lighter:
+            solve_all(lighter, by_road)
+            for k, chosen in enumerate(kept):
+                if len(chosen) < len(distinct):
+                    for number in lighter:
+                        rest = values[np.ix_([number], chosen)][:, :, k]
+                        values[number, :, k] = over_the_climate(warmths[number], chosen, rest, turns)[0]
+    # (criterion, axle_class, season, turn, y), with the crack behind the turns.
+    everything = values[:, warm.where].transpose(2, 0, 1, 3, 4)
+    readings = xr.DataArray(
+        everything[:, :, :, :turns],
+        dims=("criterion", "axle_class", "season", "turn", "y"),
+        coords={
+            "criterion": [criterion.name for criterion in criteria],
+            "axle_class": [row.name for row in classes],
+            "season": [season.name for season in seasons],
+            "y": y,
+        },
+    )
+    return Passages(
+        readings,
+        everything[:, :, :, turns],
+        everything[:, :, :, turns + 1],
+        everything[:, :, :, turns + 2],
+        temperatures,
+        touched,
+        count.total - touched,
+        max(errors),
+        max(wheel.moved for wheel in wheels),
+        tuple(wheels),
+        laws,
+        tuple(f"{wheel.name}: {text}" for wheel in wheels for text in overlapping(wheel.loads))
+        + road_doubts(distinct[0].road)
+        + bond_doubts(criteria, distinct, wheels),
+    )
+
+
+def _yearly(readings: Array, laws: Sequence[FatigueLaw], where: Sequence[int], seasons: Sequence[Season]) -> Array:
+    """Damage of a passage (road, y), by the shares of the seasons, from readings (road, turn, y) of one class.
+
+    laws: by season. where: the road of each season, by number.
+    """
+    sign = np.where(np.arange(readings.shape[1]) % 2, -1.0, 1.0)[:, None]
+    damage = np.zeros((len(readings), readings.shape[2]))
+    for road, law, season in zip(where, laws, seasons, strict=True):
+        each = (sign / np.asarray(law.allowable_passes(np.maximum(readings[road], 0.0)))).sum(axis=0)
+        damage[road] += season.share * np.maximum(each, 0.0)
+    return damage

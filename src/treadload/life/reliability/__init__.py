@@ -1,0 +1,7 @@
+"""Years with a probability: what a life scatters by, from few solves of changed roads."""
+
+from treadload.life.reliability.propagation import MonteCarlo
+from treadload.life.reliability.solution import Reliability
+from treadload.life.reliability.solve import life_reliability, roads_asked
+
+__all__ = ["MonteCarlo", "Reliability", "life_reliability", "roads_asked"]

@@ -1,0 +1,155 @@
+"""The life of a road under a traffic and a climate, from the tire to the governing criterion."""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from treadload import variables
+from treadload.damage.criterion import Criterion
+from treadload.damage.interface import interface_in_words
+from treadload.damage.miner import Life, miner
+from treadload.life.caveats import beyond_tables, traffic_doubts
+from treadload.life.contacts import Progress
+from treadload.life.design import Design
+from treadload.life.groups import group_factors, in_words
+from treadload.life.layered_climate import climate_fields
+from treadload.life.passages import Passages, solve_passages
+from treadload.life.rutting import rut_fields
+from treadload.life.seasons import frequencies
+from treadload.life.surface_works import surface_works
+from treadload.life.thermal import daily_cycles
+from treadload.pavement import Pavement, lift_below
+
+
+def solve_life(design: Design, *, workers: int | None = None, progress: Progress | None = None) -> Life:
+    """How many years a road lasts, by every criterion.
+
+    What each law reads as every class of axle passes in every season, see `solve_passages`; then Miner's sum after
+    wander, see `miner`, and how the axles of a group interact, see `life.groups`; the rut, see `life.rutting`.
+    workers: threads; all cores if left out. progress: called after every solve.
+    stats of the result: contacts and responses solved, combinations that they serve, the largest relative error of
+    readings interpolated over the climate, how far wheels were moved onto the common cells (m), seconds.
+    Raises InputError, and ConvergenceError of a contact.
+    """
+    start = time.perf_counter()
+    tire, road, traffic, climate = design.tire, design.road, design.traffic, design.climate
+    criteria = tuple(design.criteria)
+    passages = solve_passages(design, workers=workers, progress=progress)
+    weather = daily_cycles(road, climate, criteria, traffic)
+    life = miner(
+        passages.readings,
+        criteria,
+        traffic,
+        climate,
+        layer_temperatures=passages.layer_temperatures,
+        cracks=(passages.crack_angle, passages.crack_dip),
+        laws=passages.laws,
+        weather=weather,
+    )
+    depths = ("criterion", _read_depths(life, passages), variables.attributes("read_depth"))
+    life = replace(life, dataset=life.dataset.assign(read_depth=depths))
+    factors, axles = group_factors(road, life, passages, workers)
+    names = (tuple(row.name for row in traffic.classes), tuple(criterion.name for criterion in criteria))
+    plain = _at_one_frequency(design, life, workers, progress)
+    sentences = [*climate.about, *(weather.about if weather else ()), *plain, *in_words(*names, factors, axles)]
+    about = {
+        "groups": json.dumps(sentences, ensure_ascii=False),
+        "between": json.dumps(_interfaces(road, criteria), ensure_ascii=False),
+    }
+    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+        "group_factor": (("criterion", "axle_class"), factors),
+        "axles": (("axle_class",), axles),
+    }
+    fields |= surface_works(design)
+    variables_added = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
+    dataset = life.dataset.assign(variables_added).assign_attrs(about)
+    life = replace(life, dataset=dataset.merge(climate_fields(road, climate), combine_attrs="override"))
+    rut: tuple[str, ...] = ()
+    if design.rutting is not None:
+        fields_of_rut, rut = rut_fields(design, design.rutting, passages.wheels)
+        life = replace(life, dataset=life.dataset.merge(fields_of_rut, combine_attrs="no_conflicts"))
+    stats = {
+        "contacts": passages.contacts,
+        "responses": passages.responses + int((axles > 1).sum()),
+        "combinations": passages.combinations,
+        "interpolation_error": passages.interpolation_error,
+        "wheels_moved": passages.moved,
+        "seconds": time.perf_counter() - start,
+    }
+    caveats = (
+        *_lifts(road, criteria), *traffic_doubts(tire, traffic, climate), *climate.warnings,
+        *beyond_tables(road, climate), *(weather.warnings if weather else ()), *passages.warnings, *rut,
+    )  # fmt: skip
+    return replace(life, stats=stats, warnings=(*life.warnings, *caveats))
+
+
+def _interfaces(road: Pavement, criteria: Sequence[Criterion]) -> dict[str, str]:
+    """The interface, in words, of each criterion that reads one."""
+    names = [layer.name or f"layer {number + 1}" for number, layer in enumerate(road.layers)]
+    numbers = {criterion.name: criterion.number(road) for criterion in criteria if criterion.quantity.between_layers}
+    return {
+        name: interface_in_words(number, f"{names[number]} / {names[number + 1]}") for name, number in numbers.items()
+    }
+
+
+def _read_depths(life: Life, passages: Passages) -> list[float]:
+    """Depth of the reading that does most at the worst place of each criterion, m."""
+    y, shares = life.readings["y"].to_numpy(), life.dataset["damage_share"].to_numpy()
+    depths = []
+    for k, place in enumerate(life.dataset["worst_y"].to_numpy()):
+        column = int(np.abs(y - place).argmin())
+        by = shares[k] if shares[k].max() > 0 else passages.readings.to_numpy()[k, ..., column].max(axis=-1)
+        row, season = np.unravel_index(int(by.argmax()), by.shape)
+        depths.append(float(passages.read_depth[k, row, season, column]))
+    return depths
+
+
+def _at_one_frequency(design: Design, life: Life, workers: int | None, progress: Progress | None) -> list[str]:
+    """Sentences on the loading frequencies of the classes, and on the life without them, which is solved for it."""
+    traffic, climate = design.traffic, design.climate
+    ruled = [row for row in traffic.classes if row.frequency is not None]
+    if not ruled:
+        return []
+    shares = life.dataset["damage_share"].to_numpy().sum(axis=(0, 1))
+    season = climate.seasons[int(shares.argmax())]
+    caveats = []
+    for row in ruled:
+        hertz, ratios = frequencies(design.road, season, row)
+        if hertz:
+            caveats.append(
+                f"{row.name} reads moduli at {min(hertz):.3g} to {max(hertz):.3g} Hz over depth in {season.name}: "
+                f"{min(ratios):.3g} to {max(ratios):.3g} times those of the road as given ({row.frequency})"
+            )
+    plain = replace(traffic, classes=tuple(replace(row, frequency=None) for row in traffic.classes))
+    plain_life = solve_life(replace(design, traffic=plain, rutting=None), workers=workers, progress=progress)
+    for criterion in design.criteria:
+        years, without = life.years(criterion.name), plain_life.years(criterion.name)
+        if math.isfinite(years) and math.isfinite(without):
+            caveats.append(f"{criterion.name}: {years:.3g} years with these frequencies, {without:.3g} without them")
+    return caveats
+
+
+def _lifts(road: Pavement, criteria: Sequence[Criterion]) -> tuple[str, ...]:
+    """Sentences on criteria that read the bottom of a lift which another of the same mix carries."""
+    caveats = []
+    for criterion in criteria:
+        if criterion.place == "bottom" and lift_below(road, criterion.layer):
+            number = criterion.number(road)
+            caveats.append(
+                f"{criterion.name}: it reads the bottom of layer {number + 1}, but a lift of the same mix lies "
+                f"below; the base is read at its bottom, that of layer {_lowest_lift(road, number) + 1}"
+            )
+    return tuple(caveats)
+
+
+def _lowest_lift(road: Pavement, number: int) -> int:
+    while lift_below(road, number):
+        number += 1
+    return number

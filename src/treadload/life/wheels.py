@@ -1,0 +1,147 @@
+"""The wheels of a class of axles: which contacts they need, and where they stand on the common lattice."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from treadload.contact import Contact, Maneuver, solve_contact
+from treadload.damage.traffic import AxleClass
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array
+from treadload.pavement import Pavement
+from treadload.response import GridLoad
+from treadload.response.loads import SurfaceLoad
+from treadload.response.superposition import merged
+from treadload.tire import Tire
+
+# Of contact and slip in a passage: lives move by 4e-6 from those of 1e-6, with half of the products, measured.
+_TOLERANCE = 3e-5
+# Points beyond the outer edges of the wheels, m: strain there is a few per cent of the largest.
+MARGIN = 0.3
+# Readings stand at least this close to each other across travel, m: a fifth of the length they are averaged over.
+_BETWEEN = 2e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Wheels:
+    """The wheels of a class with their contact, on the cells of the common lattice.
+
+    loads: one per wheel. x: of the cells' centres under the axles, m, one row per axle, from the rear to the front.
+    speed: m/s, or None. moved: the largest distance along x or y between where a wheel stands and where the class has
+    it, m.
+    """
+
+    loads: tuple[GridLoad, ...]
+    x: Array
+    speed: float | None
+    name: str
+    moved: float
+
+    @cached_property
+    def joined(self) -> list[SurfaceLoad]:
+        """The same loads, fewer where they stand close together."""
+        return merged(self.loads)
+
+    @cached_property
+    def length(self) -> float:
+        """Of the longest footprint, m."""
+        pressed = [load.grid.dx * np.ptp(np.flatnonzero((load.pressure > 0).any(axis=0))) for load in self.loads]
+        return float(max(pressed)) + self.loads[0].grid.dx
+
+    @property
+    def cell(self) -> float:
+        """Size of the cells across travel, m."""
+        return self.loads[0].grid.dy
+
+
+def check_speed(row: AxleClass, road: Pavement) -> None:
+    """Raise InputError for a class without speed on a viscoelastic road."""
+    if road.is_viscoelastic and row.speed is None:
+        raise InputError(f"the road is viscoelastic: give the class {row.name!r} a speed in m/s")
+
+
+class State(NamedTuple):
+    """What the contact of a class depends on, besides the tire and the road."""
+
+    wheel_load: float
+    inflation_pressure: float
+    maneuver: Maneuver
+    friction: Any
+    speed: float | None
+    tire: Tire | None
+
+    @property
+    def numbers(self) -> tuple[float, float]:
+        """Load and pressure."""
+        return self.wheel_load, self.inflation_pressure
+
+
+def state(row: AxleClass) -> State:
+    """The state of a class."""
+    return State(row.wheel_load, row.inflation_pressure, row.maneuver, row.friction, row.speed, row.tire)
+
+
+def states_of(row: AxleClass, tire: Tire) -> tuple[State, ...]:
+    """The state of a class; and, where wheels are mirrored and their tread is not its own mirror image, that whose
+    mirror image is theirs: with side force and spin reversed.
+    """
+    if not row.mirrored or (row.tire or tire).is_symmetric:
+        return (state(row),)
+    maneuver = replace(row.maneuver, lateral=-row.maneuver.lateral, spin=-row.maneuver.spin)
+    return state(row), state(replace(row, maneuver=maneuver))
+
+
+def contact_in_state(
+    tire: Tire, road: Pavement, wanted: State, spacing: float, *, start: Contact | None = None
+) -> Contact:
+    """The contact in a state. start: one near it."""
+    inflated = replace(wanted.tire or tire, inflation_pressure=wanted.inflation_pressure)
+    rolling = wanted.maneuver.rolling(wanted.wheel_load, wanted.friction, speed=wanted.speed)
+    return solve_contact(inflated, road, rolling, spacing=spacing, start=start, tolerance=_TOLERANCE)
+
+
+def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
+    """Evenly spaced y, m, on the cells of the first contact and between them, over all wheels and a margin.
+
+    Between cells lie the places of the largest readings, which must not depend on where the cells lie.
+    """
+    first = contacts[0].dataset
+    dy, start = float(first.attrs["dy"]), float(first["y"][0])
+    half = max(
+        float(np.abs(contact.dataset["y"]).max()) + max(abs(y) for _, y in row.wheels)
+        for contact, row in zip(contacts, classes, strict=True)
+    )
+    low, high = np.floor((-half - MARGIN - start) / dy), np.ceil((half + MARGIN - start) / dy)
+    between = math.ceil(dy / _BETWEEN - 1e-9)
+    return start + dy / between * np.arange(between * low, between * high + 1)
+
+
+def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
+    """The wheels of a class, each moved by half a cell at most onto the lattice of y and of its own x.
+
+    contacts: in the states of the class, see `states_of`.
+    """
+    first, last = GridLoad.from_dataset(contacts[0].dataset), GridLoad.from_dataset(contacts[-1].dataset)
+    grid = first.grid
+    dx, dy = grid.dx, grid.dy
+    loads, apart = [], []
+    for number, (at_x, at_y) in enumerate(row.wheels):
+        print_ = last.mirrored() if len(contacts) > 1 and number in row.mirrored else first
+        row_y = round((at_y + print_.grid.y0 - y[0]) / dy)
+        near_x, near_y = dx * round(at_x / dx), float(y[0]) + dy * row_y - print_.grid.y0
+        loads.append(print_.moved(x=near_x, y=near_y))
+        apart += [abs(near_x - at_x), abs(near_y - at_y)]
+    centres = sorted({round(at_x / dx) for at_x, _ in row.wheels})
+    return Wheels(
+        tuple(loads),
+        np.array([grid.x + dx * centre for centre in centres]),
+        row.speed,
+        row.name,
+        max(apart),
+    )

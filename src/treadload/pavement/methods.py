@@ -1,0 +1,29 @@
+"""Which published methods the stresses in a road call for."""
+
+from __future__ import annotations
+
+from treadload.materials import HuetSayegh, Model2S2P1D, Orthotropic, Prony, TransverselyIsotropic
+from treadload.pavement.bonds import BONDED, HALF_BONDED
+from treadload.pavement.structure import Pavement
+
+
+def methods_of(road: Pavement) -> tuple[str, ...]:
+    """Keys of `treadload.citations.CITATIONS` for the response of a road, by its materials and bonds."""
+    if isinstance(road.layers[0].material, Orthotropic):
+        return ("grain below",)
+    upright = any(isinstance(layer.material, TransverselyIsotropic) for layer in road.layers)
+    methods = {"upright": upright}
+    if not road.is_homogeneous or road.is_viscoelastic:
+        bonds = [layer.bond for layer in road.layers[:-1]]
+        materials = [layer.resolved for layer in road.layers]
+        methods |= {
+            "layers": not road.is_homogeneous,
+            "sliding": any(bond != BONDED for bond in bonds),
+            "half-bonded": HALF_BONDED in bonds,
+            "moving": road.is_viscoelastic,
+            "huet": any(isinstance(material, HuetSayegh | Model2S2P1D) for material in materials),
+            "sayegh": any(isinstance(material, HuetSayegh) for material in materials),
+            "2s2p1d": any(isinstance(material, Model2S2P1D) for material in materials),
+            "prony": any(isinstance(material, Prony) for material in materials),
+        }
+    return tuple(key for key, is_used in methods.items() if is_used)

@@ -1,0 +1,80 @@
+"""What a browser holds of a result, so that it draws by itself what lies along any line."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload.composing import Source, dataset_of
+from treadload.kernels.arrays import Array
+from treadload.plots.kit.plan import KPA, MICRO, Plan, fields_of, plane
+from treadload.plots.kit.shown import shown
+from treadload.plots.response import VARIABLE
+
+MOST_HELD = 2_000_000
+"""Numbers that a browser is sent to hold of one figure, 8 MB; with more, each line is drawn where it was solved."""
+
+Grid = dict[str, Any]
+"""x, y: centres, mm. fields: (ny, nx) each, as base64 of little-endian single floats, in the unit of the figure.
+smooth: read between the centres, or of the cell. step: of points on an oblique line, mm."""
+
+
+def profile_held(source: Source, overlaid: Mapping[str, Source] | None = None) -> list[Grid]:
+    """Fields whose values along a line are the curves of `profiles`, in their order; a grid for each source."""
+    data = fields_of(source)
+    plan = Plan.of(data)
+    if "pressure" in data:
+        grids = [_grid(plan, contact_curves(data), smooth=False)]
+    else:
+        grids = [_grid(plan, response_curves(data), smooth=True)]
+    for overlay in (overlaid or {}).values():
+        over = fields_of(overlay, "pressure")
+        grids.append(_grid(Plan.of(over), [np.nan_to_num(plane(over, "pressure")) * KPA], smooth=False))
+    return grids
+
+
+def section_held(response: Source, name: str) -> list[Grid]:
+    """Fields, one a depth, whose values along a line are the rows of `depth_slice`. response: over (depth, y, x)."""
+    data = dataset_of(response)
+    order = np.argsort(data["depth"].to_numpy(), kind="stable")
+    values = data[name].transpose("depth", "y", "x").to_numpy() * shown(data[name]).factor
+    return [_grid(Plan.of(data), values[order], smooth=True)]
+
+
+def held_numbers(grids: Iterable[Grid]) -> int:
+    """How many numbers some grids hold."""
+    return sum(len(grid["fields"]) * len(grid["x"]) * len(grid["y"]) for grid in grids)
+
+
+def contact_curves(data: xr.Dataset) -> list[Array]:
+    """What `profiles` draws of a contact, as fields, kPa."""
+    pressure = np.nan_to_num(plane(data, "pressure")) * KPA
+    curves = [pressure]
+    if "friction_coefficient" in data or "friction" in data:
+        mu = plane(data, "friction_coefficient") if "friction_coefficient" in data else float(data["friction"])
+        curves.append(np.nan_to_num(mu) * pressure)
+    if "traction_x" in data and "traction_y" in data:
+        shear = np.hypot(*(np.nan_to_num(plane(data, name)) for name in ("traction_x", "traction_y"))) * KPA
+        curves.append(shear)
+        if "state" in data:
+            curves.append(np.where(plane(data, "state") == 2, shear, np.nan))
+    return curves
+
+
+def response_curves(data: xr.Dataset) -> list[Array]:
+    """What `profiles` draws of a response, as fields, microstrain: by kind of strain, then by depth."""
+    return [
+        plane(data.isel(depth=row), name) * MICRO for name in VARIABLE.values() for row in range(data.sizes["depth"])
+    ]
+
+
+def _grid(plan: Plan, fields: Sequence[Array] | Array, *, smooth: bool) -> Grid:
+    return {
+        "x": [round(float(value), 4) for value in plan.x], "y": [round(float(value), 4) for value in plan.y],
+        "smooth": smooth, "step": plan.cell / (2 if smooth else 4),
+        "fields": [base64.b64encode(np.asarray(field, dtype="<f4").tobytes()).decode() for field in fields],
+    }  # fmt: skip

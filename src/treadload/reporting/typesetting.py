@@ -1,0 +1,27 @@
+"""Values of rows in the characters of a page."""
+
+from __future__ import annotations
+
+import re
+
+from treadload.plots.kit.style import power_of_ten, thousands
+from treadload.rows import Row
+
+# A number such as 1.2e+05 in a sentence.
+_POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
+_MINUS = re.compile(r"(?<![\w-])-(?=[\d.])")
+_WHOLE = re.compile(r"\d{5,}")
+
+
+def typeset(row: Row, *, bare: bool = False) -> str:
+    """A row's value in the characters of a page: powers of ten, thousands, a true minus. bare: without its unit."""
+    text = row.number if bare else row.text
+    text = _POWER.sub(lambda match: power_of_ten(float(match[0])), text)
+    if isinstance(row.value, str):
+        return text
+    return thousands(float(text)) if _WHOLE.fullmatch(text) else with_minus(text)
+
+
+def with_minus(text: str) -> str:
+    """A text of numbers with true minus signs; hyphens inside words stay."""
+    return _MINUS.sub("\u2212", text)

@@ -1,0 +1,62 @@
+"""The design that a case describes, and the thickness of a layer for which its road lasts."""
+
+from __future__ import annotations
+
+from treadload.case import Case
+from treadload.case.description import Description
+from treadload.contact.solve import DEFAULT_SPACING
+from treadload.errors import InputError
+from treadload.life.contacts import Progress
+from treadload.life.design import Design
+from treadload.life.thickness import ThicknessDesign, design_thickness
+
+
+def spacing_of(case: Description) -> float:
+    """Of the contact's cells, m: surface lives move by less than 5 % on finer ones, by half on cells of 6 mm."""
+    return DEFAULT_SPACING if case.spacing is None else case.spacing
+
+
+def design_of(case: Case) -> Design:
+    """The design of a case: tire, road, traffic, climate, criteria, options of its tables. Raises InputError."""
+    return Design(
+        case.build_tire(),
+        case.road(),
+        case.build_traffic(),
+        case.build_climate(),
+        case.build_criteria(),
+        criteria_of=lambda road: tuple(criterion.on(road) for criterion in case.criteria),
+        rutting=None if case.rutting is None else case.rutting.build(),
+        scatter=None if case.reliability is None else case.reliability.build(),
+        spacing=spacing_of(case),
+        tolerance=case.source.tolerance_of(case),
+    )
+
+
+def design_case(
+    case: Case,
+    layer: int | str,
+    *,
+    years: float | None = None,
+    risk: float | None = None,
+    between: tuple[float, float] = (0.04, 0.4),
+    step: float = 0.01,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> ThicknessDesign:
+    """The thickness of a layer for which the road of a case lasts.
+
+    layer: its name, or its number from the surface, 1 the top one, as in `[[criteria]]`. years: those of the traffic
+    if left out. risk: of failing, in (0, 1); with `[reliability]` in the case the years at that risk are those of its
+    scatter. between, step: m, see `design_thickness`. workers, progress: as in `treadload.run`. Raises InputError,
+    and ConvergenceError of a contact.
+    """
+    design, number = design_of(case), layer
+    if isinstance(layer, int):
+        if not 1 <= layer <= len(design.road.layers):
+            raise InputError(
+                f"no layer {layer}; the road has 1 to {len(design.road.layers)}, counted from the surface"
+            )
+        number = layer - 1
+    return design_thickness(
+        design, number, years=years, risk=risk, between=between, step=step, workers=workers, progress=progress
+    )

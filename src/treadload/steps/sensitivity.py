@@ -1,0 +1,26 @@
+"""What the service life of a road depends on."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from treadload.case.step import Step
+from treadload.damage import Life
+from treadload.life.sensitivity import Sensitivity, life_sensitivity
+from treadload.steps.life import fails
+from treadload.steps.scene import Scene
+
+
+class SensitivityStep(Step, name="sensitivity"):
+    """What the service life depends on: its change as each input grows by 5 %, temperature by 1 °C."""
+
+    after: ClassVar = ("life",)
+    has_table: ClassVar = False
+
+    def solve(self, scene: Scene) -> Sensitivity | None:
+        """Elasticities; None where no criterion ever fails."""
+        life = scene.result("life")
+        assert isinstance(life, Life)
+        if not fails(life):
+            return None
+        return life_sensitivity(scene.design, life, workers=scene.options.workers, progress=scene.progress.count)

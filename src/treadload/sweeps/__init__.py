@@ -1,0 +1,32 @@
+"""Studies of many cases: which, where they are solved, where their results are kept."""
+
+from treadload.sweeps.cluster import SchedulerLost
+from treadload.sweeps.design import Design, Input, bounds_of, over_points, sampled
+from treadload.sweeps.plan import plan_sweep
+from treadload.sweeps.screening import Morris, Sobol, Tornado, morris, sobol, tornado
+from treadload.sweeps.sweep import Sweep, causes_of, open_sweep, sweep
+from treadload.sweeps.tables import table_of
+from treadload.sweeps.vary import from_file, from_texts
+
+__all__ = [
+    "Design",
+    "Input",
+    "Morris",
+    "SchedulerLost",
+    "Sobol",
+    "Sweep",
+    "Tornado",
+    "bounds_of",
+    "causes_of",
+    "from_file",
+    "from_texts",
+    "morris",
+    "open_sweep",
+    "over_points",
+    "plan_sweep",
+    "sampled",
+    "sobol",
+    "sweep",
+    "table_of",
+    "tornado",
+]

@@ -1,0 +1,435 @@
+"""Which cases a study has: inputs that are varied, over named dimensions."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import math
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from treadload.case import Case
+from treadload.case.keys import find_key, keys_of, value_at, with_values
+from treadload.errors import InputError
+from treadload.variables import VARIABLES
+
+CASE = "case"
+"""Dimension of cases that stand in a list."""
+METHODS = ("sobol", "latin", "random")
+# More cases than a study can hold in one table of scalars.
+_MOST = 10_000_000
+# Of a list of cases, read before any is solved.
+_TRIED = 64
+ROW = "row"
+"""Label of the rows of a file of cases: their numbers there."""
+# Names of a study that no label can have.
+_TAKEN = (CASE, "status", "seconds", "failure")
+# Text that stands for a table or a list, at most so long.
+_LABEL = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """A key that is varied.
+
+    name: of it in results, as the user wrote it. key: its path in the case. unit: SI unit of numbers, "" of pure
+    ones, None for what is none. dims: dimensions that it varies over. values: what the case is given, an object array
+    over these dimensions. labels: the same as coordinates of a dataset.
+    """
+
+    name: str
+    key: str
+    unit: str | None
+    dims: tuple[str, ...]
+    values: np.ndarray
+    labels: np.ndarray
+
+    @property
+    def is_number(self) -> bool:
+        """True if all values are numbers."""
+        return self.labels.dtype.kind == "f"
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """The cases of a study.
+
+    sizes: of its dimensions, in order. inputs: what is varied over them. labels: of a list of cases, name → what
+    identifies each, the row of its file and the ids that stand there. faults: of a list, why a case cannot be read.
+    """
+
+    sizes: Mapping[str, int]
+    inputs: tuple[Input, ...]
+    labels: Mapping[str, tuple[str | int, ...]] = field(default_factory=dict)
+    faults: Mapping[int, str] = field(default_factory=dict)
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions."""
+        return tuple(self.sizes)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Sizes of the dimensions."""
+        return tuple(self.sizes.values())
+
+    @property
+    def count(self) -> int:
+        """Number of cases."""
+        return math.prod(self.shape)
+
+    def at(self, number: int) -> dict[str, Any]:
+        """What case `number` is given, key → value; the last dimension runs fastest."""
+        place = dict(zip(self.dims, np.unravel_index(number, self.shape), strict=True))
+        return {variable.key: variable.values[tuple(place[dim] for dim in variable.dims)] for variable in self.inputs}
+
+    def words_of(self, number: int) -> str:
+        """Case `number` in words: "friction 0.3, normal_load 2e+04"; with its labels first."""
+        place = dict(zip(self.dims, np.unravel_index(number, self.shape), strict=True))
+        words = [f"{name} {values[number]}" for name, values in self.labels.items()]
+        for variable in self.inputs:
+            label = variable.labels[tuple(place[dim] for dim in variable.dims)]
+            unit = f" {variable.unit}" if variable.unit else ""
+            value = f"{label:.6g}{unit}" if variable.is_number else str(label)
+            words.append(
+                f"{variable.name} {value}" if value and not value.startswith("nan") else f"no {variable.name}"
+            )
+        return ", ".join(words)
+
+    def named(self, number: int) -> str:
+        """Case `number` by its labels: "row 3 (section A12)"; "" without labels."""
+        first, *more = [f"{name} {values[number]}" for name, values in self.labels.items()] or [""]
+        return f"{first} ({', '.join(more)})" if more else first
+
+    def coordinates(self) -> dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]:
+        """The inputs as coordinates of a dataset: name → (dimensions, values, attributes)."""
+        coordinates = {}
+        for variable in self.inputs:
+            leaf = variable.key.rpartition(".")[2]
+            about = {
+                "key": variable.key,
+                "long_name": VARIABLES[leaf][1] if leaf in VARIABLES else leaf.replace("_", " "),
+            }
+            if variable.unit is not None:
+                about["units"] = variable.unit or "1"
+            coordinates[variable.name] = (variable.dims, variable.labels, about)
+        for name, values in self.labels.items():
+            about = {"long_name": "row of the table" if name == ROW else name.removeprefix("id_")}
+            coordinates[name] = ((CASE,), np.array(values), about)
+        return coordinates
+
+    def to_json(self) -> dict[str, Any]:
+        """The design as what JSON holds."""
+        return {
+            "sizes": dict(self.sizes),
+            "inputs": [
+                {
+                    "name": variable.name,
+                    "key": variable.key,
+                    "dims": list(variable.dims),
+                    "values": variable.values.ravel().tolist(),
+                }
+                for variable in self.inputs
+            ],
+            **({"labels": {name: list(values) for name, values in self.labels.items()}} if self.labels else {}),
+            **({"faults": [[number, text] for number, text in self.faults.items()]} if self.faults else {}),
+        }
+
+    @classmethod
+    def from_json(cls, document: Mapping[str, Any], case: Case) -> Design:
+        """The design that `to_json` wrote, of the same case. Raises InputError."""
+        try:
+            sizes = {str(dim): int(size) for dim, size in document["sizes"].items()}
+            parts = [
+                (str(entry["name"]), str(entry["key"]), tuple(map(str, entry["dims"])), list(entry["values"]))
+                for entry in document["inputs"]
+            ]
+            if min(sizes.values(), default=0) < 1 or math.prod(sizes.values()) > _MOST:
+                raise ValueError("sizes of its dimensions")
+            units = keys_of(case)
+            inputs = []
+            for name, key, dims, values in parts:
+                array = _objects(values).reshape([sizes[dim] for dim in dims])
+                inputs.append(Input(name, key, units.get(key), dims, array, _labels(array)))
+            labels = {str(name): tuple(values) for name, values in document.get("labels", {}).items()}
+            if any(len(values) != sizes.get(CASE) for values in labels.values()):
+                raise ValueError("labels of its cases")
+            faults = {int(number): str(text) for number, text in document.get("faults", ())}
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            raise InputError(f"the design of the study cannot be read: {error}") from error
+        return cls(sizes, tuple(inputs), labels, faults)
+
+
+def product(case: Case, vary: Mapping[str, Any]) -> Design:
+    """Every combination of the values: one dimension for each input.
+
+    vary: key → values in SI units or with their units. Raises InputError for a key that the case does not have and
+    for a value that it does not take.
+    """
+    columns = {name: _listed(name, values) for name, values in vary.items()}
+    if not columns:
+        raise InputError("nothing is varied; give keys and values, such as {'rolling.friction': [0.3, 0.5, 0.7]}")
+    return _checked(case, {name: ((name,), _objects(values)) for name, values in columns.items()})
+
+
+def listed(
+    case: Case,
+    rows: Sequence[Mapping[str, Any]],
+    *,
+    labels: Mapping[str, Sequence[str | int]] | None = None,
+    faults: Mapping[int, str] | None = None,
+) -> Design:
+    """Cases in a list, over the dimension "case".
+
+    rows: key → value of each, the same keys in all, None where it has no value. labels: name → what identifies each.
+    faults: number of a case → why it cannot be read, known beforehand. A case whose values cannot be read has a fault
+    and fails alone. Raises InputError for keys that the case does not have, and where no case can be read.
+    """
+    if not rows:
+        raise InputError("the list of cases is empty; give at least one")
+    names = list(rows[0])
+    for number, row in enumerate(rows):
+        if set(row) != set(names):
+            raise InputError(f"case {number} gives {', '.join(row)}, the first one {', '.join(names)}; give the same")
+    taken = {*names, *_TAKEN}
+    named = {f"id_{name}" if name in taken else name: tuple(values) for name, values in (labels or {}).items()}
+    columns = {name: ((CASE,), _objects([row[name] for row in rows])) for name in names}
+    return _checked(case, columns, faults=faults or {}, labels=named)
+
+
+def from_dataset(case: Case, data: xr.Dataset) -> Design:
+    """Cases as a dataset tells them: variables, and coordinates of dimensions, are keys; dimensions are kept.
+
+    Raises InputError.
+    """
+    names = [*(str(dim) for dim in data.dims if dim in data.coords), *map(str, data.data_vars)]
+    if not names:
+        raise InputError("the dataset of cases has neither coordinates nor variables; name them by keys of the case")
+    columns = {
+        name: (tuple(map(str, data[name].dims)), _objects_like(data[name].to_numpy().astype(object)))
+        for name in names
+    }
+    return _checked(case, columns, tuple(map(str, data.dims)))
+
+
+def sampled(
+    case: Case, ranges: Mapping[str, tuple[Any, Any]], count: int, *, method: str = "sobol", seed: int = 0
+) -> Design:
+    """Cases spread over ranges, over the dimension "case".
+
+    ranges: key → (low, high), in SI units or with their units. count: of the cases. method: "sobol", a scrambled
+    Sobol sequence, best at powers of two; "latin", a Latin hypercube; "random". seed: of the scrambling; the same
+    gives the same cases. Raises InputError.
+    """
+    if method not in METHODS:
+        raise InputError(f"a sample is one of {', '.join(METHODS)}, got {method!r}")
+    if not 1 <= count <= _MOST:
+        raise InputError(f"a sample has 1 to {_MOST} cases, got {count}")
+    # Its import takes as long as that of all the rest.
+    from scipy.stats import qmc
+
+    bounds = bounds_of(case, ranges)
+    unit = (
+        np.random.default_rng(seed).random((count, len(bounds)))
+        if method == "random"
+        else (qmc.Sobol if method == "sobol" else qmc.LatinHypercube)(len(bounds), rng=seed).random(count)
+    )
+    low, high = (np.array(ends) for ends in zip(*bounds.values(), strict=True))
+    return over_points(case, list(bounds), low + unit * (high - low))
+
+
+def over_points(case: Case, names: Sequence[str], points: np.ndarray) -> Design:
+    """Cases at points (n, len(names)) in SI units, over the dimension "case". Raises InputError."""
+    columns = {name: ((CASE,), _objects(points[:, k].tolist())) for k, name in enumerate(names)}
+    return _checked(case, columns)
+
+
+def bounds_of(case: Case, ranges: Mapping[str, tuple[Any, Any]]) -> dict[str, tuple[float, float]]:
+    """Ranges in SI units: name → (low, high). Raises InputError for what is no range of numbers."""
+    if not ranges:
+        raise InputError("nothing is varied; give keys and ranges, such as {'rolling.friction': (0.3, 0.9)}")
+    bounds = {}
+    for name, ends in ranges.items():
+        low_high = _listed(name, ends)
+        if len(low_high) != 2:
+            raise InputError(f"a sample of {name} needs its low and high end, got {len(low_high)} values")
+        design = product(case, {name: low_high})
+        if not design.inputs[0].is_number:
+            raise InputError(f"a sample needs numbers, and {name} is {low_high[0]!r}; list its values instead")
+        low, high = (float(value) for value in design.inputs[0].labels)
+        bounds[name] = (min(low, high), max(low, high))
+    return bounds
+
+
+def in_si(case: Case, values: Mapping[str, Any]) -> dict[str, Any]:
+    """What a case makes of values of keys: numbers in SI units, everything else as it is. Raises InputError."""
+    table = with_values(case.as_tables(), values)
+    read = type(case).from_dict(table, folder=case.folder, name="the study").as_tables()
+    return {
+        key: value if (value := value_at(read, key)) is not None else fallback for key, fallback in values.items()
+    }
+
+
+def _checked(
+    case: Case,
+    columns: Mapping[str, tuple[tuple[str, ...], np.ndarray]],
+    dims: tuple[str, ...] | None = None,
+    *,
+    faults: Mapping[int, str] | None = None,
+    labels: Mapping[str, tuple[str | int, ...]] | None = None,
+) -> Design:
+    """A design of these values in SI units; every value of a dimension of its own is read by the case.
+
+    faults: of a list of cases, whose values may be wrong in some; None where each has to be right.
+    """
+    keys = {name: find_key(case, name) for name in columns}
+    twice = next((key for key in keys.values() if list(keys.values()).count(key) > 1), None)
+    if twice is not None:
+        raise InputError(f"{twice} is varied twice; vary each key once")
+    dims = dims or tuple(dict.fromkeys(dim for dims_of, _ in columns.values() for dim in dims_of))
+    sizes = {
+        dim: next(values.shape[dims_of.index(dim)] for dims_of, values in columns.values() if dim in dims_of)
+        for dim in dims
+    }
+    if math.prod(sizes.values()) > _MOST:
+        raise InputError(f"the study has {math.prod(sizes.values())} cases, more than {_MOST}; vary less, or sample")
+    units = keys_of(case)
+    wrong = None if faults is None else dict(faults)
+    at = 0 if wrong is None else _readable(case, keys, columns, wrong)
+    first = {keys[name]: values[(at,) * values.ndim] for name, (_, values) in columns.items()}
+    inputs = []
+    for name, (dims_of, values) in columns.items():
+        key = keys[name]
+        single = dims_of == (name,) or values.ndim == 0
+        # Numbers are in SI units already; of text each is read once, beside the first of the other inputs.
+        by_label: dict[Any, Any] = {}
+        tried = _tried(values) if single else range(values.size)
+        for number, value in enumerate(values.flat):
+            if number not in tried or (wrong is not None and number in wrong):
+                continue
+            if _is_number(value) and not single:
+                if wrong is not None and not math.isfinite(value):
+                    wrong[number] = f"{key} must be a finite number, got {value}"
+                continue
+            label = repr(value)
+            if label in by_label:
+                continue
+            try:
+                by_label[label] = in_si(case, {**first, key: value})[key]
+            except InputError as error:
+                if wrong is None:
+                    raise
+                wrong[number] = str(error).removeprefix("the study: ")
+        # What was not tried is a number of the same kind.
+        convert = float if any(isinstance(value, float) for value in by_label.values()) else lambda value: value
+        read = _objects([by_label[label] if (label := repr(value)) in by_label
+                         else convert(value) if _is_number(value) else value
+                         for value in values.flat]).reshape(values.shape)  # fmt: skip
+        if wrong:
+            # What cannot be read has no value.
+            read = _objects([None if k in wrong and not _is_finite(value) else value for k, value in enumerate(read)])
+        shown = _labels(read)
+        if single and len(np.unique(shown)) < shown.size:
+            raise InputError(f"values of {name} are given twice; give each once")
+        inputs.append(Input(name, key, units.get(key), dims_of, read, shown))
+    design = Design(sizes, tuple(inputs), labels or {}, dict(sorted((wrong or {}).items())))
+    if any(variable.dims != (variable.name,) for variable in inputs):
+        _check_some(case, design)
+    return design
+
+
+def _check_some(case: Case, design: Design) -> None:
+    """Refuse a list of cases of which none of the first can be read; single ones may fail, and the study tells."""
+    errors = [InputError(f"{design.named(number)}: {text}") for number, text in design.faults.items()][:1]
+    for number in _spread(design.count):
+        if number in design.faults:
+            continue
+        try:
+            in_si(case, design.at(number))
+        except InputError as error:
+            errors.append(error)
+        else:
+            return
+    raise errors[0]
+
+
+def _readable(
+    case: Case, keys: Mapping[str, str], columns: Mapping[str, tuple[Any, np.ndarray]], faults: Mapping[int, str]
+) -> int:
+    """The first case of a list that can be read; the first of all where none of those tried can."""
+    count = min(len(values) for _, values in columns.values())
+    for number in _spread(count):
+        if number not in faults:
+            with contextlib.suppress(InputError):
+                in_si(case, {keys[name]: values[number] for name, (_, values) in columns.items()})
+                return number
+    return 0
+
+
+def _spread(count: int) -> list[int]:
+    """The first cases of a list, and some of the others."""
+    start = range(min(count, _TRIED // 2))
+    return list(dict.fromkeys([*start, *np.linspace(0, count - 1, _TRIED // 2, dtype=int).tolist()]))
+
+
+def _tried(values: np.ndarray) -> Collection[int]:
+    """Which values of a dimension the case reads beforehand: all, of many numbers the ends and some between."""
+    flat = list(values.flat)
+    if len(flat) <= _TRIED or not all(map(_is_number, flat)):
+        return range(len(flat))
+    return {*_spread(len(flat)), int(np.argmin(flat)), int(np.argmax(flat))}
+
+
+def _is_finite(value: Any) -> bool:
+    return _is_number(value) and math.isfinite(value)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float | np.number) and not isinstance(value, bool | np.bool_)
+
+
+def _listed(name: str, values: Any) -> list[Any]:
+    if isinstance(values, str | bytes | Mapping) or not isinstance(values, Sequence | np.ndarray | xr.DataArray):
+        raise InputError(f"{name} needs a list of values, got {values!r}")
+    numbers = values.tolist() if hasattr(values, "tolist") else list(values)
+    if not numbers:
+        raise InputError(f"{name} has no values; give at least one")
+    return numbers
+
+
+def _objects(values: Sequence[Any]) -> np.ndarray:
+    array = np.empty(len(values), dtype=object)
+    array[:] = list(values)
+    return array
+
+
+def _objects_like(values: np.ndarray) -> np.ndarray:
+    return _objects([item.item() if hasattr(item, "item") else item for item in values.flat]).reshape(values.shape)
+
+
+def _labels(values: np.ndarray) -> np.ndarray:
+    """Values as coordinates: numbers, or texts that differ where they do."""
+    flat = list(values.flat)
+    if all(_is_number(value) or value is None for value in flat):
+        numbers = np.array([math.nan if item is None else item for item in flat], dtype=float).reshape(values.shape)
+        if not np.isfinite(numbers[values != None]).all():  # noqa: E711  of each
+            raise InputError(f"values must be finite numbers, got {numbers[~np.isfinite(numbers)][0]}")
+        return numbers
+    texts = ["" if item is None else item if isinstance(item, str) else _short(item) for item in flat]
+    whole = {text: [repr(v) for t, v in zip(texts, flat, strict=True) if t == text] for text in texts}
+    numbers_of = {text: itertools.count(1) for text, members in whole.items() if len(set(members)) > 1}
+    distinct = [f"{text} ({next(numbers_of[text])})" if text in numbers_of else text for text in texts]
+    return np.array(distinct, dtype=str).reshape(values.shape)
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, Mapping):
+        named = next((value[key] for key in ("name", "structure", "profile", "law", "kind") if key in value), None)
+        if isinstance(named, str):
+            return named
+    text = "true" if value is True else "false" if value is False else str(value)
+    return text if len(text) <= _LABEL else f"{text[: _LABEL - 1]}…"
