@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 
 # Readings below this part of the largest of all lines count as rest: less than a hundredth of a thousandth of their
 # damage by a usual law.
@@ -77,7 +77,7 @@ def rainflow(peaks: Array, valleys: Array, labels: Array | None = None) -> tuple
     return tops, bottoms, which
 
 
-def as_turns(tops: Array, bottoms: Array, turns: int, power: float) -> tuple[Array, Array]:
+def as_turns(tops: Array, bottoms: Array, turns: int, power: float) -> tuple[Array, IntArray]:
     """Peak, valley, peak, ... (turns, n) of cycles (n, m), those that do most first; and their numbers (cycles, n).
 
     The first is paired with rest, as the largest of a passage is; of each further one the valley stands before the

@@ -25,9 +25,8 @@ from treadload.response import solve_response
 from treadload.response.basin import SHORTEST, basin_tensors
 from treadload.response.several import Question, tensors_of_many
 
-# Cycles of a passage that are kept at least, and of axles besides one of each: the road hogs ahead of, behind and
-# between them.
-_FEWEST_CYCLES, _MORE_CYCLES = 3, 2
+# Cycles of a passage that are kept at least, and for each axle: the road hogs ahead of and behind each.
+_FEWEST_CYCLES, _CYCLES_PER_AXLE = 3, 2
 # Rows a smooth field is read on end where it has faded to this part of its largest, or it is solved further.
 _FAINT = 0.5
 # What a result holds behind the turns: angle and dip of the crack, the depth, and whether it lies on the border.
@@ -80,7 +79,7 @@ class Passing:
 
 def turns_of(wheels: Iterable[Wheels]) -> int:
     """Peaks and valleys to keep of passages of some wheels."""
-    return 2 * max(_FEWEST_CYCLES, max(len(member.x) for member in wheels) + _MORE_CYCLES) - 1
+    return 2 * max(_FEWEST_CYCLES, _CYCLES_PER_AXLE * max(len(member.x) for member in wheels)) - 1
 
 
 def solve_passings(tasks: Sequence[Passing], pool: Executor, count: Counter, threads: int = 1) -> list[Array]:
@@ -148,18 +147,21 @@ def _pass(
     x, rows = along(wheels, plane), rows_of(wheels, y, plane)
     basin = Basin.of(wheels, y, y[rows], tasks[0].reach) if plane.wide else None
     lines = Lines.of(plane, wheels, rows, y, basin)
-    asked = [(tasks[number], numbers) for number, numbers in members.items()]
-    far: Sequence[xr.Dataset | None] = [None] * len(asked)
+    several = [(tasks[number], numbers) for number, numbers in members.items()]
+    far: Sequence[xr.Dataset | None] = [None] * len(several)
     if basin is not None:
-        far = _solved(asked, plane, basin.x, basin.y, basin=True)
+        far = _solved(several, plane, basin.x, basin.y, basin=True)
     worst: list[Worst] = []
     again: dict[int, list[int]] = {}
-    for (number, numbers), data, beyond in zip(members.items(), _solved(asked, plane, x, y[rows]), far, strict=True):
+    for (number, numbers), data, beyond in zip(
+        members.items(), _solved(several, plane, x, y[rows]), far, strict=True
+    ):
         task, levels = tasks[number], list(data["depth"].to_numpy())
         for k in numbers:
             own_rows = [levels.index(depth) for depth in task.depths(k)]
             whole = own_rows == list(range(len(levels)))
-            at, around = (part if whole or part is None else part.isel(depth=own_rows) for part in (data, beyond))
+            at = data if whole else data.isel(depth=own_rows)
+            around = beyond if whole or beyond is None else beyond.isel(depth=own_rows)
             criterion, result = task.criterion(k), results[number][k]
             if basin is None or around is None:
                 fields, ends = _read(result, criterion, at, task, plane, lines)
@@ -197,7 +199,7 @@ def _solved(
 
 def _power(criterion: Criterion) -> float:
     """By which the damage of a criterion grows with its reading."""
-    return 1 / abs(getattr(criterion.law_at(_ANY_TEMPERATURE), "exponent", _USUAL))
+    return 1 / abs(float(getattr(criterion.law_at(_ANY_TEMPERATURE), "exponent", _USUAL)))
 
 
 def _read(
@@ -288,17 +290,17 @@ def _read_both(
     inner = np.flatnonzero(most[:count] < len(x))
     at_near = _at(near, deep[inner], most[inner], inner)
     y_most = np.concatenate([basin.near, basin.rows])
-    found = _at(far, deep, nearest_of(basin.x, x_most), nearest_of(basin.y, y_most))
-    for name, (_, values_far) in found.items():
+    at_far = _at(far, deep, nearest_of(basin.x, x_most), nearest_of(basin.y, y_most))
+    for name, (_, values_far) in at_far.items():
         values_far[inner] = at_near[name][1]
-    return {name: (dims, part_of[lines.order]) for name, (dims, part_of) in found.items()}
+    return {name: (dims, part_of[lines.order]) for name, (dims, part_of) in at_far.items()}
 
 
 def _turns_of(peaks: Array, valleys: Array, labels: Array, turns: int, power: float) -> tuple[Array, Array]:
     """Turns (turns, n) of lines of peaks and valleys, and the label of each peak among them ((turns + 1)/2, n)."""
     tops, bottoms, whose = rainflow(peaks, valleys, labels)
     kept, order = as_turns(tops, bottoms, turns, power)
-    by_cycle = np.full(((turns + 1) // 2, len(tops)), -1)
+    by_cycle: Any = np.full(((turns + 1) // 2, len(tops)), -1)
     by_cycle[: len(order)] = np.take_along_axis(whose, order.T, axis=1).T
     return kept, by_cycle
 
@@ -313,7 +315,7 @@ def _between(
     if not plane_means:
         return []
     x, uncut, margin = part
-    at = {"centres": centres, "turns": 2 * len(centres) - 1}
+    at: dict[str, Any] = {"centres": centres, "turns": 2 * len(centres) - 1}
     rows, y = lines.y[lines.rows], lines.y[lines.core]
     points = axle_peaks(x, readings(uncut, margin).max(axis=0), centres)
     points = np.stack([np.interp(y, rows, line) for line in points])

@@ -97,16 +97,16 @@ def basin_tensors(
     components = components_of(needs)
     if components is None:
         return None
-    wanted, asked = set(needs), []
+    wanted, centred = set(needs), []
     for question in questions:
         depths = question.depths
         if mean_over is not None:
             where = [question.road.layer_at(float(z), side) for z in depths]
             read = windows(depths, mean_over, question.road.interfaces, where)
             depths = 0.5 * (read.low + read.high)
-        asked.append(replace(question, depths=depths))
+        centred.append(replace(question, depths=depths))
     view = View(x, y, components=components, accuracy=BASIN)
-    solved = answers(asked, view, side=side, speed=speed, mean_over=None)
+    solved = answers(centred, view, side=side, speed=speed, mean_over=None)
     tensors = []
     for question, answer in zip(questions, solved, strict=True):
         fields = tensor_fields(answer.fields.stress, answer.fields.strain)
