@@ -61,6 +61,9 @@ def test_turns_stand_with_what_does_most_first():
     turns, order = as_turns(np.array([[2.0, 4.0, 5.0]]), np.array([[1.0, 3.5, 0.0]]), 5, 5.0)
     np.testing.assert_array_equal(turns[:, 0], [5, 3.5, 4, 1, 2])
     np.testing.assert_array_equal(order[:, 0], [2, 1, 0])
+    # What is left out is added to the last, up to the first.
+    three = as_turns(np.array([[2.0, 3.0, 5.0]]), np.array([[1.0, 0.0, 0.0]]), 3, 5.0)[0][:, 0]
+    assert three == pytest.approx([5, 0, (3**5 + 2**5 - 1) ** 0.2], rel=1e-12)
     np.testing.assert_array_equal(as_turns(np.array([[2.0, 5.0]]), np.zeros((1, 2)), 1, 5.0)[0], [[5]])
 
 

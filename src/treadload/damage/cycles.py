@@ -81,14 +81,20 @@ def as_turns(tops: Array, bottoms: Array, turns: int, power: float) -> tuple[Arr
     """Peak, valley, peak, ... (turns, n) of cycles (n, m), those that do most first; and their numbers (cycles, n).
 
     The first is paired with rest, as the largest of a passage is; of each further one the valley stands before the
-    peak. power: of the reading, by which damage grows. Cycles beyond (turns + 1)/2 are the least and left out.
+    peak. power: of the reading, by which damage grows. What cycles beyond
+    (turns + 1)/2, the least, do is added to the last that is kept, as far as it stays below the first.
     """
     largest = tops.max(initial=0.0) or 1.0
     harm = (tops / largest) ** power - (bottoms / largest) ** power
-    order = np.argsort(-harm, axis=1, kind="stable")[:, : (turns + 1) // 2]
+    order, kept = np.argsort(-harm, axis=1, kind="stable"), (turns + 1) // 2
+    left = np.take_along_axis(harm, order[:, kept:], axis=1).sum(axis=1)
+    order = order[:, :kept]
     result = np.zeros((turns, len(tops)))
     result[: 2 * order.shape[1] : 2] = np.take_along_axis(tops, order, axis=1).T
     result[1 : 2 * order.shape[1] - 1 : 2] = np.take_along_axis(bottoms, order, axis=1).T[1:]
+    if order.shape[1] == kept:
+        last = np.minimum((result[-1] / largest) ** power + left, (result[0] / largest) ** power) ** (1 / power)
+        result[-1] = np.where(left > 0, largest * last, result[-1])
     return result, order.T
 
 
