@@ -269,10 +269,12 @@ def _read_both(
     core = axle >= 0
     part = (x[core], uncut[..., core], None if margin is None else margin[..., core])
     whose = labels[:, lines.near[lines.core]]
-    for number, ratio in enumerate(
-        _between(lines, part, centres, power, plane_means=criterion.mean_over is not None)
-    ):
-        values[::2, lines.core] *= np.where(whose == number, ratio, 1.0)
+    means = _between(lines, part, centres, power) if criterion.mean_over is not None else []
+    for number, (ratio, most_of_axle) in enumerate(means):
+        tops = values[::2, lines.core]
+        # Between a row whose largest is below the axle and one whose largest is not, no more than the axle's.
+        raised = np.minimum(tops * ratio, np.maximum(tops, most_of_axle))
+        values[::2, lines.core] = np.where(whose == number, raised, tops)
     result[:turns] = np.maximum(values, 0.0)
     most = np.concatenate([read.argmax(axis=1), far_read.argmax(axis=1)])
     count = len(read)
@@ -306,14 +308,12 @@ def _turns_of(peaks: Array, valleys: Array, labels: Array, turns: int, power: fl
 
 
 def _between(
-    lines: Lines, part: tuple[Array, Array, Array | None], centres: Array, power: float, *, plane_means: bool
-) -> list[Array]:
-    """By how much, on the core's y, the peak under each axle is above that of the points, for means.
+    lines: Lines, part: tuple[Array, Array, Array | None], centres: Array, power: float
+) -> list[tuple[Array, Array]]:
+    """By how much, on the core's y, the peak under each axle is above that of the points, and that peak; of means.
 
     part: x of the cells under the axles, uncut and margin there.
     """
-    if not plane_means:
-        return []
     x, uncut, margin = part
     at: dict[str, Any] = {"centres": centres, "turns": 2 * len(centres) - 1}
     rows, y = lines.y[lines.rows], lines.y[lines.core]
@@ -324,7 +324,8 @@ def _between(
     else:
         peaks = peaks_and_valleys(x, uncut, margin, smooth=True, **at)[::2]
         peaks = np.stack([np.interp(y, rows, line) for line in peaks])
-    return list(np.divide(peaks, points, out=np.ones_like(points), where=points > 0))
+    ratios = np.divide(peaks, points, out=np.ones_like(points), where=points > 0)
+    return list(zip(ratios, peaks, strict=True))
 
 
 def _axle_of(x: Array, wheels: Wheels) -> Array:
