@@ -85,6 +85,9 @@ def test_texts_of_a_case_are_texts(visit, kind):
     assert page.get_by_text(f"1  {text} 0", exact=True).count() == 1
     page.get_by_role("button", name="copy as Python").click()
     page.get_by_role("button", name="Close").click()
+    # A dialog holds the page where it is until it has gone; before, nothing can be scrolled into view.
+    page.wait_for_selector(".q-dialog", state="detached")
+    page.wait_for_selector("body:not(.q-body--prevent-scroll)")
     unharmed(visit)
 
 
