@@ -163,7 +163,7 @@ def _rule(n: int) -> _Rule:
 
 
 def _half(count: int) -> tuple[Array, Array]:
-    """Points and weights in (0, 1), falling, of the rule of Gauss and Legendre with so many in (-1, 1), an even one."""
+    """Points and weights in (0, 1), falling, of the rule of Gauss and Legendre with an even count in (-1, 1)."""
     u, weight = np.polynomial.legendre.leggauss(count)
     return u[: count // 2 - 1 : -1].copy(), weight[: count // 2 - 1 : -1].copy()
 
@@ -174,7 +174,7 @@ def _even(u: Array, count: int) -> Array:
 
 
 def _second_kind_zeros(degree: int) -> Array:
-    """Zeros in (0, 1), falling, of Legendre's function Q of the second kind and an even degree, by Newton's method."""
+    """Zeros in (0, 1), falling, of Legendre's function of the second kind and an even degree, by Newton's method."""
     theta = (np.arange(degree // 2) + 0.25) * np.pi / (degree + 0.5)
     for _ in range(_NEWTON):
         x = np.cos(theta)
