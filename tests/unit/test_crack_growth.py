@@ -249,6 +249,15 @@ def test_weights_between_distances_are_cubic_and_stop_at_an_interface():
     assert up[-1] - up[-2] == pytest.approx(distances[1])
 
 
+def test_a_straight_path_leans_at_every_length():
+    way = Way(np.array([0.0, 0.057]), np.array([0.0, 0.0285]))
+    for length in (0.01, 0.03, 0.057):
+        faces = faces_along(uniform().section, way.until(length), length, upwards=False)
+        np.testing.assert_allclose(faces.x, 0.5 * faces.z, rtol=1e-12)
+    bent = Way(np.array([0.0, 0.01, 0.03, 0.05]), np.array([0.0, 0.0, 0.01, 0.03]))
+    assert bent.until(0.03).distances.tolist() == [0.0, 0.01, 0.03]
+
+
 def test_rates_between_lengths_are_refined_along_powers():
     lengths = np.geomspace(0.01, 0.06, 6)
     rates = np.stack([lengths**3, np.zeros(6), np.where(lengths > 0.03, lengths, 0.0)], axis=1)

@@ -121,7 +121,9 @@ class Way:
         return curve(distance), curve.derivative()(distance)
 
     def until(self, distance: float) -> Way:
-        """As far as a distance, m."""
+        """As far as a distance, m; a straight one goes on in its direction."""
+        if len(self.distances) == 2:
+            return self
         keep = self.distances <= distance * (1 + 1e-9)
         return Way(self.distances[keep], self.offsets[keep])
 
