@@ -177,8 +177,8 @@ def between(distances: Array, at: Array) -> Array:
         weights[np.ix_(rows, piece)] = _cubic(distances[piece], at[rows])
     lost = ~weights.any(axis=1)
     if lost.any():
-        nearest = np.abs(distances - at[lost, None]).argmin(axis=1)
-        weights[np.flatnonzero(lost), nearest] = 1.0
+        closest = np.abs(distances - at[lost, None]).argmin(axis=1)
+        weights[np.flatnonzero(lost), closest] = 1.0
     return weights
 
 

@@ -189,7 +189,7 @@ def subgrade_modulus(bearing_ratio: float) -> float:
     positive("the bearing ratio", bearing_ratio, "%", "soils have 2 to 15")
     if not (math.isfinite(bearing_ratio) and bearing_ratio <= 100):
         raise InputError(f"the bearing ratio must be at most 100 %, got {bearing_ratio}")
-    return 1e6 * (10 * bearing_ratio if bearing_ratio <= 5 else 17.6 * bearing_ratio**0.64)
+    return float(1e6 * (10 * bearing_ratio if bearing_ratio <= 5 else 17.6 * bearing_ratio**0.64))
 
 
 def _constant(constants: Mapping[float, float], reliability: float) -> float:

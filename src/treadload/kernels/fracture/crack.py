@@ -95,8 +95,8 @@ def crack_faces(section: Section, curve: Curve, length: float, points: int = 16)
         effect(*rule.spread(smooth, length), partial(edge_layers, section), partial(screw_layers, section)),
     ]
     # Faces part where the density falls towards the tip.
-    matrix = -sum(plane for plane, _ in effects).transpose(0, 2, 1, 3).reshape(2 * n, 2 * n)
-    lateral = sum(screw for _, screw in effects)
+    matrix = -np.sum([plane for plane, _ in effects], axis=0).transpose(0, 2, 1, 3).reshape(2 * n, 2 * n)
+    lateral = np.sum([screw for _, screw in effects], axis=0)
     displacement = 2 * length * rule.opening
     both = np.kron(np.eye(2), displacement)
     _, _, *end = curve(np.array([length]))
