@@ -373,6 +373,8 @@ _GROWTH = {
     "risk_years": ("1", "years until a crack has come so deep in a share of roads"),
     "reach_chance": ("1", "share of roads in which a crack has come so deep at the end of the design life"),
     "stress_intensity_range": ("Pa m^0.5", "range of the stress intensity as an axle class passes"),
+    "thermal_intensity_range": ("Pa m^0.5", "range of the stress intensity over the mean day of a month"),
+    "thermal_growth_rate": ("m", "growth of a crack per year by daily thermal stress alone"),
     "crack_offset": ("m", "offset of a crack's path along the normal of its trace"),
 }
 
@@ -609,6 +611,7 @@ _DISPLAYS_LIFE = {
     "reach_years": Display("reached after", "", years_in_words),
     "risk_years": Display("reached after, at a risk", "", years_in_words),
     "stress_intensity_range": Display("stress intensity range", "MPa√m", ".3g"),
+    "thermal_intensity_range": Display("stress intensity range of the day", "MPa√m", ".3g"),
     "reach_chance": Display("roads cracked through in the design life", "%", ".0f"),
     "years_at_risk": Display("service life, by draws", "", years_in_words),
     "years_at_risk_first_order": Display("service life, first order", "", years_in_words),
