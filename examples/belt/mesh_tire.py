@@ -199,17 +199,19 @@ def main(folder: Path, spacing: float = 6e-3, treads: tuple[str, ...] = ("ribs",
     return found
 
 
-def stiffnesses(fitted: tl.Tire, spacing: float) -> dict[int, float]:
-    """Slope of load over deflection at the nominal load beside what the tire's files state: relative differences."""
+def stiffnesses(fitted: tl.Tire, spacing: float) -> dict[int, tuple[float, float]]:
+    """Load over deflection and its slope near the nominal load, over the stiffness that the tire's files state.
+
+    The files do not say which of both it is.
+    """
     found = {}
-    print("vertical stiffness at the nominal load (kN/mm): stated, computed")
+    print("vertical stiffness near the nominal load (kN/mm): stated; computed as load over deflection, and as slope")
     for psi, _, _, stated, nominal, *_ in np.loadtxt(STIFFNESSES, delimiter=",", skiprows=2):
-        # Deflection at the nominal load, by secants from that of the stated stiffness.
         low, high = 0.8 * nominal / stated, 1.2 * nominal / stated
         loads = np.array([load(fitted, psi * PSI, w, spacing) for w in (low, high)])
-        slope = float(np.diff(loads)[0] / (high - low))
-        found[round(psi)] = slope / stated - 1
-        print(f"  {psi:.0f} psi: {stated / 1e6:.3f}, {slope / 1e6:.3f} ({100 * found[round(psi)]:+.0f} %)")
+        computed = float(loads.sum() / (low + high)), float(np.diff(loads)[0] / (high - low))
+        found[round(psi)] = computed[0] / stated, computed[1] / stated
+        print(f"  {psi:.0f} psi: {stated / 1e6:.3f}; {computed[0] / 1e6:.3f}, {computed[1] / 1e6:.3f}")
     return found
 
 

@@ -71,8 +71,8 @@ class PinBlocks:
                         names.append(f"{THIRDS[third]} third of rib {rib + 1}, part {k + 1} from the rear")
         if not names:
             raise InputError(
-                "no pin of the data stands under a rib of the tire; y counts to the right of the middle of the tread, in "
-                "the unit of its column"
+                f"no pin stands under a rib: they are {places.dy * 1e3:.3g} mm apart and the widest rib is "
+                f"{float(np.diff(faces).max()) * 1e3:.3g} mm wide; measure with pins closer together"
             )
         centre = float((along * places.x).sum() / along.sum())
         blocks = cls(sensor, which, tuple(names), centre, np.zeros(0))

@@ -35,7 +35,8 @@ def sample_pins(
             f"{face[1] * 1e3:.3g} mm"
         )
     (left, right), (back, front) = load.extent_y, load.extent_x
-    first, last = math.ceil((left - offset) / pitch), math.floor((right - offset) / pitch)
+    # One more on each side, that the row ends beside the contact.
+    first, last = math.ceil((left - offset) / pitch) - 1, math.floor((right - offset) / pitch) + 1
     count = max(2, math.ceil((front - back + 2 * face[0]) / step) + 1)
     middle = 0.5 * (front + back)
     grid = Grid(count, last - first + 1, step, pitch, middle - 0.5 * (count - 1) * step, offset + first * pitch)
