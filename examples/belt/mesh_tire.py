@@ -1,9 +1,9 @@
 """Tread and belt of one tire, a 335/65R22.5: its drawn mesh gives the tread, its load-deflection curve the sidewalls.
 
-The corners of the mesh's meridian are measured: crown arc, widths, depths and walls of the grooves, shoulders. With the
-free radius of the measured tire they are the catalogue's tread "335/65R22.5 tread". The hold of the sidewalls, κ, of its
-belt is then fitted to Calspan's points at 40, 70 and 95 psi, with ribs and with a layer, and compared with the vertical
-stiffnesses that the tire's files state.
+The corners of the mesh's meridian are measured: crown arc, widths, depths and walls of the grooves, shoulders. With
+the free radius of the measured tire they are the catalogue's tread "335/65R22.5 tread". The hold of the sidewalls, κ,
+of its belt is then fitted to Calspan's points at 40, 70 and 95 psi, with ribs and with a layer, and compared with the
+vertical stiffnesses that the tire's files state.
 
     python examples/belt/mesh_tire.py [folder]
 """
@@ -51,7 +51,7 @@ class Meridian:
     @property
     def ribs(self) -> np.ndarray:
         """(ribs, 2, 2) ends of the faces of ribs: those corners that no floor of a groove lies above."""
-        out, radius = self.corners.T
+        radius = self.corners[:, 1]
         high = radius > radius.max() - 0.009
         return self.corners[high].reshape(-1, 2, 2)
 
@@ -165,11 +165,11 @@ def main(folder: Path, spacing: float = 6e-3, treads: tuple[str, ...] = ("ribs",
     across, off = shape.arc()
     found: dict[str, Any] = {"arc": across, "off_arc": off, "width": 2 * float(shape.ribs[-1, 1, 0])}
     found |= {"grooves": shape.grooves(), "widest": shape.widest, "crown": float(shape.corners[:, 1].max())}
-    print(f"mesh: crown {1e3 * found['crown']:.1f} mm, arc across {1e3 * across:.0f} mm (ribs within {1e3 * off:.2f} mm), "
-          f"tread {1e3 * found['width']:.1f} mm, widest at {1e3 * shape.widest:.0f} mm")  # fmt: skip
+    print(f"mesh: crown {1e3 * found['crown']:.1f} mm, arc across {1e3 * across:.0f} mm (ribs within "
+          f"{1e3 * off:.2f} mm), tread {1e3 * found['width']:.1f} mm, widest at {1e3 * shape.widest:.0f} mm")  # fmt: skip
     for name, (centre, width, depth, wall) in found["grooves"].items():
-        print(f"  {name} groove: at {1e3 * centre:.2f} mm, {1e3 * width:.2f} mm wide, {1e3 * depth:.2f} mm deep, walls "
-              f"{math.degrees(math.atan(wall)):.1f}° from the vertical")  # fmt: skip
+        print(f"  {name} groove: at {1e3 * centre:.2f} mm, {1e3 * width:.2f} mm wide, {1e3 * depth:.2f} mm deep, "
+              f"walls {math.degrees(math.atan(wall)):.1f}° from the vertical")  # fmt: skip
     catalogued = tires["335/65R22.5 tread"]
     print(f"catalogue: {catalogued}")
     rows = measured()
@@ -217,8 +217,9 @@ def stiffnesses(fitted: tl.Tire, spacing: float) -> dict[int, tuple[float, float
 
 CAVEAT = """
 What this is and is not. The mesh is drawn, not scanned, and its maker is not named; edges and shoulders are sharp as
-drawn. Radius and deflections are of the tire that Calspan pressed (free radius 498.7 mm; the mesh has 504.6 mm), 5.5 MPa of
-its rubber is assumed, 5 mm of undertread below the deepest groove too, and bending is estimated. The points contradict
+drawn. Radius and deflections are of the tire that Calspan pressed (free radius 498.7 mm; the mesh has 504.6 mm), 5.5
+MPa of its rubber is assumed, 5 mm of undertread below the deepest groove too, and bending is estimated. The points
+contradict
 themselves by pressure, as load_deflection.py shows: κ is known to about a tenth."""
 
 

@@ -1,8 +1,9 @@
 """Shear that pins in a road measure under a truck tire: beside a computed contact rib by rib, and fitted to it.
 
 `pins.csv` is no measurement. It was computed by this package (`make`, below) with E = 6 MPa, ν = 0.49 and μ = 0.35 on
-cells of 3 mm, read by pins of 9.7 mm every 12 mm, with noise of 8 kPa, so that what a fit finds can be compared with what
-is known. A fit on other cells than those of the data is off by what cells change of the shear, about 0.01 of the pressure.
+cells of 3 mm, read by pins of 9.7 mm every 12 mm, with noise of 8 kPa, so that what a fit finds can be compared with
+what is known. A fit on other cells than those of the data is off by what cells change of the shear, about 0.01 of the
+pressure.
 
     python examples/pins/run.py [folder]          compare and fit
     python examples/pins/run.py make              make pins.csv again
@@ -25,8 +26,8 @@ LOAD, INFLATION = 35e3, 820e3
 # What the data were made with: modulus and Poisson's ratio of the ribs, friction, noise of a reading, Pa.
 KNOWN = {"modulus": 6e6, "poisson": 0.49, "friction": 0.35}
 NOISE = 8e3
-COMMENT = f"""computed by examples/pins/run.py of treadload, no measurement: 315/80R22.5 with ribs on its belt, rolling freely,
-{LOAD / 1e3:g} kN, {INFLATION / 1e3:g} kPa, E = 6 MPa, nu = 0.49, friction 0.35, cells of 3 mm, noise of 8 kPa"""
+COMMENT = f"""computed by examples/pins/run.py of treadload, no measurement: 315/80R22.5 with ribs on its belt,
+rolling freely, {LOAD / 1e3:g} kN, {INFLATION / 1e3:g} kPa, E = 6 MPa, nu = 0.49, friction 0.35, cells of 3 mm, noise of 8 kPa"""
 
 
 def tire(modulus: float = 5.5e6, poisson: float = 0.495) -> tl.Tire:

@@ -420,7 +420,8 @@ _FOOTPRINT = {
     "third_force_x": ("N", "force of the tire on the road along travel on a third of a rib"),
     "third_force_y": ("N", "force of the tire on the road to the right on a third of a rib"),
     "rib_outward_shear": (
-        "1", "half of the difference of the lateral shear of the right and the left third of a rib over its pressure"
+        "1",
+        "half of the difference of the lateral shear of the right and the left third of a rib over its pressure",
     ),
     "rib_largest_pressure": ("Pa", "largest pressure that a sensel or pin reads on a rib"),
     "rib_largest_traction_x": ("Pa", "largest size of the shear along travel that a sensel or pin reads on a rib"),

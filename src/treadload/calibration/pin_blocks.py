@@ -36,8 +36,8 @@ class PinBlocks:
     """Blocks of the readings of a table of pins.
 
     sensor: the pins, moved across to where the ribs put them. which: (ny, nx), number of the block of a reading,
-    -1 of none. names: of the blocks, in words. centre: of the measured pressure along x, m. measured: (2 blocks,), shear
-    along travel, then to the right, of each block over its load.
+    -1 of none. names: of the blocks, in words. centre: of the measured pressure along x, m. measured: (2 blocks,),
+    shear along travel, then to the right, of each block over its load.
     """
 
     sensor: Footprint
@@ -48,7 +48,8 @@ class PinBlocks:
 
     @classmethod
     def of(cls, sensor: Footprint, faces: Array) -> PinBlocks:
-        """Blocks of pins under ribs with these faces (ribs, 2), m; the pins are moved across to where they fit these best.
+        """Blocks of pins under ribs with these faces (ribs, 2), m; the pins are moved across to where they fit these
+        best.
 
         Raises InputError where no pin stands under a rib.
         """
@@ -81,9 +82,7 @@ class PinBlocks:
     def ratios(self, stress: Array) -> Array:
         """(2 blocks,): shear along travel, then to the right, over load. stress: (3, ny, nx) of the pins, Pa."""
         inside = self.which >= 0
-        sums = [
-            np.bincount(self.which[inside], weights=part[inside], minlength=len(self.names)) for part in stress
-        ]
+        sums = [np.bincount(self.which[inside], weights=part[inside], minlength=len(self.names)) for part in stress]
         load = np.where(sums[0] > 0, sums[0], np.inf)
         both: Array = np.concatenate([sums[1] / load, sums[2] / load])
         return both
@@ -101,13 +100,14 @@ class PinBlocks:
 
 
 def faces_of(tire: Tire) -> Array:
-    """(ribs, 2) left and right end of the ribs of a tire, m. Raises InputError for a surface of which none are known."""
+    """(ribs, 2) left and right end of the ribs of a tire, m. Raises InputError where none are known."""
     groups = tire.ribs
     if groups:
         return np.array([face for group in groups for face in group.faces])
     if not isinstance(tire.surface, ProfileSurface):
         raise InputError(
-            "pins need to know where the ribs of the tire are, and this surface is no profile; give a TreadProfile, or "
+            "pins need to know where the ribs of the tire are, and this surface is no profile; give a TreadProfile, "
+            "or "
             "the map of pressure as footprint"
         )
     profile = tire.surface.profile

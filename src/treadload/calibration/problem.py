@@ -113,7 +113,12 @@ class Problem:
             creepage_y=measured.creepage_y,
         )  # fmt: skip
         return solve_contact(
-            inflated(tire, measured), self.road, state, spacing=self.spacing, tolerance=_ROLLING_TOLERANCE, start=start
+            inflated(tire, measured),
+            self.road,
+            state,
+            spacing=self.spacing,
+            tolerance=_ROLLING_TOLERANCE,
+            start=start,
         )
 
     @property

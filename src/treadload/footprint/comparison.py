@@ -144,11 +144,11 @@ def compare(
     `Footprint`, a `GridLoad`, or the path of a file that `read_footprint` reads without being told more.
     registration: "full" shifts, turns and mirrors; "shift" shifts and turns a little, for a print whose sides are
     known; "none" takes the coordinates as they are; or one of another comparison. Pins have axes of their own and are
-    shifted only. ribs: edges across the tread, m;
-    None: found from the grooves of the computed contact. load_tolerance: share by which the loads may differ. pin: side
-    of the faces, m or a text such as "9.7 mm", over which both are averaged, of a footprint without pins of its own.
-    Returns measures, overlap, difference and one sentence. Raises InputError for loads that differ by more, for a
-    footprint that does not meet the contact, and for what is neither.
+    shifted only. ribs: edges across the tread, m; None: found from the grooves of the computed contact.
+    load_tolerance: share by which the loads may differ. pin: side of the faces, m or a text such as "9.7 mm", over
+    which both are averaged, of a footprint without pins of its own.
+    Returns measures, overlap, difference and one sentence. Raises InputError for loads that differ by more, for
+    a footprint that does not meet the contact, and for what is neither.
     """
     load, sensor = _load(result), _pinned(_footprint(footprint), pin)
     if not load_tolerance > 0:
@@ -207,11 +207,13 @@ def _pinned(sensor: Footprint, pin: float | str | tuple[float, float] | None) ->
         if np.allclose(face, sensor.pin, rtol=1e-3):
             return sensor
         raise InputError(
-            f"the footprint was measured by pins of {sensor.pin[0] * 1e3:.3g} x {sensor.pin[1] * 1e3:.3g} mm, and pin = "
-            f"{face[0] * 1e3:.3g} x {face[1] * 1e3:.3g} mm differs; leave pin out"
+            f"the footprint was measured by pins of {sensor.pin[0] * 1e3:.3g} x {sensor.pin[1] * 1e3:.3g} mm, and "
+            f"pin = {face[0] * 1e3:.3g} x {face[1] * 1e3:.3g} mm differs; leave pin out"
         )
     pressure, along, across = through(sensor.load, replace(sensor, pin=face))
-    return replace(sensor, load=replace(sensor.load, pressure=pressure, traction_x=along, traction_y=across), pin=face)
+    return replace(
+        sensor, load=replace(sensor.load, pressure=pressure, traction_x=along, traction_y=across), pin=face
+    )
 
 
 def _check_loads(load: GridLoad, sensor: Footprint, tolerance: float) -> list[str]:

@@ -36,8 +36,8 @@ class Footprint(BaseResult, group="contact"):
 
     load: pressure, and shear if it was recorded, on the sensels; zero where there is none. road: that it stands on,
     or None. threshold: pressures below it are not seen, Pa. saturation: what a sensel reads at most, Pa. missing:
-    (ny, nx), True where there is no sensel or a dead one; None for none. pin: sides of the face of a pin along x and y,
-    m, over which a cell's reading is a mean; None of sensels that fill their cells. warnings: sentences for the user.
+    (ny, nx), True where there is no sensel or a dead one; None for none. pin: sides of the face of a pin along x and
+    y, m, over which a cell's reading is a mean; None of sensels that fill their cells. warnings: sentences.
     Raises InputError for a wrong value.
     """
 
@@ -257,7 +257,9 @@ def checked_pin(pin: Sequence[float]) -> tuple[float, float]:
     """Sides of the face of a pin along x and y, m. Raises InputError unless they are two lengths above 0."""
     sides = tuple(float(side) for side in pin)
     if len(sides) != 2 or not all(math.isfinite(side) and side > 0 for side in sides):
-        raise InputError(f"pin must be the two sides of a face along x and y, m, above 0, got {pin!r}; 9.7 mm is 9.7e-3")
+        raise InputError(
+            f"pin must be the two sides of a face along x and y, m, above 0, got {pin!r}; 9.7 mm is 9.7e-3"
+        )
     return sides[0], sides[1]
 
 

@@ -47,8 +47,8 @@ class Reading:
     """A kind of reading of a tire.
 
     words: what it is. unit: SI. shown, factor: what people count it in. how: what gives it, a standing tire pressed
-    on ("print"), slopes of rolling ("card"), a rolling state ("rolling"), or its shear ("pins"). doubt: standard deviation that is taken
-    where none is given, of the value if relative. Grounds: repeated readings of one tire.
+    on ("print"), slopes of rolling ("card"), a rolling state ("rolling"), or its shear ("pins"). doubt: standard
+    deviation that is taken where none is given, of the value if relative. Grounds: repeated readings of one tire.
     """
 
     words: str
@@ -93,16 +93,14 @@ class Measured:
     print, m. spread_x, spread_y: standard deviations of x and y under the pressure, m. rib_shares: of the load, from
     left to right. ribs: edges of these across the tread, m. footprint: a `Footprint`, the path of one, or a table of
     what `read_footprint` takes with the path as "file"; shares of its load in blocks are compared, its middle laid on
-    the computed one. pins: a `Footprint` of pins with shear that the tire rolled over, freely or at creepages, its path,
-    or a table like that of a footprint; shear over load is compared in blocks, thirds of ribs by fifths of the load. They
-    sample a part of the print, so that the load of the wheel must be given.
-    effective_rolling_radius: of free rolling, m. longitudinal_stiffness: N. cornering_stiffness: N/rad.
-    aligning_stiffness: N m/rad. lateral_stiffness: N/m, of the standing tire. relaxation_length: m.
-    creepage_x, creepage_y: of a rolling tire, signs as in `Rolling`. tractive_force, lateral_force: of the road on it
-    there, N. aligning_moment: there, N m.
+    the computed one. pins: a `Footprint` of pins with shear that the tire rolled over, freely or at creepages, its
+    path, or a table like that of a footprint; shear over load is compared in blocks, thirds of ribs by fifths of the
+    load. They sample a part of the print, so that the load of the wheel must be given. effective_rolling_radius: of
+    free rolling, m. longitudinal_stiffness: N. cornering_stiffness: N/rad. aligning_stiffness: N m/rad.
+    lateral_stiffness: N/m, of the standing tire. relaxation_length: m. creepage_x, creepage_y: of a rolling tire,
+    signs as in `Rolling`. tractive_force, lateral_force: of the road on it there, N. aligning_moment: there, N m.
     errors: standard deviation of readings by their names, in their SI units, or texts such as "0.3 mm" and "2 %".
-    name: free text.
-    Raises InputError for a reading that cannot be one, and where there is none.
+    name: free text. Raises InputError for a reading that cannot be one, and where there is none.
     """
 
     load: Force | None = None
@@ -309,7 +307,7 @@ def _recorded(name: str, recorded: Any, folder: str | os.PathLike[str]) -> Footp
     if isinstance(recorded, Mapping):
         options = dict(recorded)
         if "file" not in options:
-            raise InputError(f"{name} of a row of data is a table without a file; give {name} = {{ file = \"…\" }}")
+            raise InputError(f'{name} of a row of data is a table without a file; give {name} = {{ file = "…" }}')
         recorded = read_footprint(Path(folder) / str(options.pop("file")), **options)
     elif isinstance(recorded, GridLoad):
         recorded = Footprint(recorded)
@@ -323,7 +321,8 @@ def _with_shear(pins: Footprint) -> Footprint:
     if pins.pin is None or not pins.has_shear:
         what = "has no pins" if pins.pin is None else "has no shear"
         raise InputError(
-            f"pins of a row of data need the three components of a pin table, and {pins.source or 'this footprint'} {what}; "
+            f"pins of a row of data need the three components of a pin table, and {pins.source or 'this footprint'} "
+            f"{what}; "
             "give a map of pressure as footprint, or read a table with vertical, longitudinal and lateral"
         )
     return pins

@@ -22,9 +22,9 @@ def sample_pins(
 ) -> Footprint:
     """The footprint that a row of pins across the road reads while a load rolls over it.
 
-    load: as computed, see `GridLoad.from_dataset` of a contact. pin: side of the square faces, or sides along x and y,
-    m. pitch: between pins, m, at least as wide as one. step: of travel between readings, m. offset: of a pin from y = 0,
-    m. Readings are means over faces, exact by area, without noise. Raises InputError for pins that overlap.
+    load: as computed, see `GridLoad.from_dataset` of a contact. pin: side of the square faces, or sides along x and
+    y, m. pitch: between pins, m, at least as wide as one. step: of travel between readings, m. offset: of a pin from
+    y = 0, m. Readings are means over faces, exact by area, without noise. Raises InputError for pins that overlap.
     """
     face = checked_pin(pin if isinstance(pin, tuple) else (pin, pin))
     positive("pitch of the pins", pitch, "m", "17 mm is 0.017")
@@ -48,11 +48,13 @@ def sample_pins(
 def write_pins(footprint: Footprint, path: str | os.PathLike[str], *, comment: str = "") -> None:
     """Write a pin table that `read_footprint` reads: positions in mm, stress in kPa.
 
-    footprint: of pins. comment: lines that say what it is, above the declared layout. Missing readings are left empty.
-    Raises InputError for a footprint without pins.
+    footprint: of pins. comment: lines that say what it is, above the declared layout. Missing readings are left
+    empty. Raises InputError for a footprint without pins.
     """
     if footprint.pin is None:
-        raise InputError("a pin table needs the size of the pins: give a footprint of sample_pins, or one with pin set")
+        raise InputError(
+            "a pin table needs the size of the pins: give a footprint of sample_pins, or one with pin set"
+        )
     grid, there = footprint.grid, footprint.sensels
     lines = [f"# {line}" for line in comment.splitlines()]
     lines += ["# pin table: stress of the tire on the road; x ahead, y to the right, compression positive"]

@@ -76,14 +76,14 @@ def read(
         # pin: 9.7 mm            side of a square face; "9.7 mm round"; "12 mm x 8 mm" along travel and across it
         # speed: 1.2 m/s         with time in place of x
 
-    y: of the pins, to the right of travel. x: of a reading in the footprint, ahead positive; time: a pin stands and the
-    tire comes, so that later readings lie further behind. vertical: compression positive. longitudinal, lateral: along
-    travel and to the right, on the road, or on the tire with shear_on.
-    units: {"vertical": "kPa"}, of columns whose heading names none; one for "pressure" serves all three. noise: readings
-    of a vertical stress this far below zero, Pa or a text, are none. decimal: as in `tables.read_table`. pin, speed: in
-    place of what the file declares.
+    y: of the pins, to the right of travel. x: of a reading in the footprint, ahead positive; time: a pin stands and
+    the tire comes, so that later readings lie further behind. vertical: compression positive. longitudinal, lateral:
+    along travel and to the right, on the road, or on the tire with shear_on.
+    units: {"vertical": "kPa"}, of columns whose heading names none; one for "pressure" serves all three. noise: readings of a vertical stress this far below
+    zero, Pa or a text, are none. decimal: as in `tables.read_table`. pin, speed: in place of what the file declares.
     Pins stand at even distances, and so do readings; a pin without a reading there is missing.
-    Raises InputError for a missing column, unit or layout, with the line to write.
+    Raises InputError for
+    a missing column, unit or layout, with the line to write.
     """
     table = read_table(path, decimal=decimal)
     declared = _declared(path)
@@ -154,7 +154,9 @@ def _declared(path: Path) -> dict[str, str]:
 def _face(path: Path, size: float | str | tuple[float | str, float | str] | None) -> tuple[float, float]:
     """Sides of the face of a pin along x and across, m; of a round one those of a square of its area."""
     if size is None:
-        raise InputError(f'{path} does not declare its pins; write "# pin: 9.7 mm" above the header, or give pin="9.7 mm"')
+        raise InputError(
+            f'{path} does not declare its pins; write "# pin: 9.7 mm" above the header, or give pin="9.7 mm"'
+        )
     is_round = False
     sides: tuple[float | str, ...]
     if isinstance(size, str):
@@ -164,13 +166,16 @@ def _face(path: Path, size: float | str | tuple[float | str, float | str] | None
     else:
         sides = tuple(size) if isinstance(size, tuple | list) else (size,)
     if len(sides) not in (1, 2) or (is_round and len(sides) != 1):
-        raise InputError(f'{path}: a pin is "9.7 mm", "9.7 mm round" or "12 mm x 8 mm" along travel and across, got {size!r}')
+        raise InputError(
+            f'{path}: a pin is "9.7 mm", "9.7 mm round" or "12 mm x 8 mm" along travel and across, got {size!r}'
+        )
     scale = 0.5 * math.sqrt(math.pi) if is_round else 1.0
     face = [scale * quantity(side, "m") for side in sides]
     for side in face:
         if not _SMALLEST <= side <= _LARGEST:
             raise InputError(
-                f"{path}: the face of a pin is {side * 1e3:g} mm wide, and {_SMALLEST * 1e3:g} to {_LARGEST * 1e3:g} mm "
+                f"{path}: the face of a pin is {side * 1e3:g} mm wide, and {_SMALLEST * 1e3:g} to {_LARGEST * 1e3:g} "
+                f"mm "
                 'is possible; give its unit, "# pin: 9.7 mm"'
             )
     return face[0], face[-1]
@@ -179,7 +184,8 @@ def _face(path: Path, size: float | str | tuple[float | str, float | str] | None
 def _speed(path: Path, speed: float | str | None) -> float:
     if speed is None:
         raise InputError(
-            f'{path} has time and not x, and does not declare a speed; write "# speed: 1.2 m/s" above the header, or give '
+            f'{path} has time and not x, and does not declare a speed; write "# speed: 1.2 m/s" above the header, or '
+            f"give "
             'speed="1.2 m/s"'
         )
     value = quantity(speed, "m/s")
@@ -189,7 +195,7 @@ def _speed(path: Path, speed: float | str | None) -> float:
 
 
 def _columns(table: Table, units: dict[str, str], face: tuple[float, float]) -> dict[str, _Column]:
-    """The columns that are read. Raises InputError for unknown, missing and double ones, and for those without unit."""
+    """The columns that are read. Raises InputError for unknown, missing and double ones, and without a unit."""
     path, line = table.path, table.lines[0]
     if not table.has_header:
         raise InputError(f"{path}, line {line}: a pin table starts with its columns, y [mm], x [mm], vertical [kPa], "
@@ -202,14 +208,17 @@ def _columns(table: Table, units: dict[str, str], face: tuple[float, float]) -> 
             near = meant(name, [*_PLACES, *_STRESSES])
             hint = "" if near is None else f'did you mean "{near}"? '
             raise InputError(
-                f'{path}, line {line}: unknown column "{cell}"; {hint}a pin table has y, x or time, vertical, longitudinal '
+                f'{path}, line {line}: unknown column "{cell}"; {hint}a pin table has y, x or time, vertical, '
+                f"longitudinal "
                 'and lateral, with units like "vertical [kPa]"'
             )
         if name in columns:
             raise InputError(f"{path}, line {line}: the column {name} occurs twice; keep one")
         wanted = units.get(name, units.get("pressure") if name in _STRESSES else None)
         if unit is not None and wanted is not None and unit != wanted:
-            raise InputError(f"{path}, line {line}: {name} is in [{unit}] and units= says {wanted!r}; leave units= out")
+            raise InputError(
+                f"{path}, line {line}: {name} is in [{unit}] and units= says {wanted!r}; leave units= out"
+            )
         if not (unit or wanted):
             example = "kPa" if name in _STRESSES else "mm" if name != "time" else "s"
             raise InputError(
@@ -255,7 +264,8 @@ def _fields(
     for row, cell in enumerate(zip(*at, strict=True)):
         if order[cell] >= 0:
             raise InputError(
-                f"{path}, line {lines[row]}: the pin at y = {read_of['y'][row] * 1e3:g} mm was read at this place in line "
+                f"{path}, line {lines[row]}: the pin at y = {read_of['y'][row] * 1e3:g} mm was read at this place in "
+                f"line "
                 f"{lines[order[cell]]} already; keep one of the readings, or their mean"
             )
         order[cell] = row
@@ -276,6 +286,7 @@ def _caveats(path: Path, fields: Mapping[str, Array]) -> tuple[str, ...]:
     if largest[shear] <= _MOST_SHEAR * largest["vertical"]:
         return ()
     return (
-        f"{path.name}: the largest {shear} stress is {largest[shear] / largest['vertical']:.3g} times the largest vertical "
+        f"{path.name}: the largest {shear} stress is {largest[shear] / largest['vertical']:.3g} times the largest "
+        f"vertical "
         f"one, and at most {_MOST_SHEAR:g} is usual of rubber on a road; look at the columns and their units",
     )

@@ -57,8 +57,8 @@ def read_footprint(
     """A footprint from a file, whose format is recognised by its content.
 
     Tekscan ASCII (.asf, .csv of I-Scan); a table with x, y, pressure and perhaps traction_x, traction_y; a table of
-    pins that measure three components (`footprint.pins.read`); a plain matrix of pressures; NetCDF; a picture with a scale of colours; and what other packages read, by entry points of
-    `treadload.footprints`.
+    pins that measure three components (`footprint.pins.read`); a plain matrix of pressures; NetCDF; a picture with a
+    scale of colours; and what other packages read, by entry points of `treadload.footprints`.
 
     path: of the file. format: "tekscan", "text", "pins", "netcdf", "picture" or another package's, where the content
     misleads.
@@ -72,10 +72,10 @@ def read_footprint(
     scales them; left out, what the file tells. dead: sensels that read nothing amid loaded ones stay empty ("leave")
     or take the mean of their neighbours ("fill"); either way they are named.
     shear_on: the body that recorded shear acts on.
-    options: of the format: decimal= of text; pin=, speed= of pins; colours=, scale=, bar=, crop=, steps=, background=, unclear= of pictures
-    (`footprint.image.read`).
-    Returns the footprint with what is doubtful in `.warnings`. Raises InputError for what cannot be read, is at odds
-    with itself, has no unit, or is saturated everywhere.
+    options: of the format: decimal= of text; pin=, speed= of pins; colours=, scale=, bar=, crop=, steps=,
+    background=, unclear= of pictures (`footprint.image.read`). Returns the footprint with what is doubtful in
+    `.warnings`. Raises InputError for what cannot be read, is at odds with itself, has no unit, or is saturated
+    everywhere.
     """
     path = Path(path)
     if not os.path.isfile(path):
@@ -128,7 +128,7 @@ def is_sensor_file(path: str | os.PathLike[str]) -> bool:
 
 
 def is_pin_table(path: str | os.PathLike[str]) -> bool:
-    """True for a table of pins that measure three components, False for what else there is, and what cannot be read."""
+    """True for a table of pins that measure three components, False for all else and what cannot be read."""
     try:
         return os.path.isfile(path) and pins.looks_like(_text(Path(path)))
     except InputError:

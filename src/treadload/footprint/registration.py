@@ -79,9 +79,7 @@ def laid(footprint: Footprint, quarter_turns: int, mirrored: bool) -> Footprint:
     (pressure, along, across), holes, grid = footprint.load.array, ~footprint.sensels, footprint.grid
     if mirrored:
         pressure, along, across, holes = pressure[::-1], along[::-1], -across[::-1], holes[::-1]
-    pressure, along, across, holes = (
-        np.rot90(field, quarter_turns) for field in (pressure, along, across, holes)
-    )
+    pressure, along, across, holes = (np.rot90(field, quarter_turns) for field in (pressure, along, across, holes))
     for _ in range(quarter_turns % 4):
         # Rows run down the page and to the right of travel: travel turns to the left, the right ahead.
         along, across = across, -along
@@ -151,8 +149,8 @@ def register(load: GridLoad, footprint: Footprint, *, turns: bool = True) -> Reg
 def register_pins(load: GridLoad, footprint: Footprint) -> Registration:
     """The shift along and across under which pins read a load best, in the sense of least squares of the pressures.
 
-    A table of pins has axes of its own: nothing is turned or mirrored. Pins stand in grooves or beside them, so that the
-    places across are tried one after the other before the best is refined.
+    A table of pins has axes of its own: nothing is turned or mirrored. Pins stand in grooves or beside them, so that
+    the places across are tried one after the other before the best is refined.
     """
     grid, measured, there = footprint.grid, footprint.pressure, footprint.sensels
     total = float(measured[there].sum())

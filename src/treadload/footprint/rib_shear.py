@@ -31,8 +31,8 @@ def shear_by_ribs(
 ) -> dict[str, tuple[tuple[str, ...], Any]]:
     """Variables over (map, rib, third) and (map, rib): none where neither the contact nor the footprint has shear.
 
-    load: as computed. sensor: as it was laid. by_sensor: (3, ny, nx), Pa, what it reads of the load. edges: (ribs + 1,)
-    between ribs, m. angle: of the sensor's axes from travel, rad.
+    load: as computed. sensor: as it was laid. by_sensor: (3, ny, nx), Pa, what it reads of the load. edges: (ribs +
+    1,) between ribs, m. angle: of the sensor's axes from travel, rad.
     """
     if not (sensor.has_shear or load.array[1:].any()):
         return {}
@@ -83,7 +83,9 @@ def shear_rows(data: xr.Dataset) -> list[Row]:
         if np.isfinite(most).any():
             texts["largest_readings"][words] = _ratio(most)
     return [
-        row(name, text, label=words, group=_ROWS[name]) for name, lines in texts.items() for words, text in lines.items()
+        row(name, text, label=words, group=_ROWS[name])
+        for name, lines in texts.items()
+        for words, text in lines.items()
     ]
 
 

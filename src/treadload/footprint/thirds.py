@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -35,7 +36,7 @@ class RibForces:
 
     @property
     def outward(self) -> Array:
-        """(ribs,): half of the difference of the lateral shear of the right and the left third over the rib's pressure."""
+        """(ribs,): half of the difference of the lateral shear of the right and left third over the rib's pressure."""
         lateral = self.relative[1]
         half: Array = 0.5 * (lateral[:, 2] - lateral[:, 0])
         return half
@@ -48,7 +49,7 @@ def rib_faces(pressure: Array, y: Array, dy: float, edges: Sequence[float] | Arr
     """
     force = pressure.sum(axis=1)
     faces = np.full((len(edges) - 1, 2), np.nan)
-    for rib, (left, right) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for rib, (left, right) in enumerate(pairwise(edges)):
         rows = np.flatnonzero((force > 0) & (y > left) & (y < right))
         if rows.size:
             faces[rib] = y[rows[0]] - 0.5 * dy, y[rows[-1]] + 0.5 * dy
@@ -77,10 +78,11 @@ def on_cells(stress: Array, y_edges: Array, dx: float, faces: Array) -> RibForce
 
 
 def on_pins(stress: Array, there: BoolArray, y: Array, dx: float, faces: Array) -> RibForces:
-    """Forces on the thirds from the pins whose middle stands on them: mean force per width of the pins times the width.
+    """Forces on the thirds from the pins whose middle stands on them: mean force per width of the pins times the
+    width.
 
-    stress: (3, ny, nx), Pa, of pins at y (ny,), m, read every dx, m. there: (ny, nx), False where a reading is missing,
-    which counts as none. faces: (ribs, 2), m.
+    stress: (3, ny, nx), Pa, of pins at y (ny,), m, read every dx, m. there: (ny, nx), False where a reading is
+    missing, which counts as none. faces: (ribs, 2), m.
     """
     per_width = np.where(there, stress, 0.0).sum(axis=2) * dx
     per_width[:, ~there.any(axis=1)] = np.nan
@@ -110,7 +112,8 @@ def on_sensels(stress: Array, across: Array, area: float, faces: Array) -> RibFo
 
 
 def largest(stress: Array, there: BoolArray, y: Array, faces: Array) -> Array:
-    """(3, ribs) largest pressure and largest size of either shear among the readings on ribs, Pa; NaN without a reading.
+    """(3, ribs) largest pressure and largest size of either shear among the readings on ribs, Pa; NaN without a
+    reading.
 
     They depend on the size of a pin: compare only what the same pins read. Arguments as in `on_pins`.
     """

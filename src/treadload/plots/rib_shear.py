@@ -16,14 +16,17 @@ from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, MUTED, RULE, headline, open_axes, styled
 
 _NEEDED = ("third_load", "third_force_x", "third_force_y")
-_PANELS = (("third_force_y", "Lateral shear", "to the right"), ("third_force_x", "Longitudinal shear", "along travel"))
+_PANELS = (
+    ("third_force_y", "Lateral shear", "to the right"),
+    ("third_force_x", "Longitudinal shear", "along travel"),
+)
 _SPREAD = 0.22
 
 
 @figure(
     "FootprintComparison", name="shear", title="Shear rib by rib", wide=True,
-    caption="Force of the tire on the road on the thirds of each rib, over a third of the load on the rib. Lines: all "
-    "cells; circles: what the sensor would read of them; squares: what it read.",
+    caption="Force of the tire on the road on the thirds of each rib, over a third of the load on the rib. Lines: "
+    "all cells; circles: what the sensor would read of them; squares: what it read.",
     when=lambda data: "third_load" in data,
 )  # fmt: skip
 @styled
@@ -54,9 +57,7 @@ def rib_shear(comparison: Source) -> Figure:
         ax.set_ylabel("over the pressure (–)")
         headline(ax, title, f"positive {way}")
         open_axes(ax)
-    panels[1].set_xticks(
-        np.arange(len(THIRDS) * ribs), [name[0].upper() for _ in range(ribs) for name in THIRDS]
-    )
+    panels[1].set_xticks(np.arange(len(THIRDS) * ribs), [name[0].upper() for _ in range(ribs) for name in THIRDS])
     for rib in range(ribs):
         panels[1].annotate(
             f"rib {rib + 1}", (len(THIRDS) * rib + 1, 0), xycoords=("data", "axes fraction"), xytext=(0, -26),

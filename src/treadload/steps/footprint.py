@@ -27,14 +27,13 @@ _OF_PINS = ("units", "decimal", "shear_on", "load")
 class FootprintStep(Source, name="footprint"):
     """`[footprint]`, in place of [tire] and [rolling]: recorded contact stress.
 
-    file: a CSV table or matrix, a table of pins that measure three components, NetCDF such as a result of this package
-    (.nc), or an export of Tekscan. units:
-    { pressure = "kPa" }, of columns and variables that name none. spacing: of the cells of a matrix. missing: "error"
-    or "zero". noise: pressures this far around zero are none. decimal: "." or ",", where a CSV file can be read in
-    two ways. shear_on: the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
-    Of a sensor's export: frame: "peak", "mean" or a number; travel: "right", "left", "up" or "down" on its page;
-    seen_from: "above" or "below"; calibration: pressure of a raw count; load: known, that all is scaled to;
-    saturation: what a sensel reads at most; dead: sensels, "leave" or "fill".
+    file: a CSV table or matrix, a table of pins that measure three components, NetCDF such as a result of this
+    package (.nc), or an export of Tekscan. units: { pressure = "kPa" }, of columns and variables that name none.
+    spacing: of the cells of a matrix. missing: "error" or "zero". noise: pressures this far around zero are none.
+    decimal: "." or ",", where a CSV file can be read in two ways. shear_on: the body that the recorded shear acts on.
+    interpolation: "constant" or "bilinear". Of a sensor's export: frame: "peak", "mean" or a number; travel: "right",
+    "left", "up" or "down" on its page; seen_from: "above" or "below"; calibration: pressure of a raw count; load:
+    known, that all is scaled to; saturation: what a sensel reads at most; dead: sensels, "leave" or "fill".
     """
 
     makes: ClassVar = ("contact",)

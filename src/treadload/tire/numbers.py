@@ -13,7 +13,6 @@ from treadload.tire.tire import Tire
 from treadload.tire.tread import ProfileSurface, TreadProfile
 from treadload.units import Unit
 
-
 # Least Poisson's ratio of rubber with its fillers that is sought.
 _OF_RUBBER = 0.45
 

@@ -33,8 +33,8 @@ _VERSION = 1
 _KEPT, _MOST_FILES = 8, 40
 # Lengths of sections are compared to so many decimals of a metre: ribs that differ by round-off share a table.
 _DECIMALS = 9
-# Poisson's ratios between which tables are interpolated, and their number: compliance is nearly linear in 1 - 2ν, so that a
-# parabola through tables at 0.45 to 0.4999 errs by less than 1e-5 of the largest.
+# Poisson's ratios between which tables are interpolated, and their number: compliance is nearly linear in 1 - 2ν, so
+# that a parabola through tables at 0.45 to 0.4999 errs by less than 1e-5 of the largest.
 _BETWEEN: ContextVar[tuple[float, ...]] = ContextVar("interpolated Poisson's ratios", default=())
 _NODES = 3
 
