@@ -166,7 +166,8 @@ def main(folder: Path, spacing: float = 6e-3, treads: tuple[str, ...] = ("ribs",
     found: dict[str, Any] = {"arc": across, "off_arc": off, "width": 2 * float(shape.ribs[-1, 1, 0])}
     found |= {"grooves": shape.grooves(), "widest": shape.widest, "crown": float(shape.corners[:, 1].max())}
     print(f"mesh: crown {1e3 * found['crown']:.1f} mm, arc across {1e3 * across:.0f} mm (ribs within "
-          f"{1e3 * off:.2f} mm), tread {1e3 * found['width']:.1f} mm, widest at {1e3 * shape.widest:.0f} mm")  # fmt: skip
+          f"{1e3 * off:.2f} mm), tread {1e3 * found['width']:.1f} mm, widest at "
+          f"{1e3 * shape.widest:.0f} mm")  # fmt: skip
     for name, (centre, width, depth, wall) in found["grooves"].items():
         print(f"  {name} groove: at {1e3 * centre:.2f} mm, {1e3 * width:.2f} mm wide, {1e3 * depth:.2f} mm deep, "
               f"walls {math.degrees(math.atan(wall)):.1f}° from the vertical")  # fmt: skip

@@ -27,7 +27,8 @@ LOAD, INFLATION = 35e3, 820e3
 KNOWN = {"modulus": 6e6, "poisson": 0.49, "friction": 0.35}
 NOISE = 8e3
 COMMENT = f"""computed by examples/pins/run.py of treadload, no measurement: 315/80R22.5 with ribs on its belt,
-rolling freely, {LOAD / 1e3:g} kN, {INFLATION / 1e3:g} kPa, E = 6 MPa, nu = 0.49, friction 0.35, cells of 3 mm, noise of 8 kPa"""
+rolling freely, {LOAD / 1e3:g} kN, {INFLATION / 1e3:g} kPa, E = 6 MPa, nu = 0.49, friction 0.35,
+cells of 3 mm, noise of 8 kPa"""
 
 
 def tire(modulus: float = 5.5e6, poisson: float = 0.495) -> tl.Tire:

@@ -70,12 +70,13 @@ def calibrate(
     that a search goes on where it stopped. progress: called with (done, expected, what) after every contact.
 
     A standing tire is pressed on without friction; slip stiffnesses are those of `tire_card`. Under pins the tire
-    rolls freely; their places across are found once, under the initial tire. E scales out of the tables of ribs and
+    rolls freely, and they lie where they read its pressure best. E scales out of the tables of ribs and
     friction does not enter them; where ν is sought, they are interpolated between three ν from its lower to its upper
-    bound, each of which takes a second or so for each kind of rib, once. Returns the fitted tire, standard
-    deviations, correlations, and in words what the data cannot tell. Raises InputError for fewer data than unknowns
-    and what cannot be measured or sought; ConvergenceError of a contact, and of a search that did not end. Method:
-    trust-region reflective least squares (Branch, Coleman & Li 1999); covariance from the Jacobian.
+    bound, each of which takes a second or so for each kind of rib, once.
+    Returns the fitted tire, standard deviations, correlations, and in words what the data cannot tell.
+    Raises InputError for fewer data than unknowns and what cannot be measured or sought; ConvergenceError of a
+    contact, and of a search that did not end.
+    Method: trust-region reflective least squares (Branch, Coleman & Li 1999); covariance from the Jacobian.
     """
     began = time.perf_counter()
     if isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1:

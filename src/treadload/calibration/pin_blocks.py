@@ -36,14 +36,13 @@ class PinBlocks:
     """Blocks of the readings of a table of pins.
 
     sensor: the pins, moved across to where the ribs put them. which: (ny, nx), number of the block of a reading,
-    -1 of none. names: of the blocks, in words. centre: of the measured pressure along x, m. measured: (2 blocks,),
-    shear along travel, then to the right, of each block over its load.
+    -1 of none. names: of the blocks, in words. measured: (2 blocks,), shear along travel, then to the right, of each
+    block over its load.
     """
 
     sensor: Footprint
     which: NDArray[np.int64]
     names: tuple[str, ...]
-    centre: float
     measured: Array
 
     @classmethod
@@ -75,9 +74,8 @@ class PinBlocks:
                 f"no pin stands under a rib: they are {places.dy * 1e3:.3g} mm apart and the widest rib is "
                 f"{float(np.diff(faces).max()) * 1e3:.3g} mm wide; measure with pins closer together"
             )
-        centre = float((along * places.x).sum() / along.sum())
-        blocks = cls(sensor, which, tuple(names), centre, np.zeros(0))
-        return cls(sensor, which, tuple(names), centre, blocks.ratios(sensor.load.array))
+        blocks = cls(sensor, which, tuple(names), np.zeros(0))
+        return cls(sensor, which, tuple(names), blocks.ratios(sensor.load.array))
 
     def ratios(self, stress: Array) -> Array:
         """(2 blocks,): shear along travel, then to the right, over load. stress: (3, ny, nx) of the pins, Pa."""
@@ -88,10 +86,9 @@ class PinBlocks:
         return both
 
     def computed(self, load: GridLoad) -> Array:
-        """The same of a computed load, its centre of pressure along travel laid on the measured one."""
-        pressure = np.maximum(load.array[0], 0.0)
-        centre = float((pressure.sum(axis=0) * load.grid.x).sum() / pressure.sum())
-        return self.ratios(through(load, self.sensor.moved(centre - self.centre, 0.0)))
+        """The same of a computed load, the pins moved to where they read its pressure best."""
+        placed = register_pins(load, self.sensor, 0.0)
+        return self.ratios(through(load, self.sensor.moved(placed.shift_x, placed.shift_y)))
 
     def name(self, number: int) -> str:
         """Which reading a number is, in words."""

@@ -95,12 +95,14 @@ class Measured:
     what `read_footprint` takes with the path as "file"; shares of its load in blocks are compared, its middle laid on
     the computed one. pins: a `Footprint` of pins with shear that the tire rolled over, freely or at creepages, its
     path, or a table like that of a footprint; shear over load is compared in blocks, thirds of ribs by fifths of the
-    load. They sample a part of the print, so that the load of the wheel must be given. effective_rolling_radius: of
-    free rolling, m. longitudinal_stiffness: N. cornering_stiffness: N/rad. aligning_stiffness: N m/rad.
-    lateral_stiffness: N/m, of the standing tire. relaxation_length: m. creepage_x, creepage_y: of a rolling tire,
-    signs as in `Rolling`. tractive_force, lateral_force: of the road on it there, N. aligning_moment: there, N m.
+    load. They sample a part of the print, so that the load of the wheel must be given.
+    effective_rolling_radius: of free rolling, m. longitudinal_stiffness: N. cornering_stiffness: N/rad.
+    aligning_stiffness: N m/rad. lateral_stiffness: N/m, of the standing tire. relaxation_length: m.
+    creepage_x, creepage_y: of a rolling tire, signs as in `Rolling`. tractive_force, lateral_force: of the road on it
+    there, N. aligning_moment: there, N m.
     errors: standard deviation of readings by their names, in their SI units, or texts such as "0.3 mm" and "2 %".
-    name: free text. Raises InputError for a reading that cannot be one, and where there is none.
+    name: free text.
+    Raises InputError for a reading that cannot be one, and where there is none.
     """
 
     load: Force | None = None

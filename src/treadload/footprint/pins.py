@@ -79,11 +79,11 @@ def read(
     y: of the pins, to the right of travel. x: of a reading in the footprint, ahead positive; time: a pin stands and
     the tire comes, so that later readings lie further behind. vertical: compression positive. longitudinal, lateral:
     along travel and to the right, on the road, or on the tire with shear_on.
-    units: {"vertical": "kPa"}, of columns whose heading names none; one for "pressure" serves all three. noise: readings of a vertical stress this far below
-    zero, Pa or a text, are none. decimal: as in `tables.read_table`. pin, speed: in place of what the file declares.
+    units: {"vertical": "kPa"}, of columns whose heading names none; one for "pressure" serves all three.
+    noise: readings of a vertical stress this far below zero, Pa or a text, are none. decimal: as in
+    `tables.read_table`. pin, speed: in place of what the file declares.
     Pins stand at even distances, and so do readings; a pin without a reading there is missing.
-    Raises InputError for
-    a missing column, unit or layout, with the line to write.
+    Raises InputError for a missing column, unit or layout, with the line to write.
     """
     table = read_table(path, decimal=decimal)
     declared = _declared(path)

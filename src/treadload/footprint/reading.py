@@ -73,9 +73,9 @@ def read_footprint(
     or take the mean of their neighbours ("fill"); either way they are named.
     shear_on: the body that recorded shear acts on.
     options: of the format: decimal= of text; pin=, speed= of pins; colours=, scale=, bar=, crop=, steps=,
-    background=, unclear= of pictures (`footprint.image.read`). Returns the footprint with what is doubtful in
-    `.warnings`. Raises InputError for what cannot be read, is at odds with itself, has no unit, or is saturated
-    everywhere.
+    background=, unclear= of pictures (`footprint.image.read`).
+    Returns the footprint with what is doubtful in `.warnings`. Raises InputError for what cannot be read, is at odds
+    with itself, has no unit, or is saturated everywhere.
     """
     path = Path(path)
     if not os.path.isfile(path):

@@ -146,14 +146,15 @@ def register(load: GridLoad, footprint: Footprint, *, turns: bool = True) -> Reg
     return Registration(*chosen, x, y, angle, share, candidates)
 
 
-def register_pins(load: GridLoad, footprint: Footprint) -> Registration:
+def register_pins(load: GridLoad, footprint: Footprint, near: float | None = None) -> Registration:
     """The shift along and across under which pins read a load best, in the sense of least squares of the pressures.
 
     A table of pins has axes of its own: nothing is turned or mirrored. Pins stand in grooves or beside them, so that
-    the places across are tried one after the other before the best is refined.
+    the places across are tried one after the other before the best is refined. near: shift across,
+    m, from which it is refined without that.
     """
     grid, measured, there = footprint.grid, footprint.pressure, footprint.sensels
-    total = float(measured[there].sum())
+    total, size = float(measured[there].sum()), float(np.linalg.norm(measured[there]))
     across, along = np.where(there, measured, 0.0).sum(axis=1), np.where(there, measured, 0.0).sum(axis=0)
     centre = _centre(load)
     start = np.array([centre[0] - float(along @ grid.x) / total, centre[1] - float(across @ grid.y) / total])
@@ -162,13 +163,16 @@ def register_pins(load: GridLoad, footprint: Footprint) -> Registration:
         laid_there = footprint.moved(float(shift[0]), float(shift[1]))
         by_pins = through(load, laid_there)[0]
         scaled = _ratio(by_pins, measured, there) * by_pins
-        residual: Array = (scaled - measured)[there] / total
+        residual: Array = (scaled - measured)[there] / size
         return residual
 
-    steps = np.arange(-_REACH, _REACH + 1e-9, _TRIED)
-    tried = [start + np.array([0.0, step]) for step in steps]
+    if near is None:
+        steps = np.arange(-_REACH, _REACH + 1e-9, _TRIED)
+        tried = [start + np.array([0.0, step]) for step in steps]
+    else:
+        tried = [np.array([start[0], near])]
     best = min(tried, key=lambda shift: float(np.square(at(shift)).sum()))
-    solution = least_squares(at, best, x_scale=_TRIED, diff_step=None, xtol=1e-8, max_nfev=_FINE[1])
+    solution = least_squares(at, best, x_scale=_TRIED, xtol=1e-10, ftol=1e-12, gtol=1e-12, max_nfev=_FINE[1])
     x, y = (float(value) for value in solution.x)
     by_pins = through(load, footprint.moved(x, y))[0]
     share = overlap(_ratio(by_pins, measured, there) * by_pins[there], measured[there])

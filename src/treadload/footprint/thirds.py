@@ -36,7 +36,7 @@ class RibForces:
 
     @property
     def outward(self) -> Array:
-        """(ribs,): half of the difference of the lateral shear of the right and left third over the rib's pressure."""
+        """(ribs,): half of the difference of the lateral shear of the right and left third over its pressure."""
         lateral = self.relative[1]
         half: Array = 0.5 * (lateral[:, 2] - lateral[:, 0])
         return half

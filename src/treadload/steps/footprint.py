@@ -31,9 +31,10 @@ class FootprintStep(Source, name="footprint"):
     package (.nc), or an export of Tekscan. units: { pressure = "kPa" }, of columns and variables that name none.
     spacing: of the cells of a matrix. missing: "error" or "zero". noise: pressures this far around zero are none.
     decimal: "." or ",", where a CSV file can be read in two ways. shear_on: the body that the recorded shear acts on.
-    interpolation: "constant" or "bilinear". Of a sensor's export: frame: "peak", "mean" or a number; travel: "right",
-    "left", "up" or "down" on its page; seen_from: "above" or "below"; calibration: pressure of a raw count; load:
-    known, that all is scaled to; saturation: what a sensel reads at most; dead: sensels, "leave" or "fill".
+    interpolation: "constant" or "bilinear".
+    Of a sensor's export: frame: "peak", "mean" or a number; travel: "right", "left", "up" or "down" on its page;
+    seen_from: "above" or "below"; calibration: pressure of a raw count; load: known, that all is scaled to;
+    saturation: what a sensel reads at most; dead: sensels, "leave" or "fill".
     """
 
     makes: ClassVar = ("contact",)
