@@ -58,11 +58,11 @@ def _forces(stress: Array, sensor: Footprint, faces: Array, angle: float) -> Rib
     grid, there = sensor.grid, sensor.sensels
     if sensor.pin is not None:
         return on_pins(stress, there, grid.y, grid.dx, faces)
-    known = np.where(there, stress, 0.0)
+    working = np.where(there, stress, 0.0)
     if abs(angle) < STRAIGHT:
-        return on_cells(known, edges_of(grid)[1], grid.dx, faces)
+        return on_cells(working, edges_of(grid)[1], grid.dx, faces)
     _, across = turn(*np.meshgrid(grid.x, grid.y), angle)
-    return on_sensels(known, across, grid.cell_area, faces)
+    return on_sensels(working, across, grid.cell_area, faces)
 
 
 def shear_rows(data: xr.Dataset) -> list[Row]:
