@@ -30,6 +30,7 @@ from treadload.plots.plain import losses, plain_map
 from treadload.plots.profile import strain_profiles
 from treadload.plots.reliability import reliability_inputs, reliability_years
 from treadload.plots.response import depth_slice, strain_directions
+from treadload.plots.rib_shear import rib_shear
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.ruts import life_rut
@@ -97,6 +98,7 @@ __all__ = [
     "reliability_years",
     "residual_stress",
     "rib_shares",
+    "rib_shear",
     "rut_profile",
     "save",
     "season_moduli",

@@ -253,8 +253,8 @@ def _table(
         else:
             at[name] = _checked(table, 1, name, scaled, missing, floor)
     steps = (None, None) if spacing is None else _spacing(spacing)
-    x0, nx, dx, i = _places(path, "x", at["x"], lines, steps[0])
-    y0, ny, dy, j = _places(path, "y", at["y"], lines, steps[1])
+    x0, nx, dx, i = places(path, "x", at["x"], lines, steps[0])
+    y0, ny, dy, j = places(path, "y", at["y"], lines, steps[1])
     if nx * ny > _MOST:
         raise InputError(f"{path} spans {nx} x {ny} cells of {dx:g} x {dy:g} m; check its x and y for strays")
     owner = np.full((ny, nx), -1)
@@ -320,7 +320,7 @@ def _columns(table: Table, units: Mapping[str, str]) -> tuple[dict[str, int], di
     return columns, named
 
 
-def _places(
+def places(
     path: Path, name: str, values: Array, lines: Sequence[int], step: float | None
 ) -> tuple[float, int, float, Array]:
     """First coordinate, number of cells, spacing and index of each value; step: the spacing if given."""

@@ -13,6 +13,9 @@ from treadload.tire.tire import Tire
 from treadload.tire.tread import ProfileSurface, TreadProfile
 from treadload.units import Unit
 
+# Least Poisson's ratio of rubber with its fillers that is sought.
+_OF_RUBBER = 0.45
+
 
 @dataclass(frozen=True)
 class TireNumber:
@@ -171,6 +174,11 @@ def _half_width(tire: Tire) -> float:
     return math.inf if tread is None else 0.5 * tread.width
 
 
+def _least_poisson(tire: Tire) -> float:
+    """Ribs are rubber; a layer's ν may stand for grooves as well."""
+    return _OF_RUBBER if tire.tread == "ribs" else -math.inf
+
+
 def _arm(tire: Tire) -> float:
     return 0.0 if tire.belt is None else tire.belt.arm
 
@@ -183,7 +191,8 @@ _LENGTH, _RADIUS = Unit("m"), Unit("m", "radius")
 _ROWS = (
     TireNumber("modulus", Unit("Pa", "modulus"), "Young's modulus of the tread, or of the half-space that stands for "
                "the tire", 0.1e6, 1e9, *_of_material("modulus")),
-    TireNumber("poisson", Unit(""), "Poisson's ratio of the same", 0.1, 0.4999, *_of_material("poisson")),
+    TireNumber("poisson", Unit(""), "Poisson's ratio of the same", 0.1, 0.4999, *_of_material("poisson"),
+               above=_least_poisson),
     TireNumber("foundation", Unit("1/m"), "hold of the sidewalls per inflation pressure", 0.05, 100.0,
                *_belt("foundation")),
     TireNumber("sidewall_stiffness", Unit("Pa/m"), "hold of the sidewalls without inflation", 0.0, 1e8,

@@ -2,6 +2,9 @@
 
 A file holds one table, for E = 1 Pa. It is written whole or not at all, and made again, without a word, where it is
 missing, damaged, or of another version. TREADLOAD_CACHE names another folder; empty, it keeps tables in memory only.
+
+E scales out, ν does not: a search for ν would solve a table for every ν that it tries. `interpolated` makes it use a
+polynomial through tables at a few ν in place of that.
 """
 
 from __future__ import annotations
@@ -11,6 +14,8 @@ import hashlib
 import io
 import os
 import zipfile
+from collections.abc import Iterator
+from contextvars import ContextVar
 from functools import lru_cache
 from pathlib import Path
 
@@ -28,11 +33,56 @@ _VERSION = 1
 _KEPT, _MOST_FILES = 8, 40
 # Lengths of sections are compared to so many decimals of a metre: ribs that differ by round-off share a table.
 _DECIMALS = 9
+# Poisson's ratios between which tables are interpolated, and their number: compliance is nearly linear in 1 - 2ν, so
+# that a parabola through tables at 0.45 to 0.4999 errs by less than 1e-5 of the largest.
+_BETWEEN: ContextVar[tuple[float, ...]] = ContextVar("interpolated Poisson's ratios", default=())
+_NODES = 3
 
 
 def face_table(section: Section, poisson: float) -> FaceTable:
     """Displacement of the face of a section of E = 1 Pa, solved, or taken from an earlier time. poisson: ν < ½."""
+    nodes = _BETWEEN.get()
+    if nodes and nodes[0] <= poisson <= nodes[-1]:
+        return _between(_rounded(section), float(poisson), nodes)
     return _table(_rounded(section), float(poisson))
+
+
+@contextlib.contextmanager
+def interpolated(low: float, high: float) -> Iterator[None]:
+    """Interpolate tables of sections of a Poisson's ratio from low to high, both below ½, while this is open.
+
+    For a search for ν: tables are solved at three ν and not at each that is tried. Others are solved as always.
+    """
+    token = _BETWEEN.set(_chebyshev(low, high))
+    try:
+        yield
+    finally:
+        _BETWEEN.reset(token)
+
+
+def _chebyshev(low: float, high: float) -> tuple[float, ...]:
+    """Places of extremes of a Chebyshev polynomial, the ends among them; digits that a file's name repeats."""
+    turn = np.cos(np.pi * np.arange(_NODES) / (_NODES - 1))
+    places = 0.5 * (low + high) - 0.5 * (high - low) * turn
+    return tuple(float(f"{place:.10g}") for place in np.concatenate([[low], places[1:-1], [high]]))
+
+
+def _between(section: Section, poisson: float, nodes: tuple[float, ...]) -> FaceTable:
+    waves, compliance = _tables_at(section, nodes)
+    at = np.array(nodes)
+    apart = at[:, None] - at[None, :] + np.eye(len(at))
+    # Lagrange's polynomials: 1 at their node, 0 at the others.
+    weights = np.array(
+        [np.prod([(poisson - at[j]) / apart[i, j] for j in range(len(at)) if j != i]) for i in range(len(at))]
+    )
+    return FaceTable(section, poisson, waves, np.tensordot(weights, compliance, 1))
+
+
+@lru_cache(maxsize=_KEPT)
+def _tables_at(section: Section, nodes: tuple[float, ...]) -> tuple[Array, Array]:
+    """Waves and the compliance at each ν, one after the other."""
+    tables = [_table(section, poisson) for poisson in nodes]
+    return tables[0].waves, np.stack([table.compliance for table in tables])
 
 
 @lru_cache(maxsize=_KEPT)
