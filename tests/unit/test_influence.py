@@ -121,7 +121,7 @@ def test_operators_on_few_cells_are_computed_once(monkeypatch):
         both.gap_by_shear(shears())
     # Once in either padded space.
     assert len(asked) == 2
-    # Rows of another place are the same to bodies that are the same everywhere, and boxes of one padded space share it.
+    # Rows of another place are the same to bodies without strips; one padded space serves several boxes.
     assert operators(SHAPE, DX, DY, pair, 0.1) is operators(SHAPE, DX, DY, pair, 0.2) is both
     Influence(SHAPE, DX, DY, pair).gap_by_shear(shears())
     assert len(asked) == 2

@@ -131,12 +131,11 @@ def _dataset(
     fields: Mapping[str, tuple[tuple[str, ...], Array]], depths: Array, x: Array, y: Array, length: float
 ) -> xr.Dataset:
     """As `variables.dataset` makes it, but without indexes, which cost as much as the fields of few points."""
-    places = xr.Coordinates(
-        {name: xr.Variable((name,), at, variables.attributes(name)) for name, at in (("depth", depths), ("y", y), ("x", x))},
-        indexes={},
-    )  # fmt: skip
-    made = {name: xr.Variable(dims, values, variables.attributes(name)) for name, (dims, values) in fields.items()}
-    return xr.Dataset(made, places, {"mean_over": length})
+    at = {"depth": depths, "y": y, "x": x}
+    coordinates = {name: xr.Variable((name,), values, variables.attributes(name)) for name, values in at.items()}
+    places = xr.Coordinates(coordinates, indexes={})
+    tensors = {name: xr.Variable(dims, values, variables.attributes(name)) for name, (dims, values) in fields.items()}
+    return xr.Dataset(tensors, places, {"mean_over": length})
 
 
 def cells_of(loads: Sequence[PlacedLoad]) -> Loads:

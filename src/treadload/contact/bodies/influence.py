@@ -235,7 +235,7 @@ class Influence:
         return np.asarray(self._waves.k / self.pair.normal_compliance(self._waves))
 
     def tangential_stiffness_on(self, shape: tuple[int, int]) -> Symbols:
-        """About the inverse of `tangential`: symbols (3, ny, nx // 2 + 1) on periodic (ny, nx) cells, Pa/m: xx, yy, xy."""
+        """About the inverse of `tangential`, Pa/m: xx, yy, xy, symbols (3, ny, nx // 2 + 1) on periodic (ny, nx) cells."""
 
         def computed() -> tuple[Symbols, ...]:
             waves = Waves(shape, self.dx, self.dy)
@@ -434,7 +434,7 @@ _kept = lru_cache(maxsize=_KEPT)(Influence)
 
 
 @lru_cache(maxsize=_KEPT_PAIRS)
-def _symbols_of(pair: Body, dx: float, dy: float) -> _Symbols:  # noqa: ARG001 - the arguments are the key
+def _symbols_of(pair: Body, dx: float, dy: float) -> _Symbols:
     """What `Influence._once` keeps of a pair on cells of dx by dy, m."""
     return {}
 

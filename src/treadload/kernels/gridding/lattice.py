@@ -36,7 +36,8 @@ Corner = tuple[Array, tuple[Use, ...]]
 Corners = Callable[[Array, Array, float], Iterator[Corner]]
 """(x, y, z) from a corner, m → functions, broadcast from x and y, each with the (load, component) pairs it serves.
 
-x and y are a row and a column of a grid, or both (n,), of corners one by one. A plain number stands for a function that is the same everywhere, of which no cell has a field.
+x and y are a row and a column of a grid, or both (n,), of corners one by one. A plain number stands for a function
+that is the same everywhere, of which no cell has a field.
 """
 AtDepth = Callable[..., Iterator[Corner]]
 OnLattice = Callable[..., Array]
@@ -287,7 +288,13 @@ def summed(source: Source, depths: Array, x: Array, y: Array) -> Array:
 
 
 def _summed_where(
-    source: Source, kernels: _OfCorners, turned: dict[int, Array], changes: BoolArray, depths: Array, x: Array, y: Array
+    source: Source,
+    kernels: _OfCorners,
+    turned: dict[int, Array],
+    changes: BoolArray,
+    depths: Array,
+    x: Array,
+    y: Array,
 ) -> Array:
     """`summed` over the corners at which the load changes. turned, changes: at all corners, (ny + 1, nx + 1)."""
     ny, nx = source.load.shape[-2:]
