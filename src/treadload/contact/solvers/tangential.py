@@ -177,7 +177,7 @@ class _Preconditioner:
         # On periodic cells of numbers that are fast to transform: near the patch, and near is enough.
         ny, nx = influence.shape
         self.shape = int(fft.next_fast_len(ny)), int(fft.next_fast_len(nx, real=True))
-        symbols = replace(influence, shape=self.shape).tangential_stiffness / _stretches(axes)
+        symbols = influence.tangential_stiffness_on(self.shape) / _stretches(axes)
         turned = np.iscomplexobj(symbols)
         self.symbols = symbols.astype(np.complex64) if turned else paired(symbols.astype(np.float32))
         self.rolls = rolls
