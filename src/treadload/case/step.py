@@ -20,7 +20,7 @@ from treadload.composing import BaseResult
 from treadload.errors import InputError
 from treadload.pavement import Pavement, methods_of
 from treadload.read import Table
-from treadload.registry import STEPS
+from treadload.registry import OURS, STEPS
 
 Results = Mapping[str, BaseResult]
 """What a step makes: results by their groups in a file."""
@@ -165,6 +165,9 @@ class Source(Step):
 
 def step_class(name: str) -> type[Step]:
     """The class of a step by its name. Raises InputError: unknown, or its package cannot be loaded."""
+    if name in Description.model_fields:
+        bringer = STEPS.packages().get(name) or "this session"
+        raise InputError(f"the step {name!r} of {bringer} has the name of a key of every case; rename it")
     entry = STEPS.find(name)
     target: Any = entry.target
     if not (isinstance(target, type) and issubclass(target, Step)):
@@ -226,7 +229,7 @@ def _with_inputs(wanted: list[Step], tables: set[str], source: Source) -> list[S
         for step in without:
             if step.has_table and step.name in tables:
                 lacks = next(group for group in step.after if group not in groups)
-                if STEPS.find(step.name).package != "treadload":
+                if STEPS.find(step.name).package != OURS:
                     raise InputError(
                         f"[{step.name}] of {STEPS.find(step.name).package} comes after {lacks!r}, which no step of "
                         f"this case makes; it has {', '.join(sorted(groups))}"
