@@ -73,7 +73,7 @@ class Registry:
         if fill is not None:
             fill()
 
-    def makes(self, *faces: Any) -> None:
+    def makes(self, *faces: object) -> None:
         """Say what its makers return: types by which `treadload.read` finds the registry."""
         self.faces = faces
 
@@ -207,7 +207,7 @@ def _loaded(point: metadata.EntryPoint, registry: Registry) -> Entry:
     return Entry(point.name, target, package_of(point))
 
 
-def _place(target: Callable[..., Any]) -> str:
+def _place(target: Callable[..., object]) -> str:
     return f"{target.__module__}.{getattr(target, '__qualname__', target)}"
 
 

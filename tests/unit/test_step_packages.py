@@ -131,7 +131,9 @@ def test_a_table_of_ours_that_a_package_takes_is_refused_with_its_name(install, 
 def test_a_key_of_a_case_that_a_package_takes_is_refused_with_its_name(install, key):
     install(greedy_steps=({key: f"greedy_steps.step:Step_{key}"}, step_text(key)))
     message = refusal(COARSE_CASE)
-    assert f"the step {key!r} of the package greedy-steps 1.2 has the name of a key of every case; rename it" in message
+    assert (
+        f"the step {key!r} of the package greedy-steps 1.2 has the name of a key of every case; rename it" in message
+    )
 
 
 def test_a_circle_of_steps_is_refused_with_their_packages(install):

@@ -35,7 +35,8 @@ class Step(Table):
     name: of the table. after: groups of the results that it takes. also: groups that it takes where they are solved,
     too. makes: groups of its results; left out, its name. has_table: False for a step that follows from others and
     has no key of its own. is_quiet: True where the result is left out of summaries. swept: True where a study keeps
-    its numbers for every case without being asked for them.
+    its numbers for every case without being asked for them. shapes_contact: True where the contact of a wheel depends
+    on the table. heading: of its keys in a report; left out, its name.
     """
 
     name: ClassVar[str] = ""
@@ -45,6 +46,8 @@ class Step(Table):
     has_table: ClassVar[bool] = True
     is_quiet: ClassVar[bool] = False
     swept: ClassVar[bool] = False
+    shapes_contact: ClassVar[bool] = False
+    heading: ClassVar[str] = ""
 
     def __init_subclass__(cls, *, name: str = "", **more: Any) -> None:
         super().__init_subclass__(**more)
@@ -119,6 +122,7 @@ class Source(Step):
     """
 
     after: ClassVar[tuple[str, ...]] = ()
+    shapes_contact: ClassVar[bool] = True
     uses: ClassVar[tuple[str, ...]] = ("title", "tire", "pavement")
     needs: ClassVar[tuple[str, ...]] = ("tire", "pavement")
     command: ClassVar[str] = "run"
