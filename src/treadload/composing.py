@@ -85,8 +85,8 @@ class Holds:
 class BaseResult(Described):
     """Base of all results: one question, one dataset, its numbers row by row.
 
-    title: of the class, what it is in words. subject: of a page about results of the class alone. group: of the class,
-    its name in a tree of results; `group_name` may tell results of one class apart.
+    title: of the class, what it is in words. subject: of a page about results of the class alone. group: of the
+    class, its name in a tree of results; `group_name` may tell results of one class apart.
     holds: what a dataset from a file must have before it becomes an object of the class.
     """
 
