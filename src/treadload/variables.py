@@ -907,7 +907,7 @@ def attributes(name: str) -> dict[str, str]:
 
 
 def dataset(
-    fields: Mapping[str, tuple[tuple[str, ...], Any]], coordinates: Mapping[str, Any], **attrs: Any
+    fields: Mapping[str, tuple[tuple[str, ...], Any]], coordinates: Mapping[str, object], **attrs: object
 ) -> xr.Dataset:
     """Dataset whose variables and coordinates carry their units and long names.
 

@@ -112,7 +112,7 @@ class Engine:
             self._solving.join()
 
     def _say_of(self, number: int) -> Say:
-        def say(figures: dict[str, Any] | None = None, **answer: Any) -> None:
+        def say(figures: dict[str, Any] | None = None, **answer: object) -> None:
             # Figures are JSON already, which the browser alone reads.
             if figures:
                 answer["figures"] = {name: map_figures.as_text(figure) for name, figure in figures.items()}

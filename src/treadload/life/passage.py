@@ -219,7 +219,7 @@ def _at(data: xr.Dataset, deep: Any, instant: Any) -> Fields:
     }
 
 
-def _add_cracks(worst: Sequence[Worst], nearest: Any, turns: int) -> None:
+def _add_cracks(worst: Sequence[Worst], nearest: object, turns: int) -> None:
     """Into results (turns + 3, y) angle and dip of the cracks that criteria see where they read most.
 
     Criteria that read one quantity see their cracks at once: there are few places of each.

@@ -358,7 +358,7 @@ def _load(item: Load) -> PlacedLoad:
     raise InputError(f"a load must be a contact, a dataset or a GridLoad, got {_kind(item)}")
 
 
-def _kind(value: Any) -> str:
+def _kind(value: object) -> str:
     return f"an empty {type(value).__name__}" if isinstance(value, Sequence) and not value else type(value).__name__
 
 

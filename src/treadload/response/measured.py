@@ -176,7 +176,7 @@ def shear_sign(shear_on: str) -> float:
     return 1.0 if shear_on == "road" else -1.0
 
 
-def _spacing(spacing: Any) -> tuple[float, float]:
+def _spacing(spacing: object) -> tuple[float, float]:
     both = tuple(spacing) if isinstance(spacing, (tuple, list)) else (spacing, spacing)
     if len(both) != 2:
         raise InputError(f"spacing must be one length or (dx, dy), got {len(both)} values")
@@ -231,7 +231,7 @@ def _matrix(
 
 
 def _table(
-    table: Table, spacing: Any, units: Mapping[str, str], missing: str, floor: float, strict: bool
+    table: Table, spacing: object, units: Mapping[str, str], missing: str, floor: float, strict: bool
 ) -> Recorded:
     path, lines = table.path, table.lines[1:]
     columns, named = _columns(table, units)

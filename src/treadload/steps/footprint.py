@@ -38,6 +38,7 @@ class FootprintStep(Source, name="footprint"):
     """
 
     makes: ClassVar = ("contact",)
+    heading: ClassVar = "Recorded footprint"
     uses: ClassVar = ("title", "pavement", "tolerance")
     needs: ClassVar = ("pavement",)
 

@@ -95,7 +95,7 @@ class Script:
         return _call(name, arguments)
 
     @staticmethod
-    def code(value: Any) -> str:
+    def code(value: object) -> str:
         """A value as Python that makes an equal one. Raises NoCallError."""
         return _code(value)
 
@@ -167,7 +167,7 @@ def _layer(layer: Layer) -> str:
     return f"tl.Layer({', '.join([*positional, *_keywords(arguments)])})"
 
 
-def _code(value: Any) -> str:
+def _code(value: object) -> str:
     """A value as Python that makes an equal one. Raises NoCallError."""
     if value is None or isinstance(value, bool | int | float | str):
         return repr(value)

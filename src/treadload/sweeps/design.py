@@ -164,7 +164,7 @@ class Design:
         return cls(sizes, tuple(inputs), labels, faults)
 
 
-def product(case: Case, vary: Mapping[str, Any]) -> Design:
+def product(case: Case, vary: Mapping[str, object]) -> Design:
     """Every combination of the values: one dimension for each input.
 
     vary: key → values in SI units or with their units. Raises InputError for a key that the case does not have and
@@ -265,7 +265,7 @@ def bounds_of(case: Case, ranges: Mapping[str, tuple[Any, Any]]) -> dict[str, tu
     return bounds
 
 
-def in_si(case: Case, values: Mapping[str, Any]) -> dict[str, Any]:
+def in_si(case: Case, values: Mapping[str, object]) -> dict[str, Any]:
     """What a case makes of values of keys: numbers in SI units, everything else as it is. Raises InputError."""
     table = with_values(case.as_tables(), values)
     read = type(case).from_dict(table, folder=case.folder, name="the study").as_tables()
@@ -388,11 +388,11 @@ def _is_finite(value: Any) -> bool:
     return _is_number(value) and math.isfinite(value)
 
 
-def _is_number(value: Any) -> bool:
+def _is_number(value: object) -> bool:
     return isinstance(value, int | float | np.number) and not isinstance(value, bool | np.bool_)
 
 
-def _listed(name: str, values: Any) -> list[Any]:
+def _listed(name: str, values: object) -> list[Any]:
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Sequence | np.ndarray | xr.DataArray):
         raise InputError(f"{name} needs a list of values, got {values!r}")
     numbers = values.tolist() if hasattr(values, "tolist") else list(values)
@@ -401,7 +401,7 @@ def _listed(name: str, values: Any) -> list[Any]:
     return numbers
 
 
-def _objects(values: Sequence[Any]) -> np.ndarray:
+def _objects(values: Sequence[object]) -> np.ndarray:
     array = np.empty(len(values), dtype=object)
     array[:] = list(values)
     return array
@@ -426,7 +426,7 @@ def _labels(values: np.ndarray) -> np.ndarray:
     return np.array(distinct, dtype=str).reshape(values.shape)
 
 
-def _short(value: Any) -> str:
+def _short(value: object) -> str:
     if isinstance(value, Mapping):
         named = next((value[key] for key in ("name", "structure", "profile", "law", "kind") if key in value), None)
         if isinstance(named, str):

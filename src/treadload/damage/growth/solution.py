@@ -35,6 +35,7 @@ class Growth(BaseResult, group="growth"):
     """
 
     title: ClassVar[str] = "Crack growth"
+    subject: ClassVar[str] = "How a crack grows through a layer"
     holds: ClassVar[Holds] = Holds(
         {
             "initiation_passes": "y",
