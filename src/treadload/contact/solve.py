@@ -15,6 +15,7 @@ from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair, RoadCompliance
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.layers import RoadShare, half_space_share, road_share
+from treadload.contact.bodies.rib_sections import solve_sections
 from treadload.contact.bounds import check_modulus, check_numbers, check_ribs, check_spacing
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
@@ -104,6 +105,7 @@ def solve_contact(
         check_modulus(name, body)
     if rolling.law.largest > 0:
         bodies.both.check_shear()
+    solve_sections(tire, DEFAULT_SPACING if spacing is None else spacing, tell)
     tell("locating the contact")
     # A tire that remembers makes its largest contact where it rolls slowly.
     over = tire if relief is None else above(tire, relief)

@@ -14,12 +14,13 @@ from scipy import ndimage
 from treadload.errors import GeometryError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.tire.cross_section import TreadSection, lateral_obstacle, measured_section
 from treadload.tire.crown import arc_radius
 from treadload.tire.quality import ScanQuality
-from treadload.tire.scan import meridian as unrolling
 from treadload.tire.scan.rays import Caster, revolved, vertical
 from treadload.tire.surface import fingerprint
 from treadload.tire.tread import EXTENT_HEIGHT, EXTENT_MARGIN
+from treadload.tire.unrolled import groove_depth
 
 Choice = bool | Literal["auto"]
 
@@ -104,6 +105,18 @@ class ScanSurface:
         drop = self.report.crown_radius - self.envelope
         with np.errstate(invalid="ignore"):
             return arc_radius(self.across, np.where(drop < EXTENT_DROP, drop, np.nan))
+
+    @cached_property
+    def cross_section(self) -> TreadSection:
+        """Ends and circumferential grooves of the median meridian, whose places lie about 1 mm apart."""
+        rows = np.flatnonzero(self.envelope > self.report.crown_radius - EXTENT_DROP)
+        tread = slice(rows[0], rows[-1] + 1)
+        height = self.meridian[tread] - self.report.crown_radius
+        obstacle = lateral_obstacle(self.report.interrupted)
+        if not obstacle and not np.isfinite(height).all():
+            obstacle = "the floor of a groove was not scanned; scan the tread from more directions"
+            height = np.where(np.isfinite(height), height, -self.deepest)
+        return measured_section(self.across[tread], height, self.report.grooves, self.crown_arc_radius, obstacle)
 
     @property
     def extent(self) -> tuple[float, float]:
@@ -221,16 +234,14 @@ class ScanSurface:
 
     def _in_grooves(self, y: Array) -> BoolArray:
         """(ny,) True where a groove that runs round the tire is deeper than a rib may be uneven."""
-        deep = np.interp(
-            y, self.across, (unrolling.groove_depth(self.across, self.meridian) > RIB_BAND).astype(float)
-        )
+        deep = np.interp(y, self.across, (groove_depth(self.across, self.meridian) > RIB_BAND).astype(float))
         near = np.zeros(len(y), dtype=bool)
         for groove in self.report.grooves:
             near |= np.abs(y - groove.centre) < groove.width
         return np.asarray(near & (deep > 0.5), dtype=bool)
 
     def _refuse_holes(self, grid: Grid, missing: BoolArray, predicted: Array) -> None:
-        grooves = unrolling.groove_depth(self.across, self.meridian) > RIB_BAND
+        grooves = groove_depth(self.across, self.meridian) > RIB_BAND
         rib = np.interp(grid.y, self.across, (~grooves).astype(np.float64)) > 0.5
         with np.errstate(invalid="ignore"):
             contact = (self.first_contact - predicted < CONTACT_GAP) & rib[:, None]
