@@ -1,6 +1,7 @@
 """Ribs from a scan's meridian and from a height map: walls as they are, the undertread, and what is no rib."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,9 @@ import trimesh
 
 import treadload as tl
 from tire_meshes import RIB_TREAD, lugged_mesh, tire_mesh
+from treadload.contact import rib_sections
 from treadload.contact.bodies.section_tables import face_table
+from treadload.contact.bounds import check_ribs
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.sections import Section
@@ -22,7 +25,7 @@ ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 BELT = tl.tire.Belt(tread=tl.Elastic(5.5e6, 0.495), bending=(80, 100, 150))
 ON_BELT = {"inflation_pressure": 820e3, "belt": BELT, "tread": "ribs"}
 WHEEL = tl.Rolling(normal_load=8e3, friction=0.5)
-# Two grooves whose inner and outer walls differ, as on drawn treads.
+# Two grooves with leaning walls.
 NARROW = tl.tire.TreadProfile(
     0.5, 0.8, 0.12, 0.005, (Groove(-0.02, 0.01, 0.015, 0.2), Groove(0.02, 0.01, 0.015, 0.2))
 )
@@ -56,15 +59,16 @@ def test_walls_of_a_scan_are_those_of_its_drawing(scanned):
     assert measured.obstacle == ""
     places, slopes = walls(measured)
     expected, drawn_slopes = walls(drawn)
-    # Places across lie 1 mm apart; a wall of 8° runs 2.1 mm.
-    assert places == pytest.approx(expected, abs=0.5e-3)
-    assert slopes == pytest.approx(drawn_slopes, abs=0.05)
+    # Places across lie 0.25 mm apart, and the drawing leans its walls over 0.2 mm besides; they run 2.1 mm.
+    assert places == pytest.approx(expected, abs=0.25e-3)
+    assert slopes == pytest.approx(drawn_slopes, abs=0.03)
     assert [channel.depth for channel in measured.channels] == pytest.approx([0.015] * 4, abs=0.3e-3)
     # The shoulder ends where the arc turns into the sidewall, 10 mm of rounding inside it.
     assert measured.right == pytest.approx(drawn.right, abs=3e-3)
     assert measured.left == pytest.approx(-measured.right, abs=0.2e-3)
 
 
+@pytest.mark.slow
 def test_a_scan_presses_like_the_profile_that_it_is_of(scanned):
     drawn = tl.Tire.from_profile(RIB_TREAD, **ON_BELT)
     assert len(scanned.ribs) == len(drawn.ribs) == 5
@@ -77,7 +81,7 @@ def test_a_scan_presses_like_the_profile_that_it_is_of(scanned):
     assert approach[0] == pytest.approx(approach[1], rel=0.01)
     assert shear[0] == pytest.approx(shear[1], rel=0.05)
     words = " ".join(contacts[0].warnings)
-    assert "5 mm of rubber below the deepest groove (15.0 mm)" in words.replace("14.9 mm", "15.0 mm")
+    assert re.search(r"5 mm of rubber below the deepest groove \(1(4\.9|5\.[01]) mm\), which is assumed", words)
     assert "undertread" not in " ".join(contacts[1].warnings)
 
 
@@ -123,6 +127,7 @@ def test_a_height_map_is_cut_at_its_grooves(step):
     assert [channel.depth for channel in cut.channels] == pytest.approx([0.015] * 2, abs=0.3e-3)
 
 
+@pytest.mark.slow
 def test_a_height_map_on_ribs_presses_like_its_profile():
     profile = tl.Tire.from_profile(NARROW, **ON_BELT)
     tires = (map_of(NARROW, 4e-3, undertread=0.005), profile)
@@ -149,17 +154,17 @@ def test_maps_that_are_not_of_ribs():
     bare[np.abs(np.abs(grid.y) - 0.02) < 3e-3] = np.nan
     with pytest.raises(InputError, match="no floor of its grooves at y = -2"):
         tl.Tire.from_height_map(bare, 2e-3, **ON_BELT)
-    with pytest.raises(InputError, match=r"4 x 80 cells, 5 are needed"):
+    with pytest.raises(InputError, match=r"4 x 81 cells, 5 are needed"):
         tl.Tire.from_height_map(bare[:4], 2e-3, **ON_BELT)
 
 
 def test_a_map_with_ribs_too_narrow_for_its_cells():
-    thin = replace(NARROW, grooves=(Groove(-0.015, 0.014, 0.012), Groove(0.015, 0.014, 0.012)))
-    tire = map_of(thin, 6e-3, nx=30)
-    with pytest.raises(
-        InputError, match=r"fewer than 3 cells of 6 mm; a height map .* cells of \d(\.\d)? mm or less"
-    ):
-        tl.solve_contact(tire, ROAD, WHEEL)
+    tire = map_of(NARROW, 2e-3)
+    check_ribs(tire, 10e-3)
+    with pytest.raises(InputError, match=r"30 mm wide.*3 cells of 11 mm; a height map .* on cells of 10 mm or less"):
+        check_ribs(tire, 11e-3)
+    with pytest.raises(InputError, match=r'use spacing = "10 mm"'):
+        check_ribs(tl.Tire.from_profile(NARROW, **ON_BELT), 11e-3)
 
 
 def test_undertread_is_below_the_deepest_groove():
@@ -170,11 +175,6 @@ def test_undertread_is_below_the_deepest_groove():
     # The neutral line stays where it is below the tread.
     assert thick.carcass.belt.arm == pytest.approx(BELT.arm + 0.003)
     assert replace(tire, undertread=0.0).ribs[1].section.floors == pytest.approx((0.0, 0.0))
-    softer, stiffer = (
-        float(tl.solve_contact(replace(tire, undertread=part), ROAD, WHEEL, spacing=8e-3).dataset.approach)
-        for part in (0.010, 0.002)
-    )
-    assert softer > stiffer
     for wrong in (-1e-3, 0.2, math.nan):
         with pytest.raises(InputError, match=r"undertread must lie between 0 and 0\.1 m"):
             replace(tire, undertread=wrong)
@@ -187,6 +187,7 @@ def test_rubber_that_keeps_its_volume_exactly_is_refused():
         tl.Tire.from_profile(NARROW, **(ON_BELT | {"belt": replace(BELT, tread=tl.Elastic(5.5e6, 0.5))}))
 
 
+@pytest.mark.slow
 def test_each_wall_has_its_own_slope():
     """A section is its mirrored image's image, and a wall that leans more is stiffer on its side alone."""
     upright, leaning = (
@@ -226,26 +227,26 @@ def test_ribs_end_where_the_tread_does_and_need_grooves_less_deep():
     groups = ribs_between(section, 0.020)
     assert groups[0].faces[0][0] == pytest.approx(-0.06)
     assert groups[-1].faces[-1][1] == pytest.approx(0.06)
-    with pytest.raises(InputError, match=r"15 mm deep and the tread 15 mm thick.*undertread"):
-        ribs_between(section, 0.015)
+    with pytest.raises(InputError, match=r"15 mm deep and the tread 14 mm thick.*undertread"):
+        ribs_between(section, 0.014)
     smooth = TreadSection(-0.06, 0.06)
     assert [group.faces for group in ribs_between(smooth, 0.02)] == [((-0.06, 0.06),)]
 
 
 def test_a_curved_wall_becomes_the_straight_one_nearest_to_it():
-    y = np.arange(-60, 61) * 1e-3
-    # The right wall stands upright in its lower half, and leans by 45° above.
-    depth = np.interp(y, [-0.0101, -0.01, 0.008, 0.0081, 0.0156], [0, 15e-3, 15e-3, 7.5e-3, 0])
+    y = np.arange(-240, 241) * 0.25e-3
+    # The right wall stands upright in its lower half, and leans by a half above.
+    depth = np.interp(y, [-0.0101, -0.01, 0.008, 0.0081, 0.01185], [0, 15e-3, 15e-3, 7.5e-3, 0])
     (groove,) = find_grooves(y, -depth, 0.0)
     section = measured_section(y, -depth, [groove], math.inf)
     (channel,) = section.channels
     assert channel.left == pytest.approx(-0.010, abs=0.6e-3)
     assert channel.slopes[0] == pytest.approx(0.0, abs=0.07)
-    assert channel.slopes[1] == pytest.approx(0.5, abs=0.15)
-    # Straight or not, as much rubber stands in the way.
-    area = lambda at: np.trapezoid(at, dx=1e-3)  # noqa: E731
+    # Least squares over the middle 70 % of its height: 0 in one half of it, ½ in the other.
+    assert channel.slopes[1] == pytest.approx(0.25, abs=0.04)
+    # Straight or not, it leaves as much void.
     straight = channel.right - channel.left - 0.5 * channel.depth * sum(channel.slopes)
-    assert straight * channel.depth == pytest.approx(area(depth), rel=0.05)
+    assert straight * channel.depth == pytest.approx(np.trapezoid(depth, y), rel=0.05)
     assert len(section.caveats) == 1
     assert "straight line" in section.caveats[0]
 
@@ -296,18 +297,19 @@ friction = 0.7
             tl.Case.from_text(wrong, folder=tmp_path)
 
 
-def test_sections_are_solved_with_a_word_on_each():
-    told = []
+def test_sections_are_solved_with_a_word_on_each(monkeypatch):
+    solved, words = [], []
+    monkeypatch.setattr(rib_sections, "face_table", lambda section, poisson: solved.append((section, poisson)))
     tire = tl.Tire.from_profile(NARROW, **ON_BELT)
-    tl.solve_contact(tire, ROAD, WHEEL, spacing=8e-3, progress=told.append)
-    about = [text for text in told if "cross-section" in text]
+    rib_sections.prepare_ribs(tire, 3e-3, words.append)
     # Both shoulders share one, the middle rib has its own.
-    assert [text.split(" of the ribs")[0] for text in about] == ["cross-section 1 of 2", "cross-section 2 of 2"]
-    plain = []
-    tl.solve_contact(replace(tire, tread="layer"), ROAD, WHEEL, spacing=8e-3, progress=plain.append)
-    assert not [text for text in plain if "cross-section" in text]
+    assert [text.split(" of the ribs")[0] for text in words] == ["cross-section 1 of 2", "cross-section 2 of 2"]
+    assert {poisson for _, poisson in solved} == {0.495}
+    rib_sections.prepare_ribs(replace(tire, tread="layer"), 3e-3, words.append)
+    assert len(solved) == len(words) == 2
 
 
+@pytest.mark.slow
 def test_a_file_keeps_the_ribs_of_a_scan(scanned, tmp_path):
     contact = tl.solve_contact(scanned, ROAD, tl.Rolling(normal_load=30e3, friction=0.3), spacing=8e-3)
     tl.save_results(contact, tmp_path / "scan.nc")

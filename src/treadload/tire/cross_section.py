@@ -11,19 +11,19 @@ import numpy as np
 
 from treadload.kernels.arrays import Array
 from treadload.tire.quality import GrooveMeasure
-from treadload.tire.unrolled import TOP_BAND, top_meridian
+from treadload.tire.unrolled import TOP_BAND, crossing, top_meridian
 
 # Share of the faces of ribs that lateral grooves, sipes and holes may take.
 MOST_INTERRUPTED = 0.01
 # Lengths of a measured section are rounded to this, m, and slopes to that, both finer than a meridian is known, so
 # that ribs that are alike share the table of one section.
 _LENGTHS, _SLOPES = 4, 2
-# Levels of a wall, as parts of its height, to which a straight line is fitted: edges and floors are rounded.
-_LEVELS = np.linspace(0.15, 0.85, 15)
+# Parts of the height of a wall between which a straight line is fitted, at so many levels: edge and foot are rounded.
+_LOW, _HIGH, _LEVELS = 0.15, 0.85, 15
 # The face beside a wall is the highest point so near to it, m.
 _BESIDE = 0.005
 # A wall that is this far off a straight line, rms, m, is worth a sentence.
-_CURVED = 0.5e-3
+_CURVED = 0.3e-3
 # The shoulder of a tread without grooves stands where it has fallen so far, m.
 _FALLEN = 0.008
 
@@ -166,15 +166,23 @@ def _wall(y: Array, height: Array, groove: GrooveMeasure, floor: float, side: in
     order = order[(away[order] >= 0) & (away[order] <= 0.5 * groove.width + _BESIDE + step)]
     at, rise = away[order], height[order] - floor
     face = float(np.nanmax(rise[at >= 0.5 * groove.width - step]))
-    levels = _LEVELS * face
-    crossings = np.array([_crossing(at, rise, level) for level in levels])
-    if np.ptp(crossings) <= step:
-        return _Wall(groove.centre + side * float(np.median(crossings)), face, 0.0, 0.0)
-    slope, start = np.polyfit(levels, crossings, 1)
-    off = float(np.sqrt(np.mean(np.square(slope * levels + start - crossings))))
-    slope = max(float(slope), 0.0)
-    place = float(crossings.mean()) + slope * (face - float(levels.mean()))
-    return _Wall(groove.centre + side * place, face, slope, off)
+    part = rise / face
+    on = part[(part > _LOW) & (part < _HIGH) & (at > _crossing(at, part, 0.5) - 2 * face)]
+    if len(on) < 2:
+        # One place on the wall bounds its run: its neighbours lie on the floor and on the face.
+        run = 0.5 * step / max(float(on[0]), 1 - float(on[0])) if len(on) else 0.0
+        height_there = float(on[0]) if len(on) else 0.5
+        place = _crossing(at, part, height_there) + (1 - height_there) * run
+        return _Wall(groove.centre + side * place, face, run / face, 0.0)
+    # Between two places on a wall it is as steep as between them; more of them show all of it.
+    low, high = (float(on.min()), float(on.max())) if len(on) == 2 else (_LOW, _HIGH)
+    levels = np.linspace(low, high, _LEVELS)
+    crossings = np.array([_crossing(at, part, level) for level in levels])
+    run, start = np.polyfit(levels, crossings, 1)
+    off = float(np.sqrt(np.mean(np.square(run * levels + start - crossings))))
+    run = max(float(run), 0.0)
+    place = float(crossings.mean()) + run * (1 - float(levels.mean()))
+    return _Wall(groove.centre + side * place, face, run / face, off)
 
 
 def _crossing(at: Array, rise: Array, level: float) -> float:
@@ -192,16 +200,15 @@ def _ends(
 ) -> tuple[float, float]:
     """Where the tread has fallen by half of its deepest groove below its arc, m; ends if it is not known there."""
     bend = 0.0 if arc_radius is None or math.isinf(arc_radius) else 0.5 / arc_radius
-    level = height + bend * np.square(y)
+    level = np.where(np.isfinite(height), height, -1.0) + bend * np.square(y)
     inner = [channel.left for channel in channels[:1]] + [channel.right for channel in channels[-1:]] or [0.0, 0.0]
     half = 0.5 * max((channel.depth for channel in channels), default=2 * _FALLEN)
     face = _face(y, level, channels) if channels else float(np.nanmedian(level))
     with np.errstate(invalid="ignore"):
         fallen = ~(level > face - half)
     left, right = np.flatnonzero(fallen & (y < inner[0])), np.flatnonzero(fallen & (y > inner[-1]))
-    step = float(y[1] - y[0])
-    low = float(y[left[-1]]) + 0.5 * step if left.size else ends[0]
-    high = float(y[right[0]]) - 0.5 * step if right.size else ends[1]
+    low = crossing(y, level, int(left[-1]), face - half) if left.size else ends[0]
+    high = crossing(y, level, int(right[0]) - 1, face - half) if right.size else ends[1]
     return max(low, ends[0]), min(high, ends[1])
 
 

@@ -77,10 +77,10 @@ def ribs_between(section: TreadSection, thickness: float) -> tuple[RibGroup, ...
             f'ribs: {section.obstacle}; tread = "ribs" takes circumferential grooves only: give tread = "layer"'
         )
     for groove in section.channels:
-        if groove.depth >= thickness:
+        if groove.depth > thickness + _SAME:
             raise InputError(
                 f"ribs: the groove at y = {groove.centre * 1e3:g} mm is {groove.depth * 1e3:g} mm deep and the tread "
-                f"{thickness * 1e3:g} mm thick; give a tread_thickness of the belt above the depth, or undertread"
+                f"{thickness * 1e3:g} mm thick; give the belt at least that tread_thickness, or give undertread"
             )
         width, run = groove.right - groove.left, groove.depth * sum(groove.slopes)
         if run > width - _SAME:
@@ -91,7 +91,7 @@ def ribs_between(section: TreadSection, thickness: float) -> tuple[RibGroup, ...
             )
     walls = [section.left, *(edge for groove in section.channels for edge in (groove.left, groove.right))]
     ribs = list(zip(walls[::2], [*walls[1::2], section.right], strict=True))
-    floors = [0.0, *(thickness - groove.depth for groove in section.channels), 0.0]
+    floors = [0.0, *(max(0.0, thickness - groove.depth) for groove in section.channels), 0.0]
     slopes = [0.0, *(slope for groove in section.channels for slope in groove.slopes), 0.0]
     drafts = list(zip(slopes[::2], slopes[1::2], strict=True))
     groups: list[RibGroup] = []

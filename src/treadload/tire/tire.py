@@ -21,7 +21,7 @@ from treadload.materials import Anisotropic, Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
 from treadload.tire.belt import Belt, InflatedBelt
-from treadload.tire.cross_section import TreadSection
+from treadload.tire.cross_section import TreadSection, lateral_obstacle
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
@@ -304,6 +304,9 @@ class Tire:
             return "free"
         if isinstance(self.material, Elastic) and self.material.modulus > _STIFFEST_RUBBER:
             return "none"
+        quality = self.quality
+        if quality is not None:
+            return "unknown" if lateral_obstacle(quality.interrupted) else "filled" if quality.grooves else "none"
         section = self.cross_section
         if section is None or section.obstacle:
             return "unknown"
