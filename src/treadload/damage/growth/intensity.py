@@ -185,9 +185,9 @@ def between(distances: Array, at: Array) -> Array:
 def _cubic(x: Array, at: Array) -> Array:
     unit = np.eye(len(x))
     if len(x) == 2:
-        slope = np.repeat(np.diff(unit, axis=0) / np.diff(x)[:, None], 2, axis=0)
+        slope: Array = np.repeat(np.diff(unit, axis=0) / np.diff(x)[:, None], 2, axis=0)
     else:
-        slope = np.gradient(unit, x, axis=0, edge_order=2)
+        slope = np.asarray(np.gradient(unit, x, axis=0, edge_order=2))
     weights: Array = CubicHermiteSpline(x, unit, slope)(at)
     return weights
 

@@ -148,7 +148,7 @@ class IrcCementTreated:
     def allowable_passes(self, strain: float | Array) -> float | Array:
         """Passes that a tension, Pa, allows; inf where it is <= 0, NaN for NaN."""
         tension = np.asarray(strain, dtype=float)
-        passes = np.where(tension <= 0, np.inf, 10 ** ((_TOP - tension / self.strength) / _SLOPE))
+        passes: Array = np.where(tension <= 0, np.inf, 10 ** ((_TOP - tension / self.strength) / _SLOPE))
         return passes if tension.ndim else float(passes)
 
     @overload
@@ -178,7 +178,7 @@ def granular_modulus(thickness: float, below: float) -> float:
     """
     positive("thickness", thickness, "metres", "450 mm is 0.45")
     positive("the modulus below", below, "Pa", "a subgrade of CBR 10 has 77e6")
-    return 0.2 * (1e3 * thickness) ** 0.45 * below
+    return float(0.2 * (1e3 * thickness) ** 0.45 * below)
 
 
 def subgrade_modulus(bearing_ratio: float) -> float:
