@@ -6,6 +6,7 @@ floor of the grooves. Every level has the place of the walls at its depth.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -30,26 +31,24 @@ class Block:
     """A block with a face of four corners on a bonded base.
 
     corners: (x, y) of the face, m: rear left, front left, front right, rear right; x along travel, y to the right,
-    convex. height: of the face over the base, m. floor: height of the undertread around the block, m; 0 for none.
-    beside: how far the undertread reaches beyond the foot of the left, front, right and rear wall, m. draft: slope of
-    these walls, by which the block widens per depth. parts: elements along travel and across, those at the walls are
-    split once more: see `for_cells`; left out, none longer than a third of the height.
+    convex. height: of the face over the base, m. floors: height of the undertread at the left, front, right and rear
+    wall, m; 0 for none. beside: how far the undertread reaches beyond their feet, m. draft: slope of the walls, by
+    which the block widens per depth. parts: elements along travel and across, of which those at the walls are split
+    once more, see `for_cells`; left out, none is longer than a third of the height.
 
     Raises ValueError for corners that are not convex, and numbers outside their bounds.
     """
 
     corners: tuple[Point, Point, Point, Point]
     height: float
-    floor: float = 0.0
+    floors: Sides = (0.0, 0.0, 0.0, 0.0)
     beside: Sides = (0.0, 0.0, 0.0, 0.0)
     draft: Sides = (0.0, 0.0, 0.0, 0.0)
     parts: tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
-        if not 0 <= self.floor < self.height:
-            raise ValueError(
-                f"the floor must lie from 0 m to below the height of {self.height:g} m, got {self.floor:g}"
-            )
+        if not all(0 <= floor < self.height for floor in self.floors):
+            raise ValueError(f"floors must lie from 0 m to below the height of {self.height:g} m, got {self.floors}")
         if min(self.beside) < 0 or min(self.draft) < 0:
             raise ValueError(f"beside and draft must not be negative, got {self.beside} and {self.draft}")
         corners = np.array(self.corners, float)
@@ -86,7 +85,13 @@ class Block:
             return right, front, left, rear
 
         corners = (rear_right, front_right, front_left, rear_left)
-        return replace(self, corners=corners, beside=turned(self.beside), draft=turned(self.draft))
+        return replace(
+            self,
+            corners=corners,
+            floors=turned(self.floors),
+            beside=turned(self.beside),
+            draft=turned(self.draft),
+        )
 
     @cached_property
     def mesh(self) -> BlockMesh:
@@ -95,24 +100,33 @@ class Block:
         if parts is None:
             largest = _LARGEST * self.height
             parts = self.for_cells(largest, largest).parts or (1, 1)
-        levels, rows_below = _levels(self.height, self.floor)
-        rings = tuple(reach if self.floor > 0 else 0.0 for reach in self.beside)
+        levels = _levels(self.height, self.floors)
+        rings = self._rings
         left, front, right, rear = rings
         along = _lines((rear, parts[0], front), _LARGEST * self.height)
         across = _lines((left, parts[1], right), _LARGEST * self.height)
         places = np.stack([self._level(z, rings, along, across) for z in levels], axis=2)
         nodes = np.concatenate([places, np.broadcast_to(levels[:, None], (*places.shape[:3], 1))], axis=3)
-        core = np.outer(along[::2, 0][:-1] == 1, across[::2, 0][:-1] == 1)
-        rows = (levels.size - 1) // 2
-        return BlockMesh(nodes, np.where(core, rows, rows_below))
+        rows = [int(np.argmin(np.abs(levels - floor))) // 2 for floor in self.floors]
+        below = np.minimum.outer(
+            np.array([rows[3], levels.size // 2, rows[1]])[along[::2, 0][:-1].astype(int)],
+            np.array([rows[0], levels.size // 2, rows[2]])[across[::2, 0][:-1].astype(int)],
+        )
+        return BlockMesh(nodes, below)
+
+    @property
+    def _rings(self) -> Sides:
+        """How far the undertread reaches beyond the feet, where there is one, m."""
+        left, front, right, rear = (
+            reach if floor > 0 else 0.0 for reach, floor in zip(self.beside, self.floors, strict=True)
+        )
+        return left, front, right, rear
 
     def _level(self, z: float, rings: Sides, along: Array, across: Array) -> Array:
         """Places (lines along, lines across, 2) of the nodes of a level."""
-        depth = self.height - max(z, self.floor)
-        walls = [slope * depth for slope in self.draft]
-        ends = [
-            slope * (self.height - self.floor) + ring for slope, ring in zip(self.draft, rings, strict=True)
-        ]
+        sides = list(zip(self.draft, self.floors, rings, strict=True))
+        walls = [slope * (self.height - max(z, floor)) for slope, floor, _ in sides]
+        ends = [slope * (self.height - floor) + ring for slope, floor, ring in sides]
         net = np.empty((4, 4, 2))
         for i, (side, offset) in enumerate(((3, ends[3]), (3, walls[3]), (1, walls[1]), (1, ends[1]))):
             for j, (beside, aside) in enumerate(((0, ends[0]), (0, walls[0]), (2, walls[2]), (2, ends[2]))):
@@ -187,14 +201,14 @@ class BlockMesh:
         return np.array(nodes), np.array(places)
 
 
-def _levels(height: float, floor: float) -> tuple[Array, int]:
-    """Heights z of nodes, from 0, m, and how many elements lie below the floor."""
-    sizes = height * _AT_LEVEL, height * _LARGEST_UP
-    upper = floor + (height - floor) * _both_ends(height - floor, *sizes)
-    if floor <= 0:
-        return _with_middles(upper), 0
-    lower = floor * _both_ends(floor, *sizes)
-    return _with_middles(np.concatenate([lower, upper[1:]])), lower.size - 1
+def _levels(height: float, floors: Sides) -> Array:
+    """Heights z of nodes, from 0 to the face, so that every floor is one, m."""
+    steps = np.unique(np.round([0.0, *floors, height], 12))
+    edges = [np.zeros(1)]
+    for low, high in itertools.pairwise(steps):
+        parts = _both_ends(float(high - low), height * _AT_LEVEL, height * _LARGEST_UP)
+        edges.append(low + (high - low) * parts[1:])
+    return _with_middles(np.concatenate(edges))
 
 
 def _lines(around: tuple[float, int, float], largest: float) -> Array:
