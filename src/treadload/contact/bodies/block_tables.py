@@ -11,7 +11,7 @@ import hashlib
 import io
 import os
 import zipfile
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -20,7 +20,7 @@ import platformdirs
 
 from treadload.errors import TreadloadError
 from treadload.files import write_whole
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.kernels.sections import Block, FaceCells, block_compliance
 
 # Raised with every change of the elements or of what a file holds.
@@ -32,11 +32,36 @@ _DECIMALS = 9
 _Key = tuple[tuple[tuple[float, float], ...], float, float]
 
 
-def block_table(block: Block, poisson: float, cells: FaceCells) -> Array:
-    """As `block_compliance`, solved or taken from an earlier time. Read-only."""
-    centres = tuple((round(float(x), _DECIMALS) + 0.0, round(float(y), _DECIMALS) + 0.0) for x, y in cells.centres)
-    key = centres, round(cells.dx, _DECIMALS), round(cells.dy, _DECIMALS)
-    return _table(_rounded(block), float(poisson), key)
+@dataclass(frozen=True, eq=False)
+class BlockTable:
+    """Compliance of the cells of a block or of its image.
+
+    compliance: (3 n, 3 n), m/Pa, of E = 1 Pa, as of `block_compliance`, shared by all blocks of the shape: read-only.
+    order: (n,) numbers of the cells as they come in it. is_mirrored: True where it is that of the image in y = 0.
+    """
+
+    compliance: Array
+    order: IntArray
+    is_mirrored: bool
+
+
+def block_table(block: Block, poisson: float, cells: FaceCells) -> BlockTable:
+    """As `block_compliance`, solved or taken from an earlier time; a block and its image share a table."""
+    plain, order = _key_of(cells, 1.0)
+    image, image_order = _key_of(cells, -1.0)
+    upright, turned = _rounded(block), _rounded(block.mirrored)
+    # Any rule will do that picks the same for a block and for its image.
+    if (repr(turned), image) < (repr(upright), plain):
+        return BlockTable(_table(turned, float(poisson), image), image_order, True)
+    return BlockTable(_table(upright, float(poisson), plain), order, False)
+
+
+def _key_of(cells: FaceCells, side: float) -> tuple[_Key, IntArray]:
+    """Middles in a fixed order, with y turned round by a sign, and the sizes of the cells; and that order."""
+    centres = np.round(cells.centres * np.array([1.0, side]), _DECIMALS) + 0.0
+    order = np.lexsort((centres[:, 0], centres[:, 1]))
+    listed = tuple((float(x), float(y)) for x, y in centres[order])
+    return (listed, round(cells.dx, _DECIMALS), round(cells.dy, _DECIMALS)), order
 
 
 @lru_cache(maxsize=_KEPT)

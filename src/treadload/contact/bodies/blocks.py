@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from treadload.contact.bodies.belt import BeltSheet, BeltString
-from treadload.contact.bodies.block_tables import block_table
+from treadload.contact.bodies.block_tables import BlockTable, block_table
 from treadload.contact.bodies.body import Body, Offsets, Sum
 from treadload.contact.bodies.influence import Influence
 from treadload.errors import InputError
@@ -31,6 +31,8 @@ from treadload.tire.blocks import TreadBlock
 
 # Displacements (u_x, u_y, u_n) and loads (q_x, q_y, p) from those along x, y and out of the face.
 _SIGNS = np.array([1.0, 1.0, -1.0])
+# The image in y = 0 moves the other way across.
+_IMAGE = np.array([1.0, -1.0, 1.0])
 # Length of a piece over which belt and road are averaged in the preconditioner, m.
 _PIECE = 0.025
 _SAME = 1e-9
@@ -123,24 +125,24 @@ def block_influence(grid: Grid, pair: Body, blocks: list[TreadBlock], material: 
 
     A cell belongs to a block if its middle lies on the face. Raises InputError for a block with fewer than nine cells.
     """
-    shapes: dict[int, tuple[Array, list[IntArray]]] = {}
+    shapes: dict[tuple[int, bool], tuple[BlockTable, list[IntArray]]] = {}
     pieces = np.full(grid.ny * grid.nx, -1)
     count = 0
     for block in blocks:
         cells, centres = _cells_of(grid, block)
-        table = block_table(
-            block.block.for_cells(grid.dx, grid.dy), material.poisson, FaceCells(centres, grid.dx, grid.dy)
-        )
-        shapes.setdefault(id(table), (table, []))[1].append(cells)
+        shape = block.block.for_cells(grid.dx, grid.dy)
+        table = block_table(shape, material.poisson, FaceCells(centres, grid.dx, grid.dy))
+        key = id(table.compliance), table.is_mirrored
+        shapes.setdefault(key, (table, []))[1].append(cells[table.order])
         number = _pieces_of(centres)
         pieces[cells] = count + number
         count += int(number.max()) + 1
     patches = []
     for table, alike in shapes.values():
         size = alike[0].size
-        compliance = table.reshape(3, size, 3, size) / material.modulus
-        compliance = compliance * _SIGNS[:, None, None, None] * _SIGNS[:, None]
-        patches.append(Patch(np.stack(alike), compliance))
+        signs = _SIGNS * (_IMAGE if table.is_mirrored else 1.0)
+        compliance = table.compliance.reshape(3, size, 3, size) / material.modulus
+        patches.append(Patch(np.stack(alike), compliance * signs[:, None, None, None] * signs[:, None]))
     return BlockInfluence(grid.shape, grid.dx, grid.dy, pair, grid.y0, Patches.of(tuple(patches)), pieces)
 
 
