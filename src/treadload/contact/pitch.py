@@ -93,7 +93,7 @@ class PitchPassage(BaseResult, group="pitch"):
     @property
     def worst(self) -> int:
         """Number of the position with the largest shear of a cell."""
-        return int(self.dataset["largest_traction"].argmax())
+        return int(self.dataset["largest_traction"].to_numpy().argmax())
 
     def contact(self, number: int) -> Contact:
         """The contact at a position, in the frame of the wheel, as `solve_response` and others take it.

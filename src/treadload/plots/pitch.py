@@ -61,7 +61,7 @@ def pitch_maps(passage: Source, *, position: int | None = None) -> Figure:
     Returns the figure.
     """
     data = fields_of(passage, "pressure", "traction_x", "traction_y", "largest_traction", "position", "x", "y")
-    number = int(data["largest_traction"].argmax()) if position is None else position
+    number = int(data["largest_traction"].to_numpy().argmax()) if position is None else position
     one = data.isel(position=number)
     axle = float(one["position"])
     one = one.assign_coords(x=one["x"] - axle)

@@ -7,6 +7,7 @@ floor of the grooves. Every level has the place of the walls at its depth.
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -62,11 +63,13 @@ class Block:
             )
 
     def for_cells(self, dx: float, dy: float) -> Block:
-        """The block with elements for cells of dx by dy, m: where a wall lies between two cells, one for each."""
+        """The block with elements for cells of dx by dy, m: one each, where walls lie between cells, or more."""
         largest = _LARGEST * self.height
-        along, across = self._lengths
-        sizes = min(dx, largest), min(dy, largest)
-        return replace(self, parts=(max(1, round(along / sizes[0])), max(1, round(across / sizes[1]))))
+        along, across = (
+            max(1, round(length / cell)) * max(1, math.ceil(cell / largest - _SAME))
+            for length, cell in zip(self._lengths, (dx, dy), strict=True)
+        )
+        return replace(self, parts=(along, across))
 
     @property
     def _lengths(self) -> tuple[float, float]:

@@ -20,8 +20,9 @@ from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.sections.block_mesh import Block, BlockMesh
 from treadload.kernels.sections.hexahedra import line_shapes, stiffness
 
-# Places along both sides of an element of the face at which it is shared out among the cells.
-_SAMPLES = 12
+# Parts of both sides of an element of the face by whose points of Gauss it is shared out among the cells: loads on
+# whole elements are exact.
+_PARTS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +124,7 @@ def _means(mesh: BlockMesh, cells: FaceCells) -> tuple[Array, IntArray]:
 
     The first slab is that after which no load of a later cell has come: cells are sorted by it.
     """
-    at = (2 * np.arange(_SAMPLES) + 1.0) / _SAMPLES - 1
+    at = ((2 * np.arange(_PARTS)[:, None] + 1 + np.array([-1, 1]) / np.sqrt(3)) / _PARTS).ravel() - 1
     values, slopes = line_shapes(at)
     planes, across = mesh.face.shape[:2]
     shares = np.zeros((planes, across, len(cells.centres)))
@@ -134,7 +135,7 @@ def _means(mesh: BlockMesh, cells: FaceCells) -> tuple[Array, IntArray]:
         point = np.einsum("ai,bj,ijk->abk", values, values, corners)
         along = np.einsum("ai,bj,ijk->abk", slopes, values, corners)
         aside = np.einsum("ai,bj,ijk->abk", values, slopes, corners)
-        weight = np.abs(along[..., 0] * aside[..., 1] - along[..., 1] * aside[..., 0]) * (2 / _SAMPLES) ** 2
+        weight = np.abs(along[..., 0] * aside[..., 1] - along[..., 1] * aside[..., 0]) / _PARTS**2
         cell = _nearest(point.reshape(-1, 2), cells)
         weights = np.einsum("ab,ai,bj->abij", weight, values, values).reshape(-1, 3, 3)
         for number in np.unique(cell):
