@@ -28,7 +28,6 @@ from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import State
 from treadload.errors import ConvergenceError, GeometryError, InputError, positive
 from treadload.grid import Grid
-from treadload.kernels.arrays import Array
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.rows import Row, row
@@ -137,7 +136,13 @@ class PitchPassage(BaseResult, group="pitch"):
             *(
                 row(_key(name), float(d[name][k]), group=f"axle at {at[k] * 1e3:.1f} mm")
                 for k in range(count)
-                for name in ("largest_pressure", "largest_traction", "contact_area", "tractive_force", "lateral_force")
+                for name in (
+                    "largest_pressure",
+                    "largest_traction",
+                    "contact_area",
+                    "tractive_force",
+                    "lateral_force",
+                )
             ),
         )
 
@@ -211,8 +216,8 @@ def solve_pitch(
             break
     else:
         raise ConvergenceError(
-            f"pressure and shear still change by {change:.2e} from one pitch to the next after {_MOST_PITCHES}, above "
-            f"{periodic:.2e}; raise periodic, or lower the tolerance of {tolerance:.1e}",
+            f"pressure and shear still change by {change:.2e} from one pitch to the next after {_MOST_PITCHES}, "
+            f"above {periodic:.2e}; raise periodic, or lower the tolerance of {tolerance:.1e}",
             change,
         )
     stats = {
@@ -251,9 +256,7 @@ def _check(rolling: Rolling, positions: int, tolerance: float, periodic: float) 
         rolling.check_friction_limit(rolling.normal_load)
 
 
-def _window(
-    tire: Tire, tread: LuggedTread, rolling: Rolling, road: Any, cells: tuple[float | None, int]
-) -> Window:
+def _window(tire: Tire, tread: LuggedTread, rolling: Rolling, road: Any, cells: tuple[float | None, int]) -> Window:
     """The window that holds the contact on its way through a pitch, with a block beyond on both sides."""
     spacing, positions = cells
     step = DEFAULT_SPACING if spacing is None else spacing
@@ -285,8 +288,8 @@ def _check_border(window: Window, state: State, number: int) -> None:
     if columns[:free].any() or columns[-free:].any() or rows[[0, -1]].any():
         raise GeometryError(
             f"the contact reaches the border of the window on the tread at position {number}: the tread is known on "
-            f"{window.grid.nx * window.grid.dx * 1e3:.0f} x {window.grid.ny * window.grid.dy * 1e3:.0f} mm; lower the "
-            "load or raise the inflation pressure"
+            f"{window.grid.nx * window.grid.dx * 1e3:.0f} x {window.grid.ny * window.grid.dy * 1e3:.0f} mm; lower "
+            "the load or raise the inflation pressure"
         )
 
 
@@ -338,8 +341,8 @@ def _warnings(window: Window, rolling: Rolling) -> list[str]:
     poisson = tire.belt.tread.poisson
     if poisson < _RUBBER:
         warnings.append(
-            f"the blocks have a Poisson's ratio of {poisson:g}, as of a layer that stands for grooves as well; rubber "
-            f"has {_RUBBER:g} to 0.4999: give the tread of the belt Elastic(modulus, 0.495)"
+            f"the blocks have a Poisson's ratio of {poisson:g}, as of a layer that stands for grooves as well; "
+            f"rubber has {_RUBBER:g} to 0.4999: give the tread of the belt Elastic(modulus, 0.495)"
         )
     if window.pattern.is_joined:
         warnings.append(

@@ -79,7 +79,9 @@ def pitch_maps(passage: Source, *, position: int | None = None) -> Figure:
     scale = limits(pressure)
     mesh = draw_cells(axes[0], plan, np.where(touched, pressure, np.nan), sequential("pressure"), scale)
     colour_bar(mesh, axes[0], "contact pressure (kPa)", scale)
-    for ax, shear, label in zip(axes[1:], shears, ("shear along travel (kPa)", "shear to the right (kPa)"), strict=True):
+    for ax, shear, label in zip(
+        axes[1:], shears, ("shear along travel (kPa)", "shear to the right (kPa)"), strict=True
+    ):
         mesh = ax.pcolormesh(
             plan.x_edges, plan.y_edges, np.ma.masked_where(~touched, shear), cmap="RdBu_r", vmin=-largest,
             vmax=largest, rasterized=True,

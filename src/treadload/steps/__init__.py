@@ -39,7 +39,7 @@ Case.take_steps(())
 __all__ = [
     "AggregatesStep", "BowlStep", "CalibrationStep", "ContactStep", "CrossingStep", "DamageStep", "DrumStep",
     "EnvelopingStep", "EquivalentsStep", "FootprintStep", "GrowthStep", "IndentationStep", "LifeStep", "Options",
-    "Outline", "PassesStep", "PitchStep", "Progress", "ReliabilityStep", "ResponseStep", "Result", "RuttingStep", "Scene",
-    "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "TextureStep", "case_as_python",
+    "Outline", "PassesStep", "PitchStep", "Progress", "ReliabilityStep", "ResponseStep", "Result", "RuttingStep",
+    "Scene", "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "TextureStep", "case_as_python",
     "design_case", "design_of", "plan", "run", "stream",
 ]  # fmt: skip

@@ -105,5 +105,7 @@ class PitchStep(Step, name="pitch"):
     def plan(self, outline: Outline) -> None:
         """The blocks and the number of positions."""
         tread = lugged_tread(outline.case.build_tire(), self.grooves())
-        outline.add("pitch", f"{tread.pattern}; {self.positions} positions, about {_PITCHES} pitches until it repeats")
+        outline.add(
+            "pitch", f"{tread.pattern}; {self.positions} positions, about {_PITCHES} pitches until it repeats"
+        )
         outline.contacts += _PITCHES * self.positions * _OF_CONTACT

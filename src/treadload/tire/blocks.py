@@ -75,7 +75,10 @@ class BlockPattern:
         placed = []
         for block in self.blocks:
             low, high = block.ends
-            first, last = (math.ceil((start - low - _NEAR) / self.period), math.floor((stop - high + _NEAR) / self.period))
+            first, last = (
+                math.ceil((start - low - _NEAR) / self.period),
+                math.floor((stop - high + _NEAR) / self.period),
+            )
             placed += [replace(block, x=block.x + number * self.period) for number in range(first, last + 1)]
         return sorted(placed, key=lambda block: (block.x, block.y))
 
@@ -229,5 +232,3 @@ def _block(
 def _four(values: list[float]) -> tuple[float, float, float, float]:
     left, front, right, rear = values
     return left, front, right, rear
-
-

@@ -18,7 +18,7 @@ from treadload.tire.tread import ProfileSurface, TreadProfile
 
 @dataclass(frozen=True)
 class LuggedTread:
-    """Blocks of a tread. pattern: of the blocks. smooth: the tread without lateral grooves. lateral: these grooves."""
+    """Blocks of a tread. pattern: of the blocks. smooth: the tread without lateral grooves. lateral: these."""
 
     pattern: BlockPattern
     smooth: Surface
@@ -104,7 +104,9 @@ def _edges(groove: LateralGrooves, x: Array, y: Array) -> Array:
     """Depth (ny, nx), m, of the rounded edges of lateral grooves, as far as the face of a block reaches."""
     place = x[None, :] - y[:, None] * np.tan(groove.angle) - groove.offset
     away = np.abs((place + 0.5 * groove.pitch) % groove.pitch - 0.5 * groove.pitch) * np.cos(groove.angle)
-    cut = trench(np.maximum(away, 0.5 * groove.width), groove.width, groove.depth, groove.wall_angle, groove.edge_radius)
+    cut = trench(
+        np.maximum(away, 0.5 * groove.width), groove.width, groove.depth, groove.wall_angle, groove.edge_radius
+    )
     if groove.y_range is not None:
         low, high = groove.y_range
         cut = np.where(((y >= low) & (y <= high))[:, None], cut, 0.0)

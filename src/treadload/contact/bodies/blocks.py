@@ -123,7 +123,7 @@ def belt_alone(inflated: InflatedBelt, road: Body) -> Body:
 def block_influence(grid: Grid, pair: Body, blocks: list[TreadBlock], material: Elastic) -> BlockInfluence:
     """Operators of blocks on a belt and of a road on a grid. pair: as of `belt_alone`. material: of the blocks.
 
-    A cell belongs to a block if its middle lies on the face. Raises InputError for a block with fewer than nine cells.
+    A cell belongs to a block if its middle lies on the face. Raises InputError for blocks of fewer than 9 cells.
     """
     shapes: dict[tuple[int, bool], tuple[BlockTable, list[IntArray]]] = {}
     pieces = np.full(grid.ny * grid.nx, -1)

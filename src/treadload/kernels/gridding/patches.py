@@ -2,7 +2,8 @@
 
 Displacements (u_x, u_y, u_n) under loads (q_x, q_y, p), as in `strips`, of cells that need not lie in rows. Blocks of
 one shape share a matrix and are multiplied at once. The inverse with a convolution besides takes the convolution in
-the mean over pieces of a few cells, which is smooth: a block-diagonal inverse and a correction of low rank (Woodbury).
+the mean over pieces of a few cells, which is smooth: a block-diagonal inverse and a correction of low rank after
+Woodbury.
 """
 
 from __future__ import annotations
@@ -83,12 +84,16 @@ class PatchInverse(StripInverse):
 
     @classmethod
     def of_patches(
-        cls, patches: tuple[Patch, ...], components: tuple[int, ...], pieces: IntArray, means: Callable[[IntArray], Array]
+        cls,
+        patches: tuple[Patch, ...],
+        components: tuple[int, ...],
+        pieces: IntArray,
+        means: Callable[[IntArray], Array],
     ) -> PatchInverse:
         """From blocks and what a convolution adds.
 
-        pieces: (cells of the grid,) number of the piece of every cell, -1 on cells of no block. means: from the numbers
-        of pieces in the order of all cells of the blocks, the mean displacement (m pieces, m pieces), m/Pa, of one
+        pieces: (cells of the grid,) number of the piece of every cell, -1 on cells of no block. means: from the
+        numbers of all cells in the order of the blocks, the mean displacement (m pieces, m pieces), m/Pa, of one
         piece by a unit load shared by the cells of another.
         """
         many = len(components)
@@ -111,7 +116,13 @@ class PatchInverse(StripInverse):
         single = tuple((cells, inverse.astype(np.float32)) for cells, inverse in blocks)
         empty: Array = np.zeros((0, 0, 0), np.float32)
         return cls(
-            index, empty, components, 0, single, spread.astype(np.float32), (0.5 * (bound + bound.T)).astype(np.float32)
+            index,
+            empty,
+            components,
+            0,
+            single,
+            spread.astype(np.float32),
+            (0.5 * (bound + bound.T)).astype(np.float32),
         )
 
     def __call__(self, fields: Array) -> Array:

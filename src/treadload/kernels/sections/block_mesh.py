@@ -188,7 +188,7 @@ class BlockMesh:
         return free
 
     def elements_of(self, slab: int) -> tuple[Array, IntArray]:
-        """Nodes (elements, 27, 3), m, of a slab, and their numbers (elements, 27) among its free ones, -1 at the base.
+        """Nodes (elements, 27, 3), m, of a slab, and their numbers (elements, 27) among its free ones; -1: base.
 
         Numbers: of the near plane, then of the middle and the far one; across, then up.
         """
@@ -261,5 +261,3 @@ def _with_middles(edges: Array) -> Array:
     nodes = np.empty(2 * edges.size - 1)
     nodes[::2], nodes[1::2] = edges, 0.5 * (edges[1:] + edges[:-1])
     return nodes
-
-

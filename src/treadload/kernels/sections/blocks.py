@@ -57,9 +57,7 @@ def block_compliance(block: Block, poisson: float, cells: FaceCells) -> Array:
     count = order.size
     place = np.empty(3 * count, int)
     # From cell by cell in the order of the sweep to component by component in that of the cells.
-    place[(np.arange(3)[:, None] * count + order).ravel()] = (
-        3 * np.arange(count) + np.arange(3)[:, None]
-    ).ravel()
+    place[(np.arange(3)[:, None] * count + order).ravel()] = (3 * np.arange(count) + np.arange(3)[:, None]).ravel()
     return np.asarray(cells.dx * cells.dy * swept[np.ix_(place, place)])
 
 
@@ -152,7 +150,7 @@ def _means(mesh: BlockMesh, cells: FaceCells) -> tuple[Array, IntArray]:
 def _nearest(points: Array, cells: FaceCells) -> IntArray:
     """Number of the cell of every point (n, 2): the nearest one, distances in cells."""
     apart = (points[:, None, :] - cells.centres) / np.array([cells.dx, cells.dy])
-    return np.asarray(np.abs(apart).max(-1).argmin(1))
+    return np.asarray(np.square(apart).sum(-1).argmin(1))
 
 
 def is_inside(block: Block, points: Array, margin: float = 1e-9) -> BoolArray:

@@ -3,8 +3,8 @@
 27 nodes and a linear discontinuous pressure, which is eliminated in the element, so that ν may come near ½: the
 three-dimensional counterpart of `elements`.
 
-Sources: Sussman & Bathe (1987), Comput. Struct. 26, 357-409 (27 nodes, 4 pressures); Hughes (1987), The Finite Element
-Method, chapter 4 (elimination of the pressure).
+Sources: Sussman & Bathe (1987), Comput. Struct. 26, 357-409 (27 nodes, 4 pressures); Hughes (1987), The Finite
+Element Method, chapter 4 (elimination of the pressure).
 """
 
 from __future__ import annotations
