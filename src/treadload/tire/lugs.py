@@ -40,8 +40,9 @@ class LuggedTread:
 def lugged_tread(tire: Tire, lateral: tuple[LateralGrooves, ...] = ()) -> LuggedTread:
     """The blocks of a tire on a belt.
 
-    lateral: grooves that cut a tread that has none of its own, as a scan of ribs. Raises InputError for a tire
-    without a belt, one with a tread of its own and lateral grooves besides, a height map, and as `blocks_of`.
+    lateral: grooves that cut a tread that has none of its own, as a scan of ribs; without, a scan's own lugs count.
+    Raises InputError for a tire without a belt, one with a tread of its own and lateral grooves besides, a height map,
+    and as `blocks_of` and `scanned_blocks`.
     """
     if tire.belt is None:
         raise InputError('blocks stand on a belt: give belt, such as Belt.from_library("315/80R22.5")')
@@ -56,9 +57,13 @@ def lugged_tread(tire: Tire, lateral: tuple[LateralGrooves, ...] = ()) -> Lugged
     if surface.fixed_grid is not None or surface.quality is None:
         raise InputError("a height map is known on its own cells only; give a TreadProfile or a scan")
     if not lateral:
-        raise InputError(
-            "the scan has no lateral grooves of its own that are known; give `lateral`, the grooves that cut its ribs"
-        )
+        # Reading a scan needs trimesh, which is an extra.
+        from treadload.tire.scan.lug_outlines import scanned_blocks
+        from treadload.tire.scan.surface import ScanSurface
+
+        if not isinstance(surface, ScanSurface):
+            raise InputError(f"blocks are read of a scan or a TreadProfile, got {type(surface).__name__}")
+        return LuggedTread(*scanned_blocks(surface, tire.belt.tread_thickness), ())
     return LuggedTread(blocks_of(_measured(tire, tuple(lateral)), tire.belt.tread_thickness), surface, tuple(lateral))
 
 

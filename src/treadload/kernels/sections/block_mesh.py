@@ -19,9 +19,9 @@ Point = tuple[float, float]
 Sides = tuple[float, float, float, float]
 
 # Sizes of elements over the height of a block: at the base, the floor and the face; the largest, up and across.
-_AT_LEVEL, _LARGEST_UP, _LARGEST = 1 / 5, 1 / 3, 1 / 3
-# Where the element at a wall is split, as a part of it.
-_AT_WALL = 1 / 3
+_AT_LEVEL, _LARGEST_UP, _LARGEST = 1 / 5, 1 / 3, 1 / 2
+# Where the element at a wall is split, as a part of it; the first element beside a wall, as a part of the largest.
+_AT_WALL, _BESIDE = 1 / 3, 1 / 2
 # How fast elements grow from a level or a wall.
 _GROWTH = 2.0
 _SAME = 1e-9
@@ -35,7 +35,7 @@ class Block:
     convex. height: of the face over the base, m. floors: height of the undertread at the left, front, right and rear
     wall, m; 0 for none. beside: how far the undertread reaches beyond their feet, m. draft: slope of the walls, by
     which the block widens per depth. parts: elements along travel and across, of which those at the walls are split
-    once more, see `for_cells`; left out, none is longer than a third of the height.
+    once more, see `for_cells`; left out, none is longer than half of the height.
 
     Raises ValueError for corners that are not convex, and numbers outside their bounds.
     """
@@ -134,10 +134,10 @@ class Block:
         for i, (side, offset) in enumerate(((3, ends[3]), (3, walls[3]), (1, walls[1]), (1, ends[1]))):
             for j, (beside, aside) in enumerate(((0, ends[0]), (0, walls[0]), (2, walls[2]), (2, ends[2]))):
                 net[i, j] = self._crossing((side, offset), (beside, aside))
-        i, t = along[:, 0].astype(int)[:, None], along[:, 1][:, None, None]
-        j, s = across[:, 0].astype(int)[None, :], across[:, 1][None, :, None]
-        rear = (1 - s) * net[i, j] + s * net[i, j + 1]
-        front = (1 - s) * net[i + 1, j] + s * net[i + 1, j + 1]
+        part, t = along[:, 0].astype(int)[:, None], along[:, 1][:, None, None]
+        row, s = across[:, 0].astype(int)[None, :], across[:, 1][None, :, None]
+        rear = (1 - s) * net[part, row] + s * net[part, row + 1]
+        front = (1 - s) * net[part + 1, row] + s * net[part + 1, row + 1]
         return np.asarray((1 - t) * rear + t * front)
 
     def _crossing(self, first: tuple[int, float], second: tuple[int, float]) -> Array:
@@ -224,9 +224,9 @@ def _lines(around: tuple[float, int, float], largest: float) -> Array:
     inside = np.unique([*inside, _AT_WALL / count, 1 - _AT_WALL / count])
     parts: list[tuple[int, Array]] = [(1, inside)]
     if before > 0:
-        parts.insert(0, (0, 1 - _one_end(before, _AT_WALL * largest, largest)[::-1]))
+        parts.insert(0, (0, 1 - _one_end(before, _BESIDE * largest, largest)[::-1]))
     if behind > 0:
-        parts.append((2, _one_end(behind, _AT_WALL * largest, largest)))
+        parts.append((2, _one_end(behind, _BESIDE * largest, largest)))
     lines: list[Point] = []
     for number, edges in parts:
         fine = _with_middles(edges)

@@ -35,16 +35,16 @@ def stiffness(nodes: Array, shear_modulus: float, lame: float) -> Array:
     strain[..., 3, :, 1], strain[..., 3, :, 2] = by_z, by_y
     strain[..., 4, :, 0], strain[..., 4, :, 2] = by_z, by_x
     strain[..., 5, :, 0], strain[..., 5, :, 1] = by_y, by_x
-    strain = strain.reshape(elements, 27, 6, 81)
+    flat = strain.reshape(elements, 27, 6, 81)
     elastic = shear_modulus * np.array([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
-    scaled = (strain * (weight[..., None] * elastic)[..., None]).reshape(elements, 162, 81)
-    total = scaled.swapaxes(1, 2) @ strain.reshape(elements, 162, 81)
+    scaled = (flat * (weight[..., None] * elastic)[..., None]).reshape(elements, 162, 81)
+    total = scaled.swapaxes(1, 2) @ flat.reshape(elements, 162, 81)
     # Change of volume against the pressures 1, x, y, z of the element.
     at = np.einsum("pn,enk->epk", shape, nodes)
     middle = (weight[..., None] * at).sum(1, keepdims=True) / weight.sum(1)[:, None, None]
     modes = np.concatenate([np.ones((elements, 27, 1)), at - middle], axis=2)
     weighted = (modes * weight[..., None]).swapaxes(1, 2)
-    change = weighted @ strain[..., :3, :].sum(2)
+    change = weighted @ flat[..., :3, :].sum(2)
     mass = np.linalg.inv(weighted @ modes)
     total += change.swapaxes(1, 2) @ (lame * mass) @ change
     return np.asarray(0.5 * (total + total.swapaxes(1, 2)))
