@@ -92,7 +92,7 @@ def test_square_blocks_bonded_on_both_faces(slenderness, published):
     """Gent and Lindley (1959), Proc. Inst. Mech. Eng. 173, 111-122: E_c = E (1 + 2 S²), S = a/4h, ν = ½.
 
     Their bulge is a parabola and their pressure that of a disc of the same S: 10 % below finite elements. The
-    pressure of a thin square itself is Poisson's equation, as in torsion: 1 + 2.249 S² (12 x 0.03514 x 16 G, 6.748 G),
+    pressure of a thin square itself is Poisson's equation, as in torsion: 1 + 2.249 S² (6.748 G, 12 x 0.03514 x 16),
     of which what the free sides lack, a layer as thick as the block, is still 6 % at S = ½ and 2 % at S = 1.
     """
     modulus, _ = compressed(slenderness * 0.02, 0.02, 0.4999, 6)

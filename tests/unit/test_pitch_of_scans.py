@@ -25,7 +25,8 @@ def lugged(tmp_path, angle, **options):
     return Tire.from_scan(path, units="m", inflation_pressure=4e5, belt=BELT)
 
 
-def test_lugs_of_a_scan_are_those_of_its_mesh(tmp_path, angle=30):
+def test_lugs_of_a_scan_are_those_of_its_mesh(tmp_path):
+    angle = 30
     tread = lugged_tread(lugged(tmp_path, angle))
     pitch = 2 * math.pi * RADIUS / LUGS
     # The crown's radius of the scan: 0.1 mm.

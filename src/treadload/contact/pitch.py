@@ -280,11 +280,11 @@ def _window(tire: Tire, tread: LuggedTread, rolling: Rolling, road: Any, cells: 
 
 def _check_border(window: Window, state: State, number: int) -> None:
     """Refuse a contact that reaches blocks which do not lie whole in the window."""
-    pressed = state.pressure > 0
+    pressed = np.asarray(state.pressure > 0)
     if not pressed.any():
         raise InputError("the approach does not bring tire and road into contact; raise it")
     free = math.ceil(window.pattern.longest / window.grid.dx)
-    columns, rows = pressed.any(0), pressed.any(1)
+    columns, rows = np.asarray(pressed.any(0)), np.asarray(pressed.any(1))
     if columns[:free].any() or columns[-free:].any() or rows[[0, -1]].any():
         raise GeometryError(
             f"the contact reaches the border of the window on the tread at position {number}: the tread is known on "

@@ -71,7 +71,7 @@ class Window:
     def stage(self, rolling: Rolling, axle: float, travel: float) -> Stage:
         """The step that ends with the axle at a place, m, after a travel, m; of none, the wheel stands."""
         grid, law = self.seen_from(axle), rolling.law
-        rigid = np.zeros((2, 1, 1))
+        rigid: Array = np.zeros((2, 1, 1))
         forces: tuple[float | None, float | None] = (0.0, 0.0)
         if travel:
             # Spin in the middle of the step.
@@ -106,10 +106,11 @@ class Window:
             return shifted
 
         tangential = state.tangential
-        return replace(
-            state,
-            pressure=moved(state.pressure),
-            tangential=replace(
-                tangential, shear=moved(tangential.shear), slip=moved(tangential.slip), stick=moved(tangential.stick)
-            ),
+        # Which cells stuck is found anew in every step.
+        moved_shear = replace(
+            tangential,
+            shear=moved(tangential.shear),
+            slip=moved(tangential.slip),
+            stick=np.zeros_like(tangential.stick),
         )
+        return replace(state, pressure=moved(state.pressure), tangential=moved_shear)

@@ -1,4 +1,4 @@
-"""A tread with blocks over one pitch: what changes from position to position, and maps where shear is largest."""
+"""A tread with blocks over here pitch: what changes from position to position, and maps where shear is largest."""
 
 from __future__ import annotations
 
@@ -11,19 +11,22 @@ from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import KPA, MM, Plan, colour_bar, draw_cells, draw_outline, fields_of, limits
 from treadload.plots.kit.style import CASES, headline, measure, open_axes, sequential, signed, styled
 
+# A force that is none, kN.
+_NO_FORCE = 1e-6
+
 
 @figure(
-    "PitchPassage", name="history", main=True, title="Over one pitch", wide=True,
-    caption="Peaks, area and forces at every position of the wheel; means are dashed.",
+    "PitchPassage", name="history", main=True, title="Over here pitch", wide=True,
+    caption="Peaks, area, and forces or creepages at every position of the wheel; means are dashed.",
 )  # fmt: skip
 @styled
 def pitch_history(passage: Source) -> Figure:
-    """Peak pressure and shear, contact area, forces along and across, over the place of the axle.
+    """Peak pressure and shear, contact area, forces or creepages, over the place of the axle.
 
     passage: a PitchPassage or its dataset. Returns the figure.
     """
-    names = ("largest_pressure", "largest_traction", "contact_area", "tractive_force", "lateral_force", "creepage_x")
-    data = fields_of(passage, *names, "position")
+    names = ("largest_pressure", "largest_traction", "contact_area", "tractive_force", "lateral_force")
+    data = fields_of(passage, *names, "creepage_x", "creepage_y", "position")
     at = data["position"].to_numpy() * MM
     figure = new_figure(7.4, 7.4)
     upper, middle, lower = figure.subplots(3, 1, sharex=True)
@@ -38,14 +41,21 @@ def pitch_history(passage: Source) -> Figure:
     middle.plot(at, area, "o-", ms=3, color=CASES[0])
     middle.axhline(area.mean(), color=CASES[0], lw=0.9, ls="--")
     middle.set_ylabel("contact area (cm²)")
-    for name, label, colour in (("tractive_force", "along", CASES[0]), ("lateral_force", "across", CASES[1])):
-        lower.plot(at, data[name].to_numpy() * 1e-3, "o-", ms=3, color=colour, label=label)
-    lower.set_ylabel("force on the tire (kN)")
+    forces = [data[name].to_numpy() * 1e-3 for name in ("tractive_force", "lateral_force")]
+    if max(np.abs(force).max() for force in forces) > _NO_FORCE:
+        curves, label = forces, "force on the tire (kN)"
+    else:
+        # Rolling freely has no force, and what changes is the creepage.
+        curves, label = [data[name].to_numpy() * 100 for name in ("creepage_x", "creepage_y")], "creepage (%)"
+    for values, along, colour in zip(curves, ("along", "across"), CASES, strict=False):
+        lower.plot(at, values, "o-", ms=3, color=colour, label=along)
+        lower.axhline(values.mean(), color=colour, lw=0.9, ls="--")
+    lower.set_ylabel(label)
     lower.set_xlabel("place of the axle in the pitch (mm)")
     lower.legend()
     open_axes(upper, middle, lower)
     pitch = float(data.attrs.get("pitch", np.nan)) * MM
-    headline(upper, "Over one pitch", f"{measure(pitch)} mm, {len(at)} positions")
+    headline(upper, "Over here pitch", f"{measure(pitch)} mm, {len(at)} positions")
     return figure
 
 
@@ -62,17 +72,17 @@ def pitch_maps(passage: Source, *, position: int | None = None) -> Figure:
     """
     data = fields_of(passage, "pressure", "traction_x", "traction_y", "largest_traction", "position", "x", "y")
     number = int(data["largest_traction"].to_numpy().argmax()) if position is None else position
-    one = data.isel(position=number)
-    axle = float(one["position"])
-    one = one.assign_coords(x=one["x"] - axle)
-    pressure = one["pressure"].transpose("y", "x").to_numpy() * KPA
+    here = data.isel(position=number)
+    axle = float(here["position"])
+    here = here.assign_coords(x=here["x"] - axle)
+    pressure = here["pressure"].transpose("y", "x").to_numpy() * KPA
     touched = pressure > 0
     along, across = np.flatnonzero(touched.any(0)), np.flatnonzero(touched.any(1))
     part = {"x": slice(max(along[0] - 2, 0), along[-1] + 3), "y": slice(max(across[0] - 2, 0), across[-1] + 3)}
-    one = one.isel(part)
+    here = here.isel(part)
     pressure, touched = pressure[part["y"], part["x"]], touched[part["y"], part["x"]]
-    plan = Plan.of(one)
-    shears = [one[name].transpose("y", "x").to_numpy() * KPA for name in ("traction_x", "traction_y")]
+    plan = Plan.of(here)
+    shears = [here[name].transpose("y", "x").to_numpy() * KPA for name in ("traction_x", "traction_y")]
     largest = max(float(np.abs(shear).max()) for shear in shears) or 1.0
     figure = new_figure(12.0, 4.6)
     axes = figure.subplots(1, 3, sharey=True)

@@ -25,7 +25,7 @@ from treadload.tire import Tire
 # Contacts and tires that a worker keeps for cases that share them.
 _KEPT = 4
 # Keys of a case that its contact does not depend on, and those of rolling that leave where it is pressed on.
-_BEHIND = ("title", "response", "damage", "passes", "aggregates", "crossing")
+_BEHIND = ("title", "response", "damage", "passes", "aggregates", "crossing", "pitch")
 TANGENTIAL = ("friction", "tractive_force", "creepage_x", "lateral_force", "creepage_y", "spin")
 # Spacing and offset of a contact's cells, None where they are the case's own.
 Cells = tuple[float | None, tuple[float, float] | None]

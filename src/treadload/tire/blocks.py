@@ -99,8 +99,10 @@ def blocks_of(profile: TreadProfile, thickness: float) -> BlockPattern:
             'blocks: the tread has no lateral grooves; give it lateral grooves, or take tread = "ribs" and a contact '
             "in steady rolling"
         )
-    for groove in (*profile.grooves, *profile.lateral):
+    for groove in profile.grooves:
         _check_groove(groove, thickness)
+    for lateral in profile.lateral:
+        _check_groove(lateral, thickness)
     period = max(groove.pitch for groove in profile.lateral)
     half = 0.5 * profile.width
     grooves = sorted(profile.grooves, key=lambda groove: groove.centre)

@@ -18,7 +18,7 @@ from treadload.tire.tread import ProfileSurface, TreadProfile
 
 @dataclass(frozen=True)
 class LuggedTread:
-    """Blocks of a tread. pattern: of the blocks. smooth: the tread without lateral grooves. lateral: these."""
+    """Blocks of a tread. pattern: of them. smooth: the tread without lateral grooves. lateral: these."""
 
     pattern: BlockPattern
     smooth: Surface
@@ -40,7 +40,7 @@ class LuggedTread:
 def lugged_tread(tire: Tire, lateral: tuple[LateralGrooves, ...] = ()) -> LuggedTread:
     """The blocks of a tire on a belt.
 
-    lateral: grooves that cut a tread that has none of its own, as a scan of ribs; without, a scan's own lugs count.
+    lateral: grooves that cut a tread that has none of its own, as a scan of ribs; without, the lugs of a scan.
     Raises InputError for a tire without a belt, one with a tread of its own and lateral grooves besides, a height map,
     and as `blocks_of` and `scanned_blocks`.
     """
