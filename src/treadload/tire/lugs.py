@@ -41,7 +41,7 @@ def lugged_tread(tire: Tire, lateral: tuple[LateralGrooves, ...] = ()) -> Lugged
     """The blocks of a tire on a belt.
 
     lateral: grooves that cut a tread that has none of its own, as a scan of ribs; without, the lugs of a scan.
-    Raises InputError for a tire without a belt, one with a tread of its own and lateral grooves besides, a height map,
+    Raises InputError for a tire without a belt, a profile with lateral grooves besides, a height map,
     and as `blocks_of` and `scanned_blocks`.
     """
     if tire.belt is None:
