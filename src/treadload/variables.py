@@ -139,6 +139,8 @@ _HISTORY = {
     "steering_torque": ("N m", "torque about z that turns the wheel against friction"),
     "sliding_torque": ("N m", "torque about z at which the whole contact slides"),
     "turning_stiffness": ("N m/rad", "torque over angle of the first increment of a turn on the spot"),
+    "pitch": ("m", "length round the tire after which its blocks repeat"),
+    "periodicity": ("1", "largest change of pressure or shear from one pitch to the next, relative"),
     "pole_x": ("m", "point along travel about which the step turned the tire"),
     "pole_y": ("m", "point to the right of travel about which the step turned the tire"),
 }
@@ -746,6 +748,8 @@ _DISPLAYS_CONTACT = {
     "turn_angle": Display("turn angle", "°", ".2f"),
     "steering_torque": Display("steering torque", "N m", ".1f"),
     "distance": Display("distance", "mm", ".1f"),
+    "pitch": Display("pitch of the blocks", "mm", ".1f"),
+    "periodicity": Display("change from pitch to pitch", "%", ".2g"),
     "rolling_resistance": Display("rolling resistance", "N", ".4g"),
     "rolling_resistance_coefficient": Display("rolling resistance over load", "N/kN", ".3g"),
     "rolling_resistance_moment": Display("rolling resistance moment", "N m", ".4g"),

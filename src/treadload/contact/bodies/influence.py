@@ -91,6 +91,11 @@ class Influence:
         return Strips(tuple(strip.rows for strip in self._strips), blocks, length)
 
     @property
+    def has_blocks(self) -> bool:
+        """True if groups of cells are known as wholes by dense matrices."""
+        return bool(self._strips)
+
+    @property
     def material(self) -> BoolArray:
         """(ny,) rows that have material: all of a pair without strips."""
         if not self._strips:

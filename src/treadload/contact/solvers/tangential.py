@@ -73,7 +73,7 @@ def solve_tangential(
     if box is None:
         # No cell can carry shear: the bodies slide freely at the known rigid slip.
         return TangentialSolution(np.zeros_like(rigid), rigid.copy(), (0.0, 0.0), np.zeros(bound.shape, bool), 0.0)
-    striped = not influence.material.all()
+    striped = influence.has_blocks
     if striped:
         # Groups of rows are known as wholes.
         box = slice(0, bound.shape[0]), slice(0, bound.shape[1])
