@@ -24,6 +24,7 @@ from treadload.tire.belt import Belt, InflatedBelt
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
+from treadload.tire.rib_rows import gap_on_faces, with_bands
 from treadload.tire.ribs import RibGroup, ribs_of
 from treadload.tire.surface import (
     Surface,
@@ -244,7 +245,7 @@ class Tire:
             return ()
         assert self.belt is not None
         assert isinstance(self.surface, ProfileSurface)
-        return ribs_of(self.surface.profile, self.belt.tread_thickness)
+        return with_bands(ribs_of(self.surface.profile, self.belt.tread_thickness), self.surface.profile)
 
     @property
     def elastic(self) -> Elastic | Anisotropic | Surfaced | InflatedBelt:
@@ -318,10 +319,14 @@ class Tire:
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap in m at the cell centres, ≥ 0, to the plane at first contact; NaN where there is no material.
 
+        On the ribs of a profile it is the mean over what a row of cells stands for of a rib, see `tire.rib_rows`.
         Raises InputError when the tread is known on another grid only, GeometryError when it has no usable
         surface there.
         """
-        return self.surface.height_map(grid)
+        gap = self.surface.height_map(grid)
+        if self.tread == "ribs" and isinstance(self.surface, ProfileSurface):
+            return gap_on_faces(self.surface.profile, grid, self.ribs, gap)
+        return gap
 
     def __str__(self) -> str:
         parts: list[Any] = [self.name or "tire", self.surface]
