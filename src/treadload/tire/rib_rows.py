@@ -1,8 +1,9 @@
 """Rows of cells on the faces of ribs: which belong to a rib, what part of it they stand for, and the gap there.
 
 Pressure ends on the rounded edges of a rib, where it sinks in by what the rib is pressed together, and is largest
-just inside. A row that meets this end stands for the part of the face inside of it, and the gap of a row is the mean over
-its part, on which a uniform pressure works: so thirds of a rib and pins at its edges depend little on where rows lie.
+just inside. A row that meets this end stands for the part of the face inside of it, and the gap of a row is the mean
+over its part, on which a uniform pressure works: so thirds of a rib and pins at its edges depend little on where rows
+lie.
 """
 
 from __future__ import annotations
