@@ -25,7 +25,9 @@ def catalogue_sections() -> list[Section]:
     for name, tread in tires.items():
         if not isinstance(tread, TreadProfile) or tread.lateral or not tread.grooves:
             continue
-        tire = tl.Tire.from_profile(name, inflation_pressure=820e3, belt=tl.tire.Belt.from_library(name), tread="ribs")
+        tire = tl.Tire.from_profile(
+            name, inflation_pressure=820e3, belt=tl.tire.Belt.from_library(name), tread="ribs"
+        )
         sections += [group.section.for_cells(DEFAULT_SPACING) for group in tire.ribs]
     return list({shipped_path(section, POISSON): section for section in sections}.values())
 

@@ -60,7 +60,7 @@ def unharmed(one):
 
 
 def coarse(**more):
-    return {**Form.first().table, "spacing": "24 mm", **more}
+    return {**Form.first().table, "spacing": "16 mm", **more}
 
 
 def layers(text):
@@ -154,7 +154,7 @@ def test_names_of_a_strangers_life_are_texts(visit):
     page.wait_for_selector('#bench[data-state="idle"]')
     for kind in ("props", "image", "math"):
         text = PAYLOADS[kind]
-        form = Form.first("life").with_values({"spacing": "24 mm", "reliability": None})
+        form = Form.first("life").with_values({"spacing": "16 mm", "reliability": None})
         table = dict(form.table)
         table["title"] = text
         table["traffic"]["classes"] = [
@@ -234,7 +234,7 @@ def test_a_process_that_ended_is_forgotten_with_the_next_solve(visit, server):
     for pid in children.stdout.split():
         os.kill(int(pid), 9)
     page.get_by_text("the process that solves has ended").wait_for()
-    visit.set("spacing", "24")
+    visit.set("spacing", "16")
     visit.ready(before + 1)
     assert page.locator("#problems .problem").count() == 0
     visit.done()

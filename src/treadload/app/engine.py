@@ -384,7 +384,7 @@ def _study_of(parts: Mapping[str, BaseResult]) -> Sweep:
 
 def warm() -> None:
     """Load what the first request would wait for."""
-    case = Case.from_dict({**parse_toml(first_case("run"), "case"), "spacing": "24 mm"})
+    case = Case.from_dict({**parse_toml(first_case("run"), "case"), "spacing": "16 mm"})
     contact = contact_of(case, case.road(), lambda text: None)
     map_figures.maps({case.source.makes[0]: contact}, theme="light")["maps"].to_json()
 

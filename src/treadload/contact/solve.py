@@ -19,6 +19,7 @@ from treadload.contact.bounds import check_modulus, check_numbers, check_ribs, c
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
 from treadload.contact.relief import above, check_step, doubts_of, heights_on
+from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.coupling import Coupled, Progress, Start, Surfaces, solve_coupled
@@ -104,6 +105,7 @@ def solve_contact(
         check_modulus(name, body)
     if rolling.law.largest > 0:
         bodies.both.check_shear()
+    prepare_ribs(tire, DEFAULT_SPACING if spacing is None else spacing, tell)
     tell("locating the contact")
     # A tire that remembers makes its largest contact where it rolls slowly.
     over = tire if relief is None else above(tire, relief)
@@ -113,7 +115,7 @@ def solve_contact(
         raise InputError("a start has its own cells, and offset moves them; leave one of the two out")
     else:
         grid, gap = _same_place(over, rolling, bodies.both, start, spacing)
-    check_ribs(tire, grid)
+    check_ribs(tire, grid.dy)
     if relief is not None:
         check_step(relief, max(grid.dx, grid.dy))
     near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start, rolling)

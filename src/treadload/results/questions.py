@@ -121,7 +121,7 @@ class Writer:
         if scanned and value.quality is not None:
             arrays = {
                 name: getattr(value, name)
-                for name in ("camber", "outer_radius", "crown_arc_radius")
+                for name in ("camber", "outer_radius", "crown_arc_radius", "cross_section")
                 if hasattr(value, name)
             }
             value = RecordedSurface(str(value), value.extent, value.quality, **arrays)

@@ -125,6 +125,8 @@ def _tire(part: TirePart, folder: Path) -> str:
         more.append(f"belt=tl.tire.Belt.from_library({part.belt!r})")
     if part.tread != "layer":
         more.append(f"tread={part.tread!r}")
+    if part.undertread is not None:
+        more.append(f"undertread={part.undertread!r}")
     if part.scan is not None:
         first = "tl.example_mesh()" if part.scan == EXAMPLE else repr(str(folder / part.scan))
         names = ("units", "nominal_diameter", "rotation", "camber", "revolve", "fill_holes", "smooth", "outliers",

@@ -175,6 +175,11 @@ def _arm(tire: Tire) -> float:
     return 0.0 if tire.belt is None else tire.belt.arm
 
 
+def _thickness_read(tire: Tire) -> float | None:
+    """None where the undertread and the grooves of ribs make it."""
+    return None if tire.belt is None or tire.has_undertread else tire.belt.tread_thickness
+
+
 def _thickness(tire: Tire) -> float:
     return math.inf if tire.belt is None else tire.belt.tread_thickness
 
@@ -192,8 +197,8 @@ _ROWS = (
     TireNumber("bending_along", Unit("N m"), "bending stiffness of the belt along", 0.1, 1e5, *_bending(0)),
     TireNumber("bending_twist", Unit("N m"), "bending stiffness of the belt in twist", 0.0, 1e5, *_bending(1)),
     TireNumber("bending_across", Unit("N m"), "bending stiffness of the belt across", 0.1, 1e5, *_bending(2)),
-    TireNumber("tread_thickness", _LENGTH, "thickness of the tread", 1e-3, 0.1, *_belt("tread_thickness"),
-               above=_arm),
+    TireNumber("tread_thickness", _LENGTH, "thickness of the tread", 1e-3, 0.1, _thickness_read,
+               _belt("tread_thickness")[1], above=_arm),
     TireNumber("arm", _LENGTH, "from the surface of the tread to the neutral line of the belt", 0.0, 0.1,
                *_belt("arm"), below=_thickness),
     TireNumber("belt_radius", _RADIUS, "radius of the belt's own arc across", 0.2, 1e3, _arc_read,

@@ -15,12 +15,18 @@ import numpy as np
 from treadload.contact.bodies.body import Body, Offsets, Rows, Strip, Waves
 from treadload.contact.bodies.section_tables import face_table
 from treadload.kernels.arrays import Array
+from treadload.kernels.sections import Section
 from treadload.materials import Elastic
 from treadload.tire.rib_rows import rows_on_faces
 from treadload.tire.ribs import RibGroup
 
 # Wider cells, as those on which a contact is located, share the elements of these, m.
 _WIDEST = 3e-3
+
+
+def cells_section(group: RibGroup, cell: float) -> Section:
+    """The section of ribs with the elements that cells of a size, m, need."""
+    return group.section.for_cells(min(cell, _WIDEST))
 
 
 @dataclass(frozen=True)
@@ -72,7 +78,7 @@ class Ribs(Body):
             relative = np.concatenate([face.parts for face in faces]) - group.centre
             if group.mirrored:
                 relative = -relative[::-1, ::-1]
-            section = group.section.for_cells(min(rows.dy, _WIDEST))
+            section = cells_section(group, rows.dy)
             table = face_table(section, self.material.poisson).on_cells(relative, rows.dy)
             strips.append(Strip(number, table, self.material.modulus, group.mirrored))
         return tuple(strips)

@@ -58,7 +58,12 @@ def _rounded(section: Section) -> Section:
 
     ribs = tuple((round(left, _DECIMALS) + 0.0, round(right, _DECIMALS) + 0.0) for left, right in section.ribs)
     first, last = near(section.ends)
-    height, draft = near((section.height, section.draft))
+    (height,) = near((section.height,))
+    draft: float | tuple[tuple[float, float], ...]
+    if isinstance(section.draft, tuple):
+        draft = tuple((near(pair)[0], near(pair)[1]) for pair in section.draft)
+    else:
+        (draft,) = near((section.draft,))
     return Section(ribs, height, near(section.floors), (first, last), draft, section.halvings)
 
 
