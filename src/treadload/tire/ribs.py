@@ -14,6 +14,8 @@ from treadload.tire.tread import ProfileSurface, TreadProfile
 
 # Ribs between which more rubber than this part of the tread's thickness is left move together.
 _JOINED = 0.4
+# Ends of a face and of the part of it that is pressed, m to the right: left, low, high, right.
+Band = tuple[float, float, float, float]
 # Walls that leave less floor than this, m, meet.
 _SAME = 1e-9
 
@@ -23,18 +25,25 @@ class RibGroup:
     """Ribs that stand apart from all others: one, or several joined by shallow grooves.
 
     section: with y from the middle of the group, or that of the image of the group, where mirrored. centre: m, to the
-    right of the middle of the tread.
+    right of the middle of the tread. pressed: bands of the faces whose edges are rounded; empty where all of a face
+    is pressed.
     """
 
     section: Section
     centre: float
     mirrored: bool = False
+    pressed: tuple[Band, ...] = ()
 
     @property
     def faces(self) -> tuple[tuple[float, float], ...]:
         """(left, right) of every rib of the group on the tread, m, from left to right."""
         section = self.section.mirrored if self.mirrored else self.section
         return tuple((left + self.centre, right + self.centre) for left, right in section.ribs)
+
+    @property
+    def bands(self) -> tuple[Band, ...]:
+        """The band of every face, from left to right."""
+        return self.pressed or tuple((left, left, right, right) for left, right in self.faces)
 
 
 def ribs_of(profile: TreadProfile, thickness: float) -> tuple[RibGroup, ...]:

@@ -25,6 +25,7 @@ from treadload.tire.cross_section import TreadSection, lateral_obstacle
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
+from treadload.tire.rib_rows import gap_on_faces, with_bands
 from treadload.tire.ribs import RibGroup, cross_section_of, ribs_between
 from treadload.tire.surface import (
     Surface,
@@ -286,7 +287,8 @@ class Tire:
             return ()
         section, belt = self.cross_section, self._belt_below_ribs
         assert section is not None
-        return ribs_between(section, belt.tread_thickness)
+        groups = ribs_between(section, belt.tread_thickness)
+        return with_bands(groups, self.surface.profile) if isinstance(self.surface, ProfileSurface) else groups
 
     @property
     def cross_section(self) -> TreadSection | None:
@@ -403,10 +405,14 @@ class Tire:
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap in m at the cell centres, ≥ 0, to the plane at first contact; NaN where there is no material.
 
+        On the ribs of a profile it is the mean over what a row of cells stands for of a rib, see `tire.rib_rows`.
         Raises InputError when the tread is known on another grid only, GeometryError when it has no usable
         surface there.
         """
-        return self.surface.height_map(grid)
+        gap = self.surface.height_map(grid)
+        if self.tread == "ribs" and isinstance(self.surface, ProfileSurface):
+            return gap_on_faces(self.surface.profile, grid, self.ribs, gap)
+        return gap
 
     def __str__(self) -> str:
         parts: list[Any] = [self.name or "tire", self.surface]

@@ -5,6 +5,9 @@ missing, damaged, or of another version. TREADLOAD_CACHE names another folder; e
 
 E scales out, ν does not: a search for ν would solve a table for every ν that it tries. `interpolated` makes it use a
 polynomial through tables at a few ν in place of that.
+
+Tables of the catalogue's treads are part of the package, in single precision and by the lower triangle of their
+matrices; `benchmarks/ship_section_tables.py` makes them.
 """
 
 from __future__ import annotations
@@ -31,6 +34,8 @@ from treadload.kernels.sections import FaceTable, Section, face_compliance
 _VERSION = 1
 # Tables in memory, and on the disk: a few MB each.
 _KEPT, _MOST_FILES = 8, 40
+# Tables of the catalogue's treads.
+_SHIPPED = Path(__file__).parent / "shipped_sections"
 # Lengths of sections are compared to so many decimals of a metre: ribs that differ by round-off share a table.
 _DECIMALS = 9
 # Poisson's ratios between which tables are interpolated, and their number: compliance is nearly linear in 1 - 2ν, so
@@ -88,7 +93,9 @@ def _tables_at(section: Section, nodes: tuple[float, ...]) -> tuple[Array, Array
 @lru_cache(maxsize=_KEPT)
 def _table(section: Section, poisson: float) -> FaceTable:
     path = _path(section, poisson)
-    table = None if path is None else _read(path, section, poisson)
+    table = _read_shipped(section, poisson)
+    if table is None and path is not None:
+        table = _read(path, section, poisson)
     if table is None:
         table = face_compliance(section, poisson)
         if path is not None:
@@ -117,17 +124,66 @@ def _path(section: Section, poisson: float) -> Path | None:
     if folder == "":
         return None
     place = Path(folder) if folder else platformdirs.user_cache_path("treadload", appauthor=False)
-    name = hashlib.sha256(f"{_VERSION} {section!r} {poisson!r}".encode()).hexdigest()[:32]
-    return place / "sections" / f"{name}.npz"
+    return place / "sections" / _file_name(section, poisson)
+
+
+def _file_name(section: Section, poisson: float) -> str:
+    return f"{hashlib.sha256(f'{_VERSION} {section!r} {poisson!r}'.encode()).hexdigest()[:32]}.npz"
+
+
+def ship(section: Section, poisson: float, folder: Path | None = None) -> Path:
+    """Solve a section and write its table into the package, or another folder. Returns the path of the file."""
+    section = _rounded(section)
+    table = face_compliance(section, poisson)
+    lower = np.tril_indices(table.compliance.shape[1])
+    content = io.BytesIO()
+    np.savez(
+        content,
+        description=_description(section, poisson),
+        waves=table.waves,
+        triangle=table.compliance[:, lower[0], lower[1]].astype(np.float32),
+    )
+    path = (_SHIPPED if folder is None else folder) / _file_name(section, poisson)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, content.getvalue(), sync=False)
+    return path
+
+
+def shipped_path(section: Section, poisson: float) -> Path:
+    """Where the package has the table of a section, if it has."""
+    return _SHIPPED / _file_name(_rounded(section), poisson)
+
+
+def _read_shipped(section: Section, poisson: float) -> FaceTable | None:
+    """The table of a section that came with the package; None of a section without one."""
+    stored = _arrays(_SHIPPED / _file_name(section, poisson), ("description", "waves", "triangle"))
+    if stored is None or str(stored[0]) != _description(section, poisson):
+        return None
+    _, waves, triangle = stored
+    nodes = 3 * section.mesh.face_lines.size
+    if triangle.shape != (waves.size, nodes * (nodes + 1) // 2) or not np.isfinite(triangle).all():
+        return None
+    compliance = np.empty((waves.size, nodes, nodes))
+    rows, columns = np.tril_indices(nodes)
+    compliance[:, rows, columns] = compliance[:, columns, rows] = triangle
+    return FaceTable(section, poisson, _read_only(waves), _read_only(compliance))
+
+
+def _arrays(path: Path, names: tuple[str, ...]) -> list[Array] | None:
+    """Arrays of a file; None where there is none, or where it is damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            return [stored[name] for name in names]
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        return None
 
 
 def _read(path: Path, section: Section, poisson: float) -> FaceTable | None:
     """The table of a file; None where there is none, or where it does not hold what it should."""
-    try:
-        with np.load(path, allow_pickle=False) as stored:
-            description, waves, compliance = (stored[name] for name in ("description", "waves", "compliance"))
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+    stored = _arrays(path, ("description", "waves", "compliance"))
+    if stored is None:
         return None
+    description, waves, compliance = stored
     nodes = 3 * section.mesh.face_lines.size
     sound = (
         str(description) == _description(section, poisson)
