@@ -38,7 +38,8 @@ def solve_tractions(
 ) -> Tractions:
     """The pressure and the shear that `solve_contact` finds, without what follows from them.
 
-    Left out are displacement, sums and warnings. Arguments, units, signs and errors as of `solve_contact`. A tenth of its time is saved.
+    Left out are displacement, sums and warnings. Arguments, units, signs and errors as of `solve_contact`. A tenth of
+    its time is saved.
     """
     search = Search(spacing, offset, tolerance, road_compliance)
     scene, pair = solve_search(tire, road, rolling, search, lambda text: None)
