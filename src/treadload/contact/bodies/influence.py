@@ -239,7 +239,7 @@ class Influence:
         return np.asarray(self._waves.k / self.pair.normal_compliance(self._waves))
 
     def tangential_stiffness_on(self, shape: tuple[int, int]) -> Symbols:
-        """About the inverse of `tangential`, Pa/m: xx, yy, xy (3, ny, nx // 2 + 1) on periodic cells (ny, nx)."""
+        """About the inverse of `tangential`, Pa/m: xx, yy, xy (3, ny, nx // 2 + 1) on periodic (ny, nx) cells."""
 
         def computed() -> tuple[Symbols, ...]:
             waves = Waves(shape, self.dx, self.dy)
