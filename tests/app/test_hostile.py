@@ -215,7 +215,7 @@ def test_what_a_case_asks_for_besides_is_named_beside_its_result(visit):
     page, before = visit.page, visit.solves()
     damage = {**Form.first().table["damage"], "error_estimate": True}
     # The error is estimated on cells twice as large.
-    asks = coarse(damage=damage, spacing="12 mm", crossing={"step": {"rise": "10 mm"}})
+    asks = coarse(damage=damage, spacing="8 mm", crossing={"step": {"rise": "10 mm"}})
     given(visit, "open a TOML …", "case.toml", tomli_w.dumps(asks))
     visit.ready(before + 1)
     said = page.locator("#unsolved").inner_text()

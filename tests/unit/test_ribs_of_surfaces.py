@@ -161,7 +161,9 @@ def test_maps_that_are_not_of_ribs():
 def test_a_map_with_ribs_too_narrow_for_its_cells():
     tire = map_of(NARROW, 2e-3)
     check_ribs(tire, 10e-3)
-    with pytest.raises(InputError, match=r"31 mm wide.*3 cells of 11 mm; a height map .* on cells of 10\.3 mm or less"):
+    with pytest.raises(
+        InputError, match=r"31 mm wide.*3 cells of 11 mm; a height map .* on cells of 10\.3 mm or less"
+    ):
         check_ribs(tire, 11e-3)
     with pytest.raises(InputError, match=r'use spacing = "10 mm"'):
         check_ribs(tl.Tire.from_profile(NARROW, **ON_BELT), 11e-3)
