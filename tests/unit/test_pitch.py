@@ -162,6 +162,7 @@ def test_forces_under_given_creepages_repeat_within_a_percent():
     assert (later.dataset.lateral_force < 0).all()
 
 
+@pytest.mark.slow
 def test_large_creepage_slides_everywhere_and_large_friction_sticks():
     # Blocks that spread turn the slip by a little: half a percent of the force.
     slid = solve_pitch(TIRE, ROAD, replace(FREE, creepage_x=0.5), spacing=CELL, positions=4).dataset
@@ -269,6 +270,7 @@ depths = ["20 mm"]
 """
 
 
+@pytest.mark.slow
 def test_a_case_asks_for_a_pitch(tmp_path, free):
     (tmp_path / "case.toml").write_text(CASE)
     done = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "-o", str(tmp_path / "r.nc"), "-q"])

@@ -55,6 +55,7 @@ def test_lugs_of_a_scan_are_those_of_its_mesh(tmp_path):
     np.testing.assert_allclose(gap[0] - gap[0, 2], circle, atol=0.2e-3)
 
 
+@pytest.mark.slow
 def test_scans_without_blocks_of_their_own(tmp_path):
     with pytest.raises(InputError, match="endless along travel; give `lateral`"):
         # Rows that meet over the middle and run into each other.

@@ -9,6 +9,7 @@ import numpy as np
 from scipy import ndimage
 
 from treadload.errors import InputError
+from treadload.kernels import fft
 from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.sections import Block
 from treadload.tire.blocks import BlockPattern, TreadBlock
@@ -97,7 +98,7 @@ def _level(unrolled: _Unrolled) -> float:
 def _pitches(land: BoolArray) -> int:
     """How many pitches there are round a tire: the most that look alike."""
     varied = land - land.mean(1, keepdims=True)
-    power = (np.abs(np.fft.rfft(varied, axis=1)) ** 2).sum(0)
+    power = (np.abs(fft.rfft(varied, axis=1)) ** 2).sum(0)
     if np.abs(varied).mean() < _VOIDS:
         raise InputError(
             "the scan has no lateral voids: its ribs are endless along travel; give `lateral`, the grooves that cut "
