@@ -122,6 +122,6 @@ def _uniform(faces: Array, sensor: Footprint) -> GridLoad:
     count = int(np.ceil((right - left) / _FINE))
     step = (right - left) / count
     cells = left + step * np.arange(count + 1)
-    share = sum(overlaps(cells, face) for face in faces) / step
+    share = np.array([overlaps(cells, face)[:, 0] for face in faces]).sum(axis=0)[:, None] / step
     middle = 0.5 * float(sensor.grid.x[at[0]] + sensor.grid.x[at[-1]])
     return GridLoad(Grid(1, count, length, step, middle, left + 0.5 * step), share)

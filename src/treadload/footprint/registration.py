@@ -76,10 +76,11 @@ def pose_in_words(quarter_turns: int, mirrored: bool) -> str:
 
 def laid(footprint: Footprint, quarter_turns: int, mirrored: bool) -> Footprint:
     """A footprint mirrored and turned by quarters with its shear, its middle at the origin."""
-    (pressure, along, across), holes, grid = footprint.load.array, ~footprint.sensels, footprint.grid
+    stress, holes, grid = footprint.load.array, ~footprint.sensels, footprint.grid
     if mirrored:
-        pressure, along, across, holes = pressure[::-1], along[::-1], -across[::-1], holes[::-1]
-    pressure, along, across, holes = (np.rot90(field, quarter_turns) for field in (pressure, along, across, holes))
+        stress, holes = stress[:, ::-1] * np.array([1.0, 1.0, -1.0])[:, None, None], holes[::-1]
+    pressure, along, across = np.rot90(stress, quarter_turns, axes=(1, 2))
+    holes = np.rot90(holes, quarter_turns)
     for _ in range(quarter_turns % 4):
         # Rows run down the page and to the right of travel: travel turns to the left, the right ahead.
         along, across = across, -along
