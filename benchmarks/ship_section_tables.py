@@ -2,15 +2,15 @@
 
     python benchmarks/ship_section_tables.py
 
-Run it after a change of the elements, of what a table holds, or of a tread in the catalogue; tables of other treads are
+Run it after a change of the elements, of a table or of a tread in the catalogue; tables of other treads are
 removed. `tests/unit/test_section_tables.py` fails where a table is missing or differs from a new solution.
 """
 
 from __future__ import annotations
 
 import treadload as tl
-from treadload.contact.solve import DEFAULT_SPACING
 from treadload.contact.bodies.section_tables import ship, shipped_path
+from treadload.contact.solve import DEFAULT_SPACING
 from treadload.kernels.sections import Section
 from treadload.tire import TreadProfile
 from treadload.tire.library import tires

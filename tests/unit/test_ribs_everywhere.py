@@ -4,11 +4,18 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.contact import creep_curve, cross_obstacle, envelop, rolling_resistance, solve_indentation, solve_texture
+from treadload.contact import (
+    creep_curve,
+    cross_obstacle,
+    envelop,
+    rolling_resistance,
+    solve_indentation,
+    solve_texture,
+)
 from treadload.contact.friction.laws import Anisotropic, Exponential, PressureDependent
-from treadload.pavement import RoadStep
 from treadload.errors import InputError
 from treadload.materials import ElastoPlastic, VonMises
+from treadload.pavement import RoadStep
 from treadload.response import roll_drum
 from treadload.tire import TreadProfile
 from treadload.tire.grooves import Groove

@@ -73,7 +73,9 @@ def surface_strain(contact: Contact, road: Pavement) -> float:
     fields = solve_response(contact, road, depths=[0.0], x=x, y=y).dataset
     width = round(_SQUARE / _POINT)
     along, across, sheared = (
-        uniform_filter(fields[f"strain_{name}"].to_numpy()[0], width)[width // 2 : -width // 2, width // 2 : -width // 2]
+        uniform_filter(fields[f"strain_{name}"].to_numpy()[0], width)[
+            width // 2 : -width // 2, width // 2 : -width // 2
+        ]
         for name in ("xx", "yy", "xy")
     )
     return float((0.5 * (along + across) + np.hypot(0.5 * (along - across), sheared)).max())
