@@ -32,8 +32,6 @@ _STATE = re.compile(r'data-state\\?":\s*\\?"([a-z]+)')
 # Memory that is back, and how long the next user waits, s.
 MOST_GROWN, MOST_WAITED = 1.2, 1.0
 _PATIENCE = 240.0
-# After the end of the last session the server gives memory back, s.
-_GIVEN_BACK = 5.0
 
 
 class Visitor:
@@ -239,7 +237,6 @@ async def load(server, *, count, silents, cancels, wait, most_waited=MOST_WAITED
     """All of it; True where every bound holds. most_waited: by the next user, s, on a machine that is not busy."""
     await opened_and_closed(server, 4)
     await settled(server, wait)
-    await asyncio.sleep(_GIVEN_BACK if wait else 0)
     before, fine = memory(server), []
     begun = time.monotonic()
     most, lost = await opened_and_closed(server, count)
@@ -265,7 +262,6 @@ async def load(server, *, count, silents, cancels, wait, most_waited=MOST_WAITED
         fine.append(check("sessions left after a minute", sessions, 0, sessions == 0))
         left = len(processes(server))
         fine.append(check("processes left, one of them for the next user", left, 1, left <= 1))
-        await asyncio.sleep(_GIVEN_BACK)
         after = memory(server)
         fine.append(check("memory", f"{before:.0f} to {after:.0f} MiB", "1.2 times", after < MOST_GROWN * before))
     waited = await next_user(server)

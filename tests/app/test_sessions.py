@@ -9,7 +9,6 @@ from types import SimpleNamespace
 import pytest
 
 from treadload.app import connections, engines
-from treadload.app import sessions as sessions_module
 from treadload.app.engines import Engine, EngineLost, Engines
 from treadload.app.sessions import Sessions
 
@@ -101,32 +100,6 @@ def test_a_session_ends_after_its_last_tab_with_its_process_and_files(started, t
         held.close()
         assert not alive(started)
         assert not list(tmp_path.iterdir())
-
-    asyncio.run(tried())
-
-
-def test_memory_is_given_back_once_nobody_is_here(started, tmp_path, monkeypatch):
-    collected = []
-    monkeypatch.setattr(sessions_module, "_GIVES_BACK", 0.05)
-    monkeypatch.setattr(sessions_module.gc, "collect", lambda: collected.append(time.monotonic()))
-
-    async def tried():
-        held = Engines()
-        sessions = Sessions(held, tmp_path)
-        sessions.tab("a")
-        sessions.tab("b")
-        sessions.end("a")
-        await asyncio.sleep(0.15)
-        assert not collected
-        sessions.end("b")
-        # Who comes meanwhile does not wait for it.
-        sessions.tab("c")
-        await asyncio.sleep(0.15)
-        assert not collected
-        sessions.end("c")
-        await asyncio.sleep(0.15)
-        assert len(collected) == 1
-        held.close()
 
     asyncio.run(tried())
 

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import ctypes
-import gc
 import shutil
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -18,8 +15,6 @@ TAB_GONE = 10.0
 """How long the tab of a lost connection is waited for, s."""
 LINGERS = 60.0
 """How long a session outlasts the connection of its last tab, s."""
-# How long after the end of the last session memory is given back, s.
-_GIVES_BACK = 2.0
 
 
 class Sessions:
@@ -74,28 +69,11 @@ class Sessions:
             # A process that was writing may have put a file back.
             again = asyncio.get_running_loop().call_later
             again(1.0, lambda: shutil.rmtree(session.folder, ignore_errors=True))
-        if not self._sessions:
-            asyncio.get_running_loop().call_later(_GIVES_BACK, self._give_back)
 
     def close(self) -> None:
         """End all of them."""
         for name in list(self._sessions):
             self.end(name)
-
-    def _give_back(self) -> None:
-        """Return memory of sessions that have ended to the system, while nobody is here who would wait for it.
-
-        The C library keeps what lies below the last piece in use, half as much again as the server itself after fifty
-        solves.
-        """
-        if self._sessions:
-            return
-        gc.collect()
-        if sys.platform == "linux":
-            # Other C libraries than that of GNU have no such function.
-            trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
-            if trim is not None:
-                trim(0)
 
     def _stay(self, name: str) -> None:
         timer = self._ending.pop(name, None)
