@@ -81,6 +81,7 @@ class PatchInverse(StripInverse):
     blocks: tuple[tuple[IntArray, Array], ...] = ()
     spread: Array = field(default_factory=lambda: np.zeros((0, 0)))
     bound: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    index: IntArray = field(default_factory=lambda: np.zeros(0, int))
 
     @classmethod
     def of_patches(
@@ -114,16 +115,8 @@ class PatchInverse(StripInverse):
         coarse = means(index)
         bound = coarse @ np.linalg.inv(np.eye(len(coarse)) + summed @ coarse)
         single = tuple((cells, inverse.astype(np.float32)) for cells, inverse in blocks)
-        empty: Array = np.zeros((0, 0, 0), np.float32)
-        return cls(
-            index,
-            empty,
-            components,
-            0,
-            single,
-            spread.astype(np.float32),
-            (0.5 * (bound + bound.T)).astype(np.float32),
-        )
+        symmetric = (0.5 * (bound + bound.T)).astype(np.float32)
+        return cls((), components, 0, single, spread.astype(np.float32), symmetric, index)
 
     def __call__(self, fields: Array) -> Array:
         """As of `StripInverse`."""

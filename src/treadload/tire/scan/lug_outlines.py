@@ -13,9 +13,9 @@ from treadload.kernels import fft
 from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.sections import Block
 from treadload.tire.blocks import BlockPattern, TreadBlock
-from treadload.tire.scan.meridian import groove_depth
 from treadload.tire.scan.rays import Caster, radial
 from treadload.tire.scan.surface import ScanSurface
+from treadload.tire.unrolled import groove_depth
 
 # Samples across and along, m; pitches to each side of the one that is read.
 _STEP, _BESIDE = 1.5e-3, 2
