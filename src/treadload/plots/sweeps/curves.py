@@ -241,13 +241,7 @@ def _draw(
 
 
 def _dots(
-    ax: Axes,
-    view: View,
-    field: xr.DataArray,
-    along: str,
-    by: str | None,
-    at: Mapping[str, object] | None,
-    letters: int,
+    ax: Axes, view: View, field: xr.DataArray, along: str, by: str | None, at: Mapping[str, Any] | None, letters: int
 ) -> None:
     """A result of cases that stand in a list, against one of their inputs, coloured by another."""
     (dim,) = map(str, view.data[along].dims)
