@@ -70,7 +70,7 @@ def shear(spacing: float) -> dict[str, dict[str, Any]]:
 
 
 def in_plane(contact: tl.Contact, road: tl.Pavement) -> float:
-    """Largest tensile strain in the plane of the surface, microstrain, of fields that are means over cubes of 10 mm."""
+    """Largest tensile strain in the plane of the surface, microstrain, as a mean over cubes of 10 mm."""
     data = tl.solve_response(contact, road, depths=[0.0], mean_over=10e-3).dataset
     along, across, sheared = (data[f"strain_{name}"].to_numpy() for name in ("xx", "yy", "xy"))
     return 1e6 * float((0.5 * (along + across) + np.hypot(0.5 * (along - across), sheared)).max())
