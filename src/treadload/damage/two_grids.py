@@ -101,7 +101,7 @@ def _load_beside(contact: Contact) -> GridLoad:
         tolerance=_tolerance(contact),
         road_compliance=_compliance(contact),
     )
-    return GridLoad(solved.grid, solved.pressure, *solved.shear)
+    return GridLoad(solved.grid, solved.pressure, solved.shear[0], solved.shear[1])
 
 
 def _tolerance(contact: Contact) -> float:
