@@ -26,7 +26,7 @@ from treadload.plots.life import life_damage, life_inputs, life_shares, life_yea
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
 from treadload.plots.panels import strain_panels
 from treadload.plots.passes import drum_contact, plastic_strain, residual_stress, rut_profile, shakedown_map
-from treadload.plots.pitch import pitch_history, pitch_maps
+from treadload.plots.pitch import pitch_history, pitch_maps, pitch_strains
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.profile import strain_profiles
 from treadload.plots.reliability import reliability_inputs, reliability_years
@@ -92,6 +92,7 @@ __all__ = [
     "orientation_shares",
     "pitch_history",
     "pitch_maps",
+    "pitch_strains",
     "places_under",
     "plain_map",
     "plastic_strain",

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from treadload.composing import Source
 from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure
-from treadload.plots.kit.plan import KPA, MM, Plan, colour_bar, draw_cells, draw_outline, fields_of, limits
+from treadload.plots.kit.plan import KPA, MICRO, MM, Plan, colour_bar, draw_cells, draw_outline, fields_of, limits
 from treadload.plots.kit.style import CASES, headline, measure, open_axes, sequential, signed, styled
 
 # A force that is none, kN.
@@ -104,4 +104,31 @@ def pitch_maps(passage: Source, *, position: int | None = None) -> Figure:
     headline(axes[0], f"Axle at {signed(axle * MM)} mm", f"peak {measure(float(pressure.max()))} kPa", 24)
     for ax, shear in zip(axes[1:], shears, strict=True):
         headline(ax, "", f"peak {measure(float(np.abs(shear).max()))} kPa", 24)
+    return figure
+
+
+@figure(
+    "PitchResponse", name="strains", main=True, title="Strains over one pitch", wide=True,
+    caption="Largest tensile strain in the horizontal plane at every depth; means are dashed.",
+)  # fmt: skip
+@styled
+def pitch_strains(response: Source) -> Figure:
+    """Largest tensile strain in the horizontal plane over the place of the axle, a curve a depth, microstrain.
+
+    response: a PitchResponse or its dataset. Returns the figure.
+    """
+    data = fields_of(response, "largest_in_plane_extension", "position", "depth")
+    at = data["position"].to_numpy() * MM
+    strains = data["largest_in_plane_extension"].transpose("depth", "position").to_numpy() * MICRO
+    figure = new_figure(7.4, 4.2)
+    ax = figure.subplots()
+    for number, (depth, values) in enumerate(zip(data["depth"].to_numpy(), strains, strict=True)):
+        colour = CASES[number % len(CASES)]
+        ax.plot(at, values, "o-", ms=3, color=colour, label=f"{measure(float(depth) * MM)} mm deep")
+        ax.axhline(values.mean(), color=colour, lw=0.9, ls="--")
+    ax.set_xlabel("place of the axle in the pitch (mm)")
+    ax.set_ylabel("largest tensile strain (microstrain)")
+    ax.legend()
+    open_axes(ax)
+    headline(ax, "Strains over one pitch", f"at most {measure(float(strains.max()))} microstrain")
     return figure

@@ -57,8 +57,8 @@ class Patches(Strips):
         moved = np.zeros((len(of), flat.shape[1]), loads.dtype)
         for patch, matrix in zip(self.patches, self._matrices[key], strict=True):
             blocks, count = patch.cells.shape
-            held = flat[:, patch.cells].swapaxes(0, 1).reshape(blocks, -1)
-            moved[:, patch.cells] = (held @ matrix).reshape(blocks, len(of), count).swapaxes(0, 1)
+            gathered = flat[:, patch.cells].swapaxes(0, 1).reshape(blocks, -1)
+            moved[:, patch.cells] = (gathered @ matrix).reshape(blocks, len(of), count).swapaxes(0, 1)
         return moved.reshape(len(of), *loads.shape[1:])[..., :columns]
 
     def alone(self, component: int, places: int) -> Array:
@@ -135,6 +135,6 @@ def _through(blocks: list[tuple[IntArray, Array]] | tuple[tuple[IntArray, Array]
     many = fields.shape[1]
     for cells, inverse in blocks:
         number, count = cells.shape
-        held = fields[:, :, cells].swapaxes(1, 2).reshape(len(fields), number, -1)
-        loads[:, :, cells] = (held @ inverse).reshape(len(fields), number, many, count).swapaxes(1, 2)
+        gathered = fields[:, :, cells].swapaxes(1, 2).reshape(len(fields), number, -1)
+        loads[:, :, cells] = (gathered @ inverse).reshape(len(fields), number, many, count).swapaxes(1, 2)
     return loads
