@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 from treadload.contact.bodies.ribs import cells_section
 from treadload.contact.bodies.section_tables import face_table
-from treadload.contact.bounds import check_ribs
+from treadload.contact.bounds import check_ribs, check_spacing
+from treadload.errors import positive
 from treadload.tire import Tire
 
 
@@ -20,6 +21,8 @@ def prepare_ribs(tire: Tire, cell: float, tell: Callable[[str], None]) -> None:
         return
     if tire.fixed_grid is not None:
         cell = tire.fixed_grid.dy
+    positive("spacing", cell, "metres", "3 mm is 0.003")
+    check_spacing(cell, cell)
     check_ribs(tire, cell)
     sections = list(dict.fromkeys(cells_section(group, cell) for group in tire.ribs))
     for number, section in enumerate(sections, start=1):
