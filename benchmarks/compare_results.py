@@ -119,6 +119,9 @@ EXAMPLES: Mapping[str, Callable[[Path, Path, bool], Arrays]] = {
     "paper": run_script("paper/reproduce.py", None),
     "design_life": run_script("design_life/run.py", 12e-3),
     "roundabout": run_script("roundabout/run.py", 4e-3),
+    "top_down": run_script("top_down/run.py", 12e-3),
+    "joint": run_script("joint/run.py", 4e-3),
+    "rutting": run_script("rutting/run.py", 12e-3),
 }
 
 

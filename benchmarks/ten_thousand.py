@@ -50,10 +50,10 @@ REPEATED = (
     + """
 from dataclasses import replace
 from treadload.case.first import first_case
-from treadload.sweeps.selection import kind_of
 from treadload.sweeps.design import product
 from treadload.sweeps.places import processes
 from treadload.sweeps.store import begun
+from treadload.sweeps.sweep import _anchor
 from treadload.sweeps.work import Question
 
 if __name__ == "__main__":
@@ -61,7 +61,7 @@ if __name__ == "__main__":
     vary = {"friction": np.linspace(0.5, 0.9, count // 100), "normal_load": np.linspace(22e3, 45e3, 100)}
     design = product(case, vary)
     # As `sweep` asks, so that the same command is a resume.
-    question = Question(kind_of(case), case.as_tables(), case.folder.resolve(), ())
+    question = Question(case.as_tables(), case.folder.resolve(), (), _anchor(case, design))
     if not Path("repeated.zarr").exists():
         # In a process of its own: the memory is that of the study alone.
         record = next(iter(processes(question, [(0, design.at(0))], 1)))

@@ -70,6 +70,8 @@ CITATIONS = {
     "a half-space that is the same in all horizontal directions.",
     "upright contact": "Turner, J. R. (1980). Contact on a transversely isotropic half-space, or between two "
     "transversely isotropic bodies. Int. J. Solids Struct. 16, 409-419.",
+    "blocks": "Sussman, T., Bathe, K.-J. (1987). A finite element formulation for nonlinear incompressible elastic "
+    "and inelastic analysis. Comput. Struct. 26, 357-409.",
     "stress": "Johnson, K. L. (1985). Contact Mechanics. Cambridge University Press, chapter 3.",
 }
 
@@ -77,6 +79,7 @@ SOLVED_WHOLE = ("influence", "convolution", "normal", "preconditioner", "rolling
 """Methods of a wheel on a road, from the contact to the stresses."""
 DENTS = ("influence", "convolution", "normal", "preconditioner", "eigenstrain", "dents", "mixing")
 PASSES = ("eigenstrain", "passes", "mixing")
+BLOCKS = ("blocks", "coupling", "mixing")
 STONES = ("equivalence", "inclusions", "eigenstrain")
 TEXTURE = ("endless", "normal", "persson")
 

@@ -85,12 +85,13 @@ class Holds:
 class BaseResult(Described):
     """Base of all results: one question, one dataset, its numbers row by row.
 
-    title: of the class, what it is in words. group: of the class, its name in a tree of results; `group_name` may
-    tell results of one class apart.
+    title: of the class, what it is in words. subject: of a page about results of the class alone. group: of the
+    class, its name in a tree of results; `group_name` may tell results of one class apart.
     holds: what a dataset from a file must have before it becomes an object of the class.
     """
 
     group: ClassVar[str]
+    subject: ClassVar[str] = ""
     holds: ClassVar[Holds] = Holds()
 
     if TYPE_CHECKING:
@@ -107,7 +108,7 @@ class BaseResult(Described):
     else:
         stats = MappingProxyType({})
 
-    def __init_subclass__(cls, *, group: str | None = None, **more: Any) -> None:
+    def __init_subclass__(cls, *, group: str | None = None, **more: object) -> None:
         super().__init_subclass__(**more)
         if group is not None:
             cls.group = group

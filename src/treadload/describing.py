@@ -57,7 +57,7 @@ class Described(ABC):
         title = ""
         warnings = ()
 
-    def __init_subclass__(cls, **more: Any) -> None:
+    def __init_subclass__(cls, **more: object) -> None:
         super().__init_subclass__(**more)
         if not cls.__dict__.get("title"):
             cls.title = class_in_words(cls.__name__)  # type: ignore[assignment, method-assign]
@@ -192,7 +192,7 @@ def _image(kind: str, picture: bytes | None) -> str:
     return f'<img class="tl-picture" alt="{html.escape(kind)} in a figure" src="data:image/png;base64,{data}">'
 
 
-def _is_default(field: dataclasses.Field[Any], value: Any) -> bool:
+def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
     if field.default is dataclasses.MISSING:
         return False
     # An array would compare by element.
@@ -200,7 +200,7 @@ def _is_default(field: dataclasses.Field[Any], value: Any) -> bool:
     return value is field.default or (plain and bool(value == field.default))
 
 
-def _written(value: Any) -> str:
+def _written(value: object) -> str:
     if isinstance(value, float):
         return _number(value)
     if isinstance(value, str):

@@ -179,7 +179,7 @@ def _replace_texts(node: xr.DataTree) -> None:
         holder.attrs = {_valid(str(name)): _valid(value) for name, value in holder.attrs.items()}
 
 
-def _valid(value: Any) -> Any:
+def _valid(value: object) -> Any:
     """A text without what stands for bytes that are not UTF-8, which no file takes; anything else as it is."""
     return value.encode("utf-8", "replace").decode("utf-8") if isinstance(value, str) else value
 

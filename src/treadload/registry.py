@@ -16,7 +16,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from importlib import metadata
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from treadload import _public
 from treadload.errors import InputError, nearest
@@ -41,8 +41,10 @@ class Registry:
     noun: one of them, in a sentence. group: of entry points. key: that names the thing in a table of a case.
     default: what a table without this key is. number: what a number stands for. words: True if a name alone will do
     where the thing needs nothing else. example: of a table.
-    faces: what the makers return, as the annotations of who takes it name it.
+    faces: what the makers return, as the annotations of who takes it name it. groups: of all registries.
     """
+
+    groups: ClassVar[list[str]] = []
 
     def __init__(
         self,
@@ -56,6 +58,7 @@ class Registry:
         example: str = "",
     ) -> None:
         self.noun, self.group, self.key = noun, group, key
+        self.groups.append(group)
         self.default, self.number, self.words, self.example = default, number, words, example
         self.faces: tuple[Any, ...] = ()
         self._built_in: dict[str, Entry] = {}
@@ -70,7 +73,7 @@ class Registry:
         if fill is not None:
             fill()
 
-    def makes(self, *faces: Any) -> None:
+    def makes(self, *faces: object) -> None:
         """Say what its makers return: types by which `treadload.read` finds the registry."""
         self.faces = faces
 
@@ -89,7 +92,7 @@ class Registry:
                         f"the {self.noun} {name!r} is {_place(before.target)} already, so that {_place(target)} "
                         "cannot be; give it another name"
                     )
-                self._built_in[name] = Entry(name, target)
+                self._built_in[name] = Entry(name, target, package_with(target.__module__))
             return target
 
         return keep
@@ -169,6 +172,19 @@ def package_of(point: metadata.EntryPoint) -> str:
     return f"the package {point.dist.name} {point.dist.version}"
 
 
+def package_with(module: str) -> str:
+    """The package, with its version, that brings a module by an entry point; this program for one of a session."""
+    top = module.partition(".")[0]
+    return OURS if top == OURS else _packages_by_module(tuple(sys.path)).get(top, OURS)
+
+
+@functools.cache
+def _packages_by_module(path: tuple[str, ...]) -> dict[str, str]:
+    """Top module → the package that declares an entry point of ours in it."""
+    points = [point for group in Registry.groups for point in _declared(group, path)]
+    return {point.value.partition(":")[0].partition(".")[0]: package_of(point) for point in points}
+
+
 def load_point(point: metadata.EntryPoint) -> Any:
     """What an entry point names. Raises InputError in a sentence that names the package."""
     try:
@@ -191,7 +207,7 @@ def _loaded(point: metadata.EntryPoint, registry: Registry) -> Entry:
     return Entry(point.name, target, package_of(point))
 
 
-def _place(target: Callable[..., Any]) -> str:
+def _place(target: Callable[..., object]) -> str:
     return f"{target.__module__}.{getattr(target, '__qualname__', target)}"
 
 

@@ -139,6 +139,8 @@ _HISTORY = {
     "steering_torque": ("N m", "torque about z that turns the wheel against friction"),
     "sliding_torque": ("N m", "torque about z at which the whole contact slides"),
     "turning_stiffness": ("N m/rad", "torque over angle of the first increment of a turn on the spot"),
+    "pitch": ("m", "length round the tire after which its blocks repeat"),
+    "periodicity": ("1", "largest change of pressure or shear from one pitch to the next, relative"),
     "pole_x": ("m", "point along travel about which the step turned the tire"),
     "pole_y": ("m", "point to the right of travel about which the step turned the tire"),
 }
@@ -373,6 +375,8 @@ _GROWTH = {
     "risk_years": ("1", "years until a crack has come so deep in a share of roads"),
     "reach_chance": ("1", "share of roads in which a crack has come so deep at the end of the design life"),
     "stress_intensity_range": ("Pa m^0.5", "range of the stress intensity as an axle class passes"),
+    "thermal_intensity_range": ("Pa m^0.5", "range of the stress intensity over the mean day of a month"),
+    "thermal_growth_rate": ("m", "growth of a crack per year by daily thermal stress alone"),
     "crack_offset": ("m", "offset of a crack's path along the normal of its trace"),
 }
 
@@ -415,6 +419,17 @@ _FOOTPRINT = {
     "rib_share": ("1", "share of the load that a rib carries"),
     "rib_left": ("m", "left edge of a rib: the middle of the groove beside it"),
     "rib_right": ("m", "right edge of a rib: the middle of the groove beside it"),
+    "third": ("1", "third of the width of a rib, from left to right"),
+    "third_load": ("N", "load on a third of a rib"),
+    "third_force_x": ("N", "force of the tire on the road along travel on a third of a rib"),
+    "third_force_y": ("N", "force of the tire on the road to the right on a third of a rib"),
+    "rib_outward_shear": (
+        "1",
+        "half of the difference of the lateral shear of the right and the left third of a rib over its pressure",
+    ),
+    "rib_largest_pressure": ("Pa", "largest pressure that a sensel or pin reads on a rib"),
+    "rib_largest_traction_x": ("Pa", "largest size of the shear along travel that a sensel or pin reads on a rib"),
+    "rib_largest_traction_y": ("Pa", "largest size of the lateral shear that a sensel or pin reads on a rib"),
     "overlap_of_pressure": ("1", "sum of the lesser of two pressures over that of the larger"),
     "overlap_of_area": ("1", "area that both maps load over area that either does"),
     "rms_difference": ("Pa", "root of the mean square of the difference where either map is loaded"),
@@ -609,6 +624,7 @@ _DISPLAYS_LIFE = {
     "reach_years": Display("reached after", "", years_in_words),
     "risk_years": Display("reached after, at a risk", "", years_in_words),
     "stress_intensity_range": Display("stress intensity range", "MPa√m", ".3g"),
+    "thermal_intensity_range": Display("stress intensity range of the day", "MPa√m", ".3g"),
     "reach_chance": Display("roads cracked through in the design life", "%", ".0f"),
     "years_at_risk": Display("service life, by draws", "", years_in_words),
     "years_at_risk_first_order": Display("service life, first order", "", years_in_words),
@@ -691,6 +707,11 @@ _DISPLAYS_CONTACT = {
     "aggregates": Display("aggregates"),
     "registration": Display("registration"),
     "rib_share": Display("load by rib"),
+    "lateral_by_thirds": Display("lateral shear by thirds of ribs"),
+    "longitudinal_by_thirds": Display("longitudinal shear by thirds of ribs"),
+    "rib_outward_shear": Display("shear outward from the middle of ribs"),
+    "largest_readings": Display("largest p : q_y : q_x"),
+    "pin_face": Display("face of a pin"),
     "threshold": Display("sensor threshold"),
     "saturation": Display("sensor saturation"),
     "missing": Display("missing"),
@@ -727,6 +748,8 @@ _DISPLAYS_CONTACT = {
     "turn_angle": Display("turn angle", "°", ".2f"),
     "steering_torque": Display("steering torque", "N m", ".1f"),
     "distance": Display("distance", "mm", ".1f"),
+    "pitch": Display("pitch of the blocks", "mm", ".1f"),
+    "periodicity": Display("change from pitch to pitch", "%", ".2g"),
     "rolling_resistance": Display("rolling resistance", "N", ".4g"),
     "rolling_resistance_coefficient": Display("rolling resistance over load", "N/kN", ".3g"),
     "rolling_resistance_moment": Display("rolling resistance moment", "N m", ".4g"),
@@ -888,7 +911,7 @@ def attributes(name: str) -> dict[str, str]:
 
 
 def dataset(
-    fields: Mapping[str, tuple[tuple[str, ...], Any]], coordinates: Mapping[str, Any], **attrs: Any
+    fields: Mapping[str, tuple[tuple[str, ...], Any]], coordinates: Mapping[str, object], **attrs: object
 ) -> xr.Dataset:
     """Dataset whose variables and coordinates carry their units and long names.
 

@@ -60,7 +60,7 @@ def unharmed(one):
 
 
 def coarse(**more):
-    return {**Form.first().table, "spacing": "24 mm", **more}
+    return {**Form.first().table, "spacing": "16 mm", **more}
 
 
 def layers(text):
@@ -85,6 +85,9 @@ def test_texts_of_a_case_are_texts(visit, kind):
     assert page.get_by_text(f"1  {text} 0", exact=True).count() == 1
     page.get_by_role("button", name="copy as Python").click()
     page.get_by_role("button", name="Close").click()
+    # A dialog holds the page where it is until it has gone; before, nothing can be scrolled into view.
+    page.wait_for_selector(".q-dialog", state="detached")
+    page.wait_for_selector("body:not(.q-body--prevent-scroll)")
     unharmed(visit)
 
 
@@ -154,7 +157,7 @@ def test_names_of_a_strangers_life_are_texts(visit):
     page.wait_for_selector('#bench[data-state="idle"]')
     for kind in ("props", "image", "math"):
         text = PAYLOADS[kind]
-        form = Form.first("life").with_values({"spacing": "24 mm", "reliability": None})
+        form = Form.first("life").with_values({"spacing": "16 mm", "reliability": None})
         table = dict(form.table)
         table["title"] = text
         table["traffic"]["classes"] = [
@@ -212,7 +215,7 @@ def test_what_a_case_asks_for_besides_is_named_beside_its_result(visit):
     page, before = visit.page, visit.solves()
     damage = {**Form.first().table["damage"], "error_estimate": True}
     # The error is estimated on cells twice as large.
-    asks = coarse(damage=damage, spacing="12 mm", crossing={"step": {"rise": "10 mm"}})
+    asks = coarse(damage=damage, spacing="8 mm", crossing={"step": {"rise": "10 mm"}})
     given(visit, "open a TOML …", "case.toml", tomli_w.dumps(asks))
     visit.ready(before + 1)
     said = page.locator("#unsolved").inner_text()
@@ -234,7 +237,7 @@ def test_a_process_that_ended_is_forgotten_with_the_next_solve(visit, server):
     for pid in children.stdout.split():
         os.kill(int(pid), 9)
     page.get_by_text("the process that solves has ended").wait_for()
-    visit.set("spacing", "24")
+    visit.set("spacing", "16")
     visit.ready(before + 1)
     assert page.locator("#problems .problem").count() == 0
     visit.done()

@@ -501,7 +501,7 @@ def test_a_wrong_number_of_a_life_is_told_at_its_field(life):
 @pytest.fixture(scope="module")
 def study(visit, tmp_path_factory):
     """The page of a study, in another tab of the same browser, with a study of six cases opened."""
-    form = Form.first().with_values({"spacing": "24 mm", "damage": None})
+    form = Form.first().with_values({"spacing": "16 mm", "damage": None})
     varied = {"rolling.friction": [0.5, 0.6, 0.8], "rolling.normal_load": [20e3, 30e3]}
     made = sweep(Case.from_dict(dict(form.table)), varied, fields=("pressure",))
     path = tmp_path_factory.mktemp("study") / "mine.nc"

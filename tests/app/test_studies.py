@@ -22,7 +22,7 @@ from treadload.sweeps import sweep
 @pytest.fixture(scope="module")
 def study():
     """Two inputs, one field, and a case that fails: the force is more than the friction bears."""
-    form = Form.first().with_values({"spacing": "24 mm", "damage": None, "response.depths": ["20 mm"]})
+    form = Form.first().with_values({"spacing": "16 mm", "damage": None, "response.depths": ["20 mm"]})
     varied = {"rolling.friction": [0.2, 0.6, 0.8], "rolling.normal_load": [20e3, 30e3]}
     return sweep(Case.from_dict(dict(form.table)), varied, fields=("pressure",))
 

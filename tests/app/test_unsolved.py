@@ -67,7 +67,7 @@ def test_the_sentence_names_the_tables_and_the_command():
 def test_what_is_not_solved_stands_above_the_numbers(visit):
     """Below all of them it lay outside of a window of usual height."""
     crossing = tomli_w.dumps(
-        {**Form.first().table, "spacing": "24 mm", "crossing": {"joint": {"width": "18 mm", "depth": "30 mm"}}}
+        {**Form.first().table, "spacing": "16 mm", "crossing": {"joint": {"width": "18 mm", "depth": "30 mm"}}}
     )
     visit.chosen("open a TOML …", {"name": "a.toml", "mimeType": "text/plain", "buffer": crossing.encode()})
     note = visit.page.locator("#verdict > #unsolved:first-child")

@@ -17,8 +17,8 @@ def test_load_deflection(tmp_path, capsys):
     assert rms["belt"] < rms["half-space, eq. 15 anew"]
     assert rms["half-space, eq. 15 as printed"] == pytest.approx(0.18, abs=0.005)
     assert rms["half-space, one E"] > 0.3
-    # Cells of 12 mm move the foundation by 1 % from those of 6 mm, 4.45 ± 0.38 /m.
-    assert found["foundation"] == pytest.approx(4.45, rel=0.03)
+    # Cells of 12 mm move the foundation by 1 % from those of 6 mm, 4.37 ± 0.38 /m.
+    assert found["foundation"] == pytest.approx(4.37, rel=0.03)
     assert found["deviation"] == pytest.approx(0.38, rel=0.2)
     # The data alone: no tire grows faster than its pressure, and then half as much.
     (grown, inflated), (later, more) = found["growth"][40, 70], found["growth"][70, 95]

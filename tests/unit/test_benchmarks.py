@@ -11,6 +11,15 @@ SHORT = ("whole_chain", "normal_contact", "rolling_contact", "belt", "layered")
 
 
 @pytest.mark.slow
+def test_the_benchmark_of_large_studies_runs_on_few_cases():
+    done = subprocess.run(
+        [sys.executable, str(FOLDER / "ten_thousand.py"), "200", "1"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("kept") == 2, done.stdout
+
+
+@pytest.mark.slow
 def test_short_benchmarks_run_to_their_end():
     asked = [sys.executable, str(FOLDER / "run_all.py"), "--short", *SHORT]
     done = subprocess.run(asked, capture_output=True, text=True, check=False)

@@ -37,6 +37,7 @@ from treadload.damage.laws.american import (
 from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.laws.equivalence import AGGRESSIVENESS, GROUP_FACTORS, aggressiveness, growth_factor
 from treadload.damage.laws.french import RISK, platform_factor, thickness_scatter
+from treadload.damage.laws.indian import IrcCementTreated, IrcFatigue, IrcRutting
 from treadload.damage.laws.of_layer import OnLayer
 from treadload.damage.reading import _around
 from treadload.damage.traffic import AxleClass, Traffic, Wander
@@ -111,6 +112,8 @@ BOUNDS = [
     (lambda v: AsphaltInstitute(v), 1e6, 1e6 - 1, "5400 MPa"),
     (lambda v: AsphaltInstitute(5e9, v, 0.1), 1 - JUST, 1.0, "air_voids"),
     (lambda v: AsphaltInstitute(5e9, 0.05, v), JUST, 0.0, "binder_volume"),
+    (lambda v: IrcFatigue(v, 0.035, 0.115), 1e6, 1e6 - 1, "3000 MPa"),
+    (lambda v: IrcCementTreated(v), 1e3, 999.0, "1.4 MPa"),
     (lambda v: bottom_up_cracking(v, 0.1), 0.0, -JUST, "damage"),
     (lambda v: growth_factor(10.0, v), -1 + JUST, -1.0, "growth"),
     (lambda v: growth_factor(10.0, v), 10.0, 10 + JUST, "growth"),
@@ -246,6 +249,8 @@ def test_attributes_of_a_life_are_read_by_people():
         (AsphaltInstitute(5e9), 3.291),
         (AsphaltInstituteSubgrade(), 4.477),
         (ShellFatigue(5e9), 5.671),
+        (IrcFatigue(3e9, 0.035, 0.115), 3.89),
+        (IrcRutting(), 4.5337),
         (FrenchSubgrade(), 1 / 0.222),
     ],
     ids=str,

@@ -7,10 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from treadload.damage.growth.options import POINTS
 from treadload.kernels.fracture import closure
 from treadload.kernels.fracture.closure import bounded, stress_intensity
 from treadload.kernels.fracture.crack import crack_faces, straight
 from treadload.kernels.fracture.dislocations import Section, edge_stress, screw_stress
+from treadload.kernels.fracture.interface import dundurs, interface_singularity
 from treadload.kernels.fracture.layers import Strip
 
 FINITE_ELEMENTS = json.loads(
@@ -18,6 +20,8 @@ FINITE_ELEMENTS = json.loads(
 )
 HALF_PLANE = Section((Strip(1.0, 0.3, math.inf),))
 DOWN = (0.0, 1.0)
+# On next to nothing: 1e-10 would hold a strip that is cracked over 0.9 of its height by 4 %.
+FREE_STRIP = Section((Strip(1.0, 0.3, 1.0), Strip(1e-16, 0.3, math.inf)))
 
 
 def intensity(faces, normal, shear=None):
@@ -62,18 +66,78 @@ def test_edge_crack_under_pairs_of_forces():
     [(0.1, 1.1892), (0.2, 1.3673), (0.3, 1.6599), (0.4, 2.1114), (0.5, 2.8246), (0.6, 4.0332)],
 )
 def test_free_strip_is_a_layer_on_next_to_nothing(part, handbook):
-    strip = Section((Strip(1.0, 0.3, 1.0), Strip(1e-10, 0.3, math.inf)))
-    faces = crack_faces(strip, straight(DOWN), part)
-    assert intensity(faces, np.ones_like(faces.z))[0] == pytest.approx(handbook, rel=5e-3)
+    faces = crack_faces(FREE_STRIP, straight(DOWN), part)
+    # The last of the five digits.
+    assert intensity(faces, np.ones_like(faces.z))[0] == pytest.approx(handbook, rel=1e-4)
     # Out of the plane the closed form is √(tan(πa/2h) 2h/πa) (Tada, Paris and Irwin, 2.28).
     closed = math.sqrt(2 / (math.pi * part) * math.tan(math.pi * part / 2))
     assert faces.antiplane.sum() / math.sqrt(math.pi * part) == pytest.approx(closed, rel=1e-3)
 
 
 @pytest.mark.parametrize(
+    ("part", "tension", "bending", "bound"),
+    # Tada, Paris and Irwin (2000), sections 2.10 and 2.13, within the bound asked of each depth. Their formulas are
+    # within 0.5 %, so half a per cent is asked beyond that of what this rule has: 0.35 %.
+    [(0.7, 6.3755, 2.7163, 0.005), (0.8, 11.9926, 4.6744, 0.005), (0.9, 34.7187, 12.4690, 0.005)],
+)
+def test_strips_cracked_almost_through(part, tension, bending, bound):
+    faces = crack_faces(FREE_STRIP, straight(DOWN), part, POINTS)
+    assert intensity(faces, np.ones_like(faces.z))[0] == pytest.approx(tension, rel=bound)
+    assert intensity(faces, 1 - 2 * faces.z)[0] == pytest.approx(bending, rel=bound)
+
+
+def test_deep_crack_in_bending_is_two_half_planes_apart():
+    # Two half-planes joined over c: K = 3.975 M / c^1.5 (Tada, Paris and Irwin, 9.2), of a ligament that is small.
+    part = 0.97
+    faces = crack_faces(FREE_STRIP, straight(DOWN), part, 48)
+    found = float(faces.plane[0, :48] @ (1 - 2 * faces.z))
+    # M = 1/6 for a stress of 1 at the edge; what is left is the ligament's part of the height.
+    assert found == pytest.approx(3.975 / 6 / (1 - part) ** 1.5, rel=0.01)
+
+
+def test_error_falls_faster_than_any_power_of_the_points():
+    part = 0.9
+    exact = intensity(crack_faces(FREE_STRIP, straight(DOWN), part, 48), np.ones(48))[0]
+    errors = [
+        abs(intensity(crack_faces(FREE_STRIP, straight(DOWN), part, n), np.ones(n))[0] / exact - 1)
+        for n in (4, 8, 12, 16)
+    ]
+    # From 8 points each four more take away nine tenths and more; the power -2 of a rule that leaves the mouth
+    # unresolved would take away half.
+    assert errors[1] < 5e-3
+    assert errors[2] < 0.1 * errors[1]
+    assert errors[3] < 0.1 * errors[2]
+
+
+@pytest.mark.parametrize("ahead", [0.1, 0.3, 3.0, 10.0])
+def test_towards_an_interface_is_the_singularity_of_zak_and_williams(ahead):
+    strips = Strip(1.0, 0.3, 1.0), Strip(ahead, 0.35, math.inf)
+    before = np.array([0.01, 0.0025])
+    factors = [crack_faces(Section(strips), straight(DOWN), 1 - d, 64).plane[0, :64].sum() for d in before]
+    power = math.log(factors[1] / factors[0]) / math.log(before[1] / before[0])
+    # K ~ d^(1/2 - λ) up to a part of d itself.
+    assert power == pytest.approx(0.5 - interface_singularity(*strips), abs=0.01)
+
+
+def test_singularity_of_an_interface_has_its_limits():
+    layer = Strip(2.0, 0.25, 1.0)
+    assert interface_singularity(layer, layer) == pytest.approx(0.5, abs=1e-9)
+    # Nothing ahead: a ligament that bends. The table of Cook and Erdogan (1972) runs to these ends as well.
+    assert interface_singularity(layer, Strip(1e-12, 0.25, 1.0)) > 0.99
+    orders = [interface_singularity(layer, Strip(modulus, 0.25, 1.0)) for modulus in np.geomspace(0.02, 200, 9)]
+    assert (np.diff(orders) < 0).all()
+    assert dundurs(Strip(1e12, 0.25, 1.0), layer)[0] == pytest.approx(1.0)
+    first, second = Strip(3.0, 0.2, 1.0), Strip(1.0, 0.4, 1.0)
+    np.testing.assert_allclose(dundurs(first, second), -np.array(dundurs(second, first)))
+
+
+@pytest.mark.parametrize(
     ("degrees", "first", "second"),
     # From the edge's normal, under tension along the edge: Murakami (1987), Stress Intensity Factors Handbook, 3.4.
-    [(15, 1.068, 0.174), (30, 0.920, 0.306), (45, 0.705, 0.364), (60, 0.473, 0.333)],
+    # At 60° the 0.473 and 0.333 that stood here were met by a rule of 32 points only: that rule, whose error falls
+    # with the square of the points, goes to 0.4625, and this one has 0.46243 with 24 points and with 96. The finite
+    # elements of edge_crack_fe.py have 0.452 and 0.335 there, and 0.697 for 0.705 at 45°.
+    [(15, 1.068, 0.174), (30, 0.920, 0.306), (45, 0.705, 0.364), (60, 0.462, 0.336)],
 )
 def test_leaning_edge_crack(degrees, first, second):
     angle = math.radians(degrees)
@@ -93,10 +157,10 @@ def test_layers_of_one_material_are_a_half_plane():
 
 def test_band_crack_from_below_is_an_edge_crack_upside_down():
     # A layer between next to nothing: from its bottom as from its top.
-    nothing = Strip(1e-10, 0.3, 1.0)
-    band = Section((nothing, Strip(1.0, 0.3, 1.0), Strip(1e-10, 0.3, math.inf)), layer=1)
+    nothing = Strip(1e-16, 0.3, 1.0)
+    band = Section((nothing, Strip(1.0, 0.3, 1.0), Strip(1e-16, 0.3, math.inf)), layer=1)
     up = crack_faces(band, straight((0.0, -1.0), (0.0, 1.0)), 0.3)
-    assert intensity(up, np.ones_like(up.z))[0] == pytest.approx(1.6599, rel=5e-3)
+    assert intensity(up, np.ones_like(up.z))[0] == pytest.approx(1.6599, rel=1e-4)
     assert up.antiplane.sum() / math.sqrt(0.3 * math.pi) == pytest.approx(
         math.sqrt(2 / (math.pi * 0.3) * math.tan(math.pi * 0.15)), rel=1e-3
     )

@@ -7,6 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from cases import ONE_AXLE
+from treadload.case import Case
 from treadload.catalogue import mixes
 from treadload.damage.laws import american, equivalence, french
 from treadload.damage.laws.american import (
@@ -19,6 +21,13 @@ from treadload.damage.laws.american import (
 from treadload.damage.laws.equivalence import equivalent_axles
 from treadload.damage.laws.fatigue import FatigueLine, warnings_of
 from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.damage.laws.indian import (
+    IrcCementTreated,
+    IrcFatigue,
+    IrcRutting,
+    granular_modulus,
+    subgrade_modulus,
+)
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 
@@ -35,6 +44,10 @@ LAWS = [
     AsphaltInstitute(5e9, 0.05, 0.11),
     AsphaltInstituteSubgrade(),
     ShellFatigue(5e9),
+    IrcFatigue(3e9, 0.035, 0.115),
+    IrcFatigue(3e9, 0.035, 0.115, 0.8),
+    IrcRutting(),
+    IrcRutting(0.8),
 ]
 
 
@@ -87,6 +100,8 @@ def test_what_is_verified():
         "FrenchBituminous",
         "FrenchHydraulic",
         "FrenchSubgrade",
+        "IrcFatigue",
+        "IrcRutting",
         "MepdgBottomUp",
         "MepdgTopDown",
     }
@@ -103,7 +118,7 @@ def test_a_given_scatter_of_the_thickness_stands_before_the_rule():
 @pytest.mark.parametrize("law", LAWS, ids=str)
 def test_every_law_says_what_its_end_is_and_whether_it_holds_wander(law):
     assert law.end_of_life
-    assert law.includes_wander == type(law).__name__.startswith("French")
+    assert law.includes_wander == type(law).__name__.startswith(("French", "Irc"))
 
 
 def test_the_end_of_the_mepdg_is_that_of_its_sums_of_cracking():
@@ -243,3 +258,80 @@ def test_laws_of_catalogued_materials():
 def test_refusals(make, message):
     with pytest.raises(InputError, match=message):
         make()
+
+
+def test_the_indian_laws_print_what_the_guideline_prints():
+    # Example III.1 of IRC:37-2018: 53 and 187 million passes; the first is cut.
+    assert IrcFatigue(3e9, 0.035, 0.115).allowable_passes(175e-6) == pytest.approx(53.57e6, rel=1e-3)
+    assert IrcRutting().allowable_passes(278e-6) == pytest.approx(186.57e6, rel=1e-3)
+    # Of volumes with their sum of 15 % the shares and the percentages are the same factor.
+    assert american.mix_factor(3.5, 11.5) == pytest.approx(american.mix_factor(0.035, 0.115), rel=1e-13)
+    # At 80 % more passes, by the constants printed.
+    pairs = ((IrcFatigue, (3e9, 0.035, 0.115), 1.6064 / 0.5161), (IrcRutting, (), 4.1656 / 1.41))
+    for law, numbers, ratio in pairs:
+        some, most = (law(*numbers, reliability=r).allowable_passes(2e-4) for r in (0.8, 0.9))
+        assert some / most == pytest.approx(ratio, rel=1e-9)
+
+
+def test_a_cement_treated_base_bears_its_strength_once_or_twice():
+    law = IrcCementTreated(1.4e6)
+    assert law.allowable_passes(0.972 * 1.4e6) == pytest.approx(1.0, rel=1e-9)
+    # log10 N = (0.972 - 0.5)/0.0825.
+    assert math.log10(law.allowable_passes(0.7e6)) == pytest.approx(0.472 / 0.0825, rel=1e-12)
+    assert law.allowable_strain(law.allowable_passes(0.6e6)) == pytest.approx(0.6e6, rel=1e-12)
+    assert law.allowable_passes(-1.0) == math.inf
+    assert law.allowable_passes(np.array([0.0, 0.7e6, np.nan])).tolist()[0] == math.inf
+    assert math.isnan(law.allowable_passes(math.nan))
+    low, high = law.validity
+    assert law.allowable_passes(np.array([low, high])) == pytest.approx([1e8, 1e4], rel=1e-9)
+    assert not law.verified
+    assert "no printed answer" in law.doubt
+
+
+def test_moduli_of_the_indian_guideline():
+    # CBR 10: 76.83 MPa, and 240.2 MPa of 450 mm of granular layers on it.
+    assert subgrade_modulus(10.0) == pytest.approx(76.83e6, rel=1e-4)
+    assert subgrade_modulus(5.0) == pytest.approx(50e6)
+    assert granular_modulus(0.45, subgrade_modulus(10.0)) == pytest.approx(240.15e6, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: IrcFatigue(3000, 0.035, 0.115), "modulus must be in Pa, got 3000; 3000 MPa is 3e9"),
+        (lambda: IrcFatigue(3e9, 3.5, 0.115), "air_voids must be a share"),
+        (lambda: IrcRutting(0.95), r"reliability must be 0.8 or 0.9, got 0.95"),
+        (lambda: IrcCementTreated(1.4), r"strength must be in Pa, got 1.4; 1.4 MPa is 1.4e6"),
+        (lambda: IrcCementTreated(1.4e6).allowable_strain(1e12), "no tension allows by this law"),
+        (lambda: granular_modulus(0.0, 5e7), "thickness must be a positive number of metres"),
+        (lambda: subgrade_modulus(200.0), "must be at most 100 %, got 200"),
+    ],
+)
+def test_what_the_indian_laws_refuse(build, message):
+    with pytest.raises(InputError, match=message):
+        build()
+
+
+def test_the_indian_laws_of_a_case():
+    criteria = """
+[[criteria]]
+name = "fatigue"
+law = "irc-fatigue"
+layer = 1
+air_voids = 0.035
+binder_volume = 0.115
+reliability = 0.8
+[[criteria]]
+name = "rutting"
+law = "irc-rutting"
+[[criteria]]
+name = "cement"
+law = "irc-cement-treated"
+layer = 1
+place = "bottom"
+strength = "1.4 MPa"
+"""
+    built = Case.from_text(ONE_AXLE + criteria).build_criteria()
+    assert [type(criterion.law_at(15.0)) for criterion in built] == [IrcFatigue, IrcRutting, IrcCementTreated]
+    # What is left out comes from the layer: its modulus.
+    assert built[0].law_at(15.0).modulus > 1e9

@@ -121,6 +121,10 @@ def test_operators_on_few_cells_are_computed_once(monkeypatch):
         both.gap_by_shear(shears())
     # Once in either padded space.
     assert len(asked) == 2
+    # Rows of another place are the same to bodies without strips; one padded space serves several boxes.
+    assert operators(SHAPE, DX, DY, pair, 0.1) is operators(SHAPE, DX, DY, pair, 0.2) is both
+    Influence(SHAPE, DX, DY, pair).gap_by_shear(shears())
+    assert len(asked) == 2
     assert operators(SHAPE, DX, 2 * DY, pair) is not both
     assert operators(SHAPE, DX, DY, HalfSpaces(CombinedElasticity(2.0, 0.3, 0.08))) is not both
     assert operators((500, 600), DX, DY, pair) is not operators((500, 600), DX, DY, pair)
@@ -134,4 +138,5 @@ def test_a_body_that_cannot_be_told_from_others_has_operators_of_its_own():
         __hash__ = None
 
     pair = Unhashable(BODIES)
+    assert Influence(SHAPE, DX, DY, pair).gap_by_shear(shears()).any()
     assert operators(SHAPE, DX, DY, pair) is not operators(SHAPE, DX, DY, pair)

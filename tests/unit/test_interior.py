@@ -108,6 +108,18 @@ def test_any_grid_by_lattices_and_by_points(load, name):
     np.testing.assert_allclose(by_fft, by_sum, atol=1e-12)
 
 
+@pytest.mark.parametrize("name", GRIDS)
+def test_sums_leave_out_corners_at_which_the_load_does_not_change(load, name):
+    x, y = (DX * GRIDS[name][0], DY * GRIDS[name][1])
+    # A groove, and a block under one pressure: inside of it no corner counts.
+    grooved = load.copy()
+    grooved[:, 3:6] = 0.0
+    grooved[:, 6:, 2:9] = 0.7
+    by_fft, _ = stress_on_grid(grooved, DX, DY, DEPTHS, 0.35, x, y, method="fft")
+    by_sum, _ = stress_on_grid(grooved, DX, DY, DEPTHS, 0.35, x, y, method="direct")
+    np.testing.assert_allclose(by_fft, by_sum, atol=1e-12)
+
+
 def test_the_cheaper_way_is_taken():
     load = np.ones((3, 40, 50))
     near = DX * np.arange(50), DY * np.arange(40)

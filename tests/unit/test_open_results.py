@@ -1,5 +1,6 @@
 """What is saved opens again as the objects that it was, and as nothing less."""
 
+import html
 import json
 import math
 from collections import defaultdict
@@ -13,6 +14,8 @@ import xarray as xr
 import treadload as tl
 from cases import COARSE_CASE
 from studies import CASE, study_of
+from treadload.app.form_parts import label_of
+from treadload.app.result_rows import rows_of
 from treadload.case import Case
 from treadload.composing import BaseResult, dataset_of, result_classes
 from treadload.damage import Climate, Traffic, Wander
@@ -28,6 +31,7 @@ from treadload.life.reliability.solve import Fit, reliability_dataset
 from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
+from treadload.rows import from_json
 from treadload.sweeps.design import product
 from treadload.sweeps.screening import answers
 from treadload.variables import VARIABLES, dataset, display_of, in_order
@@ -393,6 +397,27 @@ def test_a_number_has_one_name_in_all_results():
             assert one.label == label or one.label.startswith(f"{label} "), (name, one)
             labels[label].add(one.key)
     assert {label: found for label, found in labels.items() if len(found) > 1} == {}
+
+
+def test_labels_are_the_same_in_summary_notebook_report_page_and_file(saved, tmp_path, without_figures, monkeypatch):
+    """Each renders `rows()`: none has words of its own for a number."""
+    monkeypatch.setattr("treadload.composing.small_picture", lambda _: None)
+    result, opened = saved
+    (name,) = opened
+    rows = result.rows()
+    # The verdict is a sentence, which a notebook and a report show as their first line.
+    labels = [row.label for row in rows if row.label and row.key != "verdict"]
+    summary = result.summary()
+    assert [label for label in labels if label not in summary] == []
+    attrs = opened.tree[name].attrs
+    assert [row.label for row in from_json(attrs["rows"])] == [row.label for row in rows]
+    shown = rows_of({name: result})[: len(rows)]
+    assert [line["label"] for line in shown] == [label_of(row.label) for row in rows]
+    assert [line["value"] for line in shown] == [row.text for row in rows]
+    notebook = html.unescape(result._repr_html_())
+    assert [label for label in labels if label not in notebook] == []
+    page = html.unescape(tl.report(result, tmp_path / "x.html").read_text(encoding="utf-8"))
+    assert [label for label in labels if label not in page] == []
 
 
 def backwards(data):

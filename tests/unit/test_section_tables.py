@@ -1,5 +1,9 @@
 """Tables of sections in the cache folder: read again, made again where damaged, missed where no folder is."""
 
+import importlib.util
+import time
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -84,3 +88,65 @@ def test_the_oldest_of_many_files_leave(folder, monkeypatch):
     for poisson in (0.3, 0.35, 0.4):
         face_table(RIB, poisson)
     assert len(list(folder.iterdir())) == 2
+
+
+def catalogue_sections():
+    """Sections of the catalogue's ribbed treads, for cells of the default size, as the script of the tables lists."""
+    path = Path(__file__).parents[2] / "benchmarks/ship_section_tables.py"
+    specification = importlib.util.spec_from_file_location("ship_section_tables", path)
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module.POISSON, module.catalogue_sections()
+
+
+def test_tables_of_the_catalogue_come_with_the_package(solved, folder):
+    poisson, sections = catalogue_sections()
+    paths = {section_tables.shipped_path(section, poisson) for section in sections}
+    assert len(sections) >= 2
+    # No table of a tread that has changed is left.
+    assert paths == set(next(iter(paths)).parent.glob("*.npz")), "run benchmarks/ship_section_tables.py"
+    assert sum(path.stat().st_size for path in paths) < 5e6
+    for section in sections:
+        started = time.process_time()
+        face_table(section, poisson)
+        assert time.process_time() - started < 0.2
+    # They come before the user's cache, which is left alone.
+    assert not solved
+    assert not folder.exists()
+
+
+@pytest.mark.slow
+def test_shipped_tables_are_new_solutions():
+    poisson, sections = catalogue_sections()
+    for section in sections:
+        shipped, anew = face_table(section, poisson), section_tables.face_compliance(section, poisson)
+        # Single precision.
+        np.testing.assert_allclose(shipped.compliance, anew.compliance, atol=1e-7 * np.abs(anew.compliance).max())
+        np.testing.assert_array_equal(shipped.waves, anew.waves)
+        cells = shipped.on_cells(np.array([[-0.003, 0.0], [0.0, 0.003], [0.003, 0.006]])).compliance
+        assert np.linalg.eigvalsh(cells).min() > 0
+
+
+@pytest.mark.slow
+def test_a_new_section_takes_seconds_and_a_cached_one_a_fraction():
+    rib = Section(((-0.0243, 0.0243),), 0.02, (0.005, 0.005), (0.0051, 0.0051)).for_cells(3e-3)
+    times = []
+    for _ in range(2):
+        section_tables._table.cache_clear()
+        started = time.process_time()
+        face_table(rib, 0.4951)
+        times.append(time.process_time() - started)
+    assert times[0] < 6
+    assert times[1] < 0.2
+
+
+def test_a_damaged_shipped_table_is_solved_again(tmp_path, monkeypatch, solved):
+    monkeypatch.setattr(section_tables, "_SHIPPED", tmp_path / "shipped")
+    path = section_tables.ship(RIB, 0.49, tmp_path / "shipped")
+    table = face_table(RIB, 0.49)
+    assert solved == [0.49]
+    content = path.read_bytes()
+    path.write_bytes(content[: len(content) // 2])
+    section_tables._table.cache_clear()
+    assert face_table(RIB, 0.49).compliance == pytest.approx(table.compliance, rel=1e-6, abs=1e-18)
+    assert len(solved) == 2

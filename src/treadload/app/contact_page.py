@@ -144,7 +144,7 @@ class ContactPage(Page):
             self._view["depth"] = min(self._view["depth"], len(depths) - 1)
             self._depth.set_options(named, value=self._view["depth"])
 
-    def _look(self, **view: Any) -> None:
+    def _look(self, **view: object) -> None:
         if all(self._view.get(key) == value for key, value in view.items()):
             return
         self._view.update(view)

@@ -34,7 +34,7 @@ def with_attributes(element: Any_Element, **attributes: str) -> Any_Element:
     return element
 
 
-def plain(content: str, do: Callable[..., Any], *, main: bool = False, label: str = "") -> Any:
+def plain(content: str, do: Callable[..., object], *, main: bool = False, label: str = "") -> Any:
     """A button. label: for who does not see it, where the text alone does not say."""
     button = ui.element("button").classes("plain main" if main else "plain").props('type="button"')
     if label:
@@ -44,7 +44,7 @@ def plain(content: str, do: Callable[..., Any], *, main: bool = False, label: st
     return button.on("click", lambda: do())
 
 
-def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], Any]) -> Any:
+def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], object]) -> Any:
     """One of a few."""
     select = ui.select(options, value=value, label=label, on_change=lambda event: do(event.value))
     return select.props("dense outlined options-dense").classes(
@@ -52,7 +52,7 @@ def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str]
     )
 
 
-def call_script(name: str, *arguments: Any) -> None:
+def call_script(name: str, *arguments: object) -> None:
     """Call a function of `look/bench.js` in the browser of the page that is being built."""
     assert name.isidentifier()
     ui.run_javascript(f"{name}({', '.join(json.dumps(argument) for argument in arguments)})")

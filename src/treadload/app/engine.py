@@ -17,13 +17,13 @@ import threading
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from treadload.app import map_figures
 from treadload.app.pictures import picture_of, pictures_for, pictures_of, titles_of
 from treadload.app.result_rows import allowed_rows, rows_of
+from treadload.app.stored_run import Stopped, StoredRun
 from treadload.app.study_points import about_study, point_of, point_rows
 from treadload.app.unsolved import left_out
 from treadload.case import Case
@@ -53,24 +53,6 @@ _BLOCK_DEPTHS = 12
 _SELDOM = 0.2
 
 Say = Callable[..., None]
-
-
-class Stopped(Exception):
-    """The user did not want the rest."""
-
-
-@dataclass
-class StoredRun:
-    """What is known of one run. parts: by their names in a file. load: of the case, to be read elsewhere.
-
-    opened: it was read from a file, so that no solve of this process brings the block of road below its maps.
-    """
-
-    case: Case | None
-    parts: dict[str, BaseResult] = field(default_factory=dict)
-    load: Loaded | None = None
-    block: Any = None
-    opened: bool = False
 
 
 class Engine:
@@ -112,7 +94,7 @@ class Engine:
             self._solving.join()
 
     def _say_of(self, number: int) -> Say:
-        def say(figures: dict[str, Any] | None = None, **answer: Any) -> None:
+        def say(figures: dict[str, Any] | None = None, **answer: object) -> None:
             # Figures are JSON already, which the browser alone reads.
             if figures:
                 answer["figures"] = {name: map_figures.as_text(figure) for name, figure in figures.items()}
@@ -384,7 +366,7 @@ def _study_of(parts: Mapping[str, BaseResult]) -> Sweep:
 
 def warm() -> None:
     """Load what the first request would wait for."""
-    case = Case.from_dict({**parse_toml(first_case("run"), "case"), "spacing": "24 mm"})
+    case = Case.from_dict({**parse_toml(first_case("run"), "case"), "spacing": "16 mm"})
     contact = contact_of(case, case.road(), lambda text: None)
     map_figures.maps({case.source.makes[0]: contact}, theme="light")["maps"].to_json()
 

@@ -74,7 +74,7 @@ class Engine:
         """Of the process."""
         return self._process.pid
 
-    async def ask(self, do: str, **question: Any) -> AsyncIterator[dict[str, Any]]:
+    async def ask(self, do: str, **question: object) -> AsyncIterator[dict[str, Any]]:
         """Answers as they come; the last holds "done", "error" or "stopped". Raises EngineLost."""
         number, queue = next(self._numbers), asyncio.Queue[dict[str, Any] | None]()
         self._waiting[number] = queue
@@ -95,7 +95,7 @@ class Engine:
         finally:
             del self._waiting[number]
 
-    async def last(self, do: str, **question: Any) -> dict[str, Any]:
+    async def last(self, do: str, **question: object) -> dict[str, Any]:
         """The last answer to a question."""
         answer: dict[str, Any] = {}
         async for answer in self.ask(do, **question):  # noqa: B007

@@ -20,7 +20,12 @@ KINDS = {"nc": "result.nc", "html": "report.html", "csv": "tables.zip"}
 
 
 def write_export(
-    parts: Mapping[str, BaseResult], whole: Callable[[], Any], kind: str, folder: Path, run: str, view: dict[str, Any]
+    parts: Mapping[str, BaseResult],
+    whole: Callable[[], object],
+    kind: str,
+    folder: Path,
+    run: str,
+    view: dict[str, Any],
 ) -> str:
     """Write a file of a run in the folder; returns its name.
 

@@ -101,7 +101,7 @@ class Form:
         """The form with what was typed into a field; nothing sets the default."""
         return self.with_values({field.path: field.read(text)})
 
-    def with_values(self, values: Mapping[str, Any]) -> Self:
+    def with_values(self, values: Mapping[str, object]) -> Self:
         """The form with keys set, or removed where the value is None."""
         table, yours = copy.deepcopy(dict(self.table)), set(self.yours)
         for path, value in values.items():
@@ -114,7 +114,7 @@ class Form:
             yours = {key for key in yours if key != path and not key.startswith(f"{path}.")}
         return replace(self, table=table, yours=frozenset(yours))
 
-    def with_added(self, path: str, folder: Path, value: Any = None, shape: str = "") -> Self:
+    def with_added(self, path: str, folder: Path, value: object = None, shape: str = "") -> Self:
         """The form with a key that it did not have; one that stands in its way gives way.
 
         value: left out, where the key begins. shape: of the value, as `CaseSchema` names it.

@@ -35,7 +35,7 @@ _SHOWN = {
 _OF_KEYS = {"inflation_pressure": ("bar", "8 bar"), "poisson": ("", 0.35)}
 
 
-def unit_of(schema: Mapping[str, Any], path: str, value: Any) -> ShownUnit:
+def unit_of(schema: Mapping[str, object], path: str, value: object) -> ShownUnit:
     """The unit of a field: the one that its value is written in, else that of its kind of quantity."""
     si = str(schema.get("x-unit", ""))
     shown, start = _SHOWN.get(str(schema.get("x-kind", si)), _SHOWN.get(si, (si, 1)))
@@ -69,7 +69,7 @@ class Field:
     words: str = ""
     otherwise: str = ""
 
-    def shown(self, value: Any) -> str:
+    def shown(self, value: object) -> str:
         """A value of a case as the field shows it, in its unit."""
         if value is None or value == "":
             return ""
@@ -80,7 +80,7 @@ class Field:
             return ", ".join(map(self._shown, value))
         return self._shown(value)
 
-    def _shown(self, value: Any) -> str:
+    def _shown(self, value: object) -> str:
         if self.kind in (TEXT, FREE) or (not self.unit and isinstance(value, str)):
             return str(value)
         try:

@@ -103,11 +103,11 @@ class CaseSchema:
         broken: list[str] = []
         return cls(json_schema(command, broken=broken), parse_toml(first_case(command), "case"), tuple(broken))
 
-    def form(self, table: Mapping[str, Any], layers: Sequence[str] = ()) -> Group:
+    def form(self, table: Mapping[str, object], layers: Sequence[str] = ()) -> Group:
         """The parts of a case. layers: names of those of its road."""
         return _Parts(self, tuple(layers)).group("", "", self.root, table)
 
-    def at(self, path: str, table: Mapping[str, Any]) -> Mapping[str, Any]:
+    def at(self, path: str, table: Mapping[str, object]) -> Mapping[str, Any]:
         """The schema of a key; {} of one that is not known."""
         schema, here = self.root, table
         for key in path.split("."):
@@ -120,12 +120,12 @@ class CaseSchema:
                 schema = schema.get("properties", {}).get(key, schema.get("additionalProperties") or {})
         return self.resolved(schema)
 
-    def ways_of(self, path: str, table: Mapping[str, Any]) -> tuple[list[str], Sequence[str]]:
+    def ways_of(self, path: str, table: Mapping[str, object]) -> tuple[list[str], Sequence[str]]:
         """Keys of which the table at a path gives exactly one, and those that it needs."""
         schema = self.resolved(self.fitting(self.shapes(self.at(path, table)), value_at(table, path)).schema)
         return _ways(schema), schema.get(_WAY, ())
 
-    def resolved(self, schema: Mapping[str, Any]) -> Mapping[str, Any]:
+    def resolved(self, schema: Mapping[str, object]) -> Mapping[str, Any]:
         """A schema in place of its reference."""
         if "$ref" not in schema:
             return schema
@@ -166,7 +166,7 @@ class CaseSchema:
             name = TEXT if kinds == "string" else NUMBER
             yield Shape(name, _SHAPES[name], schema)
 
-    def fitting(self, shapes: Sequence[Shape], value: Any) -> Shape:
+    def fitting(self, shapes: Sequence[Shape], value: object) -> Shape:
         """The form that a value has; one of its own where it has none of them."""
         for shape in shapes:
             if (
@@ -191,7 +191,7 @@ class CaseSchema:
         split = [(shape, *shape.name.partition(":")) for shape in shapes]
         return [shape.name for shape, key, sign, _ in split if sign and "default" in shape.schema["properties"][key]]
 
-    def start(self, path: str, schema: Mapping[str, Any], name: str = "") -> Any:
+    def start(self, path: str, schema: Mapping[str, object], name: str = "") -> Any:
         """What a key begins with that is added: as in the first case, or as `starts.toml` says, or by its unit.
 
         name: of its form; left out, the first.
@@ -307,7 +307,7 @@ class _Parts:
         inner = self._whole(path, label, shape, value, "", can_go=False)
         return [choosing, replace(inner, is_inline=True) if isinstance(inner, Group) else inner]
 
-    def _whole(self, path: str, label: str, shape: Shape, value: Any, words: str, *, can_go: bool) -> Part:
+    def _whole(self, path: str, label: str, shape: Shape, value: object, words: str, *, can_go: bool) -> Part:
         schema = self.schema.resolved(shape.schema)
         if isinstance(value, list | tuple) or (value is None and shape.name == LIST):
             members = schema.get("prefixItems", ())
@@ -320,7 +320,7 @@ class _Parts:
             return replace(self.group(path, label, schema, value or {}, can_go=can_go), words=words)
         return Field(path, label, kind=TEXT, words=words)
 
-    def _row(self, path: str, schema: Mapping[str, Any], value: Any) -> Group:
+    def _row(self, path: str, schema: Mapping[str, object], value: object) -> Group:
         parts = self.key(path, schema, value, in_table=True, can_go=False)
         if len(parts) == 1 and isinstance(parts[0], Group):
             (whole,) = parts
@@ -331,7 +331,7 @@ class _Parts:
         called = (value.get("name") or value.get("mix") or "") if isinstance(value, Mapping) else ""
         return replace(whole, label=f"{number}  {called}", can_go=True, is_inline=False)
 
-    def _scalar(self, plain: Field, shapes: Sequence[Shape], value: Any, usual: Any) -> Field:
+    def _scalar(self, plain: Field, shapes: Sequence[Shape], value: object, usual: object) -> Field:
         numbers = [entry.schema for entry in shapes if "x-unit" in entry.schema]
         scalar = replace(plain, kind=TEXT if [entry.name for entry in shapes] == [TEXT] else FREE)
         if numbers:
@@ -341,7 +341,7 @@ class _Parts:
             scalar = replace(scalar, choices={"": "by the law", **{name: name for name in self.layers}})
         return replace(scalar, otherwise=scalar.shown(usual))
 
-    def _words(self, plain: Field, shapes: Sequence[Shape], default: Any, can_go: bool) -> Field:
+    def _words(self, plain: Field, shapes: Sequence[Shape], default: object, can_go: bool) -> Field:
         usual = next((entry.label for entry in shapes if entry.word == default), "")
         choices = {entry.label: entry.label for entry in shapes}
         if can_go:
@@ -350,7 +350,7 @@ class _Parts:
         values = {entry.label: entry.word for entry in shapes}
         return replace(plain, kind=kind, choices=choices, values=values, otherwise=usual)
 
-    def _list(self, plain: Field, shape: Shape, value: Any, usual: Any) -> Field:
+    def _list(self, plain: Field, shape: Shape, value: object, usual: object) -> Field:
         schema = self.schema.resolved(shape.schema)
         members = schema.get("prefixItems") or [schema.get("items", {})]
         alike = members[0] if all(member == members[0] for member in members) else {}
@@ -384,7 +384,7 @@ def label_of(key: str) -> str:
     return f"{words[:1].upper()}{words[1:]}"
 
 
-def value_at(table: Any, path: str) -> Any:
+def value_at(table: object, path: str) -> Any:
     """The value of a key in tables; None where it is not."""
     here = table
     for part in path.split("."):
@@ -395,7 +395,7 @@ def value_at(table: Any, path: str) -> Any:
     return here
 
 
-def _get(table: Any, key: str) -> Any:
+def _get(table: object, key: str) -> Any:
     return table.get(key) if isinstance(table, Mapping) else None
 
 

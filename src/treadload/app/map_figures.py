@@ -84,7 +84,7 @@ def places(parts: Parts, *, theme: str) -> dict[str, Any]:
     return {"places": interactive.marked(named_places(parts), 2, theme=theme)}
 
 
-def shows_damage(*, left: str = "", right: str = "", **_: Any) -> bool:
+def shows_damage(*, left: str = "", right: str = "", **_: object) -> bool:
     """True where a map is to be drawn of the verdict itself."""
     return any(name.startswith("damage/") for name in (left, right))
 
@@ -167,7 +167,7 @@ class SourcedFigure:
     line: tuple[float, ...]
 
     @classmethod
-    def of(cls, figure: Any, grids: list[dict[str, Any]], cut: Cut) -> Any:
+    def of(cls, figure: object, grids: list[dict[str, Any]], cut: Cut) -> Any:
         """The figure with its grids, or the figure alone where they are too large to be sent."""
         if interactive.held_numbers(grids) > interactive.MOST_HELD:
             return figure

@@ -146,7 +146,7 @@ class Page:
             self.width = width
             self.redraw()
 
-    def js(self, name: str, *arguments: Any) -> None:
+    def js(self, name: str, *arguments: object) -> None:
         """Call a function of ours in the browser."""
         with self.client:
             call_script(name, *arguments)
@@ -255,7 +255,7 @@ class Page:
 
     # Asking for figures, and taking home.
 
-    async def last(self, do: str, **question: Any) -> dict[str, Any]:
+    async def last(self, do: str, **question: object) -> dict[str, Any]:
         """The last answer of the process; what is wrong is said on the page."""
         with self.client:
             try:

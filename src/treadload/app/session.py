@@ -78,13 +78,13 @@ class Session:
                 self._engines[page] = engine
             return engine
 
-    async def ask(self, page: str, do: str, **question: Any) -> AsyncIterator[dict[str, Any]]:
+    async def ask(self, page: str, do: str, **question: object) -> AsyncIterator[dict[str, Any]]:
         """Answers of the process of a page, see `Engine.ask`."""
         engine = await self.engine(page)
         async for answer in engine.ask(do, **question):
             yield answer
 
-    async def last(self, page: str, do: str, **question: Any) -> dict[str, Any]:
+    async def last(self, page: str, do: str, **question: object) -> dict[str, Any]:
         """The last answer of the process of a page."""
         return await (await self.engine(page)).last(do, **question)
 

@@ -28,7 +28,7 @@ class SlicePanel:
     cut: called where it does not, and when other fields are wanted. js: calls a function in the browser.
     """
 
-    def __init__(self, cut: Callable[[], Any], js: Callable[..., Any]) -> None:
+    def __init__(self, cut: Callable[[], object], js: Callable[..., object]) -> None:
         self._cut, self._js = cut, js
         self.line: list[float] | None = None
         self.section_of = "principal_strain_1"

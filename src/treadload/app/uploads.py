@@ -40,7 +40,7 @@ class Uploads:
             self._has_problem = False
             self._problems.clear()
 
-    def upload(self, text: str, suffixes: tuple[str, ...], kept: Callable[[str], Any] | None) -> None:
+    def upload(self, text: str, suffixes: tuple[str, ...], kept: Callable[[str], object] | None) -> None:
         """A button that asks for a file. kept: called with the name under which it is kept; None for a case."""
         with ui.element("div").classes("upload"):
             chooser = ui.upload(
@@ -51,7 +51,7 @@ class Uploads:
             plain(text, lambda: chooser.run_method("pickFiles"))
 
     async def _uploaded(
-        self, event: events.UploadEventArguments, suffixes: tuple[str, ...], kept: Callable[[str], Any] | None
+        self, event: events.UploadEventArguments, suffixes: tuple[str, ...], kept: Callable[[str], object] | None
     ) -> None:
         try:
             content = await event.file.read()

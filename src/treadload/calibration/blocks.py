@@ -37,8 +37,8 @@ class Blocks:
         grid, pressure = sensor.grid, np.where(sensor.sensels, np.maximum(sensor.pressure, 0.0), 0.0)
         along, across = pressure.sum(axis=0), pressure.sum(axis=1)
         ribs = find_ribs(pressure, grid.y, grid.dy)[1:-1]
-        edges_y = ribs if len(ribs) else _equal(across, grid.y, grid.dy, _ACROSS)
-        edges_x = _equal(along, grid.x, grid.dx, _ALONG)
+        edges_y = ribs if len(ribs) else equal_parts(across, grid.y, grid.dy, _ACROSS)
+        edges_x = equal_parts(along, grid.x, grid.dx, _ALONG)
         rows = np.searchsorted(edges_y, grid.y)
         columns = np.searchsorted(edges_x, grid.x)
         which = np.asarray(rows[:, None] * _ALONG + columns[None, :], dtype=np.int64)
@@ -55,7 +55,7 @@ class Blocks:
         return parts
 
 
-def _equal(force: Array, places: Array, step: float, parts: int) -> Array:
+def equal_parts(force: Array, places: Array, step: float, parts: int) -> Array:
     """Edges inside, m, between which equal parts of the force lie; they fall between cells."""
     cumulated = np.concatenate([[0.0], np.cumsum(force)]) / force.sum()
     edges = np.concatenate([places - 0.5 * step, [places[-1] + 0.5 * step]])

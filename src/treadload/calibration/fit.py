@@ -26,7 +26,7 @@ STEEL = Elastic(210e9, 0.3)
 # Coarser than a contact of its own: deflections, moments and extents below the size of a cell move by less than a
 # percent from 6 mm to 3 mm. Ribs are whole cells wide: their shares of the load move by a point, and ask for 3 mm.
 SPACING = 2 * DEFAULT_SPACING
-_BY_RIBS = ("rib_shares", "footprint", "width")
+_BY_RIBS = ("rib_shares", "footprint", "width", "pins")
 # Steps of the derivatives, of a number's size. The readings of a standing tire are known to the tolerance, 1e-8: a
 # step of 1e-3 changes a deflection by some 1e-4 of itself, ten thousand times that, and bends the slope by less than
 # 1e-3 of it. Extents of the print and slopes of rolling are known to 1e-5 or so and take a step of 1e-2.
@@ -69,7 +69,10 @@ def calibrate(
     normal contact. most: steps of the search. jobs: processes. state: file that keeps every point that was solved, so
     that a search goes on where it stopped. progress: called with (done, expected, what) after every contact.
 
-    A standing tire is pressed on without friction; slip stiffnesses are those of `tire_card`.
+    A standing tire is pressed on without friction; slip stiffnesses are those of `tire_card`. Under pins the tire
+    rolls freely, and they lie where they read its pressure best. E scales out of the tables of ribs and
+    friction does not enter them; where ν is sought, they are interpolated between three ν from its lower to its upper
+    bound, each of which takes a second or so for each kind of rib, once.
     Returns the fitted tire, standard deviations, correlations, and in words what the data cannot tell.
     Raises InputError for fewer data than unknowns and what cannot be measured or sought; ConvergenceError of a
     contact, and of a search that did not end.
@@ -207,10 +210,11 @@ def _check(problem: Problem) -> None:
         raise InputError(
             f"{count} readings cannot tell {sought} numbers ({names}); measure more, or seek at most {count}"
         )
-    rolled = any(READINGS[name].how == "rolling" for row in problem.data for name in row.readings)
+    rolled = any(READINGS[name].how in ("rolling", "pins") for row in problem.data for name in row.readings)
     if any(unknown.name == FRICTION for unknown in problem.sought) and not rolled:
         raise InputError(
-            "friction is sought, and no reading knows of it: give tractive_force or lateral_force at a creepage"
+            "friction is sought, and no reading knows of it: give pins, or tractive_force or lateral_force at a "
+            "creepage"
         )
     if problem.tire.fixed_grid is None and problem.spacing is not None:
         positive("spacing", problem.spacing, "metres", "6 mm is 0.006")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -14,11 +14,13 @@ import numpy as np
 
 from treadload.calibration.blocks import Blocks
 from treadload.calibration.extents import extents
+from treadload.calibration.pin_blocks import PinBlocks, faces_of
 from treadload.composing import BaseResult
-from treadload.contact import Rolling, solve_contact
+from treadload.contact import Contact, Rolling, solve_contact
 from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair
 from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.section_tables import interpolated
 from treadload.contact.solve import BorderError, check_border, place
 from treadload.contact.solvers.normal import solve_normal
 from treadload.errors import ConvergenceError, InputError, TreadloadError, one_line
@@ -81,6 +83,8 @@ class Problem:
         """What was read of a kind in a row, SI: (numbers,)."""
         if name == "footprint":
             return self.blocks[row].measured
+        if name == "pins":
+            return self.pin_blocks[row].measured
         return np.atleast_1d(np.asarray(getattr(self.data[row], name), dtype=float))
 
     @cached_property
@@ -93,16 +97,54 @@ class Problem:
         }
 
     @cached_property
+    def pin_blocks(self) -> Mapping[int, PinBlocks]:
+        """Blocks of the rows that have pins, on the ribs of the initial tire."""
+        return {
+            row: PinBlocks.of(measured.pins, faces_of(self.tire))
+            for row, measured in enumerate(self.data)
+            if measured.pins is not None
+        }
+
+    def rolled(self, tire: Tire, friction: float, row: int, start: Contact | None = None) -> Contact:
+        """The contact of a tire that rolls over the pins of a row: freely, or at the row's creepages."""
+        measured = self.data[row]
+        state = Rolling(
+            normal_load=measured.load, friction=friction, creepage_x=measured.creepage_x,
+            creepage_y=measured.creepage_y,
+        )  # fmt: skip
+        return solve_contact(
+            inflated(tire, measured),
+            self.road,
+            state,
+            spacing=self.spacing,
+            tolerance=_ROLLING_TOLERANCE,
+            start=start,
+        )
+
+    @property
+    def tables(self) -> AbstractContextManager[None]:
+        """Tables of ribs between the bounds of ν where that is sought, as few as serve all; else as they are."""
+        sought = next((unknown for unknown in self.sought if unknown.name == "poisson"), None)
+        if sought is None or self.tire.tread != "ribs":
+            return nullcontext()
+        _, low, high = sought.on(self.tire, self.friction)
+        return interpolated(low, high)
+
+    @cached_property
     def fingerprint(self) -> str:
         """Equal where equal numbers give equal readings: of the question, without the values that were read."""
-        fields_hashed = ("load", "inflation_pressure", "ribs", "creepage_x", "creepage_y", "footprint")
+        fields_hashed = ("load", "inflation_pressure", "ribs", "creepage_x", "creepage_y", "footprint", "pins")
         writer = Writer(lambda result: _digest(result))
         content = {
             "tire": writer.value(self.tire),
             "road": writer.value(self.road),
             "sought": [unknown.name for unknown in self.sought],
             "data": [
-                [*measured.readings, *(writer.value(getattr(measured, name)) for name in fields_hashed)]
+                [
+                    *measured.readings,
+                    *(writer.value(getattr(measured, name)) for name in fields_hashed),
+                    *(() if measured.pins is None else measured.pins.pin),
+                ]
                 for measured in self.data
             ],
             "numbers": [self.friction, self.spacing, self.tolerance],
@@ -137,6 +179,7 @@ class Model:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self._initials: dict[int, tuple[Grid, Array] | None] = {}
+        self._rolled: dict[int, Contact] = {}
 
     def readings(self, values: Sequence[float], row: int) -> Array:
         """All readings of a row, SI, in the order of the problem.
@@ -146,7 +189,8 @@ class Model:
         problem = self.problem
         try:
             tire, friction = problem.at(values)
-            return self._readings(tire, friction, row)
+            with problem.tables:
+                return self._readings(tire, friction, row)
         except TreadloadError as error:
             where = ", ".join(
                 f"{unknown.name} = {value:.6g}" for unknown, value in zip(problem.sought, values, strict=True)
@@ -169,6 +213,9 @@ class Model:
             values_by_name |= self._card(tire, measured)
         if "rolling" in kinds:
             values_by_name |= self._rolling(tire, friction, measured)
+        if "pins" in kinds:
+            rolled = GridLoad.from_dataset(self.rolled(tire, friction, row))
+            values_by_name["pins"] = self.problem.pin_blocks[row].computed(rolled)
         return np.concatenate(
             [np.atleast_1d(np.asarray(values_by_name[name], dtype=float)) for name in measured.readings]
         )
@@ -182,6 +229,12 @@ class Model:
             with suppress(BorderError):
                 return self._on(initial[0], bodies, tire, row, start=initial[1])
         return self._on(self._placed(tire, bodies, row), bodies, tire, row)
+
+    def rolled(self, tire: Tire, friction: float, row: int) -> Contact:
+        """The contact of a tire that rolls over the pins of a row, begun at that of the initial tire."""
+        if row not in self._rolled:
+            self._rolled[row] = self.problem.rolled(self.problem.tire, self.problem.friction, row)
+        return self.problem.rolled(tire, friction, row, self._rolled[row])
 
     def _initial(self, row: int) -> tuple[Grid, Array] | None:
         """Grid and pressure, Pa, of the initial tire in a row; None where its contact fails."""
@@ -199,7 +252,7 @@ class Model:
         self, grid: Grid, bodies: Body, tire: Tire, row: int, start: Array | None = None
     ) -> tuple[Array, Grid, float]:
         solved = solve_normal(
-            Influence(grid.shape, grid.dx, grid.dy, bodies),
+            Influence(grid.shape, grid.dx, grid.dy, bodies, grid.y0),
             tire.height_map(grid),
             load=self.problem.data[row].load,
             start=start,

@@ -243,7 +243,7 @@ def solution(problem: Problem, search_result: Fit, stats: Mapping[str, Any]) -> 
         undecided=list(undecided),
     )
     tire, friction = problem.at(search_result.values)
-    comparisons = _compared(problem, tire)
+    comparisons = _compared(problem, tire, friction)
     warnings = [
         *_doubts(problem, search_result, lost, square, left, errors_stated),
         *(f"footprint: {text}" for comparison in comparisons for text in comparison.warnings),
@@ -336,13 +336,17 @@ def _doubts(
     return caveats
 
 
-def _compared(problem: Problem, tire: Tire) -> tuple[FootprintComparison, ...]:
-    """Rows with a footprint beside the fitted contact."""
+def _compared(problem: Problem, tire: Tire, friction: float) -> tuple[FootprintComparison, ...]:
+    """Rows with a footprint or with pins beside the fitted contact."""
     model, comparisons = Model(problem), []
     for number, measured in enumerate(problem.data):
         if measured.footprint is not None:
-            pressure, grid, _ = model.pressed(inflated(tire, measured), number)
+            with problem.tables:
+                pressure, grid, _ = model.pressed(inflated(tire, measured), number)
             comparisons.append(compare(GridLoad(grid, pressure), measured.footprint))
+        if measured.pins is not None:
+            with problem.tables:
+                comparisons.append(compare(model.rolled(tire, friction, number), measured.pins))
     return tuple(comparisons)
 
 
@@ -351,6 +355,8 @@ def _label(problem: Problem, row: int, name: str, number: int) -> str:
     measured, kind = problem.data[row], READINGS[name]
     count = f" {number + 1}" if name in ("rib_shares", "footprint") else ""
     pressure = "" if measured.inflation_pressure is None else f", {measured.inflation_pressure / 1e3:.4g} kPa"
+    if name == "pins":
+        count = f", {problem.pin_blocks[row].name(number)}"
     at = f"{float(measured.load or 0.0) / 1e3:.4g} kN{pressure}"
     return f"{kind.words}{count}, {measured.name or at}"
 

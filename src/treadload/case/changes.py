@@ -30,12 +30,12 @@ def changed(table: dict[str, Any], changes: Sequence[str]) -> dict[str, Any]:
     return table
 
 
-def set_key(table: dict[str, Any], path: str, value: Any) -> None:
+def set_key(table: dict[str, Any], path: str, value: object) -> None:
     """Set a key in the tables of a case. path: parts joined by points. Raises InputError."""
     _set(table, path.split("."), value, path)
 
 
-def _set(table: dict[str, Any], path: Sequence[str], value: Any, change: str) -> None:
+def _set(table: dict[str, Any], path: Sequence[str], value: object, change: str) -> None:
     here: Any = table
     for number, part in enumerate(path[:-1]):
         before = ".".join(path[:number])

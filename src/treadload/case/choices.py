@@ -33,7 +33,7 @@ Friction = Annotated[Any, FRICTION_OR_NUMBER]
 ManeuverTable = Annotated[Any, MANEUVER]
 
 
-def maneuver_of(table: Any) -> tuple[Maneuver, str, float | None]:
+def maneuver_of(table: object) -> tuple[Maneuver, str, float | None]:
     """A maneuver, its name for tables, and its share of the class's passes if it gives one."""
     maneuver: Maneuver = MANEUVER.build(table)
     return maneuver, getattr(table, "name", None) or maneuver.name, getattr(table, "share", None)

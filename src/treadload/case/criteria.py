@@ -99,7 +99,7 @@ CRITERION = Choice(
 Criterion = Annotated[Any, CRITERION]
 
 
-def quantity_of(table: Mapping[str, Any]) -> Quantity | None:
+def quantity_of(table: Mapping[str, object]) -> Quantity | None:
     """What a table of criteria reads; None where it does not say."""
     kind = CRITERION.table_for(table)
     if kind is None:

@@ -33,7 +33,7 @@ def _keys(table: Table, before: str) -> Iterator[tuple[str, str | None]]:
                 yield from _keys(member, f"{path}." if number is None else f"{path}.{number}.")
 
 
-def _unit(hint: Any) -> str | None:
+def _unit(hint: object) -> str | None:
     for arm in arms(hint):
         marks = get_args(arm)[1:] if get_origin(arm) is Annotated else ()
         unit = next((mark.si for mark in marks if isinstance(mark, Unit)), None)
@@ -64,7 +64,7 @@ def find_key(case: FilePart, name: str) -> str:
     raise InputError(f"the case has no key {name!r}; {nearest(name, short)}")
 
 
-def with_values(table: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+def with_values(table: Mapping[str, object], values: Mapping[str, object]) -> dict[str, Any]:
     """A copy of the tables of a case with keys set. values: path → value. Raises InputError."""
     changed = copy.deepcopy(dict(table))
     for path, value in values.items():

@@ -15,7 +15,7 @@ from treadload.read import As, Table, table_of
 from treadload.units import Celsius, Frequency, Length
 
 
-def _finite(value: Any) -> Any:
+def _finite(value: object) -> Any:
     if isinstance(value, str) and value.strip().lower().startswith("inf"):
         raise ValueError(f"a semi-infinite layer is the last one: leave its thickness out, got {value!r}")
     return value
@@ -110,7 +110,7 @@ class RoadPart(Table):
         return Pavement([layer.build(self.frequency) for layer in self.layers], rigid_base=self.rigid_base)
 
 
-def _waits(part: Any) -> bool:
+def _waits(part: object) -> bool:
     return isinstance(part, TemperatureDependent) or getattr(part, "depends_on_temperature", False) is True
 
 

@@ -156,7 +156,7 @@ def _one_of(choice: Choice, broken: list[str] | None) -> dict[str, Any]:
     return {"oneOf": arms}
 
 
-def _gather(schema: Any, defined: dict[str, Any]) -> None:
+def _gather(schema: object, defined: dict[str, Any]) -> None:
     """Take the definitions out of a schema and of what it holds."""
     if isinstance(schema, dict):
         for name, definition in schema.pop("$defs", {}).items():
@@ -170,7 +170,7 @@ def _gather(schema: Any, defined: dict[str, Any]) -> None:
             _gather(item, defined)
 
 
-def _references(schema: Any) -> Iterator[str]:
+def _references(schema: object) -> Iterator[str]:
     if isinstance(schema, dict):
         if isinstance(schema.get("$ref"), str):
             yield schema["$ref"]
@@ -181,7 +181,7 @@ def _references(schema: Any) -> Iterator[str]:
             yield from _references(item)
 
 
-def _plain(schema: Any, *, keys: bool = False) -> Any:
+def _plain(schema: object, *, keys: bool = False) -> Any:
     """Without what says nothing: names that repeat the key, and null, which TOML does not have.
 
     keys: True where the schema is a table of keys, whose names are the user's.

@@ -20,7 +20,7 @@ from treadload.composing import BaseResult
 from treadload.errors import InputError
 from treadload.pavement import Pavement, methods_of
 from treadload.read import Table
-from treadload.registry import STEPS
+from treadload.registry import OURS, STEPS
 
 Results = Mapping[str, BaseResult]
 """What a step makes: results by their groups in a file."""
@@ -35,7 +35,8 @@ class Step(Table):
     name: of the table. after: groups of the results that it takes. also: groups that it takes where they are solved,
     too. makes: groups of its results; left out, its name. has_table: False for a step that follows from others and
     has no key of its own. is_quiet: True where the result is left out of summaries. swept: True where a study keeps
-    its numbers for every case without being asked for them.
+    its numbers for every case without being asked for them. shapes_contact: True where the contact of a wheel depends
+    on the table. heading: of its keys in a report; left out, its name.
     """
 
     name: ClassVar[str] = ""
@@ -45,6 +46,8 @@ class Step(Table):
     has_table: ClassVar[bool] = True
     is_quiet: ClassVar[bool] = False
     swept: ClassVar[bool] = False
+    shapes_contact: ClassVar[bool] = False
+    heading: ClassVar[str] = ""
 
     def __init_subclass__(cls, *, name: str = "", **more: Any) -> None:
         super().__init_subclass__(**more)
@@ -119,6 +122,7 @@ class Source(Step):
     """
 
     after: ClassVar[tuple[str, ...]] = ()
+    shapes_contact: ClassVar[bool] = True
     uses: ClassVar[tuple[str, ...]] = ("title", "tire", "pavement")
     needs: ClassVar[tuple[str, ...]] = ("tire", "pavement")
     command: ClassVar[str] = "run"
@@ -165,6 +169,9 @@ class Source(Step):
 
 def step_class(name: str) -> type[Step]:
     """The class of a step by its name. Raises InputError: unknown, or its package cannot be loaded."""
+    if name in Description.model_fields:
+        bringer = STEPS.packages().get(name) or "this session"
+        raise InputError(f"the step {name!r} of {bringer} has the name of a key of every case; rename it")
     entry = STEPS.find(name)
     target: Any = entry.target
     if not (isinstance(target, type) and issubclass(target, Step)):
@@ -226,7 +233,7 @@ def _with_inputs(wanted: list[Step], tables: set[str], source: Source) -> list[S
         for step in without:
             if step.has_table and step.name in tables:
                 lacks = next(group for group in step.after if group not in groups)
-                if STEPS.find(step.name).package != "treadload":
+                if STEPS.find(step.name).package != OURS:
                     raise InputError(
                         f"[{step.name}] of {STEPS.find(step.name).package} comes after {lacks!r}, which no step of "
                         f"this case makes; it has {', '.join(sorted(groups))}"

@@ -32,8 +32,10 @@ class TirePart(Table):
     units: of a scan, "mm"; of a height map, "mm" or { gap = "mm", x = "mm", y = "mm" }, where the file names no unit.
     cell: of a height map without coordinates. decimal: "." or ",", of a height map as text. inflation_pressure: gives
     the modulus where there is no material. material: of the tread's half-space. belt: in its place, a name of the
-    catalogue or a table; inflation carries it. tread: of a profile on a belt, "ribs" with free sides between its
-    grooves, or a "layer" without grooves. Of a scan: nominal_diameter: outer, from which the unit follows.
+    catalogue or a table; inflation carries it. tread: on a belt, "ribs" with free sides between circumferential
+    grooves, or a "layer" without grooves. undertread: of ribs, rubber between the deepest groove and the belt; left
+    out, what the tread_thickness of the belt leaves of a profile, 5 mm of a scan or a height map.
+    Of a scan: nominal_diameter: outer, from which the unit follows.
     rotation: about the axle. camber: lean to the right. revolve: the meridian in place of the facets. fill_holes: of
     the tread. smooth: length to smooth noise over, or "auto". outliers: "remove", "refuse" or "keep" points that
     stick out. roundness: share of the radius by which it may vary. scale: m per unit of the file.
@@ -60,6 +62,7 @@ class TirePart(Table):
     material: TireMaterial | None = None
     belt: Annotated[Any, BELT] = None
     tread: Literal["layer", "ribs"] = "layer"
+    undertread: Length | None = None
 
     @model_validator(mode="after")
     def _one_surface(self) -> TirePart:
@@ -70,8 +73,12 @@ class TirePart(Table):
             )
         if self.belt is not None and self.material is not None:
             raise ValueError("give either material, of a half-space, or belt; the tread's material is tread in belt")
-        if self.tread == "ribs" and (self.belt is None or self.profile is None):
-            raise ValueError('tread = "ribs" takes the ribs of a profile on a belt; give both, or tread = "layer"')
+        if self.tread == "ribs" and self.belt is None:
+            raise ValueError(
+                'tread = "ribs" stands on a belt; give belt = "315/80R22.5" or a table, or tread = "layer"'
+            )
+        if self.undertread is not None and self.tread != "ribs":
+            raise ValueError('undertread lies below the grooves of ribs; give tread = "ribs", or leave it out')
         if self.profile is not None and self.units is not None:
             raise ValueError("units belongs to a scan or a height_map; this tire is a profile")
         if self.scan is not None and isinstance(self.units, dict):
@@ -101,6 +108,8 @@ class TirePart(Table):
             "material": TIRE_MATERIAL.build(self.material),
             "inflation_pressure": self.inflation_pressure,
             "belt": self._belt(),
+            "tread": self.tread,
+            "undertread": self.undertread,
         }
         if self.scan is not None:
             path = example_mesh() if self.scan == EXAMPLE else folder / self.scan
@@ -126,4 +135,4 @@ class TirePart(Table):
         profile = PROFILE.build(self.profile)
         if isinstance(profile, str) and profile.endswith(".toml"):
             profile = TreadProfile.from_toml(folder / profile)
-        return Tire.from_profile(profile, tread=self.tread, **body)
+        return Tire.from_profile(profile, **body)

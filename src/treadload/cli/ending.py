@@ -96,7 +96,7 @@ def let_go(stream: Any, error: OSError) -> None:
         stream.flush()
 
 
-def _interrupt(number: int, frame: Any) -> None:
+def _interrupt(number: int, frame: object) -> None:
     now = time.monotonic()
     if _Signal.since is None:
         _Signal.number, _Signal.since = number, now

@@ -6,7 +6,7 @@ import functools
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Annotated, Any, NoReturn, ParamSpec
+from typing import Annotated, NoReturn, ParamSpec
 
 import typer
 from rich.console import Console
@@ -110,7 +110,7 @@ def check_files(output: Path | None, report: Path | None) -> None:
         check_suffix(report, HTML, "the report")
 
 
-def write_files(result: Any, output: Path | None, report: Path | None, title: str, *, quiet: bool) -> None:
+def write_files(result: object, output: Path | None, report: Path | None, title: str, *, quiet: bool) -> None:
     """Write a result to a file and a page, those that are asked for, and print what was written."""
     from treadload.results import to_tree
     from treadload.results.exports import write

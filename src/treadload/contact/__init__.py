@@ -6,6 +6,7 @@ from treadload.contact.curve import CreepCurve, creep_curve
 from treadload.contact.enveloped import Enveloped, envelop
 from treadload.contact.indentation import Indentation, solve_indentation
 from treadload.contact.maneuver import STRAIGHT, Maneuver
+from treadload.contact.pitch import PitchPassage, solve_pitch
 from treadload.contact.resistance import RollingResistance, rolling_resistance
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.rough import TextureContact, solve_texture
@@ -22,6 +23,7 @@ __all__ = [
     "Enveloped",
     "Indentation",
     "Maneuver",
+    "PitchPassage",
     "Rolling",
     "RollingResistance",
     "TextureContact",
@@ -34,6 +36,7 @@ __all__ = [
     "rolling_resistance",
     "solve_contact",
     "solve_indentation",
+    "solve_pitch",
     "solve_texture",
     "solve_transient",
     "turn_on_the_spot",

@@ -61,13 +61,16 @@ def check_modulus(name: str, body: Body) -> None:
         )
 
 
-def check_ribs(tire: Tire, grid: Grid) -> None:
-    """Refuse cells that are too wide for the ribs of a tire. Raises InputError with the size that serves."""
+def check_ribs(tire: Tire, cell: float) -> None:
+    """Refuse cells of a size across, m, too wide for the ribs of a tire. Raises InputError with one that serves."""
     widths = [right - left for group in tire.ribs for left, right in group.faces]
     narrowest = min(widths, default=math.inf)
-    if narrowest < _CELLS_OF_A_RIB * grid.dy * (1 - _ROUND_OFF):
+    if narrowest < _CELLS_OF_A_RIB * cell * (1 - _ROUND_OFF):
         size = math.floor(narrowest / _CELLS_OF_A_RIB * 1e4) / 10
+        remedy = f'use spacing = "{size:g} mm" or less'
+        if tire.fixed_grid is not None:
+            remedy = f"a height map keeps its cells: give one on cells of {size:g} mm or less across"
         raise InputError(
             f"the narrowest rib is {narrowest * 1e3:.3g} mm wide and has fewer than {_CELLS_OF_A_RIB} cells of "
-            f'{grid.dy * 1e3:g} mm; use spacing = "{size:g} mm" or less'
+            f"{cell * 1e3:g} mm; {remedy}"
         )

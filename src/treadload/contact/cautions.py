@@ -15,6 +15,7 @@ from treadload.tire import Tire
 from treadload.tire.belt import belt_doubt
 from treadload.tire.modulus import modulus_doubt
 from treadload.tire.surface import HeightMapSurface
+from treadload.tire.tire import UNDERTREAD
 
 # NaN by design: no material, or nothing that rolls.
 _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip_y", "approach"}
@@ -49,6 +50,15 @@ def of_tire(tire: Tire) -> list[str]:
             f"the ribs have a Poisson's ratio of {tire.belt.tread.poisson:g}, as of a layer that stands for grooves "
             f"as well; rubber has {_RUBBER:g} to 0.4999: give the tread of the belt Elastic(modulus, 0.495)"
         )
+    section = tire.cross_section if tire.tread == "ribs" else None
+    if section is not None and section.measured:
+        warnings += section.caveats
+        if tire.undertread is None:
+            warnings.append(
+                f"the ribs stand on {UNDERTREAD * 1e3:g} mm of rubber below the deepest groove "
+                f"({section.deepest * 1e3:.1f} mm), which is assumed, as no scan shows it: give undertread where it "
+                "is known"
+            )
     return warnings
 
 

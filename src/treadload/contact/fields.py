@@ -23,6 +23,8 @@ from treadload.pavement import Pavement
 from treadload.tire import Tire
 from treadload.variables import dataset
 
+# The attribute of a contact that states how the sides of its tire's ribs are, see `Tire.rib_sides`.
+RIB_SIDES = "rib_sides"
 Fields = dict[str, tuple[tuple[str, ...], Any]]
 _PLANE = ("y", "x")
 
@@ -118,4 +120,5 @@ def contact_dataset(
     numbers = {**loads(grid, pressure, tangential.shear), **scalars}
     named: Fields = {name: (_PLANE, values) for name, values in fields.items()}
     named |= {name: ((), value) for name, value in numbers.items()}
-    return dataset(named, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy)
+    about = {RIB_SIDES: scene.tire.rib_sides}
+    return dataset(named, {"x": grid.x, "y": grid.y}, dx=grid.dx, dy=grid.dy, **about)

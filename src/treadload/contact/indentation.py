@@ -56,6 +56,7 @@ class Indentation(BaseResult, group="indentation"):
     """
 
     title: ClassVar[str] = "Indentation"
+    subject: ClassVar[str] = "A body pressed into a road"
     holds: ClassVar[Holds] = Holds(
         {
             "step": "step", "depth": "depth", "y": "y", "x": "x",

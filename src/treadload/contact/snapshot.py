@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -32,7 +31,7 @@ def contact_at(
     state: State,
     rolling: Rolling,
     creepages: tuple[float, float],
-    stats: Mapping[str, Any],
+    stats: Mapping[str, object],
     warnings: Sequence[str] = (),
 ) -> Contact:
     """The contact at the end of a step.

@@ -16,6 +16,7 @@ from treadload.materials import Orthotropic, Prony, TransverselyIsotropic
 from treadload.pavement import Pavement
 from treadload.rows import Place, Row, row
 from treadload.tire import Tire
+from treadload.tire.rib_rows import shares_of_rows
 
 _SCALARS = ("tractive_force", "lateral_force", "aligning_moment", "creepage_x", "creepage_y", "spin")
 _LOSSES = ("friction_work_total", "friction_power_total", "flash_temperature")
@@ -64,8 +65,12 @@ class Contact(BaseResult, group="contact"):
 
     @property
     def area(self) -> float:
-        """Area of the cells in contact, m²."""
-        return float((self.dataset.pressure > 0).sum()) * self.cell_area
+        """Area of the cells in contact, m²; of ribs what these cells stand for, see `tire.rib_rows`."""
+        touching = (self.dataset.pressure > 0).sum("x").to_numpy()
+        if self.tire.ribs:
+            y, dy = self.dataset.y.to_numpy(), float(self.dataset.attrs["dy"])
+            return float(touching @ shares_of_rows(y, dy, self.tire.ribs)) * self.cell_area
+        return float(touching.sum()) * self.cell_area
 
     @property
     def slip_fraction(self) -> float:

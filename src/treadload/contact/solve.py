@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -19,6 +20,7 @@ from treadload.contact.bounds import check_modulus, check_numbers, check_ribs, c
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
 from treadload.contact.relief import above, check_step, doubts_of, heights_on
+from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.coupling import Coupled, Progress, Start, Surfaces, solve_coupled
@@ -91,7 +93,28 @@ def solve_contact(
     `kernels.layers.images`.
     """
     began = time.perf_counter()
-    tell = progress or (lambda text: None)
+    search = Search(spacing, offset, tolerance, road_compliance, relief, start)
+    scene, pair = solve_search(tire, road, rolling, search, progress or (lambda text: None))
+    return _contact(scene, rolling, pair, road_compliance, relief, tolerance, time.perf_counter() - began)
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """How a contact is looked for; as the keywords of `solve_contact`."""
+
+    spacing: float | None
+    offset: tuple[float, float]
+    tolerance: float
+    road_compliance: RoadCompliance
+    relief: Relief | None = None
+    start: Contact | None = None
+
+
+def solve_search(
+    tire: Tire, road: Pavement, rolling: Rolling, search: Search, tell: Progress
+) -> tuple[Scene, Coupled]:
+    """Bodies and grid of a contact, and the pressure and shear on it; arguments and errors as of `solve_contact`."""
+    tolerance, relief, start = search.tolerance, search.relief, search.start
     if not _FINEST <= tolerance <= _COARSEST:
         raise InputError(
             f"tolerance must lie in [{_FINEST:g}, {_COARSEST:g}], got {tolerance:g}; 1e-6 is the default, and below "
@@ -99,21 +122,22 @@ def solve_contact(
         )
     if rolling.normal_load is not None:
         rolling.check_friction_limit(rolling.normal_load)
-    bodies = Pair.of(tire, road, speed=rolling.speed, road_compliance=road_compliance)
+    bodies = Pair.of(tire, road, speed=rolling.speed, road_compliance=search.road_compliance)
     for name, body in (("the tire", bodies.tire), ("the road", bodies.road)):
         check_modulus(name, body)
     if rolling.law.largest > 0:
         bodies.both.check_shear()
+    prepare_ribs(tire, DEFAULT_SPACING if search.spacing is None else search.spacing, tell)
     tell("locating the contact")
     # A tire that remembers makes its largest contact where it rolls slowly.
     over = tire if relief is None else above(tire, relief)
     if start is None:
-        grid, gap = place(over, rolling, bodies.both, spacing, offset)
-    elif tuple(offset) != NO_OFFSET:
+        grid, gap = place(over, rolling, bodies.both, search.spacing, search.offset)
+    elif tuple(search.offset) != NO_OFFSET:
         raise InputError("a start has its own cells, and offset moves them; leave one of the two out")
     else:
-        grid, gap = _same_place(over, rolling, bodies.both, start, spacing)
-    check_ribs(tire, grid)
+        grid, gap = _same_place(over, rolling, bodies.both, start, search.spacing)
+    check_ribs(tire, grid.dy)
     if relief is not None:
         check_step(relief, max(grid.dx, grid.dy))
     near = None if start is None or start.dataset.pressure.shape != grid.shape else _near(start, rolling)
@@ -132,13 +156,13 @@ def solve_contact(
                 tell=tell,
             )
         except BorderError as error:
-            wider = _widened(tire, grid, error, offset)
+            wider = _widened(tire, grid, error, search.offset)
             if wider is None:
                 raise
             # Shear of dissimilar bodies has carried the contact beyond its grid.
             grid, gap, near = wider, over.height_map(wider), None
         else:
-            return _contact(scene, rolling, pair, road_compliance, relief, tolerance, time.perf_counter() - began)
+            return scene, pair
 
 
 def place(

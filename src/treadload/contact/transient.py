@@ -21,10 +21,11 @@ from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, 
 from treadload.contact.bounds import check_ribs
 from treadload.contact.fields import Scene, tractions
 from treadload.contact.friction.laws import Interface
+from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.snapshot import contact_at, scalars_of
 from treadload.contact.solution import Contact
-from treadload.contact.solve import check_border, place
+from treadload.contact.solve import DEFAULT_SPACING, check_border, place
 from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.rolling import rigid_slip
@@ -115,6 +116,7 @@ def solve_transient(
     tell = progress or (lambda text: None)
     ends = _checked_distances(distances)
     wanted = _one_for_each(rolling, ends.size)
+    prepare_ribs(tire, DEFAULT_SPACING if spacing is None else spacing, tell)
     tell("locating the contact")
     scene = set_scene(tire, road, wanted, spacing, road_compliance)
     stages = [standing(scene, wanted[0])]
@@ -171,7 +173,7 @@ def set_scene(
     heaviest = max(rolling, key=lambda state: state.normal_load or state.approach or 0.0)
 
     grid, gap = place(tire, heaviest, bodies.both, spacing)
-    check_ribs(tire, grid)
+    check_ribs(tire, grid.dy)
     return Scene(tire, road, bodies, grid, gap)
 
 

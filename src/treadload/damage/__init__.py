@@ -21,6 +21,13 @@ from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.laws.equivalence import AGGRESSIVENESS, aggressiveness, equivalent_axles
 from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine, PowerLaw, PowerLine
 from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic, FrenchSubgrade
+from treadload.damage.laws.indian import (
+    IrcCementTreated,
+    IrcFatigue,
+    IrcRutting,
+    granular_modulus,
+    subgrade_modulus,
+)
 from treadload.damage.laws.limit import Limit
 from treadload.damage.laws.of_layer import OnLayer
 from treadload.damage.listing import laws_listed, listed, quantities_listed
@@ -77,6 +84,9 @@ __all__ = [
     "Growth",
     "HorizontalTension",
     "InterfaceStrength",
+    "IrcCementTreated",
+    "IrcFatigue",
+    "IrcRutting",
     "Life",
     "Limit",
     "MazarsOnset",
@@ -118,6 +128,7 @@ __all__ = [
     "distortion_work",
     "envelope",
     "equivalent_axles",
+    "granular_modulus",
     "interface_fields",
     "known_quantities",
     "laws_listed",
@@ -128,6 +139,7 @@ __all__ = [
     "polishing_work",
     "quantities_listed",
     "residual_after",
+    "subgrade_modulus",
     "tearing_work",
     "tension_behind",
     "thermal_stress",

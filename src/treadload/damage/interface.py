@@ -108,6 +108,7 @@ class BondVerdict(BaseResult, group="bonds"):
     """
 
     title: ClassVar[str] = "Interface bonds"
+    subject: ClassVar[str] = "What the bonds of a road bear"
     holds: ClassVar[Holds] = Holds(
         {
             "x": "x",

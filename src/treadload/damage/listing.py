@@ -102,12 +102,12 @@ def _numbers(registry: Registry, name: str) -> str:
     return ", ".join(texts)
 
 
-def _marks(hint: Any) -> list[Any]:
+def _marks(hint: object) -> list[Any]:
     """All that stands in an annotation, at any depth."""
     return [mark for member in get_args(hint) for mark in (member, *_marks(member))]
 
 
-def _first(target: Any) -> str:
+def _first(target: object) -> str:
     """The line of purpose of a class or a function."""
     return (inspect.getdoc(target) or "").split("\n")[0].rstrip(".")
 
@@ -116,7 +116,7 @@ def _unit(quantity: Any) -> str:
     return str(quantity.shown or ("" if quantity.unit == "1" else quantity.unit))
 
 
-def _text(kind: Any, name: str) -> str:
+def _text(kind: object, name: str) -> str:
     """A text that all of a kind have; empty where it is another thing or missing."""
     text = getattr(kind, name, "")
     return text if isinstance(text, str) else ""

@@ -61,6 +61,7 @@ class Life(BaseResult, group="life"):
     """
 
     title: ClassVar[str] = "Service life"
+    subject: ClassVar[str] = "How long a road lasts"
     holds: ClassVar[Holds] = Holds(
         {
             "life_years life_passes worst_y largest_reading": "criterion",

@@ -9,17 +9,23 @@ import numpy as np
 
 from treadload.composing import Source
 from treadload.contact import Contact, solve_contact
+from treadload.contact.bodies.choose import RoadCompliance
+from treadload.contact.tractions import solve_tractions
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.response import Response, solve_response
+from treadload.response.loads import GridLoad, PlacedLoad
 from treadload.tire import Tire
 
 COARSER = 2.0
 
 
-def shifted_contacts(response: Source) -> list[Contact]:
-    """The contacts of a response on cells half a cell beside. Raises InputError where they cannot be solved again."""
-    return [_again(contact, 1.0, (0.5, 0.5)) for contact in _solvable(response).contacts]
+def shifted_loads(response: Source) -> list[PlacedLoad]:
+    """Loads of the contacts of a response on cells half a cell beside.
+
+    Raises InputError where they cannot be solved again.
+    """
+    return [_load_beside(contact) for contact in _solvable(response).contacts]
 
 
 def coarser(response: Source) -> Response:
@@ -34,7 +40,7 @@ def coarser(response: Source) -> Response:
     assert solved.road is not None
     depths = solved.dataset["depth"].to_numpy()
     with solving_coarser(cell_of(response)):
-        wide = [_again(contact, COARSER, (0.0, 0.0)) for contact in contacts]
+        wide = [_coarser_contact(contact) for contact in contacts]
     x, y = places["x"], places["y"]
     return solve_response(wide, solved.road, depths=depths, x=x, y=y, speed=solved.speed, side=solved.side)
 
@@ -72,17 +78,38 @@ def _solvable(response: Source) -> Response:
     return response
 
 
-def _again(contact: Contact, factor: float, offset: tuple[float, float]) -> Contact:
-    """A contact on cells larger by a factor, or moved by parts of a cell."""
+def _coarser_contact(contact: Contact) -> Contact:
+    """A contact on cells twice as large."""
     return solve_contact(
         contact.tire,
         contact.road,
         contact.rolling,
-        spacing=factor * float(contact.dataset.attrs["dx"]),
-        offset=offset,
-        tolerance=float(contact.stats.get("tolerance", 1e-6)),
-        road_compliance="layers" if contact.stats.get("layers_solved") else "half_space",
+        spacing=COARSER * float(contact.dataset.attrs["dx"]),
+        tolerance=_tolerance(contact),
+        road_compliance=_compliance(contact),
     )
+
+
+def _load_beside(contact: Contact) -> GridLoad:
+    """What a contact loads the road with on cells moved by half a cell both ways."""
+    solved = solve_tractions(
+        contact.tire,
+        contact.road,
+        contact.rolling,
+        spacing=float(contact.dataset.attrs["dx"]),
+        offset=(0.5, 0.5),
+        tolerance=_tolerance(contact),
+        road_compliance=_compliance(contact),
+    )
+    return GridLoad(solved.grid, solved.pressure, solved.shear[0], solved.shear[1])
+
+
+def _tolerance(contact: Contact) -> float:
+    return float(contact.stats.get("tolerance", 1e-6))
+
+
+def _compliance(contact: Contact) -> RoadCompliance:
+    return "layers" if contact.stats.get("layers_solved") else "half_space"
 
 
 def check_two_grids(tire: Tire | None) -> None:

@@ -31,7 +31,7 @@ def bright_spot(response: Source, strain_of: Reading, evaluated: float, mean_ove
     data = gridded(response)
     if "mean_over" in data.attrs:
         return []
-    strain = data["principal_strain_1"].transpose("depth", "y", "x").to_numpy()
+    strain = data.variables["principal_strain_1"].transpose("depth", "y", "x").to_numpy()
     strain = np.where(np.isnan(strain), -np.inf, strain)
     row, j, i = (int(k) for k in np.unravel_index(int(strain.argmax()), strain.shape))
     most = float(strain[row, j, i])

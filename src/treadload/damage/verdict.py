@@ -26,7 +26,8 @@ from treadload.damage.cracks import (
 from treadload.damage.laws.fatigue import PowerLaw, warnings_of
 from treadload.damage.quantity import READINGS, Reading, check_reading
 from treadload.damage.reading import Field, check_law, closer, local_field, mean_field, under_both
-from treadload.damage.two_grids import COARSER, cell_of, coarser, shifted_contacts
+from treadload.damage.rib_sides import filled_ribs
+from treadload.damage.two_grids import COARSER, cell_of, coarser, shifted_loads
 from treadload.damage.unevaluated import bottoms_without_depth, bright_spot
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.loads import Load, gather
@@ -202,7 +203,7 @@ def assess(
         coarse = assess(coarser(response), line, shifted=both, depth=depth, strain=strain, mean_over=mean_over)
     alone = response
     if shifted is True:
-        shifted = shifted_contacts(response)
+        shifted = shifted_loads(response)
     if shifted is not None:
         response = under_both(response, gather(shifted), depth)
     if depth is None:
@@ -254,6 +255,7 @@ def assess(
     evaluated = float(near.value[at]) if opens else 0.0
     caveats += bright_spot(alone, quantity.strain, evaluated, data.attrs.get("mean_over"))
     caveats += bottoms_without_depth(alone)
+    caveats += filled_ribs(alone, data["depth"].to_numpy())
     dataset = variables.dataset(
         fields,
         {"depth": data["depth"].to_numpy(), "y": data["y"].to_numpy(), "x": data["x"].to_numpy()},

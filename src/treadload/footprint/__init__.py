@@ -5,7 +5,8 @@ from treadload.footprint.footprint import Footprint
 from treadload.footprint.frames import Frames
 from treadload.footprint.measured import Measured, Unknown
 from treadload.footprint.measures import Measures
-from treadload.footprint.reading import is_sensor_file, read_footprint
+from treadload.footprint.pin_sampling import sample_pins, write_pins
+from treadload.footprint.reading import is_pin_table, is_sensor_file, read_footprint
 from treadload.footprint.registration import Registration, register
 from treadload.footprint.tire_card import TireCard, tire_card
 
@@ -19,8 +20,11 @@ __all__ = [
     "TireCard",
     "Unknown",
     "compare",
+    "is_pin_table",
     "is_sensor_file",
     "read_footprint",
     "register",
+    "sample_pins",
     "tire_card",
+    "write_pins",
 ]

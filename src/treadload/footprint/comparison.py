@@ -15,15 +15,17 @@ import xarray as xr
 from treadload import variables
 from treadload.composing import BaseResult, HasDataset, Holds
 from treadload.errors import InputError
-from treadload.footprint.footprint import Footprint
+from treadload.footprint.footprint import Footprint, checked_pin
 from treadload.footprint.measures import Measures, check_ribs, find_ribs, measure, shares, turn
 from treadload.footprint.reading import read_footprint
-from treadload.footprint.registration import Registration, cut_off, laid, overlap, register, seen
+from treadload.footprint.registration import Registration, cut_off, laid, overlap, register, register_pins, through
+from treadload.footprint.rib_shear import shear_by_ribs, shear_rows
 from treadload.footprint.spelling import KGF_CM2
+from treadload.footprint.thirds import THIRDS
 from treadload.kernels.arrays import Array
 from treadload.response import GridLoad
 from treadload.rows import Row, row
-from treadload.units import PSI
+from treadload.units import PSI, quantity
 
 MAPS = ("computed", "seen", "measured")
 """A contact on its own cells; as the sensor would tell it; what the sensor told."""
@@ -47,7 +49,8 @@ class FootprintComparison(BaseResult, group="comparison"):
     """A computed contact and a measured footprint, sensel by sensel.
 
     dataset: maps over the sensels (y, x), their measures over `map` (computed on its own cells, seen by the sensor,
-    measured), shares of the ribs, and how well they agree; see `treadload.variables`. footprint: as it was laid.
+    measured), shares of the ribs, forces on the thirds of each where there is shear, and how well they agree; see
+    `treadload.variables`. footprint: as it was laid.
     registration: how. warnings: sentences for the user.
     """
 
@@ -58,6 +61,10 @@ class FootprintComparison(BaseResult, group="comparison"):
             "rib": "rib",
             "rib_share": "map rib",
             "overlap_of_pressure overlap_of_area rms_difference correlation": "",
+        },
+        maybe={
+            "third_load third_force_x third_force_y": "map rib third",
+            "rib_outward_shear rib_largest_pressure rib_largest_traction_x rib_largest_traction_y": "map rib",
         },
         values={"map": MAPS},
         positive="print_load net_area gross_area print_length print_width mean_pressure largest_pressure",
@@ -98,6 +105,7 @@ class FootprintComparison(BaseResult, group="comparison"):
         if d.sizes["rib"] > 1:
             points = " / ".join(f"{difference:+z.1f}" for difference in ribs[1] - ribs[2]) + " pt"
             lines.append(row("rib_share", points, group="difference"))
+        lines += shear_rows(d)
         lines += [row(name, float(d[name])) for name in _AGREEMENT]
         return (*lines, row("verdict", self.sentence))
 
@@ -123,27 +131,34 @@ def compare(
     registration: Literal["full", "shift", "none"] | Registration = "full",
     ribs: Sequence[float] | None = None,
     load_tolerance: float = 0.25,
+    pin: float | str | tuple[float, float] | None = None,
 ) -> FootprintComparison:
     """A computed contact beside a measured footprint.
 
     The footprint is laid onto the contact, which is then seen through its sensor: averaged over the sensels, exactly
-    by area; nothing below the threshold, no more than the saturation, nothing where no sensel works.
+    by area, or over the faces of its pins; nothing below the threshold, no more than the saturation, nothing where no
+    sensel works. Where either has shear, it is compared rib by rib: forces on the thirds of each rib along and to the
+    right, which cells do not blur, and the largest readings of the sensor.
 
     result: a contact, a `GridLoad`, or what has one, such as the result of a case or of `open_results`. footprint: a
     `Footprint`, a `GridLoad`, or the path of a file that `read_footprint` reads without being told more.
     registration: "full" shifts, turns and mirrors; "shift" shifts and turns a little, for a print whose sides are
-    known; "none" takes the coordinates as they are; or one of another comparison. ribs: edges across the tread, m;
-    None: found from the grooves of the computed contact. load_tolerance: share by which the loads may differ.
-    Returns measures, overlap, difference and one sentence. Raises InputError for loads that differ by more, for a
-    footprint that does not meet the contact, and for what is neither.
+    known; "none" takes the coordinates as they are; or one of another comparison. Pins have axes of their own and are
+    shifted only. ribs: edges across the tread, m; None: found from the grooves of the computed contact.
+    load_tolerance: share by which the loads may differ. pin: side of the faces, m or a text such as "9.7 mm", over
+    which both are averaged, of a footprint without pins of its own.
+    Returns measures, overlap, difference and one sentence. Raises InputError for loads that differ by more, for
+    a footprint that does not meet the contact, and for what is neither.
     """
-    load, sensor = _load(result), _footprint(footprint)
+    load, sensor = _load(result), _pinned(_footprint(footprint), pin)
     if not load_tolerance > 0:
         raise InputError(f"load_tolerance must be above 0, got {load_tolerance}")
     warnings = [*sensor.warnings, *_check_loads(load, sensor, load_tolerance)]
     pose = registration if isinstance(registration, Registration) else _registered(load, sensor, registration)
     # Arrays that nothing turned keep their own coordinates.
-    sensor = sensor if registration == "none" else laid(sensor, pose.quarter_turns, pose.mirrored)
+    # Neither do pins, which are moved only.
+    if registration != "none" and sensor.pin is None:
+        sensor = laid(sensor, pose.quarter_turns, pose.mirrored)
     sensor = sensor.moved(pose.shift_x, pose.shift_y)
     data, more = _maps(load, sensor, pose, ribs)
     warnings += [*_pose_doubts(pose), *more]
@@ -182,6 +197,25 @@ def _footprint(footprint: Any) -> Footprint:
     return sensor
 
 
+def _pinned(sensor: Footprint, pin: float | str | tuple[float, float] | None) -> Footprint:
+    """The footprint as pins of a size read it. Raises InputError for one that pins have measured."""
+    if pin is None:
+        return sensor
+    sides = tuple(pin) if isinstance(pin, tuple | list) else (pin, pin)
+    face = checked_pin([quantity(side, "m") for side in sides])
+    if sensor.pin is not None:
+        if np.allclose(face, sensor.pin, rtol=1e-3):
+            return sensor
+        raise InputError(
+            f"the footprint was measured by pins of {sensor.pin[0] * 1e3:.3g} x {sensor.pin[1] * 1e3:.3g} mm, and "
+            f"pin = {face[0] * 1e3:.3g} x {face[1] * 1e3:.3g} mm differs; leave pin out"
+        )
+    pressure, along, across = through(sensor.load, replace(sensor, pin=face))
+    return replace(
+        sensor, load=replace(sensor.load, pressure=pressure, traction_x=along, traction_y=across), pin=face
+    )
+
+
 def _check_loads(load: GridLoad, sensor: Footprint, tolerance: float) -> list[str]:
     """A sentence about loads that differ. Raises InputError where they differ by more than the tolerance."""
     ratio = sensor.normal_load / load.normal_load
@@ -214,7 +248,9 @@ def _check_loads(load: GridLoad, sensor: Footprint, tolerance: float) -> list[st
 def _registered(load: GridLoad, sensor: Footprint, how: str) -> Registration:
     if how not in ("full", "shift", "none"):
         raise InputError(f'registration must be "full", "shift", "none" or a Registration, got {how!r}')
-    return Registration() if how == "none" else register(load, sensor, turns=how == "full")
+    if how == "none":
+        return Registration()
+    return register(load, sensor, turns=how == "full") if sensor.pin is None else register_pins(load, sensor)
 
 
 def _pose_doubts(pose: Registration) -> list[str]:
@@ -240,7 +276,9 @@ def _maps(
 ) -> tuple[xr.Dataset, list[str]]:
     grid, there, measured = sensor.grid, sensor.sensels, np.maximum(sensor.pressure, 0.0)
     pressure = np.maximum(load.array[0], 0.0)
-    whole = seen(load, grid, pose.angle)
+    angle = pose.angle if sensor.pin is None else 0.0
+    by_sensor = through(load, sensor, angle)
+    whole = by_sensor[0]
     computed = np.where(there, cut_off(whole, sensor.threshold, sensor.saturation), 0.0)
     if not (computed * measured).any():
         raise InputError(
@@ -277,13 +315,16 @@ def _maps(
         "registered_y": ((), pose.shift_y),
         "registered_angle": ((), pose.angle),
     }
+    fields |= shear_by_ribs(load, sensor, np.array([computed, *by_sensor[1:]]), edges, angle)
     coordinates = {"x": grid.x, "y": grid.y, "map": list(MAPS), "rib": np.arange(1, len(edges))}
+    if "third_load" in fields:
+        coordinates["third"] = list(THIRDS)
     sentence = _judgement(of_maps, np.array(share), fields)
     attrs = {"pose": pose.words, "sentence": sentence, "footprint": sensor.source, "dx": grid.dx, "dy": grid.dy}
     attrs |= {"candidates": json.dumps(pose.candidates)}
     beyond = 1 - float(whole.sum()) * grid.cell_area / load.normal_load
     doubts = []
-    if beyond > _BEYOND:
+    if beyond > _BEYOND and sensor.pin is None:
         doubts.append(
             f"{100 * beyond:.2g} % of the computed load lies beyond the sensor's cells; areas and shares are of what "
             "lies on it"

@@ -36,7 +36,8 @@ class Footprint(BaseResult, group="contact"):
 
     load: pressure, and shear if it was recorded, on the sensels; zero where there is none. road: that it stands on,
     or None. threshold: pressures below it are not seen, Pa. saturation: what a sensel reads at most, Pa. missing:
-    (ny, nx), True where there is no sensel or a dead one; None for none. warnings: sentences for the user.
+    (ny, nx), True where there is no sensel or a dead one; None for none. pin: sides of the face of a pin along x and
+    y, m, over which a cell's reading is a mean; None of sensels that fill their cells. warnings: sentences.
     Raises InputError for a wrong value.
     """
 
@@ -48,6 +49,7 @@ class Footprint(BaseResult, group="contact"):
     saturation: float = math.inf
     missing: BoolArray | None = None
     warnings: tuple[str, ...] = ()
+    pin: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.threshold) and self.threshold >= 0):
@@ -57,6 +59,8 @@ class Footprint(BaseResult, group="contact"):
                 f"the saturation of a footprint must lie above its threshold of {self.threshold:g} Pa, got "
                 f"{self.saturation:g}"
             )
+        if self.pin is not None:
+            object.__setattr__(self, "pin", checked_pin(self.pin))
         if self.missing is not None:
             holes = np.array(self.missing, dtype=bool)
             if holes.shape != self.load.grid.shape:
@@ -79,6 +83,11 @@ class Footprint(BaseResult, group="contact"):
     def pitch(self) -> tuple[float, float]:
         """Distance of the sensels along x and y, m."""
         return self.grid.dx, self.grid.dy
+
+    @property
+    def has_shear(self) -> bool:
+        """True if shear was recorded beside the pressure."""
+        return bool(self.load.array[1:].any())
 
     @property
     def source(self) -> str:
@@ -193,7 +202,7 @@ class Footprint(BaseResult, group="contact"):
         load = replace(
             self.load, grid=grid, pressure=np.maximum(stress[0], 0.0), traction_x=stress[1], traction_y=stress[2]
         )
-        return replace(self, load=load, missing=holes, threshold=0.0, saturation=math.inf)
+        return replace(self, load=load, missing=holes, threshold=0.0, saturation=math.inf, pin=None)
 
     @property
     def dataset(self) -> xr.Dataset:
@@ -233,12 +242,25 @@ class Footprint(BaseResult, group="contact"):
         if math.isfinite(self.saturation):
             text = f"{self.saturation / 1e3:.4g} kPa, reached by {int(self.saturated.sum())} sensels"
             lines.append(row("saturation", text))
+        if self.pin is not None:
+            text = f"{self.pin[0] * 1e3:.3g} x {self.pin[1] * 1e3:.3g} mm"
+            lines.append(row("pin_face", text))
         if self.missing is not None:
             text = f"{int(self.missing.sum())} cells without a working sensel"
             lines.append(row("missing", text))
         if load.source:
             lines.append(row("source", load.source))
         return tuple(lines)
+
+
+def checked_pin(pin: Sequence[float]) -> tuple[float, float]:
+    """Sides of the face of a pin along x and y, m. Raises InputError unless they are two lengths above 0."""
+    sides = tuple(float(side) for side in pin)
+    if len(sides) != 2 or not all(math.isfinite(side) and side > 0 for side in sides):
+        raise InputError(
+            f"pin must be the two sides of a face along x and y, m, above 0, got {pin!r}; 9.7 mm is 9.7e-3"
+        )
+    return sides[0], sides[1]
 
 
 def edges_of(grid: Grid) -> tuple[Array, Array]:

@@ -16,8 +16,9 @@ class Frames:
     pressure, Pa, is scale times a value to the power of the exponent; None if nothing tells. calibrated: False for
     counts of a sensor, whose law somebody may know better. saturation, threshold: in the unit of the file; None if
     it does not tell. traction_x, traction_y: of the one frame, Pa. x0, y0: of the first cell, where the file has
-    coordinates of its own, m. numbers: of the frames, as the file counts them. source: what was read and how, in
-    words. warnings: sentences for the user.
+    coordinates of its own, m. pin: sides of the face of a pin along x and y, m; None of sensels that fill their cell.
+    numbers: of the frames, as the file counts them. source: what was read and how, in words. warnings: sentences for
+    the user.
     """
 
     values: Array
@@ -31,6 +32,7 @@ class Frames:
     traction_y: Array | None = None
     x0: float | None = None
     y0: float | None = None
+    pin: tuple[float, float] | None = None
     numbers: tuple[int, ...] = field(default=())
     source: str = ""
     warnings: tuple[str, ...] = ()

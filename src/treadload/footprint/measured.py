@@ -47,8 +47,8 @@ class Reading:
     """A kind of reading of a tire.
 
     words: what it is. unit: SI. shown, factor: what people count it in. how: what gives it, a standing tire pressed
-    on ("print"), slopes of rolling ("card"), or a rolling state ("rolling"). doubt: standard deviation that is taken
-    where none is given, of the value if relative. Grounds: repeated readings of one tire.
+    on ("print"), slopes of rolling ("card"), a rolling state ("rolling"), or its shear ("pins"). doubt: standard
+    deviation that is taken where none is given, of the value if relative. Grounds: repeated readings of one tire.
     """
 
     words: str
@@ -70,6 +70,7 @@ READINGS: Mapping[str, Reading] = {
     "spread_y": Reading("spread of pressure across", "m", "mm", 1e3, "print", 0.01),
     "rib_shares": Reading("share of rib", "", "%", 100.0, "print", 0.01, relative=False),
     "footprint": Reading("share of block", "", "%", 100.0, "print", 0.005, relative=False),
+    "pins": Reading("shear over load of pins", "", "", 1.0, "pins", 0.02, relative=False),
     "effective_rolling_radius": Reading("effective rolling radius", "m", "mm", 1e3, "card", 0.002),
     "longitudinal_stiffness": Reading("longitudinal stiffness", "N", "kN", 1e-3, "card", 0.05),
     "cornering_stiffness": Reading("cornering stiffness", "N/rad", "kN/rad", 1e-3, "card", 0.05),
@@ -92,7 +93,9 @@ class Measured:
     print, m. spread_x, spread_y: standard deviations of x and y under the pressure, m. rib_shares: of the load, from
     left to right. ribs: edges of these across the tread, m. footprint: a `Footprint`, the path of one, or a table of
     what `read_footprint` takes with the path as "file"; shares of its load in blocks are compared, its middle laid on
-    the computed one.
+    the computed one. pins: a `Footprint` of pins with shear that the tire rolled over, freely or at creepages, its
+    path, or a table like that of a footprint; shear over load is compared in blocks, thirds of ribs by fifths of the
+    load. They sample a part of the print, so that the load of the wheel must be given.
     effective_rolling_radius: of free rolling, m. longitudinal_stiffness: N. cornering_stiffness: N/rad.
     aligning_stiffness: N m/rad. lateral_stiffness: N/m, of the standing tire. relaxation_length: m.
     creepage_x, creepage_y: of a rolling tire, signs as in `Rolling`. tractive_force, lateral_force: of the road on it
@@ -114,6 +117,7 @@ class Measured:
     rib_shares: tuple[Share, ...] | None = None
     ribs: tuple[Length, ...] | None = None
     footprint: Any = None
+    pins: Any = None
     effective_rolling_radius: Length | None = None
     longitudinal_stiffness: Force | None = None
     cornering_stiffness: CorneringStiffness | None = None
@@ -137,13 +141,14 @@ class Measured:
             raise InputError(f"a row of data needs its load in N, got {', '.join(self.readings)} alone")
         if self.inflation_pressure is not None:
             check_inflation_pressure(self.inflation_pressure)
-        signed = ("tractive_force", "lateral_force", "aligning_moment", "rib_shares", "footprint")
+        signed = ("tractive_force", "lateral_force", "aligning_moment", "rib_shares", "footprint", "pins")
         for name in self.readings:
             if name not in signed:
                 positive(f"{name} of the data", getattr(self, name), READINGS[name].unit)
         self._check_ribs()
         forces = [name for name in self.readings if READINGS[name].how == "rolling"]
-        if bool(forces) != (self.creepage_x is not None or self.creepage_y is not None):
+        slips = self.creepage_x is not None or self.creepage_y is not None
+        if bool(forces) != slips and not (slips and self.pins is not None):
             raise InputError(
                 "forces of a rolling tire go with creepage_x or creepage_y: "
                 + (f"give the creepage at which {forces[0]} was measured" if forces else "no force was given")
@@ -208,20 +213,10 @@ class Measured:
 
         Raises InputError for a footprint that cannot be read, or that carries another load than its row says.
         """
+        pins = None if self.pins is None else _with_shear(_recorded("pins", self.pins, folder))
         if self.footprint is None:
-            return self
-        recorded = self.footprint
-        if isinstance(recorded, str | os.PathLike):
-            recorded = {"file": recorded}
-        if isinstance(recorded, Mapping):
-            options = dict(recorded)
-            if "file" not in options:
-                raise InputError("a footprint of the data needs its file")
-            recorded = read_footprint(Path(folder) / str(options.pop("file")), **options)
-        elif isinstance(recorded, GridLoad):
-            recorded = Footprint(recorded)
-        if not isinstance(recorded, Footprint):
-            raise InputError(f"the footprint of a row of data must be a Footprint or a file, got {recorded!r}")
+            return self if pins is None else replace(self, pins=pins)
+        recorded = _recorded("footprint", self.footprint, folder)
         carried = recorded.normal_load
         if not carried > 0:
             raise InputError("a footprint of the data carries no load, so that it says nothing")
@@ -232,7 +227,7 @@ class Measured:
                 f"{100 * (carried / load - 1):+.3g} %, and at most {100 * _SAME_LOAD:g} % will do; give the "
                 "load that it was taken under, or its unit"
             )
-        return replace(self, load=load, footprint=recorded)
+        return replace(self, load=load, footprint=recorded, pins=pins)
 
     __repr__ = as_call
 
@@ -305,6 +300,34 @@ def unknowns(wanted: Iterable[str | Unknown]) -> tuple[Unknown, ...]:
     if twice is not None:
         raise InputError(f"{twice} is sought twice; name it once")
     return sought
+
+
+def _recorded(name: str, recorded: Any, folder: str | os.PathLike[str]) -> Footprint:
+    """A footprint of a row, read where it is a path or a table. name: of its key. Raises InputError."""
+    if isinstance(recorded, str | os.PathLike):
+        recorded = {"file": recorded}
+    if isinstance(recorded, Mapping):
+        options = dict(recorded)
+        if "file" not in options:
+            raise InputError(f'{name} of a row of data is a table without a file; give {name} = {{ file = "…" }}')
+        recorded = read_footprint(Path(folder) / str(options.pop("file")), **options)
+    elif isinstance(recorded, GridLoad):
+        recorded = Footprint(recorded)
+    if not isinstance(recorded, Footprint):
+        raise InputError(f"{name} of a row of data must be a Footprint or a file, got {recorded!r}")
+    return recorded
+
+
+def _with_shear(pins: Footprint) -> Footprint:
+    """Pins with shear. Raises InputError for a footprint of another kind."""
+    if pins.pin is None or not pins.has_shear:
+        what = "has no pins" if pins.pin is None else "has no shear"
+        raise InputError(
+            f"pins of a row of data need the three components of a pin table, and {pins.source or 'this footprint'} "
+            f"{what}; "
+            "give a map of pressure as footprint, or read a table with vertical, longitudinal and lateral"
+        )
+    return pins
 
 
 def _error(name: str, error: float | str) -> tuple[float, bool]:

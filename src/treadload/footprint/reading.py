@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from treadload.errors import InputError, nearest
-from treadload.footprint import image, tekscan, text
+from treadload.footprint import image, pins, tekscan, text
 from treadload.footprint.footprint import Footprint
 from treadload.footprint.frames import Frames
 from treadload.footprint.measures import filled, lone
@@ -56,11 +56,11 @@ def read_footprint(
 ) -> Footprint:
     """A footprint from a file, whose format is recognised by its content.
 
-    Tekscan ASCII (.asf, .csv of I-Scan); a table with x, y, pressure and perhaps traction_x, traction_y; a plain
-    matrix of pressures; NetCDF; a picture with a scale of colours; and what other packages read, by entry points of
-    `treadload.footprints`.
+    Tekscan ASCII (.asf, .csv of I-Scan); a table with x, y, pressure and perhaps traction_x, traction_y; a table of
+    pins that measure three components (`footprint.pins.read`); a plain matrix of pressures; NetCDF; a picture with a
+    scale of colours; and what other packages read, by entry points of `treadload.footprints`.
 
-    path: of the file. format: "tekscan", "text", "netcdf", "picture" or another package's, where the content
+    path: of the file. format: "tekscan", "text", "pins", "netcdf", "picture" or another package's, where the content
     misleads.
     units: of pressure, "kPa", "kgf/cm2"; or {"pressure": "kPa", "x": "mm"}; needed where the file names none.
     spacing: of the cells where the file does not tell, m or a text with a unit, or (between columns, between rows).
@@ -72,8 +72,8 @@ def read_footprint(
     scales them; left out, what the file tells. dead: sensels that read nothing amid loaded ones stay empty ("leave")
     or take the mean of their neighbours ("fill"); either way they are named.
     shear_on: the body that recorded shear acts on.
-    options: of the format: decimal= of text; colours=, scale=, bar=, crop=, steps=, background=, unclear= of pictures
-    (`footprint.image.read`).
+    options: of the format: decimal= of text; pin=, speed= of pins; colours=, scale=, bar=, crop=, steps=,
+    background=, unclear= of pictures (`footprint.image.read`).
     Returns the footprint with what is doubtful in `.warnings`. Raises InputError for what cannot be read, is at odds
     with itself, has no unit, or is saturated everywhere.
     """
@@ -127,12 +127,21 @@ def is_sensor_file(path: str | os.PathLike[str]) -> bool:
         return False
 
 
+def is_pin_table(path: str | os.PathLike[str]) -> bool:
+    """True for a table of pins that measure three components, False for all else and what cannot be read."""
+    try:
+        return os.path.isfile(path) and pins.looks_like(_text(Path(path)))
+    except InputError:
+        return False
+
+
 @FOOTPRINTS.register("tekscan")
 def _tekscan(path: Path) -> Frames:
     return tekscan.read(path, _text(path))
 
 
 FOOTPRINTS.register("text")(text.read)
+FOOTPRINTS.register("pins")(pins.read)
 FOOTPRINTS.register("picture")(image.read)
 
 
@@ -175,7 +184,8 @@ def _format_of(path: Path, name: str | None) -> str:
         return "picture"
     if suffix in (".nc", ".nc4", ".h5"):
         return "netcdf"
-    return "tekscan" if tekscan.looks_like(_text(path)) else "text"
+    content = _text(path)
+    return "tekscan" if tekscan.looks_like(content) else "pins" if pins.looks_like(content) else "text"
 
 
 def _frames(path: Path, name: str, common: dict[str, Any], options: dict[str, Any]) -> tuple[Frames, bool]:
@@ -346,4 +356,4 @@ def _turned(
     how += [f"travel {travel} on the page"] if travel != "right" else []
     how += ["seen from below"] if seen_from == "below" else []
     source = ", ".join([frames.source or path.name, *how])
-    return Footprint(GridLoad(grid, pressure, along, across, source=source), missing=holes)
+    return Footprint(GridLoad(grid, pressure, along, across, source=source), missing=holes, pin=frames.pin)

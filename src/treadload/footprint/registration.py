@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 from treadload.footprint.footprint import Footprint, edges_of
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.kernels.gridding.overlap import means_over_cells
+from treadload.kernels.gridding.overlap import means_over_cells, means_over_faces
 from treadload.response import GridLoad
 
 # Angles, rad, from which the search starts, and beyond which a print is taken for one of another quarter.
@@ -28,6 +28,8 @@ _PROMISING = 0.05
 CLEAR = 0.02
 # Step of the derivatives, in pitches.
 _STEP = 0.1
+# How far to the sides pins are looked for from where the centres of pressure meet, and the steps of that, m.
+_REACH, _TRIED = 20e-3, 1e-3
 # Accuracy of the pose, in pitches, and looks at the map: of candidates and of the one that is taken.
 _RUGGED, _FINE = (1e-2, 4), (1e-6, 40)
 
@@ -73,20 +75,38 @@ def pose_in_words(quarter_turns: int, mirrored: bool) -> str:
 
 
 def laid(footprint: Footprint, quarter_turns: int, mirrored: bool) -> Footprint:
-    """A footprint mirrored and turned by quarters, its middle at the origin; shear is left out."""
-    pressure, holes, grid = footprint.pressure, ~footprint.sensels, footprint.grid
+    """A footprint mirrored and turned by quarters with its shear, its middle at the origin."""
+    stress, holes, grid = footprint.load.array, ~footprint.sensels, footprint.grid
     if mirrored:
-        pressure, holes = pressure[::-1], holes[::-1]
-    pressure, holes = np.rot90(pressure, quarter_turns), np.rot90(holes, quarter_turns)
+        stress, holes = stress[:, ::-1] * np.array([1.0, 1.0, -1.0])[:, None, None], holes[::-1]
+    pressure, along, across = np.rot90(stress, quarter_turns, axes=(1, 2))
+    holes = np.rot90(holes, quarter_turns)
+    for _ in range(quarter_turns % 4):
+        # Rows run down the page and to the right of travel: travel turns to the left, the right ahead.
+        along, across = across, -along
     dx, dy = (grid.dy, grid.dx) if quarter_turns % 2 else (grid.dx, grid.dy)
     ny, nx = pressure.shape
     middle = Grid(nx, ny, dx, dy, -0.5 * (nx - 1) * dx, -0.5 * (ny - 1) * dy)
-    return replace(footprint, load=GridLoad(middle, pressure, source=footprint.source), missing=holes)
+    load = GridLoad(middle, pressure, along, across, source=footprint.source)
+    pin = None if footprint.pin is None else (footprint.pin[::-1] if quarter_turns % 2 else footprint.pin)
+    return replace(footprint, load=load, missing=holes, pin=pin)
 
 
 def seen(load: GridLoad, sensels: Grid, angle: float) -> Array:
     """Pressure (ny, nx), Pa, of a load as means over sensels, exact by area. angle: of the sensels' axes, rad."""
     return means_over_cells(np.maximum(load.array[0], 0.0), *edges_of(load.grid), *edges_of(sensels), angle)
+
+
+def through(load: GridLoad, sensor: Footprint, angle: float = 0.0) -> Array:
+    """Pressure, traction_x and traction_y (3, ny, nx), Pa, of a load as a sensor's sensels or pins average them.
+
+    angle: rad, by which the sensor's axes are turned from travel, along which the components are; of pins 0.
+    """
+    if sensor.pin is None:
+        edges = edges_of(sensor.grid)
+        return np.array([means_over_cells(part, *edges_of(load.grid), *edges, angle) for part in load.array])
+    places = (sensor.grid.x, sensor.grid.y)
+    return np.array([means_over_faces(part, *edges_of(load.grid), *places, sensor.pin) for part in load.array])
 
 
 def cut_off(pressure: Array, threshold: float, saturation: float) -> Array:
@@ -125,6 +145,39 @@ def register(load: GridLoad, footprint: Footprint, *, turns: bool = True) -> Reg
     candidates = {pose_in_words(*pose): value for pose, (value, _) in refined.items()}
     x, y, angle = (float(value) for value in pose_at)
     return Registration(*chosen, x, y, angle, share, candidates)
+
+
+def register_pins(load: GridLoad, footprint: Footprint, near: float | None = None) -> Registration:
+    """The shift along and across under which pins read a load best, in the sense of least squares of the pressures.
+
+    A table of pins has axes of its own: nothing is turned or mirrored. Pins stand in grooves or beside them, so that
+    the places across are tried one after the other before the best is refined. near: shift across,
+    m, from which it is refined without that.
+    """
+    grid, measured, there = footprint.grid, footprint.pressure, footprint.sensels
+    total, size = float(measured[there].sum()), float(np.linalg.norm(measured[there]))
+    across, along = np.where(there, measured, 0.0).sum(axis=1), np.where(there, measured, 0.0).sum(axis=0)
+    centre = _centre(load)
+    start = np.array([centre[0] - float(along @ grid.x) / total, centre[1] - float(across @ grid.y) / total])
+
+    def at(shift: Array) -> Array:
+        laid_there = footprint.moved(float(shift[0]), float(shift[1]))
+        by_pins = through(load, laid_there)[0]
+        scaled = _ratio(by_pins, measured, there) * by_pins
+        residual: Array = (scaled - measured)[there] / size
+        return residual
+
+    if near is None:
+        steps = np.arange(-_REACH, _REACH + 1e-9, _TRIED)
+        tried = [start + np.array([0.0, step]) for step in steps]
+    else:
+        tried = [np.array([start[0], near])]
+    best = min(tried, key=lambda shift: float(np.square(at(shift)).sum()))
+    solution = least_squares(at, best, x_scale=_TRIED, xtol=1e-10, ftol=1e-12, gtol=1e-12, max_nfev=_FINE[1])
+    x, y = (float(value) for value in solution.x)
+    by_pins = through(load, footprint.moved(x, y))[0]
+    share = overlap(_ratio(by_pins, measured, there) * by_pins[there], measured[there])
+    return Registration(shift_x=x, shift_y=y, overlap=share)
 
 
 def _coarse(load: GridLoad, footprint: Footprint, most: int) -> GridLoad:

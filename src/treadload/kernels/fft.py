@@ -59,7 +59,7 @@ def device() -> Any:
 
 
 @contextmanager
-def on(library: Any) -> Iterator[None]:
+def on(library: object) -> Iterator[None]:
     """Loops inside run on the arrays of a library that follows the standard, whatever TREADLOAD_DEVICE says."""
     token = _chosen.set(library)
     try:
@@ -68,7 +68,7 @@ def on(library: Any) -> Iterator[None]:
         _chosen.reset(token)
 
 
-def to_device(array: Any) -> Any:
+def to_device(array: object) -> Any:
     """An array of `device`."""
     return device().asarray(array)
 
@@ -80,33 +80,33 @@ def to_host(array: Any) -> Any:
     return array.get() if hasattr(array, "get") else np.array(np.from_dlpack(array))
 
 
-def portions(array: Any, lines: int, length: int) -> Iterator[slice]:
+def portions(array: object, lines: int, length: int) -> Iterator[slice]:
     """Slices that share out some lines, so many at a time as are best transformed at once, each of some length."""
     step = max(1, (_AT_ONCE if isinstance(array, np.ndarray) else _AT_ONCE_ELSEWHERE) // length)
     for first in range(0, lines, step):
         yield slice(first, min(first + step, lines))
 
 
-def fft(x: Any, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> Any:
+def fft(x: object, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> Any:
     """As SciPy's; arrays of other libraries are not overwritten."""
     if isinstance(x, np.ndarray):
         return _scipy.fft(x, n=n, axis=axis, overwrite_x=overwrite_x)
     return namespace(x).fft.fft(x, n=n, axis=axis)
 
 
-def ifft(x: Any, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> Any:
+def ifft(x: object, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> Any:
     """As SciPy's; arrays of other libraries are not overwritten."""
     if isinstance(x, np.ndarray):
         return _scipy.ifft(x, n=n, axis=axis, overwrite_x=overwrite_x)
     return namespace(x).fft.ifft(x, n=n, axis=axis)
 
 
-def rfft(x: Any, n: int | None = None, axis: int = -1) -> Any:
+def rfft(x: object, n: int | None = None, axis: int = -1) -> Any:
     """As SciPy's."""
     return (_scipy if isinstance(x, np.ndarray) else namespace(x).fft).rfft(x, n=n, axis=axis)
 
 
-def irfft(x: Any, n: int | None = None, axis: int = -1) -> Any:
+def irfft(x: object, n: int | None = None, axis: int = -1) -> Any:
     """As SciPy's."""
     return (_scipy if isinstance(x, np.ndarray) else namespace(x).fft).irfft(x, n=n, axis=axis)
 
@@ -118,14 +118,14 @@ def rfft2(x: Any, s: tuple[int, int] | None = None) -> Any:
     return namespace(x).fft.rfftn(x, s=x.shape[-2:] if s is None else s, axes=(-2, -1))
 
 
-def irfft2(x: Any, s: tuple[int, int]) -> Any:
+def irfft2(x: object, s: tuple[int, int]) -> Any:
     """As SciPy's, over the last two axes."""
     if isinstance(x, np.ndarray):
         return _scipy.irfft2(x, s=s)
     return namespace(x).fft.irfftn(x, s=s, axes=(-2, -1))
 
 
-def cosine2(quadrant: Any) -> Any:
+def cosine2(quadrant: object) -> Any:
     """The transform (ny, nx) of what is even both ways about both ends of a quadrant (ny, nx), of which it is one."""
     return _scipy.dctn(quadrant, type=1)
 
@@ -138,12 +138,12 @@ def sine2(quadrant: Any) -> Any:
     return result
 
 
-def mirrored_waves(field: Any, *, back: bool = False) -> Any:
+def mirrored_waves(field: object, *, back: bool = False) -> Any:
     """The cosine waves (ny, nx) of a field (ny, nx) that is mirrored in the borders of its cells; back: the field."""
     return _scipy.idctn(field, type=2) if back else _scipy.dctn(field, type=2)
 
 
-def cosines(half: Any, n: int, axis: int = -1) -> Any:
+def cosines(half: object, n: int, axis: int = -1) -> Any:
     """The transform (n + 1 numbers) of what is even about 0, zero from n on, and repeats after 2 n, from its half."""
     return _scipy.dct(half, type=1, n=n + 1, axis=axis)
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from treadload.contact.friction.laws import law_of
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
+from treadload.damage.rib_sides import SHALLOW, sides_in_words
 from treadload.damage.traffic import Traffic
 from treadload.life.seasons import Warm, beyond_data
 from treadload.life.wheels import Wheels
@@ -48,6 +49,13 @@ def bond_doubts(criteria: Sequence[Criterion], warm: Sequence[Warm], wheels: Seq
         if text not in criterion.quantity.doubt
     }
     return tuple(doubts)
+
+
+def surface_doubts(road: Pavement, criteria: Sequence[Criterion], tire: Tire, traffic: Traffic) -> tuple[str, ...]:
+    """A sentence where a criterion reads the surface below tires without free ribs."""
+    if all(min(criterion.depths(road)) >= SHALLOW for criterion in criteria):
+        return ()
+    return tuple(sides_in_words([(row.tire or tire).rib_sides for row in traffic.classes]))
 
 
 def traffic_doubts(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from treadload.damage.growth.intensity import BREAK
 from treadload.kernels.arrays import Array
 from treadload.life.climate import curves, first_nodes
 from treadload.life.seasons import Warm
@@ -16,18 +17,32 @@ from treadload.response.several import Question, tensors_of_many
 # Points near a wheel and apart from it, m, along travel and across it; how far from its edges they reach, and how far
 # around them the finer ones do.
 _NEAR, _FAR, _REACH, _AROUND = 0.012, 0.040, 0.24, 0.02
-# The first distance below the surface at which stress is read, m, and the largest ratio of two that follow.
-_FIRST, _RATIO = 0.003, 1.5
+# The first distance below the surface at which stress is read, m, the largest ratio of two that follow, and the
+# longest step as a part of the way.
+_FIRST, _RATIO, _STEP = 0.003, 1.5, 0.1
 _STRESS = tuple(f"stress_{part}" for part in ("xx", "yy", "zz", "xy", "xz", "yz"))
 # Roads of a climate that are solved, of one temperature each and of profiles over depth; ranges in the others lie on
 # curves and surfaces over warmth.
 _SEASONS, _PROFILES = 5, 8
 
 
-def distances_to(thickness: float) -> Array:
-    """From the mouth at which the stress is read, m."""
-    count = max(3, math.ceil(math.log(thickness / _FIRST) / math.log(_RATIO)))
-    return np.concatenate([[0.0], np.geomspace(_FIRST, thickness, count + 1)])
+def distances_to(thickness: float, interfaces: Sequence[float] = (), *, upwards: bool = False) -> Array:
+    """From the mouth at which the stress is read, m: close to each other near the surface of the road.
+
+    interfaces: distances, m, where the stress jumps; it is read on both of their sides, see
+    `damage.growth.intensity.between`. upwards: the mouth is at the lower end of the way.
+    """
+    distances = [0.0, min(_FIRST, 0.25 * thickness)]
+    while distances[-1] < thickness:
+        distances.append(min(_RATIO * distances[-1], distances[-1] + _STEP * thickness))
+    # The last step is not a short one.
+    even = np.array(distances) * thickness / distances[-1]
+    if upwards:
+        even = (thickness - even)[::-1]
+    sides = [place + side for place in interfaces for side in (-0.4 * BREAK, 0.4 * BREAK)]
+    clear = [abs(distance - place) > 0.1 * _FIRST for distance in even for place in interfaces]
+    apart = np.array(clear, dtype=bool).reshape(len(even), len(interfaces)).all(axis=1)
+    return np.sort(np.concatenate([even[apart], sides]))
 
 
 def lines(wheels: Wheels, y: Array) -> tuple[Array, Array]:

@@ -59,6 +59,7 @@ class Equivalents(BaseResult, group="equivalents"):
     """
 
     title: ClassVar[str] = "Standard axles"
+    subject: ClassVar[str] = "A traffic in standard axles"
     holds: ClassVar[Holds] = Holds(
         {
             "standard_axles": "criterion axle_class",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import math
 import time
@@ -11,8 +12,9 @@ import numpy as np
 from scipy.special import ndtri
 
 from treadload import variables
+from treadload.damage.climate import MONTHS
 from treadload.damage.criterion import Criterion
-from treadload.damage.growth.advance import RISKS, chances, drawn, grown, risk_quantiles
+from treadload.damage.growth.advance import RISKS, chances, drawn, grown, refined, risk_quantiles
 from treadload.damage.growth.intensity import (
     CLOSE,
     Crossing,
@@ -25,14 +27,17 @@ from treadload.damage.growth.intensity import (
     way_through,
 )
 from treadload.damage.growth.laws import GrowthLaw, ParisLaw, law_of_mix
-from treadload.damage.growth.options import STEEPEST, CrackGrowth
+from treadload.damage.growth.options import CrackGrowth
 from treadload.damage.growth.solution import MODES, Growth
 from treadload.damage.miner import Life
 from treadload.damage.thermal import passes_until
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
+from treadload.kernels.fracture.crack import CrackFaces
+from treadload.kernels.fracture.dislocations import Section
 from treadload.life.climate import warmth_of
 from treadload.life.contacts import Counter, Progress
+from treadload.life.crack_caveats import at_the_end, cautions
 from treadload.life.crossings import (
     between_rows,
     distances_to,
@@ -43,6 +48,7 @@ from treadload.life.crossings import (
 )
 from treadload.life.design import Design
 from treadload.life.seasons import Warm, Warmed, roads_of
+from treadload.life.thermal_growth import Ends, daily_intensity
 from treadload.life.threads import pool_of
 from treadload.life.wheels import across, states_of, wheels_of
 from treadload.materials.kinds import limit_of, upright
@@ -53,6 +59,10 @@ from treadload.response import MATERIAL_LENGTH
 # Depths that a result tells between initiation and the end, m apart at least.
 _STEP = 0.005
 _SCATTER = 0.25
+_DAILY = (
+    "crack growth: daily thermal stress adds one cycle a day, the mean day of each month without a wheel; wheels "
+    "that pass while the weather pulls are not read on top of it"
+)
 
 
 def grow_cracks(
@@ -108,9 +118,10 @@ def grow_cracks(
         wheels = [
             wheels_of(contacts_of_class, row, y) for contacts_of_class, row in zip(by_class, classes, strict=True)
         ]
-        distances = distances_to(thickness)
-
         mouth = bottom if upwards else top
+        distances = distances_to(
+            thickness, sorted(abs(mouth - place) for place in _inside(warm, top, bottom)), upwards=upwards
+        )
         depths = mouth - distances[::-1] if upwards else distances
 
         def cross(row: int) -> list[Crossing]:
@@ -128,10 +139,15 @@ def grow_cracks(
         crossings = [crossing for several in pool.map(cross, range(len(classes))) for crossing in several]
         way = _way(crossings, tasks, life, warm, growth, solved, trace, number)
 
+        # Classes share the roads of a season, unless they read moduli at frequencies of their own.
+        @functools.cache
+        def faces_at(section: Section, length: float) -> CrackFaces:
+            return faces_along(section, way.until(length), length, upwards=upwards, points=growth.points)
+
         def ranges_of(crossing: Crossing) -> tuple[Array, int]:
             stack, jammed = [], 0
-            for length in solved:
-                faces = faces_along(crossing.section, way.until(length), float(length), upwards=upwards)
+            for length in solved.tolist():
+                faces = faces_at(crossing.section, length)
                 history, stuck = modes(crossing, faces, trace, growth.friction)
                 stack.append(intensity_ranges(history, crossing.poisson, crossing.axles))
                 jammed += stuck
@@ -158,11 +174,21 @@ def grow_cracks(
                 # Along a path that leans a crack must grow by more than its depth does.
                 rate[k] += share * law.growth(here[k, :, 3]).sum(axis=-1) / math.hypot(1.0, float(slopes[k]))
     wide = life.traffic.wander.spread(rate, spacing)
+    daily = daily_intensity(road, life.climate, distances, way, solved, growth, Ends(top, bottom, upwards=upwards))
     margin = (wide.shape[-1] - rate.shape[-1]) // 2
     places = y[0] + spacing * (np.arange(wide.shape[-1]) - margin)
     initiation = _passes_to_start(life, number, fine, places)
     targets = _targets(length, thickness)
-    passes = grown(solved, wide, targets)
+    by_weather = np.zeros(len(solved))
+    if daily is not None:
+
+        def cycle(warm_road: Warm, k: int, size: Array) -> Array:
+            return _law_at(laws, road, warm_road, layer, float(solved[k]), upwards).growth(size)
+
+        by_weather = daily.yearly_growth(cycle) / np.hypot(1.0, slopes)
+        # A year of the weather is shared between the passes of the year in which the crack starts.
+        wide = wide + by_weather[:, None] / _passes_of_the_year(life, initiation)
+    passes = grown(*refined(solved, wide), targets)
     scatter, at_risk = _scatter(criterion, growth)
     growth_scatter = max(law.scatter for law in laws)
     every = max(1, round(0.008 / spacing))
@@ -196,12 +222,17 @@ def grow_cracks(
         until = life.traffic.passes(life.traffic.years)
         fields["reach_chance"] = (("crack_depth",), chances(sampled, until))
         more["design_years"] = life.traffic.years
+    coordinates: dict[str, list[str]] = {}
+    if daily is not None:
+        fields["thermal_growth_rate"] = (("solved_depth",), by_weather)
+        fields["thermal_intensity_range"] = (("month", "solved_depth"), daily.ranges)
+        coordinates["month"] = list(MONTHS)
     doubts = list(dict.fromkeys(law.doubt for law in laws if law.doubt))
     dataset = variables.dataset(
         fields,
         {
             "crack_depth": targets, "solved_depth": solved, "risk": list(RISKS), "mode": list(MODES),
-            "axle_class": [row.name for row in classes], "y": places[keep],
+            "axle_class": [row.name for row in classes], "y": places[keep], **coordinates,
         },
         grows=_in_words(road, growth, layer, trace, upwards),
         starts=f"{criterion.name}, a crack of {length * 1e3:g} mm where its damage is 1",
@@ -222,7 +253,17 @@ def grow_cracks(
         "jammed": jammed,
         "seconds": time.perf_counter() - start,
     }
-    return Growth(dataset, growth, stats, tuple(_cautions(doubts, jammed, states_solved, way, warm.distinct[0].road)))
+    caveats = cautions(doubts, jammed, states_solved, way, warm.distinct[0].road)
+    caveats += at_the_end(crossings, laws, warm, growth, (top, bottom), upwards=upwards)
+    if daily is not None:
+        caveats.append(_DAILY)
+    return Growth(dataset, growth, stats, tuple(caveats))
+
+
+def _inside(warm: Warmed, top: float, bottom: float) -> list[float]:
+    """Depths of the interfaces between two depths, m, in any season: of layers, and of a course's parts."""
+    places = {round(float(z), 6) for road in warm.distinct for z in road.road.interfaces}
+    return sorted(z for z in places if top + 1e-4 < z < bottom - 1e-4)
 
 
 def _criterion(life: Life, name: str) -> tuple[Criterion, int]:
@@ -308,6 +349,15 @@ def _passes_to_start(life: Life, number: int, fine: Array, places: Array) -> Arr
     return passes_until(life.traffic, there, weather)
 
 
+def _passes_of_the_year(life: Life, initiation: Array) -> Array:
+    """Passes of the traffic in the year that begins with each number of passes (ny,); inf where that never comes."""
+    traffic = life.traffic
+    starts = [traffic.years_to(float(passes)) for passes in initiation]
+    return np.array(
+        [traffic.passes(year + 1) - traffic.passes(year) if math.isfinite(year) else math.inf for year in starts]
+    )
+
+
 def _targets(length: float, thickness: float) -> Array:
     """Depths that are told: of initiation, every so many mm, the end."""
     step = _STEP * max(1, math.ceil((thickness - length) / _STEP / 12))
@@ -334,21 +384,3 @@ def _in_words(road: Pavement, growth: CrackGrowth, layer: int, trace: float, upw
     path = growth.path if isinstance(growth.path, str) else f"leaning by {math.degrees(growth.path):g} degrees"
     way = "up" if upwards else "down"
     return f"{way} through {through}, {path}, trace {math.degrees(trace):z.0f} degrees from travel"
-
-
-def _cautions(doubts: Sequence[str], jammed: int, states: int, way: Way, road: Pavement) -> list[str]:
-    caveats = [f"crack growth: {text}" for text in doubts]
-    if jammed:
-        caveats.append(
-            f"crack growth: the faces jam in {jammed} of {states} states, where they are taken without friction, "
-            "which is on the safe side"
-        )
-    leans = np.abs(np.diff(way.offsets) / np.diff(way.distances)).max()
-    if leans > math.tan(STEEPEST) * (1 - 1e-9) and len(way.distances) > 2:
-        caveats.append(
-            f"crack growth: the path would turn to more than {math.degrees(STEEPEST):.0f} degrees from the vertical, "
-            "along the road rather than through it; it is held there"
-        )
-    if road.is_viscoelastic:
-        caveats.append("the weight functions of cracks take viscoelastic layers as they are under fast loads")
-    return caveats

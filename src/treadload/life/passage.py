@@ -348,7 +348,7 @@ def _at(data: xr.Dataset, deep: Any, instant: Any, rows: Any = None) -> dict[str
     }
 
 
-def _add_cracks(worst: Sequence[Worst], nearest: Any, turns: int) -> None:
+def _add_cracks(worst: Sequence[Worst], nearest: object, turns: int) -> None:
     """Into results (turns + BEHIND, y) angle and dip of the cracks that criteria see where they read most.
 
     Criteria that read one quantity see their cracks at once: there are few places of each.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
@@ -47,6 +47,7 @@ class Sensitivity(BaseResult, group="sensitivity"):
     """
 
     title: ClassVar[str] = "Sensitivity of the service life"
+    subject: ClassVar[str] = "What the life of a road depends on"
     holds: ClassVar[Holds] = Holds(
         {"elasticity": "input"},
         finite="elasticity",
@@ -271,7 +272,7 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
     return changes, skipped
 
 
-def _coefficient(friction: Any) -> float | None:
+def _coefficient(friction: object) -> float | None:
     if isinstance(friction, Coulomb):
         return friction.number
     return float(friction) if isinstance(friction, int | float) else None

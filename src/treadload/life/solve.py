@@ -15,7 +15,7 @@ from treadload import variables
 from treadload.damage.criterion import Criterion
 from treadload.damage.interface import interface_in_words
 from treadload.damage.miner import Life, miner
-from treadload.life.caveats import beyond_tables, traffic_doubts
+from treadload.life.caveats import beyond_tables, surface_doubts, traffic_doubts
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
 from treadload.life.groups import group_factors, in_words
@@ -86,6 +86,7 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
     caveats = (
         *_lifts(road, criteria), *traffic_doubts(tire, traffic, climate), *climate.warnings,
         *beyond_tables(road, climate), *(weather.warnings if weather else ()), *passages.warnings, *rut,
+        *surface_doubts(road, criteria, tire, traffic),
     )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *caveats))
 

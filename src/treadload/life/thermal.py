@@ -73,7 +73,7 @@ def daily_cycles(
         tension = daily_stress(relaxing, expansion, days.hours, warmth.T).T
         for month, share in enumerate(DAYS):
             hour = int(tension[month].argmax())
-            season = _instant(climate, days.depths, days.temperatures[month, hour], MONTHS[month])
+            season = instant(climate, days.depths, days.temperatures[month, hour], MONTHS[month])
             reading, law = _reading(criterion, road, season, float(tension[month, hour]))
             stress[k, month], readings[k, month] = tension[month, hour], reading
             damage[k, month] = share / float(law.allowable_passes(reading))
@@ -148,7 +148,7 @@ def _at_depth(depths: Array, temperatures: Array, depth: float) -> Array:
     return value
 
 
-def _instant(climate: Climate, depths: Array, temperatures: Array, name: str) -> Season:
+def instant(climate: Climate, depths: Array, temperatures: Array, name: str) -> Season:
     """An hour of a day as a season, divided and aged as those of the climate are."""
     first = climate.seasons[0]
     profile = TemperatureProfile(depths.tolist(), temperatures.tolist())

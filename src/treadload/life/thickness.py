@@ -51,6 +51,7 @@ class ThicknessDesign(BaseResult, group="design"):
     """
 
     title: ClassVar[str] = "Thickness design"
+    subject: ClassVar[str] = "How thick a layer must be"
     holds: ClassVar[Holds] = Holds(
         {
             "exact_thickness design_thickness asked_years": "",

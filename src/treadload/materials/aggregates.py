@@ -345,7 +345,7 @@ def _drawn(packing: Drawn, window: Window, present: Sequence[Spheres]) -> Sphere
     raise InputError(_no_room(packing, sizes[:most], planned, window))
 
 
-def _placed(generator: Any, sizes: Array, packing: Drawn, window: Window, present: Sequence[Spheres]) -> Array:
+def _placed(generator: object, sizes: Array, packing: Drawn, window: Window, present: Sequence[Spheres]) -> Array:
     """Places (n, 3) of the first n spheres of these sizes, as many as find room."""
     rows = [np.stack([spheres.x, spheres.y, spheres.z, spheres.radius], axis=1) for spheres in present]
     placed = np.concatenate([*rows, np.empty((0, 4))])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -139,7 +138,7 @@ def _listed(names: tuple[str, ...], values: tuple[float, ...]) -> str:
     return ", ".join(f"{name} = {value:.4g}" for name, value in zip(names, values, strict=True))
 
 
-def _three(name: str, values: Any, words: tuple[str, ...]) -> tuple[float, ...]:
+def _three(name: str, values: object, words: tuple[str, ...]) -> tuple[float, ...]:
     """Three numbers. Raises InputError."""
     entries = () if isinstance(values, str) else tuple(np.atleast_1d(np.asarray(values, object)))
     if len(entries) != 3 or any(isinstance(entry, bool | str) or not np.isscalar(entry) for entry in entries):

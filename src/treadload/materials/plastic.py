@@ -311,7 +311,7 @@ class ElastoPlastic:
 PLASTICITY.makes(PlasticLaw, PassesPowerLaw)
 
 
-def elastic_part(material: Any) -> Any:
+def elastic_part(material: object) -> Any:
     """The elastic part of an elastoplastic material; any other material itself."""
     return material.elastic if isinstance(material, ElastoPlastic) else material
 

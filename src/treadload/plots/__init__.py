@@ -26,10 +26,12 @@ from treadload.plots.life import life_damage, life_inputs, life_shares, life_yea
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
 from treadload.plots.panels import strain_panels
 from treadload.plots.passes import drum_contact, plastic_strain, residual_stress, rut_profile, shakedown_map
+from treadload.plots.pitch import pitch_history, pitch_maps, pitch_strains
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.profile import strain_profiles
 from treadload.plots.reliability import reliability_inputs, reliability_years
 from treadload.plots.response import depth_slice, strain_directions
+from treadload.plots.rib_shear import rib_shear
 from treadload.plots.roads import compare_roads, compare_temperatures
 from treadload.plots.rose import orientation_shares, trace_rose
 from treadload.plots.ruts import life_rut
@@ -88,6 +90,9 @@ __all__ = [
     "morris_effects",
     "new_figure",
     "orientation_shares",
+    "pitch_history",
+    "pitch_maps",
+    "pitch_strains",
     "places_under",
     "plain_map",
     "plastic_strain",
@@ -97,6 +102,7 @@ __all__ = [
     "reliability_years",
     "residual_stress",
     "rib_shares",
+    "rib_shear",
     "rut_profile",
     "save",
     "season_moduli",

@@ -16,7 +16,7 @@ from treadload.plots.kit.style import CASES, INK, MUTED, RULE, headline, open_ax
 _NEEDED = ("measured_reading", "fitted_reading", "residual", "residual_before")
 # Of a normal distribution between its 2.5 and 97.5 % quantiles, standard deviations on each side.
 _TWO = 1.96
-_OF_KINDS = {"rib_shares": "shares of ribs", "footprint": "shares of blocks"}
+_OF_KINDS = {"rib_shares": "shares of ribs", "footprint": "shares of blocks", "pins": "shear of pins"}
 
 
 @figure(

@@ -305,11 +305,11 @@ def _reduced(name: str, symbol: str, curves: Sequence[Shown]) -> str:
     return f"reduced {name} {symbol}" if any(isinstance(c, MasterCurve) for c in curves) else plain_symbol
 
 
-def _listed(curves: Any) -> list[Any]:
+def _listed(curves: object) -> list[Any]:
     return list(curves) if isinstance(curves, Sequence) else [curves]
 
 
-def _drawable(curves: Any) -> list[Any]:
+def _drawable(curves: object) -> list[Any]:
     listed = _listed(curves)
     for curve in listed:
         # An empty figure would say nothing of it.
@@ -319,7 +319,7 @@ def _drawable(curves: Any) -> list[Any]:
     return listed
 
 
-def _names(curves: Sequence[Any], labels: Sequence[str] | None) -> list[str]:
+def _names(curves: Sequence[object], labels: Sequence[str] | None) -> list[str]:
     if not curves or (labels is not None and len(labels) != len(curves)):
         raise InputError(f"give a label for each curve: got {len(labels or ())} labels for {len(curves)} curves")
     return [plain(label) for label in labels] if labels is not None else [""] * len(curves)

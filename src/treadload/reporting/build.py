@@ -14,6 +14,7 @@ import jinja2
 import xarray as xr
 
 from treadload._version import __version__
+from treadload.composing import result_classes
 from treadload.errors import InputError
 from treadload.files import HTML, check_suffix, check_writable, write_whole
 from treadload.reporting.figures import case_sections, comparison_figures
@@ -27,22 +28,9 @@ from treadload.results import Study, as_tree, bibtex, to_tree
 from treadload.results.tree import QUESTIONS
 
 _TITLE = "What a tire does to a road"
-# What a page of one kind of results is about, where they come without a case.
-_ABOUT = {
-    "life": "How long a road lasts",
-    "design": "How thick a layer must be",
-    "equivalents": "A traffic in standard axles",
-    "reliability": "How long a road lasts, with a probability",
-    "growth": "How a crack grows through a layer",
-    "sensitivity": "What the life of a road depends on",
-    "bonds": "What the bonds of a road bear",
-    "indentation": "A body pressed into a road",
-    "passes": "What passes leave in a road",
-    "heterogeneous": "Stones in the mortar of a road",
-}
 
 
-def write_report(cases: Mapping[str, Any], path: str | PathLike[str], title: str = "") -> Path:
+def write_report(cases: Mapping[str, object], path: str | PathLike[str], title: str = "") -> Path:
     """Write one self-contained HTML file about one or several cases.
 
     cases: name of each case → its tree of results, or whatever `save_results` takes; several results of a kind in
@@ -89,7 +77,7 @@ def report(results: Any, path: str | PathLike[str], *, title: str = "") -> Path:
     return write_report(cases, path, title)
 
 
-def _is_whole(source: Any) -> bool:
+def _is_whole(source: object) -> bool:
     """True for what holds several results of one question."""
     return isinstance(source, xr.DataTree | Study)
 
@@ -98,7 +86,8 @@ def _untitled(tree: xr.DataTree) -> str:
     """What results without a case are about: by the one kind that they are of."""
     nodes = [(str(name), node.attrs) for name, node in tree.children.items() if node.data_vars and name != QUESTIONS]
     kinds = {kind_of(name, attrs) for name, attrs in nodes if not attrs.get("part_of")}
-    return _ABOUT.get(kinds.pop(), _TITLE) if len(kinds) == 1 else _TITLE
+    subjects = {kind.group: kind.subject for kind in result_classes().values()}
+    return (subjects.get(kinds.pop()) if len(kinds) == 1 else "") or _TITLE
 
 
 def _title(cases: list[ReportCase]) -> str:

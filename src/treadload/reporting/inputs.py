@@ -8,6 +8,7 @@ from typing import Any
 
 from treadload.case import Case
 from treadload.case.criteria import CRITERION, CriterionTable, quantity_of
+from treadload.case.step import step_classes
 from treadload.damage.quantity import Quantity
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import MISSING, NamedTable, Row, Section
@@ -18,8 +19,6 @@ _HEADINGS = {
     "tire": "Tire",
     "pavement": "Road",
     "rolling": "Rolling",
-    "damage": "Fatigue",
-    "footprint": "Recorded footprint",
     "classes": "Axles",
     "criteria": "Criteria asked for",
 }
@@ -91,13 +90,13 @@ def _inputs_of(case: ReportCase) -> dict[Key, str]:
     return rows
 
 
-def _rows(table: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+def _rows(table: Mapping[str, object]) -> Iterator[tuple[Key, str]]:
     model = Case
     for section, value in table.items():
         if section in _DROPPED:
             continue
         if isinstance(value, Mapping):
-            heading = _HEADINGS.get(section, section.replace("_", " ").capitalize())
+            heading = _heading_of(section)
             items = entries(part_of(annotation_of(model, section), value), value)
         else:
             heading, items = _HEADINGS[""], entries(model, {section: value})
@@ -105,7 +104,13 @@ def _rows(table: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
             yield (heading, entry.name, entry.unit), entry.text
 
 
-def _criterion(case: ReportCase, table: Mapping[str, Any]) -> tuple[str, ...]:
+def _heading_of(table: str) -> str:
+    """Heading of the keys of a table of a case."""
+    steps = {kind.name: kind.heading for kind in step_classes()}
+    return _HEADINGS.get(table) or steps.get(table) or table.replace("_", " ").capitalize()
+
+
+def _criterion(case: ReportCase, table: Mapping[str, object]) -> tuple[str, ...]:
     """Cells of `_CRITERION`; what the table leaves to the law is filled in."""
     name = str(table.get("name", ""))
     quantity = quantity_of(table)
@@ -122,7 +127,7 @@ def _criterion(case: ReportCase, table: Mapping[str, Any]) -> tuple[str, ...]:
     )
 
 
-def _read(quantity: Quantity | None, strain: Any) -> str:
+def _read(quantity: Quantity | None, strain: object) -> str:
     """What a criterion reads; of an extension whether in space or in the plane."""
     if quantity is None:
         return MISSING
@@ -132,7 +137,7 @@ def _read(quantity: Quantity | None, strain: Any) -> str:
     return "three-dimensional extension" if space else "extension in the horizontal plane"
 
 
-def _layer(case: ReportCase, wanted: Any, usual: int | None) -> str:
+def _layer(case: ReportCase, wanted: object, usual: int | None) -> str:
     """Name of a layer, asked for by its name or its number, 1 the top one; else that which its law usually reads."""
     names = [str(layer.get("name") or f"layer {number}") for number, layer in enumerate(case.layers, start=1)]
     index = wanted - 1 if isinstance(wanted, int) else usual if wanted is None else None

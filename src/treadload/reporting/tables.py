@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from treadload.plots.kit.style import power_of_ten, thousands
 from treadload.reporting.reading import ReportCase
@@ -152,7 +151,7 @@ def _filled(sections: list[Section]) -> list[Section]:
     return [section for section in kept if section.rows]
 
 
-def _number(value: Any) -> str:
+def _number(value: object) -> str:
     if value is None:
         return MISSING
     if isinstance(value, bool):

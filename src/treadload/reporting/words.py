@@ -172,7 +172,7 @@ def columns(items: list[Mapping[str, Any]], model: Any) -> tuple[tuple[str, ...]
     return tuple(heads), tuple(zip(*cells, strict=True))
 
 
-def sentence(model: Any, table: Mapping[str, Any]) -> str:
+def sentence(model: object, table: Mapping[str, object]) -> str:
     """A table in a line: what it is, then its numbers with their units."""
     what = [str(table[key]) for key in ("name", *_KINDS) if isinstance(table.get(key), str)]
     rest = {key: value for key, value in table.items() if key not in ("name", *_KINDS)}
@@ -181,13 +181,13 @@ def sentence(model: Any, table: Mapping[str, Any]) -> str:
     return ": ".join(part for part in (first, ", ".join(texts)) if part)
 
 
-def worded(value: Any, annotation: Any) -> tuple[str, str]:
+def worded(value: object, annotation: object) -> tuple[str, str]:
     """A value and its unit."""
     label, factor = shown_in(annotation, value)
     return _text(value, annotation, factor), label
 
 
-def shown_in(annotation: Any, value: Any) -> tuple[str, float]:
+def shown_in(annotation: object, value: object) -> tuple[str, float]:
     """Unit and factor in which numbers of a field are shown; ("", 1) of words and of numbers of several kinds."""
     if not any(True for _ in _numbers(value)):
         return "", 1.0
@@ -219,12 +219,12 @@ def _hints(model: type) -> dict[str, Any]:
     return get_type_hints(model, include_extras=True)
 
 
-def annotation_of(model: Any, key: str) -> Any:
+def annotation_of(model: object, key: str) -> Any:
     """Type of a field with its unit; None where the part or the key is not known."""
     return None if model is None else _hints(model).get(key)
 
 
-def units_in(annotation: Any) -> Iterator[str]:
+def units_in(annotation: object) -> Iterator[str]:
     """Symbols of the units in a type; the outermost where one stands around another, none inside tables."""
     for arm in arms(annotation):
         if get_origin(arm) is Annotated:
@@ -236,7 +236,7 @@ def units_in(annotation: Any) -> Iterator[str]:
                 yield from units_in(member)
 
 
-def parts_in(annotation: Any, table: Mapping[str, Any]) -> Iterator[type[Table]]:
+def parts_in(annotation: object, table: Mapping[str, object]) -> Iterator[type[Table]]:
     """The tables of a case that a table of this type may be."""
     for arm in arms(annotation):
         if isinstance(arm, type) and issubclass(arm, Table):
@@ -248,30 +248,30 @@ def parts_in(annotation: Any, table: Mapping[str, Any]) -> Iterator[type[Table]]
             yield from parts_in(inner, table)
 
 
-def part_of(annotation: Any, table: Mapping[str, Any]) -> type[Table] | None:
+def part_of(annotation: object, table: Mapping[str, object]) -> type[Table] | None:
     """The table of a case that a table is: it knows its keys and its kind, and misses least."""
     fitting = [part for part in parts_in(annotation, table) if _fits(part, table)]
     return min(fitting, key=lambda part: _missing(part, table), default=None)
 
 
-def is_named(annotation: Any, items: list[Mapping[str, Any]]) -> bool:
+def is_named(annotation: object, items: list[Mapping[str, Any]]) -> bool:
     """True for a list of things that must have a name."""
     part = part_of(annotation, items[0])
     return part is not None and "name" in part.model_fields and part.model_fields["name"].is_required()
 
 
-def _fits(part: type[Table], table: Mapping[str, Any]) -> bool:
+def _fits(part: type[Table], table: Mapping[str, object]) -> bool:
     literals = {key: get_args(hint) for key, hint in _hints(part).items() if get_origin(hint) is Literal}
     return set(table) <= set(part.model_fields) and all(
         table[key] in words for key, words in literals.items() if key in table
     )
 
 
-def _missing(part: type[Table], table: Mapping[str, Any]) -> int:
+def _missing(part: type[Table], table: Mapping[str, object]) -> int:
     return sum(field.is_required() and key not in table for key, field in part.model_fields.items())
 
 
-def _is_tables(value: Any) -> bool:
+def _is_tables(value: object) -> bool:
     return isinstance(value, list) and bool(value) and all(isinstance(item, Mapping) for item in value)
 
 
@@ -279,7 +279,7 @@ def _single(key: str) -> str:
     return key.removesuffix("es") if key.endswith("sses") else key.removesuffix("s")
 
 
-def _numbers(value: Any) -> Iterator[float]:
+def _numbers(value: object) -> Iterator[float]:
     if isinstance(value, list | tuple):
         for item in value:
             yield from _numbers(item)
@@ -304,7 +304,7 @@ def _text(value: Any, annotation: Any, factor: float) -> str:
     return _VALUES.get(str(value), str(value))
 
 
-def _pair(pair: list[Any], annotation: Any, factor: float) -> str:
+def _pair(pair: list[Any], annotation: object, factor: float) -> str:
     """Numbers in a bracket; each with its unit where they are of several kinds."""
     symbols = list(units_in(annotation))
     if len(set(symbols)) < 2 or len(symbols) != len(pair):

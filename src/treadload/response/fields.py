@@ -30,7 +30,7 @@ def response_dataset(
     displacement: Array | None = None,
     points: bool = False,
     layers: Sequence[int] | None = None,
-    **attrs: Any,
+    **attrs: object,
 ) -> xr.Dataset:
     """Dataset (depth, y, x) of the tensors, the displacement, the principal strains and the invariants.
 

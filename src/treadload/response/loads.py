@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
 
 from treadload.composing import HasDataset, Source, dataset_of
+from treadload.contact.fields import RIB_SIDES
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.grid import Grid
@@ -40,7 +41,8 @@ class GridLoad:
     then converges like dx² instead of dx: for a Gaussian and cells of 0.16 of its standard deviation, the largest
     error at cell centres falls from 4.5 % of the largest strain to 0.5 %. Two cells deep and deeper both converge
     like dx², "constant" being twice as near. "bilinear" does not help where the load itself has steps, as at the
-    edges of ribs: it blurs them over a cell. source: where it was read and in which units, for people.
+    edges of ribs: it blurs them over a cell. source: where it was read and in which units, for people. rib_sides: of
+    the tire whose contact it is, as in `Tire`; empty where it is of none.
     """
 
     grid: Grid
@@ -49,6 +51,7 @@ class GridLoad:
     traction_y: Array | None = None
     interpolation: Literal["constant", "bilinear"] = "constant"
     source: str = ""
+    rib_sides: str = field(default="", repr=False)
 
     def __post_init__(self) -> None:
         if self.interpolation not in ("constant", "bilinear"):
@@ -153,7 +156,9 @@ class GridLoad:
         units: variable → unit where there is none; else SI, as all bare numbers.
         Raises InputError if pressure or a coordinate is missing, or the coordinates are not evenly spaced.
         """
-        return cls._of(measured.of_dataset(dataset_of(dataset), units=units), interpolation)
+        data = dataset_of(dataset)
+        load = cls._of(measured.of_dataset(data, units=units), interpolation)
+        return replace(load, rib_sides=str(data.attrs.get(RIB_SIDES, "")))
 
     @classmethod
     def _of(
@@ -358,7 +363,7 @@ def _load(item: Load) -> PlacedLoad:
     raise InputError(f"a load must be a contact, a dataset or a GridLoad, got {_kind(item)}")
 
 
-def _kind(value: Any) -> str:
+def _kind(value: object) -> str:
     return f"an empty {type(value).__name__}" if isinstance(value, Sequence) and not value else type(value).__name__
 
 

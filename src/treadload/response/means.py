@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -73,7 +73,7 @@ class Means:
             mean_over=self.length, spread={id(self.loads): self.spread},
         )  # fmt: skip
         tensors = tensor_fields(answer.fields.stress, answer.fields.strain)
-        return variables.dataset(tensors, {"depth": depths, "y": y, "x": x}, mean_over=self.length)
+        return _dataset(tensors, depths, x, y, self.length)
 
     def at_points_of(self, solved: Response, depths: Array) -> xr.Dataset:
         """`at` on the points of a response under the first of the loads, whose fields are not solved again.
@@ -109,7 +109,8 @@ class Means:
         fields = {}
         for name, (dims, part) in added.items():
             field = np.empty((len(depths), len(y), len(x)))
-            before = data[name].transpose(*dims).to_numpy()
+            # Not the array with its coordinates, which cost more than small fields.
+            before = data.variables[name].transpose(*dims).to_numpy()
             for row in np.flatnonzero(local):
                 np.multiply(before[np.flatnonzero(depths_before == depths[row])[0]], share, out=field[row])
             if later_loads:
@@ -117,13 +118,24 @@ class Means:
             if means is not None:
                 field[~local] = means[name].to_numpy()
             fields[name] = (dims, field)
-        return variables.dataset(fields, {"depth": depths, "y": y, "x": x}, mean_over=self.length)
+        return _dataset(fields, depths, x, y, self.length)
 
     def reads(self, depth: float) -> tuple[float, float]:
         """From which depth to which, m, the cube at a depth, m, reaches; equal where the point itself is read."""
         layer = self.road.layer_at(depth, self.response.side)
         read = windows(np.array([depth]), self.length, self.road.interfaces, [layer])
         return float(read.low[0]), float(read.high[0])
+
+
+def _dataset(
+    fields: Mapping[str, tuple[tuple[str, ...], Array]], depths: Array, x: Array, y: Array, length: float
+) -> xr.Dataset:
+    """As `variables.dataset` makes it, but without indexes, which cost as much as the fields of few points."""
+    at = {"depth": depths, "y": y, "x": x}
+    coordinates = {name: xr.Variable((name,), values, variables.attributes(name)) for name, values in at.items()}
+    places = xr.Coordinates(coordinates, indexes={})
+    tensors = {name: xr.Variable(dims, values, variables.attributes(name)) for name, (dims, values) in fields.items()}
+    return xr.Dataset(tensors, places, {"mean_over": length})
 
 
 def cells_of(loads: Sequence[PlacedLoad]) -> Loads:

@@ -176,7 +176,7 @@ def shear_sign(shear_on: str) -> float:
     return 1.0 if shear_on == "road" else -1.0
 
 
-def _spacing(spacing: Any) -> tuple[float, float]:
+def _spacing(spacing: object) -> tuple[float, float]:
     both = tuple(spacing) if isinstance(spacing, (tuple, list)) else (spacing, spacing)
     if len(both) != 2:
         raise InputError(f"spacing must be one length or (dx, dy), got {len(both)} values")
@@ -231,7 +231,7 @@ def _matrix(
 
 
 def _table(
-    table: Table, spacing: Any, units: Mapping[str, str], missing: str, floor: float, strict: bool
+    table: Table, spacing: object, units: Mapping[str, str], missing: str, floor: float, strict: bool
 ) -> Recorded:
     path, lines = table.path, table.lines[1:]
     columns, named = _columns(table, units)
@@ -253,8 +253,8 @@ def _table(
         else:
             at[name] = _checked(table, 1, name, scaled, missing, floor)
     steps = (None, None) if spacing is None else _spacing(spacing)
-    x0, nx, dx, i = _places(path, "x", at["x"], lines, steps[0])
-    y0, ny, dy, j = _places(path, "y", at["y"], lines, steps[1])
+    x0, nx, dx, i = places(path, "x", at["x"], lines, steps[0])
+    y0, ny, dy, j = places(path, "y", at["y"], lines, steps[1])
     if nx * ny > _MOST:
         raise InputError(f"{path} spans {nx} x {ny} cells of {dx:g} x {dy:g} m; check its x and y for strays")
     owner = np.full((ny, nx), -1)
@@ -320,7 +320,7 @@ def _columns(table: Table, units: Mapping[str, str]) -> tuple[dict[str, int], di
     return columns, named
 
 
-def _places(
+def places(
     path: Path, name: str, values: Array, lines: Sequence[int], step: float | None
 ) -> tuple[float, int, float, Array]:
     """First coordinate, number of cells, spacing and index of each value; step: the spacing if given."""

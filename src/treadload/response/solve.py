@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Sequence
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -146,7 +146,7 @@ def solve_response(
     return response
 
 
-def _drift(displacement: Array, depths: Array, loads: Sequence[Any]) -> tuple[str, ...]:
+def _drift(displacement: Array, depths: Array, loads: Sequence[object]) -> tuple[str, ...]:
     """A sentence where displacement (3, nz, my, mx) is NaN: along a net shear force over a face that bears none."""
     gone: BoolArray = np.isnan(displacement).any(axis=(2, 3))  # type: ignore[assignment]
     if not gone.any():

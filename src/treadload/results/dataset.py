@@ -33,7 +33,8 @@ class Fields(BaseResult, group="fields"):
         name = self.dataset.attrs.get("unknown_class")
         if name is None:
             return ()
-        return (f"no installed package has the class {name!r}: its fields are shown as data; install its package",)
+        package = self.dataset.attrs.get("package") or "its package"
+        return (f"no installed package has the class {name!r}: its fields are shown as data; install {package}",)
 
     @property
     def heading(self) -> str:

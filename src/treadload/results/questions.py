@@ -23,7 +23,7 @@ import xarray as xr
 from treadload.case import Case
 from treadload.composing import BaseResult, result_class
 from treadload.errors import InputError
-from treadload.registry import load_point
+from treadload.registry import OURS, load_point, package_with
 from treadload.results.dataset import Fields
 from treadload.results.holding import reason_of, result_of
 from treadload.tire import Tire
@@ -88,8 +88,10 @@ class Writer:
     def result(self, result: BaseResult) -> dict[str, Any]:
         """The question of a result: all its fields but the dataset, whose attributes are kept as they are."""
         values = {entry.name: getattr(result, entry.name) for entry in _fields(result) if entry.name != "dataset"}
+        package = package_with(type(result).__module__)
         return {
             "is": type(result).__name__,
+            **({} if package == OURS else {"of": package}),
             "with": {name: self.value(value) for name, value in values.items()},
             "attrs": self.value(dict(result.dataset.attrs)),
         }
@@ -121,7 +123,7 @@ class Writer:
         if scanned and value.quality is not None:
             arrays = {
                 name: getattr(value, name)
-                for name in ("camber", "outer_radius", "crown_arc_radius")
+                for name in ("camber", "outer_radius", "crown_arc_radius", "cross_section")
                 if hasattr(value, name)
             }
             value = RecordedSurface(str(value), value.extent, value.quality, **arrays)
@@ -155,7 +157,8 @@ class Reader:
                 raise TypeError("the name of a class is a text")
             kind = result_class(question["is"])
             if kind is None:
-                return Fields(dataset.assign_attrs(unknown_class=str(question["is"])))
+                missing = {"unknown_class": question["is"], "package": str(question.get("of", ""))}
+                return Fields(dataset.assign_attrs(missing))
             values = {str(name): self.value(item) for name, item in question["with"].items()}
             attrs = self.value(question["attrs"])
         except (KeyError, TypeError, AttributeError) as error:

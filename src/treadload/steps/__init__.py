@@ -15,6 +15,8 @@ from treadload.steps.passes import PassesStep
 from treadload.steps.aggregates import AggregatesStep
 from treadload.steps.texture import EnvelopingStep, TextureStep
 from treadload.steps.crossing import CrossingStep
+from treadload.steps.pitch import PitchStep
+from treadload.steps.uniform import UniformStep
 from treadload.steps.indentation import DrumStep, IndentationStep
 from treadload.steps.life import LifeStep
 from treadload.steps.rutting import RuttingStep
@@ -38,7 +40,8 @@ Case.take_steps(())
 __all__ = [
     "AggregatesStep", "BowlStep", "CalibrationStep", "ContactStep", "CrossingStep", "DamageStep", "DrumStep",
     "EnvelopingStep", "EquivalentsStep", "FootprintStep", "GrowthStep", "IndentationStep", "LifeStep", "Options",
-    "Outline", "PassesStep", "Progress", "ReliabilityStep", "ResponseStep", "Result", "RuttingStep", "Scene",
-    "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "TextureStep", "case_as_python",
+    "Outline", "PassesStep", "PitchStep", "Progress", "ReliabilityStep", "ResponseStep", "Result", "RuttingStep",
+    "Scene", "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "TextureStep", "UniformStep",
+    "case_as_python",
     "design_case", "design_of", "plan", "run", "stream",
 ]  # fmt: skip

@@ -29,9 +29,9 @@ class CalibrationStep(Source, name="calibration"):
 
     parameters: names, "foundation" or "modulus", or tables { name, start, low, high }. load_deflection: rows of load
     and deflection, perhaps with the inflation pressure: [["10 kN", "14.1 mm", "8 bar"]]. data: rows of other readings
-    under a load and a pressure: areas, length, width, rib_shares with ribs, a footprint, stiffnesses, forces at a
-    creepage. errors: standard deviations by reading, { deflection = "0.3 mm", net_area = "2 %" }, for rows without
-    their own. friction: of rolling readings.
+    under a load and a pressure: areas, length, width, rib_shares with ribs, a footprint, pins, stiffnesses, forces
+    at a creepage. errors: standard deviations by reading, { deflection = "0.3 mm", net_area = "2 %" }, for rows
+    without their own. friction: of rolling readings.
     """
 
     uses: ClassVar = ("title", "spacing", "tolerance", "tire", "pavement")

@@ -36,6 +36,7 @@ class DamageStep(Step, name="damage"):
 
     after: ClassVar = ("contact", "response")
     swept: ClassVar = True
+    heading: ClassVar = "Fatigue"
 
     fatigue: Annotated[TargetTable, As(FatigueLine)]
     strain: Literal["principal", "in-plane"] = "in-plane"

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from treadload.case.step import Source
 from treadload.errors import InputError
-from treadload.footprint import Footprint, is_sensor_file, read_footprint
+from treadload.footprint import Footprint, is_pin_table, is_sensor_file, read_footprint
 from treadload.read import As
 from treadload.response import GridLoad
 from treadload.steps.outline import Outline
@@ -20,21 +20,25 @@ from treadload.units import Force, Length, Pressure
 # Keys that only a table or a matrix has, and those that only the file of a sensor has.
 _OF_TEXT = ("missing", "decimal", "shear_on")
 _OF_SENSORS = ("frame", "travel", "seen_from", "calibration", "load", "saturation", "dead")
+# Those of a table of pins.
+_OF_PINS = ("units", "decimal", "shear_on", "load")
 
 
 class FootprintStep(Source, name="footprint"):
     """`[footprint]`, in place of [tire] and [rolling]: recorded contact stress.
 
-    file: a CSV table or matrix, NetCDF such as a result of this package (.nc), or an export of Tekscan. units:
-    { pressure = "kPa" }, of columns and variables that name none. spacing: of the cells of a matrix. missing: "error"
-    or "zero". noise: pressures this far around zero are none. decimal: "." or ",", where a CSV file can be read in
-    two ways. shear_on: the body that the recorded shear acts on. interpolation: "constant" or "bilinear".
+    file: a CSV table or matrix, a table of pins that measure three components, NetCDF such as a result of this
+    package (.nc), or an export of Tekscan. units: { pressure = "kPa" }, of columns and variables that name none.
+    spacing: of the cells of a matrix. missing: "error" or "zero". noise: pressures this far around zero are none.
+    decimal: "." or ",", where a CSV file can be read in two ways. shear_on: the body that the recorded shear acts on.
+    interpolation: "constant" or "bilinear".
     Of a sensor's export: frame: "peak", "mean" or a number; travel: "right", "left", "up" or "down" on its page;
     seen_from: "above" or "below"; calibration: pressure of a raw count; load: known, that all is scaled to;
     saturation: what a sensel reads at most; dead: sensels, "leave" or "fill".
     """
 
     makes: ClassVar = ("contact",)
+    heading: ClassVar = "Recorded footprint"
     uses: ClassVar = ("title", "pavement", "tolerance")
     needs: ClassVar = ("pavement",)
 
@@ -90,10 +94,16 @@ class FootprintStep(Source, name="footprint"):
     def read(self, folder: Path) -> Footprint:
         """The footprint with what is doubtful about it; a relative path starts from the folder."""
         path = folder / self.file
+        options: dict[str, Any]
         if self.is_result:
             return Footprint(GridLoad.from_file(path, units=self.units, interpolation=self.interpolation))
+        if is_pin_table(path):
+            stray = tuple(name for name in (*_OF_SENSORS, "missing", "spacing") if name not in _OF_PINS)
+            self._check(stray, f"{self.file} is a table of pins")
+            options = {name: getattr(self, name) for name in _OF_PINS}
+            return read_footprint(path, threshold=self.noise or None, **options)
         if not is_sensor_file(path):
-            options: dict[str, Any] = {name: value for name, value in self if name not in ("file", *_OF_SENSORS)}
+            options = {name: value for name, value in self if name not in ("file", *_OF_SENSORS)}
             self._check(_OF_SENSORS, f"{self.file} is a table or a matrix, and no export of a sensor")
             return Footprint(GridLoad.from_csv(path, **options))
         self._check(_OF_TEXT, f"{self.file} is an export of a sensor, and no table or matrix")

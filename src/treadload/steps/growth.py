@@ -10,6 +10,7 @@ from treadload.case.description import Description
 from treadload.case.step import Step
 from treadload.damage import Criterion, Life
 from treadload.damage.growth import CrackGrowth, Growth
+from treadload.damage.growth.options import POINTS, STEPS
 from treadload.errors import InputError
 from treadload.life.growth import grow_cracks
 from treadload.read import Choice
@@ -29,7 +30,8 @@ class GrowthStep(Step, name="growth"):
     or an angle from travel towards the right; left out, that of the criterion's first crack. path: "vertical",
     "kinked" for steps across the largest hoop stress, or an angle from the vertical. friction: between the crack's
     faces. layers: that it goes through, from the one where it starts. steps: depths at which its stress intensity is
-    solved. scatter: of log₁₀ of the passes to initiation; left out, that of the criterion's law, or 0.25.
+    solved. points: along the crack at which its faces may touch. scatter: of log₁₀ of the passes to initiation; left
+    out, that of the criterion's law, or 0.25.
     """
 
     after: ClassVar = ("life",)
@@ -41,8 +43,9 @@ class GrowthStep(Step, name="growth"):
     path: Literal["vertical", "kinked"] | Angle = "vertical"
     friction: Number = 0.5
     layers: int = 1
-    steps: int = 8
+    steps: int = STEPS
     scatter: Number | None = None
+    points: int = POINTS
 
     @model_validator(mode="after")
     def _possible(self) -> GrowthStep:
@@ -92,4 +95,5 @@ class GrowthStep(Step, name="growth"):
             self.layers,
             self.steps,
             self.scatter,
+            self.points,
         )

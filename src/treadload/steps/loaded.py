@@ -148,7 +148,9 @@ def load_case(case: Case, tell: Progress, *, contact: Contact | None = None, tou
         contact = touch(case, road, tell) if contact is None else contact
         if case.texture is not None and case.texture.enveloping is not None:
             enveloped = _enveloped(case, contact)
-        wheel = GridLoad.from_dataset(contact if enveloped is None else enveloped)
+        wheel = GridLoad.from_dataset(contact)
+        if enveloped is not None:
+            wheel = replace(GridLoad.from_dataset(enveloped), rib_sides=wheel.rib_sides)
     else:
         tell("reading the footprint")
         footprint = case.footprint.read(case.folder)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,6 +13,7 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.errors import InputError
 from treadload.life.design import Design
+from treadload.registry import STEPS
 from treadload.response import MATERIAL_LENGTH, Response
 from treadload.steps.design import design_of
 from treadload.steps.loaded import Loaded, Touch, contact_of, load_case
@@ -92,11 +93,13 @@ class Scene:
             self.result(group)
         outcome = step.solve(self)
         self._solved.add(step.name)
-        results = {step.makes[0]: outcome} if isinstance(outcome, BaseResult) else dict(outcome or {})
+        several = outcome or {} if outcome is None or isinstance(outcome, Mapping) else {step.makes[0]: outcome}
+        results: dict[str, BaseResult] = dict(several)
         for group, result in results.items():
             if not isinstance(result, BaseResult):
                 raise InputError(
-                    f"the step {step.name!r} must return a result, got {type(result).__name__} for {group!r}"
+                    f"the step {step.name!r} of {STEPS.find(step.name).package} must return a result, got "
+                    f"{type(result).__name__} for {group!r}; return an object of treadload.composing.BaseResult"
                 )
         self.results |= results
         return results
@@ -116,6 +119,4 @@ def stream(scene: Scene) -> Iterator[tuple[str, BaseResult]]:
 
 def group_names() -> tuple[str, ...]:
     """Groups of the results of all steps, in the order in which a file holds them."""
-    from treadload.registry import STEPS
-
     return tuple(dict.fromkeys(group for name in STEPS.built_in() for group in step_class(name).makes))

@@ -95,7 +95,7 @@ class Script:
         return _call(name, arguments)
 
     @staticmethod
-    def code(value: Any) -> str:
+    def code(value: object) -> str:
         """A value as Python that makes an equal one. Raises NoCallError."""
         return _code(value)
 
@@ -125,6 +125,8 @@ def _tire(part: TirePart, folder: Path) -> str:
         more.append(f"belt=tl.tire.Belt.from_library({part.belt!r})")
     if part.tread != "layer":
         more.append(f"tread={part.tread!r}")
+    if part.undertread is not None:
+        more.append(f"undertread={part.undertread!r}")
     if part.scan is not None:
         first = "tl.example_mesh()" if part.scan == EXAMPLE else repr(str(folder / part.scan))
         names = ("units", "nominal_diameter", "rotation", "camber", "revolve", "fill_holes", "smooth", "outliers",
@@ -167,7 +169,7 @@ def _layer(layer: Layer) -> str:
     return f"tl.Layer({', '.join([*positional, *_keywords(arguments)])})"
 
 
-def _code(value: Any) -> str:
+def _code(value: object) -> str:
     """A value as Python that makes an equal one. Raises NoCallError."""
     if value is None or isinstance(value, bool | int | float | str):
         return repr(value)

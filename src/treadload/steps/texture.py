@@ -47,6 +47,8 @@ class TextureStep(Step, name="texture"):
     place of rms_height. seed: of the phases. See `treadload.pavement.texture.self_affine`.
     """
 
+    shapes_contact: ClassVar = True
+
     resolved: bool = False
     enveloping: Length | None = None
     rubber: Annotated[Any, RUBBER] = None

@@ -31,7 +31,7 @@ class SchedulerLost(TreadloadError, RuntimeError):
     """The scheduler of a study went away; what was solved is kept."""
 
 
-def cluster(question: Question, tasks: Sequence[Task], scheduler: Any, jobs: int, name: str) -> Iterator[Record]:
+def cluster(question: Question, tasks: Sequence[Task], scheduler: object, jobs: int, name: str) -> Iterator[Record]:
     """Cases on the workers of a Dask scheduler.
 
     scheduler: its address ("tcp://host:8786"), "local" for `jobs` processes here, or a `distributed.Client`.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,6 +14,7 @@ import xarray as xr
 from treadload.case import Case
 from treadload.case.keys import find_key, keys_of, value_at, with_values
 from treadload.errors import InputError
+from treadload.sweeps.columns import is_finite, is_number, labels_of, listed_values, objects, objects_like
 from treadload.variables import VARIABLES
 
 CASE = "case"
@@ -28,8 +28,6 @@ ROW = "row"
 """Label of the rows of a file of cases: their numbers there."""
 # Names of a study that no label can have.
 _TAKEN = (CASE, "status", "seconds", "failure")
-# Text that stands for a table or a list, at most so long.
-_LABEL = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,8 +151,8 @@ class Design:
             units = keys_of(case)
             inputs = []
             for name, key, dims, values in parts:
-                array = _objects(values).reshape([sizes[dim] for dim in dims])
-                inputs.append(Input(name, key, units.get(key), dims, array, _labels(array)))
+                array = objects(values).reshape([sizes[dim] for dim in dims])
+                inputs.append(Input(name, key, units.get(key), dims, array, labels_of(array)))
             labels = {str(name): tuple(values) for name, values in document.get("labels", {}).items()}
             if any(len(values) != sizes.get(CASE) for values in labels.values()):
                 raise ValueError("labels of its cases")
@@ -164,16 +162,16 @@ class Design:
         return cls(sizes, tuple(inputs), labels, faults)
 
 
-def product(case: Case, vary: Mapping[str, Any]) -> Design:
+def product(case: Case, vary: Mapping[str, object]) -> Design:
     """Every combination of the values: one dimension for each input.
 
     vary: key → values in SI units or with their units. Raises InputError for a key that the case does not have and
     for a value that it does not take.
     """
-    columns = {name: _listed(name, values) for name, values in vary.items()}
+    columns = {name: listed_values(name, values) for name, values in vary.items()}
     if not columns:
         raise InputError("nothing is varied; give keys and values, such as {'rolling.friction': [0.3, 0.5, 0.7]}")
-    return _checked(case, {name: ((name,), _objects(values)) for name, values in columns.items()})
+    return _checked(case, {name: ((name,), objects(values)) for name, values in columns.items()})
 
 
 def listed(
@@ -197,7 +195,7 @@ def listed(
             raise InputError(f"case {number} gives {', '.join(row)}, the first one {', '.join(names)}; give the same")
     taken = {*names, *_TAKEN}
     named = {f"id_{name}" if name in taken else name: tuple(values) for name, values in (labels or {}).items()}
-    columns = {name: ((CASE,), _objects([row[name] for row in rows])) for name in names}
+    columns = {name: ((CASE,), objects([row[name] for row in rows])) for name in names}
     return _checked(case, columns, faults=faults or {}, labels=named)
 
 
@@ -210,8 +208,7 @@ def from_dataset(case: Case, data: xr.Dataset) -> Design:
     if not names:
         raise InputError("the dataset of cases has neither coordinates nor variables; name them by keys of the case")
     columns = {
-        name: (tuple(map(str, data[name].dims)), _objects_like(data[name].to_numpy().astype(object)))
-        for name in names
+        name: (tuple(map(str, data[name].dims)), objects_like(data[name].to_numpy().astype(object))) for name in names
     }
     return _checked(case, columns, tuple(map(str, data.dims)))
 
@@ -244,7 +241,7 @@ def sampled(
 
 def over_points(case: Case, names: Sequence[str], points: np.ndarray) -> Design:
     """Cases at points (n, len(names)) in SI units, over the dimension "case". Raises InputError."""
-    columns = {name: ((CASE,), _objects(points[:, k].tolist())) for k, name in enumerate(names)}
+    columns = {name: ((CASE,), objects(points[:, k].tolist())) for k, name in enumerate(names)}
     return _checked(case, columns)
 
 
@@ -254,7 +251,7 @@ def bounds_of(case: Case, ranges: Mapping[str, tuple[Any, Any]]) -> dict[str, tu
         raise InputError("nothing is varied; give keys and ranges, such as {'rolling.friction': (0.3, 0.9)}")
     bounds = {}
     for name, ends in ranges.items():
-        low_high = _listed(name, ends)
+        low_high = listed_values(name, ends)
         if len(low_high) != 2:
             raise InputError(f"a sample of {name} needs its low and high end, got {len(low_high)} values")
         design = product(case, {name: low_high})
@@ -265,7 +262,7 @@ def bounds_of(case: Case, ranges: Mapping[str, tuple[Any, Any]]) -> dict[str, tu
     return bounds
 
 
-def in_si(case: Case, values: Mapping[str, Any]) -> dict[str, Any]:
+def in_si(case: Case, values: Mapping[str, object]) -> dict[str, Any]:
     """What a case makes of values of keys: numbers in SI units, everything else as it is. Raises InputError."""
     table = with_values(case.as_tables(), values)
     read = type(case).from_dict(table, folder=case.folder, name="the study").as_tables()
@@ -311,7 +308,7 @@ def _checked(
         for number, value in enumerate(values.flat):
             if number not in tried or (wrong is not None and number in wrong):
                 continue
-            if _is_number(value) and not single:
+            if is_number(value) and not single:
                 if wrong is not None and not math.isfinite(value):
                     wrong[number] = f"{key} must be a finite number, got {value}"
                 continue
@@ -326,13 +323,13 @@ def _checked(
                 wrong[number] = str(error).removeprefix("the study: ")
         # What was not tried is a number of the same kind.
         convert = float if any(isinstance(value, float) for value in by_label.values()) else lambda value: value
-        read = _objects([by_label[label] if (label := repr(value)) in by_label
-                         else convert(value) if _is_number(value) else value
+        read = objects([by_label[label] if (label := repr(value)) in by_label
+                         else convert(value) if is_number(value) else value
                          for value in values.flat]).reshape(values.shape)  # fmt: skip
         if wrong:
             # What cannot be read has no value.
-            read = _objects([None if k in wrong and not _is_finite(value) else value for k, value in enumerate(read)])
-        shown = _labels(read)
+            read = objects([None if k in wrong and not is_finite(value) else value for k, value in enumerate(read)])
+        shown = labels_of(read)
         if single and len(np.unique(shown)) < shown.size:
             raise InputError(f"values of {name} are given twice; give each once")
         inputs.append(Input(name, key, units.get(key), dims_of, read, shown))
@@ -379,57 +376,6 @@ def _spread(count: int) -> list[int]:
 def _tried(values: np.ndarray) -> Collection[int]:
     """Which values of a dimension the case reads beforehand: all, of many numbers the ends and some between."""
     flat = list(values.flat)
-    if len(flat) <= _TRIED or not all(map(_is_number, flat)):
+    if len(flat) <= _TRIED or not all(map(is_number, flat)):
         return range(len(flat))
     return {*_spread(len(flat)), int(np.argmin(flat)), int(np.argmax(flat))}
-
-
-def _is_finite(value: Any) -> bool:
-    return _is_number(value) and math.isfinite(value)
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float | np.number) and not isinstance(value, bool | np.bool_)
-
-
-def _listed(name: str, values: Any) -> list[Any]:
-    if isinstance(values, str | bytes | Mapping) or not isinstance(values, Sequence | np.ndarray | xr.DataArray):
-        raise InputError(f"{name} needs a list of values, got {values!r}")
-    numbers = values.tolist() if hasattr(values, "tolist") else list(values)
-    if not numbers:
-        raise InputError(f"{name} has no values; give at least one")
-    return numbers
-
-
-def _objects(values: Sequence[Any]) -> np.ndarray:
-    array = np.empty(len(values), dtype=object)
-    array[:] = list(values)
-    return array
-
-
-def _objects_like(values: np.ndarray) -> np.ndarray:
-    return _objects([item.item() if hasattr(item, "item") else item for item in values.flat]).reshape(values.shape)
-
-
-def _labels(values: np.ndarray) -> np.ndarray:
-    """Values as coordinates: numbers, or texts that differ where they do."""
-    flat = list(values.flat)
-    if all(_is_number(value) or value is None for value in flat):
-        numbers = np.array([math.nan if item is None else item for item in flat], dtype=float).reshape(values.shape)
-        if not np.isfinite(numbers[values != None]).all():  # noqa: E711  of each
-            raise InputError(f"values must be finite numbers, got {numbers[~np.isfinite(numbers)][0]}")
-        return numbers
-    texts = ["" if item is None else item if isinstance(item, str) else _short(item) for item in flat]
-    whole = {text: [repr(v) for t, v in zip(texts, flat, strict=True) if t == text] for text in texts}
-    numbers_of = {text: itertools.count(1) for text, members in whole.items() if len(set(members)) > 1}
-    distinct = [f"{text} ({next(numbers_of[text])})" if text in numbers_of else text for text in texts]
-    return np.array(distinct, dtype=str).reshape(values.shape)
-
-
-def _short(value: Any) -> str:
-    if isinstance(value, Mapping):
-        named = next((value[key] for key in ("name", "structure", "profile", "law", "kind") if key in value), None)
-        if isinstance(named, str):
-            return named
-    text = "true" if value is True else "false" if value is False else str(value)
-    return text if len(text) <= _LABEL else f"{text[: _LABEL - 1]}…"

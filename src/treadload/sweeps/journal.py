@@ -62,7 +62,7 @@ class Journal:
         )
 
 
-def line_of(content: Mapping[str, Any]) -> bytes:
+def line_of(content: Mapping[str, object]) -> bytes:
     """The line of a record, of its `to_json`."""
     # ASCII, since the name of a file in a sentence may be no UTF-8.
     body = json.dumps(content, separators=(",", ":")).encode("ascii")

@@ -60,7 +60,7 @@ class Record:
         )
 
 
-def _values(value: Any) -> Values:
+def _values(value: object) -> Values:
     """A number without dimensions, which takes less memory than an array, or dimensions and an array."""
     if not isinstance(value, list):
         return (), value

@@ -266,7 +266,7 @@ def about(case: Case, design: Design, question: Question | None) -> dict[str, An
     }
 
 
-def _texts(value: Any) -> Iterator[str]:
+def _texts(value: object) -> Iterator[str]:
     if isinstance(value, str):
         if len(value) < 4096:
             yield value

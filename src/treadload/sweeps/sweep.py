@@ -161,7 +161,7 @@ def sweep(
     store: str | os.PathLike[str] | None = None,
     jobs: int = 1,
     in_threads: bool = False,
-    scheduler: Any = None,
+    scheduler: object = None,
     progress: Progress | None = None,
 ) -> Sweep:
     """Solve a case for many values of its inputs.
@@ -218,7 +218,7 @@ def open_sweep(path: str | os.PathLike[str]) -> Sweep:
 
 
 def _solved(
-    question: Question, design: Design, finished: Collection[int], jobs: int, in_threads: bool, scheduler: Any,
+    question: Question, design: Design, finished: Collection[int], jobs: int, in_threads: bool, scheduler: object,
     tell: Progress,
 ) -> Iterator[Record]:  # fmt: skip
     """Records of the cases that are not known yet, as they come."""
@@ -246,7 +246,7 @@ def _solved(
         tell(done, design.count, "case")
 
 
-def _design(case: Case, vary: Any) -> Design:
+def _design(case: Case, vary: object) -> Design:
     if isinstance(vary, Design):
         return vary
     if isinstance(vary, xr.Dataset):
@@ -261,7 +261,7 @@ def _design(case: Case, vary: Any) -> Design:
     )
 
 
-def _tried(data: xr.Dataset, document: Mapping[str, Any]) -> None:
+def _tried(data: xr.Dataset, document: Mapping[str, object]) -> None:
     """Read what a file says of a study, as its methods do. Raises InputError and what else goes wrong."""
     for numbers in json.loads(data.attrs["warnings"]).values():
         [int(number) for number in numbers]

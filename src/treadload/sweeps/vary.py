@@ -149,7 +149,7 @@ def _check_keys(case: Case, path: Path, names: Sequence[str]) -> None:
             ) from error
 
 
-def _is_empty(cell: Any) -> bool:
+def _is_empty(cell: object) -> bool:
     return cell is None or (isinstance(cell, str) and cell.strip().casefold() in _EMPTY)
 
 
@@ -159,7 +159,7 @@ def _label(cell: Any) -> str:
     return "" if cell is None else str(int(cell) if whole else cell).strip()
 
 
-def _cell(cell: Any, unit: str) -> Any:
+def _cell(cell: object, unit: str) -> Any:
     if not isinstance(cell, bool | int | float | str):
         # A date, say, which is no value of a case.
         cell = str(cell)

@@ -24,8 +24,7 @@ from treadload.tire import Tire
 
 # Contacts and tires that a worker keeps for cases that share them.
 _KEPT = 4
-# Keys of a case that its contact does not depend on, and those of rolling that leave where it is pressed on.
-_BEHIND = ("title", "response", "damage", "passes", "aggregates", "crossing")
+# Keys of rolling that leave where it is pressed on.
 TANGENTIAL = ("friction", "tractive_force", "creepage_x", "lateral_force", "creepage_y", "spin")
 # Spacing and offset of a contact's cells, None where they are the case's own.
 Cells = tuple[float | None, tuple[float, float] | None]
@@ -54,7 +53,7 @@ class Worker:
         self._contacts: OrderedDict[str, dict[Cells, Contact | TreadloadError]] = OrderedDict()
         self._tires: OrderedDict[str, Tire] = OrderedDict()
 
-    def solve(self, number: int, values: Mapping[str, Any]) -> Record:
+    def solve(self, number: int, values: Mapping[str, object]) -> Record:
         """The record of a case. What fails is recorded with its reason, and so is what nobody foresaw."""
         began = time.perf_counter()
         try:
@@ -69,7 +68,7 @@ class Worker:
         seconds = time.perf_counter() - began
         return Record(number, seconds, numbers, fields, coordinates, parts.warnings)
 
-    def _parts(self, values: Mapping[str, Any]) -> Parts:
+    def _parts(self, values: Mapping[str, object]) -> Parts:
         question = self.question
         table = with_values(question.table, values)
         case = Case.from_dict(table, folder=question.folder)
@@ -96,8 +95,9 @@ class Worker:
 
         road: of the case; None where it is not built yet.
         """
+        behind = {"title", *(step.name for step in case.steps if not step.shapes_contact)}
         key = json.dumps(
-            {name: part for name, part in case.as_tables().items() if name not in _BEHIND}, sort_keys=True
+            {name: part for name, part in case.as_tables().items() if name not in behind}, sort_keys=True
         )
         solved = self._contacts.get(key, {})
         _remember(self._contacts, key, solved)
@@ -127,7 +127,7 @@ def _quiet(text: str) -> None:
     """Progress of a study is counted in cases."""
 
 
-def _remember(kept: OrderedDict[str, Any], key: str, value: Any) -> None:
+def _remember(kept: OrderedDict[str, Any], key: str, value: object) -> None:
     """Keep a value as the newest, and forget the oldest of too many."""
     kept[key] = value
     kept.move_to_end(key)
@@ -139,7 +139,7 @@ def _remember(kept: OrderedDict[str, Any], key: str, value: Any) -> None:
 _HERE = threading.local()
 
 
-def solve_of(question: Question, name: str, number: int, values: Mapping[str, Any]) -> Record:
+def solve_of(question: Question, name: str, number: int, values: Mapping[str, object]) -> Record:
     """The record of a case of a question.
 
     name: of the question; what its cases share is kept by the thread as long as it is asked the same.

@@ -66,7 +66,7 @@ class Belt:
     foundation: PerLength = 3.6
     sidewall_stiffness: Stiffness = 0.0
     meridional: Length = 0.098
-    bending: tuple[BendingStiffness, BendingStiffness, BendingStiffness] = (80.0, 150.0, 100.0)
+    bending: tuple[BendingStiffness, BendingStiffness, BendingStiffness] = (80.0, 100.0, 150.0)
     arm: Length = 0.020
     crown_radius: Radius | None = None
     belt_radius: Radius | None = None
@@ -104,7 +104,7 @@ class Belt:
         if self.arm > 0 and not (self.bending[0] > 0 and self.bending[2] > 0):
             raise InputError(
                 "belt: with an arm it needs bending stiffness along and across; one that bends freely turns without "
-                "limit under the edge of a load. Give bending such as (80, 150, 100) N m, or arm = 0"
+                "limit under the edge of a load. Give bending such as (80, 100, 150) N m, or arm = 0"
             )
         if self.meridional == 0 and self.bending[2] == 0:
             raise InputError(

@@ -21,7 +21,7 @@ class TireMesh:
     """A mesh of a tire in a file; `Tire.from_scan` takes it like a path.
 
     name: in the catalogue. path: of the file. title: in words. source: where it is from. doubts: what is not certain
-    about it, a sentence each.
+    about it, a sentence each. ribs: that its circumferential grooves leave; 0 for none.
     """
 
     name: str
@@ -29,6 +29,7 @@ class TireMesh:
     title: str = ""
     source: str = field(default="", repr=False)
     doubts: tuple[str, ...] = field(default=(), repr=False)
+    ribs: int = field(default=0, repr=False)
 
     def __fspath__(self) -> str:
         return str(self.path)
@@ -46,7 +47,7 @@ CataloguedTire = TreadProfile | TireMesh
 def read_tires(path: str | os.PathLike[str]) -> list[CataloguedTire]:
     """The tire of a TOML file, in a list; see `catalogue/data/tires`. Raises InputError that names file and key.
 
-    A mesh has the keys name, mesh (its file, from the folder of the TOML file), title, source and doubts; a
+    A mesh has the keys name, mesh (its file, from the folder of the TOML file), title, source, doubts and ribs; a
     parametric tread those of TreadProfile.
     """
     # pydantic is loaded when a file is read, not before.
@@ -68,6 +69,7 @@ def read_tires(path: str | os.PathLike[str]) -> list[CataloguedTire]:
             mesh_table.title,
             sentence(mesh_table.source),
             tuple(map(sentence, mesh_table.doubts)),
+            mesh_table.ribs,
         )
     ]
 
@@ -81,6 +83,7 @@ class _Mesh:
     title: str
     source: str
     doubts: tuple[str, ...] = ()
+    ribs: int = 0
 
 
 def example_mesh() -> Path:
@@ -100,6 +103,12 @@ def tread_named(name: str) -> TreadProfile:
     return tire
 
 
+def in_a_line(tire: CataloguedTire) -> str:
+    """A tire in words, with its ribs where circumferential grooves leave them."""
+    ribs = f'; {tire.ribs} ribs between circumferential grooves, for tread = "ribs"' if tire.ribs else ""
+    return f"{tire}{ribs}"
+
+
 EXAMPLE = "335/65R22.5"
 
 tires: Catalogue[CataloguedTire] = Catalogue(
@@ -107,7 +116,7 @@ tires: Catalogue[CataloguedTire] = Catalogue(
     (TreadProfile, TireMesh),
     folder="tires",
     read=read_tires,
-    words=str,
+    words=in_a_line,
     group="treadload.tires",
     use='profile = "315/80R22.5" in [tire] of a case for a tread, scan = "example" for the mesh',
 )

@@ -13,6 +13,9 @@ from treadload.tire.tire import Tire
 from treadload.tire.tread import ProfileSurface, TreadProfile
 from treadload.units import Unit
 
+# Least Poisson's ratio of rubber with its fillers that is sought.
+_OF_RUBBER = 0.45
+
 
 @dataclass(frozen=True)
 class TireNumber:
@@ -171,8 +174,18 @@ def _half_width(tire: Tire) -> float:
     return math.inf if tread is None else 0.5 * tread.width
 
 
+def _least_poisson(tire: Tire) -> float:
+    """Ribs are rubber; a layer's ν may stand for grooves as well."""
+    return _OF_RUBBER if tire.tread == "ribs" else -math.inf
+
+
 def _arm(tire: Tire) -> float:
     return 0.0 if tire.belt is None else tire.belt.arm
+
+
+def _thickness_read(tire: Tire) -> float | None:
+    """None where the undertread and the grooves of ribs make it."""
+    return None if tire.belt is None or tire.has_undertread else tire.belt.tread_thickness
 
 
 def _thickness(tire: Tire) -> float:
@@ -183,7 +196,8 @@ _LENGTH, _RADIUS = Unit("m"), Unit("m", "radius")
 _ROWS = (
     TireNumber("modulus", Unit("Pa", "modulus"), "Young's modulus of the tread, or of the half-space that stands for "
                "the tire", 0.1e6, 1e9, *_of_material("modulus")),
-    TireNumber("poisson", Unit(""), "Poisson's ratio of the same", 0.1, 0.4999, *_of_material("poisson")),
+    TireNumber("poisson", Unit(""), "Poisson's ratio of the same", 0.1, 0.4999, *_of_material("poisson"),
+               above=_least_poisson),
     TireNumber("foundation", Unit("1/m"), "hold of the sidewalls per inflation pressure", 0.05, 100.0,
                *_belt("foundation")),
     TireNumber("sidewall_stiffness", Unit("Pa/m"), "hold of the sidewalls without inflation", 0.0, 1e8,
@@ -192,8 +206,8 @@ _ROWS = (
     TireNumber("bending_along", Unit("N m"), "bending stiffness of the belt along", 0.1, 1e5, *_bending(0)),
     TireNumber("bending_twist", Unit("N m"), "bending stiffness of the belt in twist", 0.0, 1e5, *_bending(1)),
     TireNumber("bending_across", Unit("N m"), "bending stiffness of the belt across", 0.1, 1e5, *_bending(2)),
-    TireNumber("tread_thickness", _LENGTH, "thickness of the tread", 1e-3, 0.1, *_belt("tread_thickness"),
-               above=_arm),
+    TireNumber("tread_thickness", _LENGTH, "thickness of the tread", 1e-3, 0.1, _thickness_read,
+               _belt("tread_thickness")[1], above=_arm),
     TireNumber("arm", _LENGTH, "from the surface of the tread to the neutral line of the belt", 0.0, 0.1,
                *_belt("arm"), below=_thickness),
     TireNumber("belt_radius", _RADIUS, "radius of the belt's own arc across", 0.2, 1e3, _arc_read,

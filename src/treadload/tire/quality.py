@@ -62,7 +62,8 @@ class ScanQuality:
     warnings: one sentence each. noise: standard deviation of the error of single points along the radius, m, as
     scanned; NaN when there are too few points. smoothing: standard deviation of the window that removed it, m, or 0.
     outliers: places that stuck out of the tread, the highest first. land_ratio: share of the tread that ribs, blocks
-    and lugs make up, grooves less than 3 mm deep among them; NaN where it is not known.
+    and lugs make up, grooves less than 3 mm deep among them; NaN where it is not known. interrupted: share of the
+    faces between grooves round the tire that lies in lateral grooves, sipes or holes; NaN where it is not known.
     """
 
     n_points: int
@@ -85,6 +86,7 @@ class ScanQuality:
     smoothing: float = 0.0
     outliers: tuple[Outlier, ...] = ()
     land_ratio: float = math.nan
+    interrupted: float = math.nan
 
     def __str__(self) -> str:
         lines = [

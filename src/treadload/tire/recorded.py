@@ -7,6 +7,7 @@ from typing import NoReturn
 
 from treadload.errors import InputError
 from treadload.grid import Grid
+from treadload.tire.cross_section import TreadSection
 from treadload.tire.quality import ScanQuality
 
 
@@ -15,6 +16,7 @@ class RecordedSurface:
     """The description of a surface whose mesh is not at hand.
 
     words: of the surface. extent: m. quality: of the scan. camber: rad. outer_radius, crown_arc_radius: m, or None.
+    cross_section: its grooves; None in files of earlier versions.
     Its gap cannot be asked again: `height_map` raises InputError that says how to go on.
     """
 
@@ -24,6 +26,7 @@ class RecordedSurface:
     camber: float = 0.0
     outer_radius: float | None = None
     crown_arc_radius: float | None = None
+    cross_section: TreadSection | None = None
 
     @property
     def fixed_grid(self) -> Grid | None:

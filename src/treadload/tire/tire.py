@@ -21,10 +21,12 @@ from treadload.materials import Anisotropic, Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
 from treadload.tire.belt import Belt, InflatedBelt
+from treadload.tire.cross_section import TreadSection, lateral_obstacle
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
-from treadload.tire.ribs import RibGroup, ribs_of
+from treadload.tire.rib_rows import gap_on_faces, with_bands
+from treadload.tire.ribs import RibGroup, cross_section_of, ribs_between
 from treadload.tire.surface import (
     Surface,
     asked_units,
@@ -40,9 +42,16 @@ if TYPE_CHECKING:
 
 POISSON_OF_RUBBER = 0.5
 Tread = Literal["layer", "ribs"]
+RibSides = Literal["free", "filled", "unknown", "none"]
+# Rubber below the deepest groove of a measured tread, m, where nobody gives it: that of the catalogue's 315/80R22.5,
+# 20 mm of tread with grooves of 15 mm.
+UNDERTREAD, _THICKEST_UNDERTREAD = 5e-3, 0.1
 TireMaterial = Elastic | Anisotropic | Prony | Surfaced
 # Cells, m, on which a tread is compared with its mirror image; round-off of their places and of its gap, m.
 _LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
+_INCOMPRESSIBLE = 0.5
+# A body stiffer than this, Pa, is no rubber, and its ribs do not bulge.
+_STIFFEST_RUBBER = 1e8
 
 
 @dataclass(frozen=True)
@@ -52,8 +61,9 @@ class Tire:
     surface: of the tread. material: of the half-space that stands for the tire, elastic, anisotropic or, for steady
     rolling, viscoelastic; or one that makes a surface of its own (`materials.kinds.Surfaced`). belt: in its place, a
     tread on an inflated belt. inflation_pressure: Pa, gives the modulus when there is neither; a belt needs it.
-    name: free text. tread: on a belt, a "layer" without grooves, or "ribs" with free sides, of a profile whose
-    grooves are circumferential.
+    name: free text. tread: on a belt, a "layer" without grooves, or "ribs" with free sides between circumferential
+    grooves. undertread: of ribs, rubber between the floor of the deepest groove and the belt, m; left out, what the
+    tread_thickness of the belt leaves below the grooves of a profile, and 5 mm below those of a scan or a height map.
     Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
     """
 
@@ -63,6 +73,7 @@ class Tire:
     name: str = ""
     belt: Belt | None = None
     tread: Tread = "layer"
+    undertread: float | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.surface, Surface):
@@ -92,12 +103,33 @@ class Tire:
                 raise InputError(
                     'tread = "ribs" stands on a belt: give belt, such as Belt.from_library("315/80R22.5")'
                 )
-            if not isinstance(self.surface, ProfileSurface):
-                raise InputError(
-                    'tread = "ribs" takes the ribs of a profile, and this tire has another surface; give a '
-                    'TreadProfile, or tread = "layer"'
-                )
-            ribs_of(self.surface.profile, self.belt.tread_thickness)
+            self._check_ribs()
+        elif self.undertread is not None:
+            raise InputError(
+                f"undertread = {self.undertread:g} m lies below the grooves of ribs, and this tread is a layer; give "
+                'tread = "ribs", or the tread_thickness of the belt'
+            )
+
+    def _check_ribs(self) -> None:
+        """Refuse ribs that the surface, the undertread or the rubber does not allow. Raises InputError."""
+        if self.undertread is not None and not 0 <= self.undertread <= _THICKEST_UNDERTREAD:
+            raise InputError(
+                f"undertread must lie between 0 and {_THICKEST_UNDERTREAD:g} m, got {self.undertread:g} m; it is the "
+                "rubber below the deepest groove, a few millimetres"
+            )
+        assert self.belt is not None
+        poisson = self.belt.tread.poisson
+        if poisson >= _INCOMPRESSIBLE:
+            raise InputError(
+                f"ribs need a Poisson's ratio below {_INCOMPRESSIBLE:g}, got {poisson:g}: give the tread of the belt "
+                "Elastic(modulus, 0.495); rubber has 0.49 to 0.4999"
+            )
+        if self.cross_section is None:
+            raise InputError(
+                f"ribs: the grooves of a {type(self.surface).__name__} are not known; give a TreadProfile, a scan or "
+                'a height map, or tread = "layer"'
+            )
+        assert self.ribs
 
     @classmethod
     def from_height_map(
@@ -111,6 +143,8 @@ class Tire:
         inflation_pressure: float | None = None,
         name: str = "",
         belt: Belt | None = None,
+        tread: Tread = "layer",
+        undertread: float | None = None,
     ) -> Tire:
         """Tire of a map of its initial gap.
 
@@ -128,15 +162,17 @@ class Tire:
         cell = _cell(spacing)
         if isinstance(gap, str | PathLike):
             surface = read_height_map(Path(gap), cell, units, decimal)
-            return cls(surface, material, inflation_pressure, name or Path(gap).name, belt)
+            name = name or Path(gap).name
+            return cls(surface, material, inflation_pressure, name, belt, tread, undertread)
         units_of = asked_units(units)
         if hasattr(gap, "dims") and hasattr(gap, "coords"):
             labelled: Any = gap
-            return cls(of_variable(labelled, cell, units_of), material, inflation_pressure, name, belt)
+            surface = of_variable(labelled, cell, units_of)
+            return cls(surface, material, inflation_pressure, name, belt, tread, undertread)
         if cell is None:
             raise InputError("a height map needs the spacing of its cells in m, e.g. spacing=3e-3")
-        values = in_metres(real_array(gap, "a height map"), units_of)
-        return cls(centred_height_map(values, cell), material, inflation_pressure, name, belt)
+        surface = centred_height_map(in_metres(real_array(gap, "a height map"), units_of), cell)
+        return cls(surface, material, inflation_pressure, name, belt, tread, undertread)
 
     @classmethod
     def from_profile(
@@ -148,17 +184,19 @@ class Tire:
         name: str = "",
         belt: Belt | None = None,
         tread: Tread = "layer",
+        undertread: float | None = None,
     ) -> Tire:
         """Tire of a parametric tread.
 
         profile: a TreadProfile, or the name of one in the catalogue, e.g. "315/80R22.5". tread: of a belt, "ribs" for
-        ribs with free sides between the grooves, "layer" for rubber without grooves.
+        ribs with free sides between the grooves, "layer" for rubber without grooves. undertread: as in `Tire`.
         Raises InputError when the catalogue does not have it, and for ribs of lateral or too deep grooves.
         """
         shape = tread_named(profile) if isinstance(profile, str) else profile
         if not isinstance(shape, TreadProfile):
             raise InputError(f"profile must be a TreadProfile or the name of one, got {profile!r}")
-        return cls(ProfileSurface(shape), material, inflation_pressure, name or shape.name, belt, tread)
+        surface = ProfileSurface(shape)
+        return cls(surface, material, inflation_pressure, name or shape.name, belt, tread, undertread)
 
     @classmethod
     def from_scan(
@@ -179,6 +217,8 @@ class Tire:
         inflation_pressure: float | None = None,
         name: str = "",
         belt: Belt | None = None,
+        tread: Tread = "layer",
+        undertread: float | None = None,
     ) -> Tire:
         """Tire of a scan in any pose, of the whole turn or of a part of it from 45° on.
 
@@ -194,6 +234,8 @@ class Tire:
         noise asks, when it is above 0.05 mm. outliers: points that stick out of the tread further than noise takes
         them are put back ("remove"), end in an error ("refuse") or stay ("keep").
         roundness: share of the radius by which it may vary round the tire.
+        tread, undertread: as in `Tire`; "ribs" have the walls of the meridian's grooves as measured, each with the
+        straight line nearest to it.
         Raises InputError (file, units, trimesh missing) and GeometryError (no tire in it).
         """
         # Reading a scan needs trimesh, which is an extra.
@@ -213,7 +255,7 @@ class Tire:
             scale=scale,
         )
         surface = read_scan(Path(path), options)
-        return cls(surface, material, inflation_pressure, name or Path(path).stem, belt)
+        return cls(surface, material, inflation_pressure, name or Path(path).stem, belt, tread, undertread)
 
     @property
     def carcass(self) -> TireMaterial | InflatedBelt:
@@ -226,7 +268,8 @@ class Tire:
                 raise InputError(
                     "a belt carries by its inflation: give inflation_pressure in Pa, a truck tire is near 820e3"
                 )
-            inflated = self.belt.inflated(self.inflation_pressure, self.outer_radius, self.crown_arc_radius)
+            belt = self._belt_below_ribs
+            inflated = belt.inflated(self.inflation_pressure, self.outer_radius, self.crown_arc_radius)
             return replace(inflated, ribs=self.ribs)
         if self.material is not None:
             return self.material
@@ -242,9 +285,53 @@ class Tire:
         """Ribs with free sides on the belt; empty where the tread is a layer."""
         if self.tread != "ribs":
             return ()
-        assert self.belt is not None
-        assert isinstance(self.surface, ProfileSurface)
-        return ribs_of(self.surface.profile, self.belt.tread_thickness)
+        section, belt = self.cross_section, self._belt_below_ribs
+        assert section is not None
+        groups = ribs_between(section, belt.tread_thickness)
+        return with_bands(groups, self.surface.profile) if isinstance(self.surface, ProfileSurface) else groups
+
+    @property
+    def cross_section(self) -> TreadSection | None:
+        """Ends and circumferential grooves of the tread; None where its surface does not know them."""
+        return cross_section_of(self.surface)
+
+    @property
+    def rib_sides(self) -> RibSides:
+        """How the sides of the tread's ribs are: "free" to bulge, or "filled", as a layer or a half-space has them.
+
+        "unknown" where the surface does not know its grooves or has lateral ones, "none" of a tread without grooves
+        and of a body that is no rubber.
+        """
+        if self.tread == "ribs":
+            return "free"
+        if isinstance(self.material, Elastic) and self.material.modulus > _STIFFEST_RUBBER:
+            return "none"
+        quality = self.quality
+        if quality is not None:
+            return "unknown" if lateral_obstacle(quality.interrupted) else "filled" if quality.grooves else "none"
+        section = self.cross_section
+        if section is None or section.obstacle:
+            return "unknown"
+        return "filled" if section.channels else "none"
+
+    @property
+    def has_undertread(self) -> bool:
+        """True where the undertread of ribs makes the thickness of the tread, in place of the belt's own."""
+        if self.tread != "ribs":
+            return False
+        section = self.cross_section
+        return self.undertread is not None or (section is not None and section.measured)
+
+    @property
+    def _belt_below_ribs(self) -> Belt:
+        """The belt with the thickness of tread that the undertread leaves; its neutral line stays where it is."""
+        belt, section = self.belt, self.cross_section
+        assert belt is not None
+        if section is None or not self.has_undertread:
+            return belt
+        thickness = section.deepest + (UNDERTREAD if self.undertread is None else self.undertread)
+        arm = max(0.0, thickness - (belt.tread_thickness - belt.arm))
+        return replace(belt, tread_thickness=thickness, arm=arm)
 
     @property
     def elastic(self) -> Elastic | Anisotropic | Surfaced | InflatedBelt:
@@ -318,10 +405,14 @@ class Tire:
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap in m at the cell centres, ≥ 0, to the plane at first contact; NaN where there is no material.
 
+        On the ribs of a profile it is the mean over what a row of cells stands for of a rib, see `tire.rib_rows`.
         Raises InputError when the tread is known on another grid only, GeometryError when it has no usable
         surface there.
         """
-        return self.surface.height_map(grid)
+        gap = self.surface.height_map(grid)
+        if self.tread == "ribs" and isinstance(self.surface, ProfileSurface):
+            return gap_on_faces(self.surface.profile, grid, self.ribs, gap)
+        return gap
 
     def __str__(self) -> str:
         parts: list[Any] = [self.name or "tire", self.surface]

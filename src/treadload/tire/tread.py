@@ -111,6 +111,11 @@ class TreadProfile:
 
         return tomli_w.dumps(self.to_dict())
 
+    @property
+    def ribs(self) -> int:
+        """Ribs that its circumferential grooves leave; 0 where it has none of them, or lateral grooves."""
+        return len(self.grooves) + 1 if self.grooves and not self.lateral else 0
+
     def drop(self, y: Array) -> Array:
         """Meridian: how far the surface lies below the crown circle at y, grooves included but lateral ones not.
 

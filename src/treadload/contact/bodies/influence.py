@@ -23,9 +23,12 @@ _WAVES, _DIRECTIONS = 64, 48
 _ROUND_OFF = 1e-12
 # Operators on up to so many cells are kept for the next contact: 16 to 300 bytes a cell each, at most so many.
 _KEPT_CELLS, _KEPT = 25_000, 12
+# Pairs of bodies and sizes of cells whose symbols are kept.
+_KEPT_PAIRS = 4
 
 Symbols = Array | ComplexArray
 Product = Callable[[Array], Array]
+_Symbols = dict[tuple[str, tuple[int, int]], tuple[Symbols, ...]]
 _NO_STRIPS = (
     'this problem needs a surface that is the same everywhere, and a tread with ribs is not; give tread = "layer"'
 )
@@ -88,6 +91,11 @@ class Influence:
         return Strips(tuple(strip.rows for strip in self._strips), blocks, length)
 
     @property
+    def has_blocks(self) -> bool:
+        """True if groups of cells are known as wholes by dense matrices."""
+        return bool(self._strips)
+
+    @property
     def material(self) -> BoolArray:
         """(ny,) rows that have material: all of a pair without strips."""
         if not self._strips:
@@ -132,7 +140,8 @@ class Influence:
         if components == (2,):
             return StripInverse.of(strips, components, {(2, 2): self.pair.normal(at)})
         xx, yy, xy = self.pair.tangential(at)
-        return StripInverse.of(strips, components, {(0, 0): xx, (1, 1): yy, (0, 1): xy})
+        # Under shear the belt couples ribs weakly, and its inverse group by group takes a fraction of the memory.
+        return StripInverse.of(strips, components, {(0, 0): xx, (1, 1): yy, (0, 1): xy}, together=False)
 
     @cached_property
     def dundurs(self) -> float:
@@ -164,12 +173,10 @@ class Influence:
         strips = self.strips(self.padding)
         if strips is None:
             return self.convolved_normal
-        columns = self.shape[1]
+        convolved = self.convolved_normal
 
         def both(pressure: Array) -> Array:
-            opening: Array = strips.displacement(pressure[None], (2,), (2,), columns)[0]
-            opening += self.convolved_normal(pressure)
-            return opening
+            return convolved(pressure, lambda waves: strips.on_waves(waves, (2,), (2,)))
 
         return both
 
@@ -216,7 +223,7 @@ class Influence:
             symbols = self._spectra(padding, self.pair.tangential, ((1, 1), (1, 1), (-1, -1)))
             return (symbols if self.mirrored else self._leaning(symbols, self._tilted(padding)[0]),)
 
-        return self._once("tangential", padding, computed)[0]
+        return self._once("tangential", padding.shape, computed)[0]
 
     def self_influence(self, *, rolls: bool) -> float:
         """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
@@ -231,11 +238,15 @@ class Influence:
         """About the inverse of `normal`: its symbol (ny, nx // 2 + 1) on the unpadded, periodic grid, Pa/m."""
         return np.asarray(self._waves.k / self.pair.normal_compliance(self._waves))
 
-    @cached_property
-    def tangential_stiffness(self) -> Array | ComplexArray:
-        """About the inverse of `tangential`: symbols (3, ny, nx // 2 + 1) as above, Pa/m: xx, yy, xy."""
-        _, xx, yy, xy = self._compliance
-        return np.asarray(self._waves.k * np.array([yy, xx, -xy]) / (xx * yy - xy * xy))
+    def tangential_stiffness_on(self, shape: tuple[int, int]) -> Symbols:
+        """About the inverse of `tangential`, Pa/m: xx, yy, xy (3, ny, nx // 2 + 1) on periodic (ny, nx) cells."""
+
+        def computed() -> tuple[Symbols, ...]:
+            waves = Waves(shape, self.dx, self.dy)
+            _, xx, yy, xy = self.pair.compliance(waves)
+            return (np.asarray(waves.k * np.array([yy, xx, -xy]) / (xx * yy - xy * xy)),)
+
+        return self._once("stiffness", shape, computed)[0]
 
     def gap_by_shear(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear (2, ny, nx) on body 1, Pa: zero for like bodies."""
@@ -303,10 +314,6 @@ class Influence:
     def _waves(self) -> Waves:
         return Waves(self.shape, self.dx, self.dy)
 
-    @cached_property
-    def _compliance(self) -> Array | ComplexArray:
-        return self.pair.compliance(self._waves)
-
     def _coupling(self, padding: Padding) -> tuple[Symbols, ...]:
         """Symbols (2, my, mx // 2 + 1) of u_n by q and of u by p, m/Pa."""
 
@@ -317,19 +324,32 @@ class Influence:
             e = self._tilted(padding)[1:]
             return k + e, e - k
 
-        return self._once("coupling", padding, computed)
+        return self._once("coupling", padding.shape, computed)
 
-    def _once(self, name: str, padding: Padding, compute: Callable[[], tuple[Symbols, ...]]) -> tuple[Symbols, ...]:
-        """Symbols in a padded space, computed once on few cells; on many they would fill the memory."""
+    def _once(
+        self, name: str, shape: tuple[int, int], compute: Callable[[], tuple[Symbols, ...]]
+    ) -> tuple[Symbols, ...]:
+        """Symbols in a Fourier space of a shape, computed once on few cells; on many they would fill the memory.
+
+        They depend on the pair, the cells and that shape alone: boxes of nearly the same shape share them.
+        """
         if self.shape[0] * self.shape[1] > _KEPT_CELLS:
             return compute()
-        if (name, padding) not in self._symbols:
-            self._symbols[name, padding] = compute()
-        return self._symbols[name, padding]
+        kept = self._symbols.get((name, shape))
+        if kept is None:
+            kept = compute()
+            while len(self._symbols) >= _KEPT:
+                self._symbols.pop(next(iter(self._symbols)), None)
+            self._symbols[name, shape] = kept
+        return kept
 
     @cached_property
-    def _symbols(self) -> dict[tuple[str, Padding], tuple[Symbols, ...]]:
-        return {}
+    def _symbols(self) -> _Symbols:
+        try:
+            return _symbols_of(self.pair, self.dx, self.dy)
+        except TypeError:
+            # A body that cannot be hashed.
+            return {}
 
     def _tilted(self, padding: Padding) -> Array | ComplexArray:
         """Symbols (3, my, mx // 2 + 1) of a, e_x, e_y, m/Pa."""
@@ -401,8 +421,11 @@ def _coupling_of(strip: Strip) -> float:
 def operators(shape: tuple[int, int], dx: float, dy: float, pair: Body, first_y: float | None = None) -> Influence:
     """`Influence` of the same arguments. On few cells that of an earlier contact serves, with what it has computed.
 
-    The same tire on a grid offset, under another load or with other friction has the same operators.
+    The same tire on a grid offset, under another load or with other friction has the same operators; with strips the
+    rows of the grid must be the same.
     """
+    if not pair.striped:
+        first_y = None
     try:
         hash(pair)
     except TypeError:
@@ -414,6 +437,13 @@ def operators(shape: tuple[int, int], dx: float, dy: float, pair: Body, first_y:
 _kept = lru_cache(maxsize=_KEPT)(Influence)
 
 
+@lru_cache(maxsize=_KEPT_PAIRS)
+def _symbols_of(pair: Body, dx: float, dy: float) -> _Symbols:
+    """What `Influence._once` keeps of a pair on cells of dx by dy, m."""
+    return {}
+
+
 def forget_operators() -> None:
     """Drop the operators that `operators` keeps, as before the first contact: for measurements of time and memory."""
     _kept.cache_clear()
+    _symbols_of.cache_clear()

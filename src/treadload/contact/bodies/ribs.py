@@ -7,6 +7,7 @@ loads that do not vary along travel, and less under others.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,12 +15,18 @@ import numpy as np
 from treadload.contact.bodies.body import Body, Offsets, Rows, Strip, Waves
 from treadload.contact.bodies.section_tables import face_table
 from treadload.kernels.arrays import Array
+from treadload.kernels.sections import Section
 from treadload.materials import Elastic
+from treadload.tire.rib_rows import rows_on_faces
 from treadload.tire.ribs import RibGroup
 
 # Wider cells, as those on which a contact is located, share the elements of these, m.
 _WIDEST = 3e-3
-_SAME = 1e-9
+
+
+def cells_section(group: RibGroup, cell: float) -> Section:
+    """The section of ribs with the elements that cells of a size, m, need."""
+    return group.section.for_cells(min(cell, _WIDEST))
 
 
 @dataclass(frozen=True)
@@ -59,24 +66,19 @@ class Ribs(Body):
         return True
 
     def strips(self, rows: Rows) -> tuple[Strip, ...]:
-        """As in `Body`: rows whose middle lies on a face; the first and the last of a rib reach to its walls."""
-        y, half = rows.y, 0.5 * rows.dy
+        """As in `Body`: rows that lie on a face, each with the part that it stands for, see `tire.rib_rows`."""
+        bands = [band for group in self.groups for band in group.bands]
+        on_faces = iter(rows_on_faces(rows.y, rows.dy, bands))
         strips = []
         for group in self.groups:
-            numbers, edges = [], []
-            for left, right in group.faces:
-                number = np.flatnonzero((y >= left - _SAME) & (y <= right + _SAME))
-                if number.size:
-                    ends = np.stack([y[number] - half, y[number] + half], axis=1)
-                    ends[0, 0], ends[-1, 1] = left, right
-                    numbers.append(number)
-                    edges.append(ends)
-            if not numbers:
+            faces = [face for face in itertools.islice(on_faces, len(group.bands)) if face.rows.size]
+            if not faces:
                 continue
-            number, relative = np.concatenate(numbers), np.concatenate(edges) - group.centre
+            number = np.concatenate([face.rows for face in faces])
+            relative = np.concatenate([face.parts for face in faces]) - group.centre
             if group.mirrored:
                 relative = -relative[::-1, ::-1]
-            section = group.section.for_cells(min(rows.dy, _WIDEST))
+            section = cells_section(group, rows.dy)
             table = face_table(section, self.material.poisson).on_cells(relative, rows.dy)
             strips.append(Strip(number, table, self.material.modulus, group.mirrored))
         return tuple(strips)

@@ -2,6 +2,12 @@
 
 A file holds one table, for E = 1 Pa. It is written whole or not at all, and made again, without a word, where it is
 missing, damaged, or of another version. TREADLOAD_CACHE names another folder; empty, it keeps tables in memory only.
+
+E scales out, ν does not: a search for ν would solve a table for every ν that it tries. `interpolated` makes it use a
+polynomial through tables at a few ν in place of that.
+
+Tables of the catalogue's treads are part of the package, in single precision and by the lower triangle of their
+matrices; `benchmarks/ship_section_tables.py` makes them.
 """
 
 from __future__ import annotations
@@ -11,6 +17,8 @@ import hashlib
 import io
 import os
 import zipfile
+from collections.abc import Iterator
+from contextvars import ContextVar
 from functools import lru_cache
 from pathlib import Path
 
@@ -26,19 +34,68 @@ from treadload.kernels.sections import FaceTable, Section, face_compliance
 _VERSION = 1
 # Tables in memory, and on the disk: a few MB each.
 _KEPT, _MOST_FILES = 8, 40
+# Tables of the catalogue's treads.
+_SHIPPED = Path(__file__).parent / "shipped_sections"
 # Lengths of sections are compared to so many decimals of a metre: ribs that differ by round-off share a table.
 _DECIMALS = 9
+# Poisson's ratios between which tables are interpolated, and their number: compliance is nearly linear in 1 - 2ν, so
+# that a parabola through tables at 0.45 to 0.4999 errs by less than 1e-5 of the largest.
+_BETWEEN: ContextVar[tuple[float, ...]] = ContextVar("interpolated Poisson's ratios", default=())
+_NODES = 3
 
 
 def face_table(section: Section, poisson: float) -> FaceTable:
     """Displacement of the face of a section of E = 1 Pa, solved, or taken from an earlier time. poisson: ν < ½."""
+    nodes = _BETWEEN.get()
+    if nodes and nodes[0] <= poisson <= nodes[-1]:
+        return _between(_rounded(section), float(poisson), nodes)
     return _table(_rounded(section), float(poisson))
+
+
+@contextlib.contextmanager
+def interpolated(low: float, high: float) -> Iterator[None]:
+    """Interpolate tables of sections of a Poisson's ratio from low to high, both below ½, while this is open.
+
+    For a search for ν: tables are solved at three ν and not at each that is tried. Others are solved as always.
+    """
+    token = _BETWEEN.set(_chebyshev(low, high))
+    try:
+        yield
+    finally:
+        _BETWEEN.reset(token)
+
+
+def _chebyshev(low: float, high: float) -> tuple[float, ...]:
+    """Places of extremes of a Chebyshev polynomial, the ends among them; digits that a file's name repeats."""
+    turn = np.cos(np.pi * np.arange(_NODES) / (_NODES - 1))
+    places = 0.5 * (low + high) - 0.5 * (high - low) * turn
+    return tuple(float(f"{place:.10g}") for place in np.concatenate([[low], places[1:-1], [high]]))
+
+
+def _between(section: Section, poisson: float, nodes: tuple[float, ...]) -> FaceTable:
+    waves, compliance = _tables_at(section, nodes)
+    at = np.array(nodes)
+    apart = at[:, None] - at[None, :] + np.eye(len(at))
+    # Lagrange's polynomials: 1 at their node, 0 at the others.
+    weights = np.array(
+        [np.prod([(poisson - at[j]) / apart[i, j] for j in range(len(at)) if j != i]) for i in range(len(at))]
+    )
+    return FaceTable(section, poisson, waves, np.tensordot(weights, compliance, 1))
+
+
+@lru_cache(maxsize=_KEPT)
+def _tables_at(section: Section, nodes: tuple[float, ...]) -> tuple[Array, Array]:
+    """Waves and the compliance at each ν, one after the other."""
+    tables = [_table(section, poisson) for poisson in nodes]
+    return tables[0].waves, np.stack([table.compliance for table in tables])
 
 
 @lru_cache(maxsize=_KEPT)
 def _table(section: Section, poisson: float) -> FaceTable:
     path = _path(section, poisson)
-    table = None if path is None else _read(path, section, poisson)
+    table = _read_shipped(section, poisson)
+    if table is None and path is not None:
+        table = _read(path, section, poisson)
     if table is None:
         table = face_compliance(section, poisson)
         if path is not None:
@@ -52,7 +109,12 @@ def _rounded(section: Section) -> Section:
 
     ribs = tuple((round(left, _DECIMALS) + 0.0, round(right, _DECIMALS) + 0.0) for left, right in section.ribs)
     first, last = near(section.ends)
-    height, draft = near((section.height, section.draft))
+    (height,) = near((section.height,))
+    draft: float | tuple[tuple[float, float], ...]
+    if isinstance(section.draft, tuple):
+        draft = tuple((near(pair)[0], near(pair)[1]) for pair in section.draft)
+    else:
+        (draft,) = near((section.draft,))
     return Section(ribs, height, near(section.floors), (first, last), draft, section.halvings)
 
 
@@ -62,17 +124,66 @@ def _path(section: Section, poisson: float) -> Path | None:
     if folder == "":
         return None
     place = Path(folder) if folder else platformdirs.user_cache_path("treadload", appauthor=False)
-    name = hashlib.sha256(f"{_VERSION} {section!r} {poisson!r}".encode()).hexdigest()[:32]
-    return place / "sections" / f"{name}.npz"
+    return place / "sections" / _file_name(section, poisson)
+
+
+def _file_name(section: Section, poisson: float) -> str:
+    return f"{hashlib.sha256(f'{_VERSION} {section!r} {poisson!r}'.encode()).hexdigest()[:32]}.npz"
+
+
+def ship(section: Section, poisson: float, folder: Path | None = None) -> Path:
+    """Solve a section and write its table into the package, or another folder. Returns the path of the file."""
+    section = _rounded(section)
+    table = face_compliance(section, poisson)
+    lower = np.tril_indices(table.compliance.shape[1])
+    content = io.BytesIO()
+    np.savez(
+        content,
+        description=_description(section, poisson),
+        waves=table.waves,
+        triangle=table.compliance[:, lower[0], lower[1]].astype(np.float32),
+    )
+    path = (_SHIPPED if folder is None else folder) / _file_name(section, poisson)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, content.getvalue(), sync=False)
+    return path
+
+
+def shipped_path(section: Section, poisson: float) -> Path:
+    """Where the package has the table of a section, if it has."""
+    return _SHIPPED / _file_name(_rounded(section), poisson)
+
+
+def _read_shipped(section: Section, poisson: float) -> FaceTable | None:
+    """The table of a section that came with the package; None of a section without one."""
+    stored = _arrays(_SHIPPED / _file_name(section, poisson), ("description", "waves", "triangle"))
+    if stored is None or str(stored[0]) != _description(section, poisson):
+        return None
+    _, waves, triangle = stored
+    nodes = 3 * section.mesh.face_lines.size
+    if triangle.shape != (waves.size, nodes * (nodes + 1) // 2) or not np.isfinite(triangle).all():
+        return None
+    compliance = np.empty((waves.size, nodes, nodes))
+    rows, columns = np.tril_indices(nodes)
+    compliance[:, rows, columns] = compliance[:, columns, rows] = triangle
+    return FaceTable(section, poisson, _read_only(waves), _read_only(compliance))
+
+
+def _arrays(path: Path, names: tuple[str, ...]) -> list[Array] | None:
+    """Arrays of a file; None where there is none, or where it is damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            return [stored[name] for name in names]
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        return None
 
 
 def _read(path: Path, section: Section, poisson: float) -> FaceTable | None:
     """The table of a file; None where there is none, or where it does not hold what it should."""
-    try:
-        with np.load(path, allow_pickle=False) as stored:
-            description, waves, compliance = (stored[name] for name in ("description", "waves", "compliance"))
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+    stored = _arrays(path, ("description", "waves", "compliance"))
+    if stored is None:
         return None
+    description, waves, compliance = stored
     nodes = 3 * section.mesh.face_lines.size
     sound = (
         str(description) == _description(section, poisson)

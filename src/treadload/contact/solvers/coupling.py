@@ -34,7 +34,7 @@ _TIGHTER = 0.3
 # A change of the pressure below it is round-off.
 _SAME = 1e-14
 # Of ribs: what rolling aims at in the first round, then per change of the pressure; of pressing, over the tolerance.
-_FIRST_AIM, _AIM, _MOST_OF_PRESSING = 1e-2, 0.03, 10.0
+_FIRST_AIM, _AIM, _MOST_OF_PRESSING = 1e-2, 0.1, 10.0
 
 Progress = Callable[[str], None]
 

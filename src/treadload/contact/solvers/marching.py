@@ -46,6 +46,7 @@ class Stage:
     travel: distance rolled in the step, m, ≥ 0; zero: no rolling.
     axes: of the friction ellipse, as in `contact.solvers.tangential`.
     pressure: (ny, nx), Pa, where it is known; or load, N, or approach, m, under which it is found.
+    gap: (ny, nx) before loading, m, where it is not that of the history.
     """
 
     rigid: Array
@@ -56,6 +57,7 @@ class Stage:
     pressure: Array | None = None
     load: float | None = None
     approach: float | None = None
+    gap: Array | None = None
 
     def bound(self, pressure: Array) -> Array:
         """Bound of shear (ny, nx), Pa, under a pressure (ny, nx), Pa."""
@@ -184,9 +186,10 @@ def march(
             tangential = _shear(influence, here, stage, stage.pressure, imposed, start, tolerance)
             new = State(stage, stage.pressure, tangential)
         else:
-            if gap is None:
+            before_loading = gap if stage.gap is None else stage.gap
+            if before_loading is None:
                 raise InputError("a step with a load or an approach needs the gap (ny, nx) of the two bodies, m")
-            new = _press(influence, here, gap, stage, state, imposed, start, tolerance)
+            new = _press(influence, here, before_loading, stage, state, imposed, start, tolerance)
         earlier, state = state, new
         yield new
 
@@ -294,4 +297,4 @@ def _normal(influence: Influence, gap: Array, stage: Stage, start: Array | None,
 
 
 def _same_load(stage: Stage, previous: Stage) -> bool:
-    return stage.load == previous.load and stage.approach == previous.approach
+    return stage.load == previous.load and stage.approach == previous.approach and stage.gap is previous.gap

@@ -175,7 +175,7 @@ def _inverse(symbol: Array | ComplexArray, periodic: tuple[int, int]) -> Operato
 
 def _start(influence: Influence, gap: Array, load: float | None, approach: float | None) -> Array:
     """Pressure where the solution on half the grid makes contact likely; on the coarsest, a first guess."""
-    if min(influence.shape) < _COARSEST or not influence.material.all():
+    if min(influence.shape) < _COARSEST or influence.has_blocks:
         # Where a rigid tread sinks to the depth that half of all cells reach, it surely touches.
         return np.where(gap <= np.nanmedian(gap), 1.0, 0.0)
     coarse_gap = halve(gap)

@@ -73,7 +73,7 @@ def solve_tangential(
     if box is None:
         # No cell can carry shear: the bodies slide freely at the known rigid slip.
         return TangentialSolution(np.zeros_like(rigid), rigid.copy(), (0.0, 0.0), np.zeros(bound.shape, bool), 0.0)
-    striped = not influence.material.all()
+    striped = influence.has_blocks
     if striped:
         # Groups of rows are known as wholes.
         box = slice(0, bound.shape[0]), slice(0, bound.shape[1])
@@ -177,7 +177,7 @@ class _Preconditioner:
         # On periodic cells of numbers that are fast to transform: near the patch, and near is enough.
         ny, nx = influence.shape
         self.shape = int(fft.next_fast_len(ny)), int(fft.next_fast_len(nx, real=True))
-        symbols = replace(influence, shape=self.shape).tangential_stiffness / _stretches(axes)
+        symbols = influence.tangential_stiffness_on(self.shape) / _stretches(axes)
         turned = np.iscomplexobj(symbols)
         self.symbols = symbols.astype(np.complex64) if turned else paired(symbols.astype(np.float32))
         self.rolls = rolls

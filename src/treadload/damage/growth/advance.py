@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 from scipy.special import ndtri
 
 from treadload.errors import InputError
@@ -11,6 +12,22 @@ from treadload.kernels.arrays import Array
 # Draws of the two scatters, a power of two as Sobol's sequence wants it: 5 % and 95 % within a per cent or so.
 _DRAWS = 12
 RISKS = (0.05, 0.5, 0.95)
+
+
+def refined(lengths: Array, rates: Array, parts: int = 8) -> tuple[Array, Array]:
+    """So many lengths, m, for each step between those solved, and the rates there, m per pass.
+
+    lengths: (n,), m, rising. rates: (n, ...), >= 0. The logarithm of the rate is a monotone cubic of that of the
+    length, so that a power of the length stays one; rates that vanish next to a length vanish up to it.
+    """
+    logs = np.log(lengths)
+    fine = np.unique(
+        np.concatenate([logs, np.interp(np.arange(parts * (len(logs) - 1)) / parts, range(len(logs)), logs)])
+    )
+    nothing = 1e-30 * max(float(rates.max(initial=0.0)), 1e-270)
+    values = PchipInterpolator(logs, np.log(np.maximum(rates, nothing)), axis=0)(fine)
+    between = np.exp(values)
+    return np.exp(fine), np.where(between > 10 * nothing, between, 0.0)
 
 
 def grown(lengths: Array, rates: Array, targets: Array) -> Array:

@@ -13,10 +13,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from scipy.ndimage import map_coordinates
 
-from treadload.damage.growth.options import STEEPEST
+from treadload.damage.growth.options import POINTS, STEEPEST
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.fracture.closure import stress_intensity
@@ -26,10 +26,10 @@ from treadload.kernels.fracture.layers import Strip
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 
-# Points along a crack, straight down and not: 0.3 % of K under uniform tension.
-_POINTS, _BENT = 12, 24
-# States whose stress intensity without friction is below this part of the largest are taken as none.
-_LEAST = 0.02
+# States whose tensile and shear tractions make less than this part of the largest stress intensity are taken as none.
+_LEAST = 0.005
+# Distances closer than this are the two sides of an interface, where the stress jumps, m.
+BREAK = 2e-6
 # A tip at an interface has another singularity: the last solve stops short of it by this part of the way.
 CLOSE = 0.95
 
@@ -121,12 +121,14 @@ class Way:
         return curve(distance), curve.derivative()(distance)
 
     def until(self, distance: float) -> Way:
-        """As far as a distance, m."""
+        """As far as a distance, m; a straight one goes on in its direction."""
+        if len(self.distances) == 2:
+            return self
         keep = self.distances <= distance * (1 + 1e-9)
         return Way(self.distances[keep], self.offsets[keep])
 
 
-def faces_along(section: Section, way: Way, distance: float, *, upwards: bool) -> CrackFaces:
+def faces_along(section: Section, way: Way, distance: float, *, upwards: bool, points: int = POINTS) -> CrackFaces:
     """The faces of a crack whose tip is at a distance from its mouth, m."""
 
     def curve(s: Array) -> tuple[Array, Array, Array, Array]:
@@ -135,7 +137,7 @@ def faces_along(section: Section, way: Way, distance: float, *, upwards: bool) -
         mouth = section.thickness if upwards else 0.0
         return offset, mouth + turn * s, slope, np.full_like(s, turn)
 
-    return crack_faces(section, curve, distance, _BENT if way.offsets.any() else _POINTS)
+    return crack_faces(section, curve, distance, points)
 
 
 def tractions(crossing: Crossing, faces: CrackFaces, trace: float) -> Array:
@@ -145,11 +147,7 @@ def tractions(crossing: Crossing, faces: CrackFaces, trace: float) -> Array:
     """
     across = np.array([-math.sin(trace), math.cos(trace)])
     distance = crossing.section.thickness - faces.z if crossing.upwards else faces.z
-    at = np.clip(np.searchsorted(crossing.distances, distance) - 1, 0, len(crossing.distances) - 2)
-    part = (distance - crossing.distances[at]) / (crossing.distances[at + 1] - crossing.distances[at])
-    stress: Array = (
-        crossing.stress[:, at] * (1 - part)[:, None, None] + crossing.stress[:, at + 1] * part[:, None, None]
-    )
+    stress: Array = np.einsum("kd,cdyx->ckyx", between(crossing.distances, distance), crossing.stress, optimize=True)
     if faces.x.any():
         stress = _moved(stress, crossing, faces.x[:, None] * across)
     xx, yy, zz, xy, xz, yz = stress
@@ -162,6 +160,36 @@ def tractions(crossing: Crossing, faces: CrackFaces, trace: float) -> Array:
     shear = n[0] * t[0] * nn + n[1] * t[1] * zz + (n[0] * t[1] + n[1] * t[0]) * nz
     lateral = n[0] * nt + n[1] * tz
     return np.stack([normal, shear, lateral]).transpose(2, 3, 0, 1)
+
+
+def between(distances: Array, at: Array) -> Array:
+    """Weights (n, nd) of what is known at distances (nd,), m, rising, for its values at others (n,) within them.
+
+    Cubic between two distances, with the slope of the parabola through each and its neighbours; two that are closer
+    than BREAK are the sides of an interface, across which nothing is interpolated.
+    """
+    weights = np.zeros((len(at), len(distances)))
+    ends = np.flatnonzero(np.diff(distances) < BREAK) + 1
+    for piece in np.split(np.arange(len(distances)), ends):
+        low, high = distances[piece[0]], distances[piece[-1]]
+        first, last = piece[0] == 0, piece[-1] == len(distances) - 1
+        rows = np.flatnonzero((first | (at >= low)) & (last | (at < high)))
+        weights[np.ix_(rows, piece)] = _cubic(distances[piece], at[rows])
+    lost = ~weights.any(axis=1)
+    if lost.any():
+        closest = np.abs(distances - at[lost, None]).argmin(axis=1)
+        weights[np.flatnonzero(lost), closest] = 1.0
+    return weights
+
+
+def _cubic(x: Array, at: Array) -> Array:
+    unit = np.eye(len(x))
+    if len(x) == 2:
+        slope: Array = np.repeat(np.diff(unit, axis=0) / np.diff(x)[:, None], 2, axis=0)
+    else:
+        slope = np.asarray(np.gradient(unit, x, axis=0, edge_order=2))
+    weights: Array = CubicHermiteSpline(x, unit, slope)(at)
+    return weights
 
 
 def _moved(stress: Array, crossing: Crossing, by: Array) -> Array:
@@ -184,15 +212,12 @@ def modes(crossing: Crossing, faces: CrackFaces, trace: float, friction: float) 
     Raises ConvergenceError.
     """
     load = tractions(crossing, faces, trace)
-    n = len(faces.z)
-    factors = np.concatenate(
-        [load[..., :2, :].reshape(*load.shape[:2], 2 * n) @ faces.plane.T, load[..., 2:, :] @ faces.antiplane],
-        axis=-1,
-    )
-    factors[..., 0] = np.maximum(factors[..., 0], 0.0)
-    size = np.abs(factors).max(axis=-1)
+    # Faces that touch can open elsewhere, so that the sum over the whole path says little: its parts do.
+    pull, shear, lateral = np.maximum(load[..., 0, :], 0.0), np.abs(load[..., 1, :]), np.abs(load[..., 2, :])
+    in_plane = np.concatenate([pull, shear], axis=-1) @ np.abs(faces.plane).T
+    size = np.maximum(in_plane.max(axis=-1), lateral @ np.abs(faces.antiplane))
     moves = size > _LEAST * size.max()
-    factors[~moves] = 0.0
+    factors = np.zeros((*size.shape, 3))
     try:
         factors[moves], settled = stress_intensity(faces, load[moves], friction)
     except ArithmeticError as error:

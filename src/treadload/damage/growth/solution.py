@@ -28,10 +28,14 @@ class Growth(BaseResult, group="growth"):
     place where the end, or else the most, is reached first, worst_y; risk_years (risk, crack_depth); where the road
     has a design life reach_chance (crack_depth); stress_intensity_range (axle_class, solved_depth, mode) at worst_y
     with no wander, in the season where it is largest; crack_offset (crack_depth), of a path that is not vertical.
+    Where the climate asks for daily thermal stress: thermal_intensity_range (month, solved_depth), Pa √m, and what it
+    adds, thermal_growth_rate (solved_depth), m per year, which growth_rate contains as shared between the passes of
+    the year in which the crack starts.
     asked: how it grows. stats: solves, seconds. warnings: sentences for the user.
     """
 
     title: ClassVar[str] = "Crack growth"
+    subject: ClassVar[str] = "How a crack grows through a layer"
     holds: ClassVar[Holds] = Holds(
         {
             "initiation_passes": "y",
@@ -45,7 +49,11 @@ class Growth(BaseResult, group="growth"):
             "solved_depth": "solved_depth",
             "risk": "risk",
         },
-        maybe={"reach_chance": "crack_depth"},
+        maybe={
+            "reach_chance": "crack_depth",
+            "thermal_growth_rate": "solved_depth",
+            "thermal_intensity_range": "month solved_depth",
+        },
         labels={"axle_class": "axle_class", "mode": "mode"},
         values={"mode": MODES},
         texts="grows starts",
@@ -101,6 +109,10 @@ class Growth(BaseResult, group="growth"):
             row("stress_intensity_range", ranges[most].sel(mode=mode), label=f"largest range of K_{mode}", note=axles)
             for mode in MODES[:3]
         ]
+        if "thermal_intensity_range" in data:
+            daily = data["thermal_intensity_range"].max("solved_depth").to_numpy()
+            month = str(data["month"].to_numpy()[int(daily.argmax())])
+            rows.append(row("thermal_intensity_range", float(daily.max()), note=month))
         rows.append(row("worst_y", data["worst_y"], note="first through here"))
         if self._chance is not None:
             years = f"{float(data.attrs['design_years']):g} years"

@@ -56,7 +56,7 @@ class _Mepdg(_Regression):
         super().__post_init__()
         positive("thickness", self.thickness, "metres", "6 inches are 0.1524")
         positive("calibration", self.calibration, remedy="1 is the law as published")
-        _check_volumes(self.air_voids, self.binder_volume)
+        check_volumes(self.air_voids, self.binder_volume)
 
     @property
     @abstractmethod
@@ -154,7 +154,7 @@ class AsphaltInstitute(_Regression):
                 f"give both air_voids and binder_volume or none, got {self.air_voids} and {self.binder_volume}"
             )
         if self.air_voids is not None and self.binder_volume is not None:
-            _check_volumes(self.air_voids, self.binder_volume)
+            check_volumes(self.air_voids, self.binder_volume)
 
     @property
     def doubt(self) -> str:
@@ -282,7 +282,8 @@ def _sigmoid(value: float | Array) -> Array:
     return np.asarray(0.5 * (1 + np.tanh(0.5 * np.asarray(value))))
 
 
-def _check_volumes(air_voids: float, binder_volume: float) -> None:
+def check_volumes(air_voids: float, binder_volume: float) -> None:
+    """Raise InputError unless the volumes of air and effective binder are shares of the mix in (0, 1)."""
     for name, value, usual in (
         ("air_voids", air_voids, "7 % is 0.07"),
         ("binder_volume, of the effective binder,", binder_volume, "11 % is 0.11"),

@@ -49,7 +49,7 @@ class OnLayer:
         except InputError as error:
             raise InputError(f"{self.name!r}: {error}") from error
 
-    def needed(self, values: Mapping[str, Any], *names: str) -> None:
+    def needed(self, values: Mapping[str, object], *names: str) -> None:
         """Refuse what neither the caller nor the layer gives, all of it at once. Raises InputError."""
         missing = [name for name in names if values.get(name) is None]
         if not missing:
@@ -80,7 +80,7 @@ class OnLayer:
             )
         return accepted
 
-    def with_own(self, values: Mapping[str, Any], *names: str) -> dict[str, Any]:
+    def with_own(self, values: Mapping[str, object], *names: str) -> dict[str, Any]:
         """What is given, and of these names the material's own where nothing is."""
         defaults = {name: getattr(self.material, name, None) for name in names}
         return {**defaults, **{name: value for name, value in values.items() if value is not None}}
@@ -93,7 +93,7 @@ class OfModulus:
     an aged part of the layer, or at the frequency of a class of axles.
     """
 
-    def __init__(self, kind: Callable[..., FatigueLaw], arguments: Mapping[str, Any], material: Mix) -> None:
+    def __init__(self, kind: Callable[..., FatigueLaw], arguments: Mapping[str, object], material: Mix) -> None:
         self._kind, self._arguments, self._material = kind, arguments, material
 
     def __call__(self, temperature: float) -> FatigueLaw:
@@ -106,7 +106,7 @@ class OfModulus:
 
 
 def law_of_layer(
-    kind: Callable[..., FatigueLaw], at: OnLayer, values: Mapping[str, Any], needed: tuple[str, ...]
+    kind: Callable[..., FatigueLaw], at: OnLayer, values: Mapping[str, object], needed: tuple[str, ...]
 ) -> Law:
     """A law of numbers that are given, or that the layer has under the same names. Raises InputError.
 

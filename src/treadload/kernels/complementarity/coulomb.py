@@ -70,13 +70,7 @@ class CoulombProblem:
             y += x
             return [u_x.view(waves[0].dtype), y.view(waves[0].dtype)]
 
-        u_x, u_y = self.padding.through([q[0], q[1]], mix)
-        if self.strips is not None:
-            d_x, d_y = self.axes
-            stretched = q if d_x == d_y == 1 else q * np.array(self.axes, q.dtype)[:, None, None]
-            moved_x, moved_y = self.strips.displacement(stretched, (0, 1), (0, 1), u_x.shape[1])
-            u_x += d_x * moved_x
-            u_y += d_y * moved_y
+        u_x, u_y = self.padding.through([q[0], q[1]], mix, None if self.strips is None else self._along)
         s = np.empty_like(q)
         if not self.rolls:
             s[0], s[1] = u_x, u_y
@@ -84,6 +78,15 @@ class CoulombProblem:
         np.subtract(u_x[:, :-1], u_x[:, 1:], out=s[0])
         np.subtract(u_y[:, :-1], u_y[:, 1:], out=s[1])
         return s
+
+    def _along(self, waves: list[ComplexArray]) -> list[ComplexArray]:
+        """What strips add, in waves along travel, stretched by the axes."""
+        assert self.strips is not None
+        if self.axes == (1.0, 1.0):
+            return self.strips.on_waves(waves, (0, 1), (0, 1))
+        axes = np.array(self.axes, waves[0].real.dtype)
+        moved = self.strips.on_waves([d * wave for d, wave in zip(axes, waves, strict=True)], (0, 1), (0, 1))
+        return [d * wave for d, wave in zip(axes, moved, strict=True)]
 
     @cached_property
     def _symbols(self) -> Array | ComplexArray:

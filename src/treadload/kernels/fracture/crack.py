@@ -1,19 +1,37 @@
 """A crack from a boundary of a layer along a path: its weight functions, and how its faces open.
 
 The faces' relative displacement is a density of dislocations, singular at the tip as 1/√r, whose stress must take
-away that of the uncracked body along the path. Gauss-Chebyshev quadrature with n points solves the integral equation.
-Sources: Erdogan, Gupta and Cook (1973); Hills, Kelly, Dai and Korsunsky (1996), Solution of Crack Problems.
+away that of the uncracked body along the path. The density times √(r/a) is a polynomial in r, even in u = √(r/a) on
+[-1, 1]: the rule of Gauss and Legendre for u takes its Cauchy integral exactly at the zeros of Legendre's function of
+the second kind. What the boundaries send back is as singular where the crack meets them; it is integrated on points
+that become ever closer towards the mouth. So the error falls faster than any power of the number of points.
+Sources: Erdogan, Gupta and Cook (1973) for rules of Gauss on singular integral equations; Hills, Kelly, Dai and
+Korsunsky (1996), Solution of Crack Problems, for dislocations and boundaries.
 """
 
 from __future__ import annotations
 
+import functools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.kernels.fracture.dislocations import Section, edge_stress, screw_stress
+from treadload.kernels.fracture.dislocations import (
+    Section,
+    edge_images,
+    edge_in_the_plane,
+    edge_layers,
+    screw_images,
+    screw_in_the_plane,
+    screw_layers,
+)
+
+# Points in a panel of the close rule; steps of Newton's method, which starts within a hundredth of a spacing.
+_PANEL, _NEWTON = 8, 8
 
 Curve = Callable[[Array], tuple[Array, Array, Array, Array]]
 """Places x, z, m, and dx/ds, dz/ds at s, m, from the mouth: lengths, or what rises with them."""
@@ -50,50 +68,122 @@ def straight(direction: tuple[float, float], mouth: tuple[float, float] = (0.0, 
     return curve
 
 
-def crack_faces(section: Section, curve: Curve, length: float, points: int = 32) -> CrackFaces:
-    """The faces of a crack up to s = length, m, along a curve in the layer of a section, z from the layer's top."""
-    n = points
-    theta = (2 * np.arange(1, n + 1) - 1) * np.pi / (2 * n + 1)
-    phi = 2 * np.arange(1, n + 1)[::-1] * np.pi / (2 * n + 1)
-    at, of = np.cos(phi), np.cos(theta)
-    weight = 2 * np.pi * (1 + of) / (2 * n + 1)
-    x, z, along, down = curve(0.5 * length * (1 + at))
-    xi, zeta, its_along, its_down = curve(0.5 * length * (1 + of))
-    normal, tangent = _frame(along, down)
-    its_normal, its_tangent = _frame(its_along, its_down)
-    # Stress of Burgers vectors along the normal and the tangent at the sources.
-    stress = edge_stress(section, (xi, zeta), (x, z)) * (0.5 * length * weight)
-    tractions = [sum(stress[:, part] * vector[part] for part in range(2)) for vector in (its_normal, its_tangent)]
+def crack_faces(section: Section, curve: Curve, length: float, points: int = 16) -> CrackFaces:
+    """The faces of a crack up to s = length, m, along a curve in the layer of a section, z from the layer's top.
+
+    points: n, at which tractions count, closest to each other at both ends. 12 give K of a free strip that is cracked
+    over 0.9 of its height within 0.1 %.
+    """
+    n, rule = points, _rule(points)
+    at = curve(length * (1 - rule.at**2))
+    normal, tangent = _frame(*at[2:])
+
+    def effect(sources: Array, weights: Array, edges: Stress, screws: Stress) -> tuple[Array, Array]:
+        """Tractions of densities at the rule's points (2, 2, n, n), in the plane, and (n, n) out of it."""
+        of = curve(length * (1 - sources**2))
+        burgers = _frame(*of[2:])
+        stress, screw = edges(of[:2], at[:2]), screws(of[:2], at[:2])
+        vectors = [(stress[:, 0] * vector[0] + stress[:, 1] * vector[1]) @ weights for vector in burgers]
+        plane = [[_traction(part, normal, onto) for part in vectors] for onto in (normal, tangent)]
+        return np.array(plane), (screw[0] * normal[0][:, None] + screw[1] * normal[1][:, None]) @ weights
+
+    # Beyond the images nothing is singular, unless an interface slides.
+    smooth = rule.close if section.slides else rule.twice
+    effects = [
+        effect(rule.of, np.diag(2 * length * rule.weight), edge_in_the_plane, screw_in_the_plane),
+        effect(*rule.spread(rule.close, length), partial(edge_images, section), partial(screw_images, section)),
+        effect(*rule.spread(smooth, length), partial(edge_layers, section), partial(screw_layers, section)),
+    ]
     # Faces part where the density falls towards the tip.
-    matrix = -np.block(
-        [[_traction(stress_part, normal, direction) for stress_part in tractions] for direction in (normal, tangent)]
-    )
-    screw = screw_stress(section, (xi, zeta), (x, z)) * (0.5 * length * weight)
-    lateral = screw[0] * normal[0][:, None] + screw[1] * normal[1][:, None]
-    # Coefficients of Chebyshev polynomials of the third kind, of which all are 1 at the tip.
-    order = np.arange(n)
-    third = np.cos((order[:, None] + 0.5) * theta) / np.cos(0.5 * theta)
-    coefficients = third * weight / np.pi
-    tip = coefficients.sum(axis=0)
-    gathered = np.sin((order + 1) * phi[:, None]) / (order + 1)
-    gathered[:, 0] += phi
-    gathered[:, 1:] += np.sin(order[1:] * phi[:, None]) / order[1:]
-    displacement = 0.5 * length * gathered @ coefficients
+    matrix = -np.sum([plane for plane, _ in effects], axis=0).transpose(0, 2, 1, 3).reshape(2 * n, 2 * n)
+    lateral = np.sum([screw for _, screw in effects], axis=0)
+    displacement = 2 * length * rule.opening
     both = np.kron(np.eye(2), displacement)
     _, _, *end = curve(np.array([length]))
     factor = np.pi * np.sqrt(2 * np.pi * length / np.hypot(*end)[0])
     inverse, beside = np.linalg.inv(matrix), np.linalg.inv(lateral)
     return CrackFaces(
         length,
-        x,
-        z,
+        at[0],
+        at[1],
         tangent,
         normal,
-        -factor * np.kron(np.eye(2), tip) @ inverse,
-        -factor * tip @ beside,
+        -factor * np.kron(np.eye(2), rule.tip) @ inverse,
+        -factor * rule.tip @ beside,
         -both @ inverse,
         -displacement @ beside,
     )
+
+
+Stress = Callable[[tuple[Array, Array], tuple[Array, Array]], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class _Rule:
+    """Points of a crack in u = √(r/a), from its mouth, 1, to its tip, 0.
+
+    of, weight: n sources and their weights in u. at: n points where tractions count. tip: (n,) value at the tip of
+    what the sources have. opening: (n, n) its integral from the tip to the points. coefficients: (n, n) of Legendre's
+    polynomials of even degree. twice, close: points and weights of finer rules, close as they come to the mouth.
+    """
+
+    of: Array
+    weight: Array
+    at: Array
+    tip: Array
+    opening: Array
+    coefficients: Array
+    twice: tuple[Array, Array]
+    close: tuple[Array, Array]
+
+    def spread(self, finer: tuple[Array, Array], length: float) -> tuple[Array, Array]:
+        """Points u of a finer rule, and from the sources' values to its weighted ones (m, n)."""
+        u, weight = finer
+        return u, 2 * length * weight[:, None] * (_even(u, len(self.of)) @ self.coefficients)
+
+
+@functools.lru_cache(maxsize=16)
+def _rule(n: int) -> _Rule:
+    of, weight = _half(2 * n)
+    at = _second_kind_zeros(2 * n)
+    degree = 2 * np.arange(n)[:, None]
+    coefficients = (2 * degree + 1) * _even(of, n).T * weight
+    # ∫ P_k from 0 is (P_k+1 - P_k-1) / (2 k + 1), of which the first is P_1.
+    odd = np.polynomial.legendre.legvander(at, 2 * n)[:, 1::2]
+    before = np.concatenate([np.zeros((n, 1)), odd[:, :-1]], axis=1)
+    opening = (odd - before) / (2 * degree[:, 0] + 1) @ coefficients
+    # Panels half as long as the one before, until the last is shorter than the distance of a point from the mouth.
+    count = max(3, math.ceil(-math.log2(1 - at[0])) + 1)
+    edges = np.concatenate([[0.0], 1 - 0.5 ** np.arange(1, count), [1.0]])
+    node, share = np.polynomial.legendre.leggauss(_PANEL)
+    half = 0.5 * np.diff(edges)[:, None]
+    close = (0.5 * (edges[1:] + edges[:-1])[:, None] + half * node).ravel(), (half * share).ravel()
+    tip = (_even(np.zeros(1), n) @ coefficients)[0]
+    return _Rule(of, weight, at, tip, opening, coefficients, _half(4 * n), close)
+
+
+def _half(count: int) -> tuple[Array, Array]:
+    """Points and weights in (0, 1), falling, of the rule of Gauss and Legendre with an even count in (-1, 1)."""
+    u, weight = np.polynomial.legendre.leggauss(count)
+    return u[: count // 2 - 1 : -1].copy(), weight[: count // 2 - 1 : -1].copy()
+
+
+def _even(u: Array, count: int) -> Array:
+    """Legendre's polynomials of the degrees 0, 2, ... (m, count)."""
+    return np.polynomial.legendre.legvander(u, 2 * count - 1)[:, ::2]
+
+
+def _second_kind_zeros(degree: int) -> Array:
+    """Zeros in (0, 1), falling, of Legendre's function of the second kind and an even degree, by Newton's method."""
+    theta = (np.arange(degree // 2) + 0.25) * np.pi / (degree + 0.5)
+    for _ in range(_NEWTON):
+        x = np.cos(theta)
+        before, value = np.arctanh(x), x * np.arctanh(x) - 1
+        for k in range(1, degree):
+            before, value = value, ((2 * k + 1) * x * value - k * before) / (k + 1)
+        theta += value * np.sin(theta) / (degree * (before - x * value))
+    zeros: Array = np.cos(theta)
+    return zeros
 
 
 def _frame(along: Array, down: Array) -> tuple[Array, Array]:

@@ -21,7 +21,7 @@ from treadload.kernels.fracture.layers import Strip, antiplane_reflections, refl
 _DOWN = ((0.0, 1.0), (-1.0, -1.0))
 _UP = ((0.0, -1.0), (-1.0, -1.0))
 # Wavenumbers over the inverse of the largest and the smallest length, panels of points in their logarithm.
-_LONGEST, _SHORTEST, _POINTS = 2e-4, 40.0, 8
+_LONGEST, _SHORTEST, _POINTS = 2e-6, 40.0, 8
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,11 @@ class Section:
     def thickness(self) -> float:
         """Of the layer that cracks, m; inf for the last."""
         return self.strips[self.layer].thickness
+
+    @property
+    def slides(self) -> bool:
+        """Whether an interface gives way in proportion to its shear, which short waves feel at any distance."""
+        return any(0 < strip.slip < math.inf for strip in self.strips)
 
     @cached_property
     def nearest(self) -> tuple[tuple[Array, float] | None, tuple[Array, float] | None]:
@@ -79,39 +84,23 @@ def edge_stress(section: Section, source: tuple[Array, Array], point: tuple[Arra
 
     source, point: (x, z), m, in the layer, z from its top.
     """
-    x = point[0][:, None] - source[0]
-    z, zeta = point[1][:, None], source[1]
-    stress = _in_the_plane(x, z - zeta)
-    top, bottom = section.nearest
-    if top is not None:
-        stress += _image(top[0], _UP, x, z + 0 * zeta, zeta + 0 * z, 1.0)
-    if bottom is not None:
-        h = section.thickness
-        stress += _image(bottom[0], _DOWN, x, h - z + 0 * zeta, h - zeta + 0 * z, -1.0)
-    if len(section.strips) > 1 or section.rigid:
-        stress += _of_the_layers(section, source, point)
-    return stress
+    return (
+        edge_in_the_plane(source, point) + edge_images(section, source, point) + edge_layers(section, source, point)
+    )
 
 
 def screw_stress(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
     """Stress (xy, yz; points, sources), Pa, of screws of strength 1 N/m; arguments as in `edge_stress`."""
-    x = point[0][:, None] - source[0]
-    z, zeta = point[1][:, None], source[1]
-    square = x**2 + (z - zeta) ** 2
-    stress = np.stack([(z - zeta) / square, -x / square])
-    top, bottom = section.nearest
-    if top is not None:
-        far = z + zeta
-        stress -= top[1] * np.stack([far, -x]) / (x**2 + far**2)
-    if bottom is not None:
-        far = 2 * section.thickness - z - zeta
-        stress += bottom[1] * np.stack([far, x]) / (x**2 + far**2)
-    if len(section.strips) > 1 or section.rigid:
-        stress += _screw_of_the_layers(section, source, point)
-    return stress
+    return (
+        screw_in_the_plane(source, point)
+        + screw_images(section, source, point)
+        + screw_layers(section, source, point)
+    )
 
 
-def _in_the_plane(x: Array, z: Array) -> Array:
+def edge_in_the_plane(source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
+    """The part of `edge_stress` of a plane without end, singular where a point meets a source."""
+    x, z = point[0][:, None] - source[0], point[1][:, None] - source[1]
     square = x**2 + z**2
     quart = square**2
     apart = x**2 - z**2
@@ -122,6 +111,44 @@ def _in_the_plane(x: Array, z: Array) -> Array:
             np.stack([x * apart / quart, z * apart / quart]),
         ]
     )
+
+
+def screw_in_the_plane(source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
+    """The part of `screw_stress` of a plane without end."""
+    x, z = point[0][:, None] - source[0], point[1][:, None] - source[1]
+    return np.stack([z, -x]) / (x**2 + z**2)
+
+
+def edge_images(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
+    """The part of `edge_stress` of the layer's two boundaries, each as if a half-space lay beyond it.
+
+    It is singular where a point and a source meet at a boundary.
+    """
+    x = point[0][:, None] - source[0]
+    z, zeta = point[1][:, None], source[1]
+    stress = np.zeros((3, 2, *x.shape))
+    top, bottom = section.nearest
+    if top is not None:
+        stress += _image(top[0], _UP, x, z + 0 * zeta, zeta + 0 * z, 1.0)
+    if bottom is not None:
+        h = section.thickness
+        stress += _image(bottom[0], _DOWN, x, h - z + 0 * zeta, h - zeta + 0 * z, -1.0)
+    return stress
+
+
+def screw_images(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
+    """The part of `screw_stress` of the layer's two boundaries."""
+    x = point[0][:, None] - source[0]
+    z, zeta = point[1][:, None], source[1]
+    stress = np.zeros((2, *x.shape))
+    top, bottom = section.nearest
+    if top is not None:
+        far = z + zeta
+        stress -= top[1] * np.stack([far, -x]) / (x**2 + far**2)
+    if bottom is not None:
+        far = 2 * section.thickness - z - zeta
+        stress += bottom[1] * np.stack([far, x]) / (x**2 + far**2)
+    return stress
 
 
 def _image(matrix: Array, sent: Sequence[tuple[float, float]], x: Array, z: Array, zeta: Array, sign: float) -> Array:
@@ -159,7 +186,7 @@ def _waves(section: Section, z: Array, zeta: Array) -> tuple[Array, Array]:
     far = [section.thickness - depths.max() for depths in (z, zeta)] if math.isfinite(section.thickness) else []
     # Beyond the images waves fade over the thickness of a layer; where an interface slides, over the distance to it.
     short = min(finite)
-    if any(0 < strip.slip < math.inf for strip in section.strips):
+    if section.slides:
         short = min(short, max(min(z.min() + zeta.min(), *([sum(far)] if far else [])), 1e-5))
     low, high = math.log(_LONGEST / sum(finite)), math.log(_SHORTEST / short)
     panels = math.ceil((high - low) / 1.2)
@@ -170,8 +197,10 @@ def _waves(section: Section, z: Array, zeta: Array) -> tuple[Array, Array]:
     return k, (half * weight).ravel() * k
 
 
-def _of_the_layers(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
-    """What the layers add to the plane and its images."""
+def edge_layers(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
+    """What the layers add to the plane and its images in `edge_stress`: regular where the boundaries are bonded."""
+    if len(section.strips) == 1 and not section.rigid:
+        return np.zeros((3, 2, len(point[1]), len(source[1])))
     z, zeta = point[1], source[1]
     k, weight = _waves(section, z, zeta)
     x = point[0][:, None] - source[0]
@@ -224,7 +253,10 @@ def _sum(terms: Sequence[tuple[Array, Array]], k: Array, x: Array, at: Array, of
     return np.asarray(sum((left * here).T @ (right * there) for left, right in terms))
 
 
-def _screw_of_the_layers(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
+def screw_layers(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
+    """What the layers add to the plane and its images in `screw_stress`."""
+    if len(section.strips) == 1 and not section.rigid:
+        return np.zeros((2, len(point[1]), len(source[1])))
     z, zeta = point[1], source[1]
     k, weight = _waves(section, z, zeta)
     x = point[0][:, None] - source[0]

@@ -16,6 +16,7 @@ from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray
 
 Mix = Callable[[list[ComplexArray], slice], list[ComplexArray]]
+Along = Callable[[list[ComplexArray]], list[ComplexArray]]
 
 
 @dataclass(frozen=True)
@@ -90,11 +91,12 @@ class Padding:
         field: Array = fft.irfft(rows, n=mx, axis=-1)[..., :nx]
         return field
 
-    def through(self, loads: Sequence[Array], mix: Mix) -> list[Array]:
+    def through(self, loads: Sequence[Array], mix: Mix, along: Along | None = None) -> list[Array]:
         """Fields (ny, nx) under loads (ny, nx), as many, in nothing but the array API standard.
 
         mix: spectra of the fields from those of the loads, both turned round: (waves along x, my), of some of the
-        waves along x. The padded space is walked through a few lines at a time: it is never there as a whole.
+        waves along x. along: what the fields have besides, from the loads, both transformed along x alone: (waves
+        along x, rows). The padded space is walked through a few lines at a time: it is never there as a whole.
         """
         xp, load = fft.namespace(loads[0]), loads[0]
         (loaded, _), (ny, nx), (my, mx) = load.shape, self.field_shape, self.shape
@@ -104,10 +106,13 @@ class Padding:
         for into, load in zip(waves, loads, strict=True):
             for portion in fft.portions(load, loaded, mx):
                 into[:, portion] = fft.rfft(load[portion, :], n=mx).T
+        besides = along([wave[:, :loaded] for wave in waves]) if along else []
         for portion in fft.portions(load, mx // 2 + 1, my):
             mixed = mix([fft.fft(wave[portion, :loaded], n=my) for wave in waves], portion)
             for into, padded in zip(waves, mixed, strict=True):
                 into[portion, :ny] = fft.ifft(padded, overwrite_x=True)[:, :ny]
+        for into, more in zip(waves, besides, strict=bool(along)):
+            into[:, :ny] += more
         fields = []
         for wave in waves:
             field: Array = xp.empty((ny, nx), dtype=load.dtype)
@@ -128,15 +133,15 @@ class Convolution:
     padding: Padding
     spectrum: ComplexArray | Array
 
-    def __call__(self, load: Array) -> Array:
-        """Field (ny, nx) under a load (ny, nx), in nothing but the array API standard."""
+    def __call__(self, load: Array, along: Along | None = None) -> Array:
+        """Field (ny, nx) under a load (ny, nx), in nothing but the array API standard. along: as in `through`."""
         spectrum = self.spectrum.T
 
         def mix(waves: list[ComplexArray], part: slice) -> list[ComplexArray]:
             waves[0] *= spectrum[part, :]
             return waves
 
-        return self.padding.through([load], mix)[0]
+        return self.padding.through([load], mix, along)[0]
 
 
 def _mirrored(n_padded: int, parity: int) -> tuple[Array, Array]:

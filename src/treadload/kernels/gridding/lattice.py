@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadload.kernels import fft
-from treadload.kernels.arrays import Array, ComplexArray
+from treadload.kernels.arrays import Array, BoolArray, ComplexArray
 
 # Output coordinates whose place within a cell differs by less than this part of a cell share a lattice.
 _SAME_PLACE = 1e-6
@@ -27,6 +27,8 @@ _COARSE, _AFAR = 6, 25
 _KEPT = 1e-9
 # Points times cells evaluated at once: keeps the temporaries in cache.
 _BLOCK = 17_000
+# Share of corners at which the load changes, below which the others are left out of sums.
+_SPARSE = 0.9
 
 Indices = NDArray[np.integer[Any]]
 Use = tuple[int, int]
@@ -34,7 +36,8 @@ Corner = tuple[Array, tuple[Use, ...]]
 Corners = Callable[[Array, Array, float], Iterator[Corner]]
 """(x, y, z) from a corner, m → functions, broadcast from x and y, each with the (load, component) pairs it serves.
 
-A plain number stands for a function that is the same everywhere, of which no cell has a field.
+x and y are a row and a column of a grid, or both (n,), of corners one by one. A plain number stands for a function
+that is the same everywhere, of which no cell has a field.
 """
 AtDepth = Callable[..., Iterator[Corner]]
 OnLattice = Callable[..., Array]
@@ -268,8 +271,11 @@ def summed(source: Source, depths: Array, x: Array, y: Array) -> Array:
     kernels = source.kernels
     if isinstance(kernels, _OfCorners):
         # The alternating sums are taken of the load, once, in place of all functions.
-        kernels = kernels.at_corners
         turned = {k: np.diff(np.diff(np.pad(load, 1), axis=0), axis=1) for k, load in turned.items()}
+        changes = np.any([load != 0 for load in turned.values()], axis=0)
+        if turned and changes.mean() < _SPARSE:
+            return _summed_where(source, kernels, turned, changes, depths, x, y)
+        kernels = kernels.at_corners
     fields = np.zeros((len(depths), source.components, len(y), len(x)))
     for rows, columns in blocks(len(y), len(x), ny * nx):
         first_x, first_y = x[columns] - dx * (nx - 1), y[rows] - dy * (ny - 1)
@@ -277,7 +283,34 @@ def summed(source: Source, depths: Array, x: Array, y: Array) -> Array:
             for values, uses in kernels(first_x, first_y, (ny, nx), float(depth)):
                 for k, component in uses:
                     if k in turned:
-                        field[component, rows, columns] += np.einsum("bman,mn->ba", values, turned[k])
+                        field[component, rows, columns] += np.tensordot(values, turned[k], axes=((1, 3), (0, 1)))
+    return fields
+
+
+def _summed_where(
+    source: Source,
+    kernels: _OfCorners,
+    turned: dict[int, Array],
+    changes: BoolArray,
+    depths: Array,
+    x: Array,
+    y: Array,
+) -> Array:
+    """`summed` over the corners at which the load changes. turned, changes: at all corners, (ny + 1, nx + 1)."""
+    ny, nx = source.load.shape[-2:]
+    row, column = np.nonzero(changes)
+    from_x, from_y = source.dx * (column - nx + 0.5), source.dy * (row - ny + 0.5)
+    steps = {k: load[changes] for k, load in turned.items()}
+    fields = np.zeros((len(depths), source.components, len(y), len(x)))
+    for rows, columns in blocks(len(y), len(x), len(row)):
+        shape = len(y[rows]), len(x[columns])
+        at_x, at_y = np.broadcast_arrays(x[columns][None, :, None] + from_x, y[rows][:, None, None] + from_y)
+        for field, depth in zip(fields, depths, strict=True):
+            for values, uses in kernels.corners(at_x.ravel(), at_y.ravel(), float(depth)):
+                # A plain number has no sum.
+                for k, component in uses if np.ndim(values) else ():
+                    if k in steps:
+                        field[component, rows, columns] += values.reshape(*shape, -1) @ steps[k]
     return fields
 
 

@@ -22,6 +22,23 @@ def overlaps(first: Array, second: Array) -> Array:
     return shared
 
 
+def means_over_faces(
+    values: Array, x_edges: Array, y_edges: Array, x: Array, y: Array, face: tuple[float, float]
+) -> Array:
+    """Means (my, mx) of a field over rectangles of sides `face` along x and y, m, with centres at x (mx,), y (my,).
+
+    values, x_edges, y_edges: as in `means_over_cells`. Rectangles may overlap, and need not cover the field.
+    """
+    along, across = (
+        np.maximum(
+            np.minimum(edges[1:], at[:, None] + 0.5 * side) - np.maximum(edges[:-1], at[:, None] - 0.5 * side), 0.0
+        )
+        for edges, at, side in ((x_edges, x, face[0]), (y_edges, y, face[1]))
+    )
+    means: Array = across @ values @ along.T / (face[0] * face[1])
+    return means
+
+
 def means_over_cells(
     values: Array, x_edges: Array, y_edges: Array, cell_x: Array, cell_y: Array, angle: float = 0.0
 ) -> Array:

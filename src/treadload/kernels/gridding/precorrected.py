@@ -86,7 +86,7 @@ class Kept:
     ready: set[int] = field(default_factory=set)
     padded: dict[tuple[Any, ...], list[tuple[Shape, Shape]]] = field(default_factory=dict)
 
-    def sizes(self, place: tuple[Any, ...], cells: Shape, nodes: Shape) -> tuple[Shape, Shape]:
+    def sizes(self, place: tuple[object, ...], cells: Shape, nodes: Shape) -> tuple[Shape, Shape]:
         """Cells of a load and nodes of its lattice, padded so that loads of nearly the same shape share spectra.
 
         place: depths and first node, from the load's first cell. cells, nodes: the fewest that will do.
@@ -109,7 +109,7 @@ class Keeper:
     order: Order = FINE
     by_kernel: dict[tuple[Any, ...], Kept] = field(default_factory=dict)
 
-    def of(self, *kernel: Any) -> Kept:
+    def of(self, *kernel: object) -> Kept:
         """What is kept of a kernel, at first nothing."""
         return replace(self.by_kernel.setdefault(kernel, Kept(self.order)), order=self.order)
 

@@ -42,21 +42,28 @@ class Strips:
         by, of: which components: 0 along travel, 1 across, 2 normal.
         """
         waves = fft.rfft(loads, n=self.length, axis=-1)
-        for wave, component in zip(waves, by, strict=True):
-            wave *= _FRAME[component].conjugate()
-        moved: ComplexArray = np.zeros((len(of), *waves.shape[1:]), waves.dtype)
-        real = loads.dtype
+        moved = self.on_waves([wave.T for wave in waves], by, of)
+        field_: Array = fft.irfft(np.array([wave.T for wave in moved]), n=self.length, axis=-1)[..., :columns]
+        return field_
+
+    def on_waves(self, waves: list[ComplexArray], by: tuple[int, ...], of: tuple[int, ...]) -> list[ComplexArray]:
+        """`displacement` of loads and fields transformed along travel: (length // 2 + 1, ny) of every component."""
+        loads = np.stack(waves, axis=1)
+        real = loads.real.dtype
+        for number, component in enumerate(by):
+            if component != 1:
+                loads[:, number] *= _FRAME[component].conjugate()
+        moved = np.zeros((loads.shape[0], len(of), loads.shape[2]), loads.dtype)
         for rows, blocks in self._blocks(by, of, real):
             # (waves, groups, rows): groups of as many rows are multiplied at once.
-            groups = np.ascontiguousarray(waves[:, rows].transpose(3, 1, 0, 2))
-            column = groups.reshape(*groups.shape[:2], -1, 1)
+            column = loads[:, :, rows].swapaxes(1, 2).reshape(len(loads), len(rows), -1, 1)
             turned = np.iscomplexobj(blocks)
-            product = blocks @ column if turned else (blocks @ column.view(real)).view(waves.dtype)
-            moved[:, rows] = product.reshape(*groups.shape[:2], len(of), -1).transpose(2, 1, 3, 0)
-        for wave, component in zip(moved, of, strict=True):
-            wave *= _FRAME[component]
-        field_: Array = fft.irfft(moved, n=self.length, axis=-1)[..., :columns]
-        return field_
+            product = blocks @ column if turned else (blocks @ column.view(real)).view(loads.dtype)
+            moved[:, :, rows] = product.reshape(*column.shape[:2], len(of), -1).swapaxes(1, 2)
+        for number, component in enumerate(of):
+            if component != 1:
+                moved[:, number] *= _FRAME[component]
+        return list(moved.swapaxes(0, 1))
 
     def _blocks(
         self, by: tuple[int, ...], of: tuple[int, ...], real: np.dtype[np.floating[Any]]
@@ -96,58 +103,87 @@ class Strips:
 class StripInverse:
     """The inverse of strips and of a convolution together, on rows that repeat after a length along travel.
 
-    index: rows (n,) of the strips. inverse: (length // 2 + 1, m n, m n), Pa/m. components: which, as in `Strips`.
+    groups: rows (groups, n) of groups of as many rows, and inverse (length // 2 + 1, groups, m n, m n), Pa/m, for
+    every size of groups. components: which, as in `Strips`.
     """
 
-    index: IntArray
-    inverse: Array
+    groups: tuple[tuple[IntArray, Array], ...]
     components: tuple[int, ...]
     length: int
 
     @classmethod
-    def of(cls, strips: Strips, components: tuple[int, ...], kernels: dict[tuple[int, int], Array]) -> StripInverse:
+    def of(
+        cls,
+        strips: Strips,
+        components: tuple[int, ...],
+        kernels: dict[tuple[int, int], Array],
+        *,
+        together: bool = True,
+    ) -> StripInverse:
         """From strips of a length, and what a convolution adds.
 
         kernels: (ny, length // 2 + 1) at distances of 0, 1, … cells across and along: u_i by the load j, i ≤ j, of
-        parity (-1)^([i = 0] + [j = 0]) along and (-1)^([i = 1] + [j = 1]) across.
+        parity (-1)^([i = 0] + [j = 0]) along and (-1)^([i = 1] + [j = 1]) across. together: whether the convolution
+        couples groups; without that the inverse is near where it is weak between them, and takes a fraction of the
+        memory.
         """
-        index = np.concatenate(strips.rows)
-        count, many = index.size, len(components)
-        whole = np.zeros((strips.length // 2 + 1, many, count, many, count))
+        symbols = {}
+        for (i, j), kernel in kernels.items():
+            symbol = _along(kernel, strips.length, odd=(i == 0) != (j == 0))
+            # Into the frame: u_i = f_i S* and q_j = f_j S, so that the matrix is real.
+            symbols[i, j] = (symbol * (_FRAME[i].conjugate() * _FRAME[j])).real
+        numbers = range(len(strips.rows))
+        inverses: dict[int, list[tuple[IntArray, Array]]] = {}
+        for members in [list(numbers)] if together else [[number] for number in numbers]:
+            index = np.concatenate([strips.rows[number] for number in members])
+            whole = cls._whole([(strips.rows[n], strips.blocks[n]) for n in members], index, components, symbols)
+            inverses.setdefault(index.size, []).append((index, np.linalg.inv(whole).astype(np.float32)))
+        groups = tuple(
+            (np.stack([rows for rows, _ in alike]), np.stack([inverse for _, inverse in alike], axis=1))
+            for alike in inverses.values()
+        )
+        return cls(groups, components, strips.length)
+
+    @staticmethod
+    def _whole(
+        members: list[tuple[IntArray, Array | ComplexArray]],
+        index: IntArray,
+        components: tuple[int, ...],
+        symbols: dict[tuple[int, int], Array],
+    ) -> Array:
+        """The matrices (waves, m n, m n) of some rows."""
+        count, many, waves = index.size, len(components), members[0][1].shape[0]
+        whole = np.zeros((waves, many, count, many, count))
         place = 0
-        for rows, block in zip(strips.rows, strips.blocks, strict=True):
+        for rows, block in members:
             size = rows.size
             part = Strips._block(block, components, components).reshape(-1, many, size, many, size)
             whole[:, :, place : place + size, :, place : place + size] = part
             place += size
         apart = index[:, None] - index
-        for (i, j), kernel in kernels.items():
-            odd_along, odd_across = (i == 0) != (j == 0), (i == 1) != (j == 1)
-            symbol = _along(kernel, strips.length, odd=odd_along)
-            # Into the frame: u_i = f_i S* and q_j = f_j S, so that the matrix is real.
-            symbol = symbol * (_FRAME[i].conjugate() * _FRAME[j])
-            rows_apart = symbol.real[np.abs(apart)].transpose(2, 0, 1)
-            if odd_across:
+        for (i, j), symbol in symbols.items():
+            rows_apart = symbol[np.abs(apart)].transpose(2, 0, 1)
+            if (i == 1) != (j == 1):
                 rows_apart = rows_apart * np.sign(apart)
             at, to = components.index(i), components.index(j)
             whole[:, at, :, to] += rows_apart
             if i != j:
                 whole[:, to, :, at] += rows_apart.swapaxes(1, 2)
-        flat = whole.reshape(-1, many * count, many * count)
-        return cls(index, np.linalg.inv(flat).astype(np.float32), components, strips.length)
+        return whole.reshape(-1, many * count, many * count)
 
     def __call__(self, fields: Array) -> Array:
         """Loads (m, ny, nx) that give displacements (m, ny, nx) about, with nothing on rows of no strip."""
-        nx = fields.shape[-1]
-        many, count = len(self.components), self.index.size
-        waves = fft.rfft(fields[:, self.index].astype(np.float32, copy=False), n=self.length, axis=-1)
-        frame = _FRAME[list(self.components)].astype(np.complex64)[:, None, None]
+        many, ny, nx = fields.shape
+        waves = fft.rfft(fields.astype(np.float32, copy=False), n=self.length, axis=-1).transpose(2, 0, 1)
+        frame = _FRAME[list(self.components)].astype(np.complex64)[:, None]
         waves = waves * frame.conjugate()
-        group = np.ascontiguousarray(waves.transpose(2, 0, 1)).reshape(-1, many * count, 1)
-        product = (self.inverse @ group.view(np.float32)).view(np.complex64)
-        loads = product.reshape(-1, many, count).transpose(1, 2, 0) * frame
-        spread = np.zeros(fields.shape, np.float32)
-        spread[:, self.index] = fft.irfft(loads, n=self.length, axis=-1)[..., :nx]
+        loads = np.zeros((len(waves), many, ny), np.complex64)
+        for rows, inverse in self.groups:
+            group = waves[:, :, rows].swapaxes(1, 2).reshape(len(waves), len(rows), -1, 1)
+            product = (inverse @ group.view(np.float32)).view(np.complex64)
+            loads[:, :, rows] = product.reshape(len(waves), len(rows), many, -1).swapaxes(1, 2)
+        loads *= frame
+        spread: Array = fft.irfft(loads.transpose(1, 2, 0), n=self.length, axis=-1)[..., :nx]
         return spread
 
 

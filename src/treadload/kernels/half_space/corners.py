@@ -162,7 +162,8 @@ def at_corners(x: Array, y: Array, z: Any, dx: float, dy: float, stretch: comple
         edge_x, edge_y = np.where(x == 0, SNAP * dx, edge_x), np.where(y == 0, SNAP * dy, edge_y)
         # The same for a lattice of corners: 0.27 of a square cell.
         far = np.where(r == 0, 0.27 * math.sqrt(dx * dy), r)
-    log_x, log_y = np.arcsinh(x / edge_y), np.arcsinh(y / edge_x)
+    reach_x, reach_y = (np.maximum(r, edge_y), np.maximum(r, edge_x)) if surface else (r, r)
+    log_x, log_y = _asinh(x, edge_y, reach_x), _asinh(y, edge_x, reach_y)
     if surface:
         # Σ ln|k| over k ≠ 0 is that of its integral plus ln 2π: a cut at dx / 2π takes the rest away, on the edge
         # alone; on its line beyond, both of its corners have it.
@@ -171,6 +172,10 @@ def at_corners(x: Array, y: Array, z: Any, dx: float, dy: float, stretch: comple
         log_y += np.sign(y) * np.where(x == 0, cut, 0.0)
     # R - z without cancellation deep below the load.
     slope = x * y * ((x * x + y * y) / far)
+    turn_x = _angle(slope, x * x * r + z * y * y)
+    # Below the surface the two turns add up to the third.
+    turn = 0.0 if surface else _angle(x * y, z * r)
+    turn_y = _angle(slope, y * y * r + z * x * x) if surface else turn - turn_x
     return _Corners(
         x=x,
         y=y,
@@ -179,17 +184,26 @@ def at_corners(x: Array, y: Array, z: Any, dx: float, dy: float, stretch: comple
         log_x=log_x,
         log_y=log_y,
         log_r=np.log(far),
-        turn=0.0 if surface else _angle(x * y, z * r),
-        turn_x=_angle(slope, x * x * r + z * y * y),
-        turn_y=_angle(slope, y * y * r + z * x * x),
+        turn=turn,
+        turn_x=turn_x,
+        turn_y=turn_y,
     )
 
 
+def _asinh(x: Array, edge: Array, r: Array) -> Array:
+    """asinh(x / edge) where r² = x² + edge²: the logarithm takes a fourth of the time. Real edges are > 0."""
+    if np.iscomplexobj(edge):
+        return np.arcsinh(x / edge)
+    values: Array = np.copysign(np.log((np.abs(x) + r) / edge), x)
+    return values
+
+
 def _angle(sine: Any, cosine: Any) -> Any:
-    """The angle, 0 where both are zero; no branch is met while the real part of the depth is > 0."""
-    if not np.iscomplexobj(cosine):
-        return np.arctan2(sine, cosine)
-    ratio = np.divide(sine, cosine, out=np.zeros(np.broadcast(sine, cosine).shape, complex), where=cosine != 0)
+    """atan(sine / cosine), 0 where both are zero; no branch is met while the real part of the depth is > 0.
+
+    Real cosines are >= 0, and zero only where the sine is.
+    """
+    ratio = np.divide(sine, np.where(cosine == 0, 1.0, cosine))
     return np.arctan(ratio)
 
 

@@ -102,6 +102,9 @@ def _mirrored(functions: Corners, dx: float, dy: float) -> Corners:
     """
 
     def corners(x: Array, y: Array, z: float) -> Iterator[Corner]:
+        if x.ndim == 1:
+            yield from functions(x, y, z)
+            return
         (half_x, back_x, side_x), (half_y, back_y, side_y) = _one_side(x.ravel(), dx), _one_side(y.ravel(), dy)
         if max(len(half_x) / x.size, len(half_y) / y.size) > _WORTH:
             yield from functions(x, y, z)

@@ -63,10 +63,10 @@ class UprightMedium:
         swayed = functions(modes.transverse) if deep else alone
         unit = 1 / (2 * np.pi)
 
-        def pressed(part: Any, of: Callable[[Any], Any]) -> Any:
+        def pressed(part: object, of: Callable[[Any], Any]) -> Any:
             return _real(unit * modes.pressed * part, [of(f) for f in at])
 
-        def sheared(part: Any, of: Callable[[Any], Any]) -> Any:
+        def sheared(part: object, of: Callable[[Any], Any]) -> Any:
             return _real(unit * modes.sheared * part, [of(f) for f in at])
 
         along, across, ones, s = modes.along, modes.across, np.ones_like(modes.decay), modes.decay

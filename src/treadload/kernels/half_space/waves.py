@@ -76,10 +76,10 @@ class Waves:
         cube = 1 / (r * r * r)
         falls, single = (2 * r + z) / (t * t) * cube, 1 / (t * r)
 
-        def even(across: Any) -> Any:
+        def even(across: object) -> Any:
             return x * y * (falls - z / across * (cube + 2 / (r * across)))
 
-        def odd(along: Any, across: Any) -> Any:
+        def odd(along: object, across: object) -> Any:
             return along * ((z * z * (cube + 2 / (r * across)) - 1 / r) / across - cube)
 
         return _stacked(

@@ -31,8 +31,8 @@ class Section:
     ribs: (left, right) of the face of every rib, m, from left to right. height: of the face over the base, m.
     floors: height of the rubber to the left of the first rib, between ribs, and to the right of the last, m: the
     undertread, higher where a tie bar joins two ribs; 0 for none. ends: how far the undertread reaches beyond the
-    feet of the first and the last rib, m. draft: slope of the walls, by which a rib widens per depth. halvings: of
-    the largest elements across, for small cells, see `for_cells`.
+    feet of the first and the last rib, m. draft: slope of the walls, by which a rib widens per depth: of all, or
+    (left, right) of every rib. halvings: of the largest elements across, for small cells, see `for_cells`.
 
     Raises ValueError for ribs without width, walls that meet, and floors outside 0 to the height.
     """
@@ -41,7 +41,7 @@ class Section:
     height: float
     floors: tuple[float, ...]
     ends: tuple[float, float] = (0.0, 0.0)
-    draft: float = 0.0
+    draft: float | tuple[tuple[float, float], ...] = 0.0
     halvings: int = 0
 
     def __post_init__(self) -> None:
@@ -51,8 +51,10 @@ class Section:
             raise ValueError(f"every rib needs a width above 0 m, got {self.ribs}")
         if not all(0 <= floor < self.height for floor in self.floors):
             raise ValueError(f"floors must lie from 0 m to below the height of {self.height:g} m, got {self.floors}")
-        if min(self.ends) < 0 or self.draft < 0:
-            raise ValueError(f"ends and draft must not be negative, got {self.ends} and {self.draft:g}")
+        if isinstance(self.draft, tuple) and len(self.draft) != len(self.ribs):
+            raise ValueError(f"{len(self.ribs)} ribs need as many pairs of drafts, got {len(self.draft)}")
+        if min(self.ends) < 0 or min(min(pair) for pair in self.drafts) < 0:
+            raise ValueError(f"ends and draft must not be negative, got {self.ends} and {self.draft}")
         feet = self.feet
         for (_, right), (left, _) in itertools.pairwise(feet):
             if right >= left - _SAME:
@@ -67,15 +69,21 @@ class Section:
     def mirrored(self) -> Section:
         """The image of the section in y = 0."""
         ribs = tuple((-right, -left) for left, right in reversed(self.ribs))
-        return replace(self, ribs=ribs, floors=self.floors[::-1], ends=(self.ends[1], self.ends[0]))
+        draft = self.draft if isinstance(self.draft, float | int) else tuple(pair[::-1] for pair in self.draft[::-1])
+        return replace(self, ribs=ribs, floors=self.floors[::-1], ends=(self.ends[1], self.ends[0]), draft=draft)
+
+    @property
+    def drafts(self) -> tuple[tuple[float, float], ...]:
+        """Slopes of the left and the right wall of every rib."""
+        return self.draft if isinstance(self.draft, tuple) else ((self.draft, self.draft),) * len(self.ribs)
 
     @property
     def feet(self) -> tuple[tuple[float, float], ...]:
         """(left, right) of every rib where its walls meet the floors, m."""
         return tuple(
             (
-                left - self.draft * (self.height - self.floors[number]),
-                right + self.draft * (self.height - self.floors[number + 1]),
+                left - self.drafts[number][0] * (self.height - self.floors[number]),
+                right + self.drafts[number][1] * (self.height - self.floors[number + 1]),
             )
             for number, (left, right) in enumerate(self.ribs)
         )
@@ -119,7 +127,8 @@ class Section:
     def _wall(self, levels: Array, number: int, side: int) -> Array:
         """Place across, y, of a wall of a rib at all levels, m: below the floor straight down."""
         above = np.maximum(levels, self.floors[number + side])
-        return np.asarray(self.ribs[number][side] + (2 * side - 1) * self.draft * (self.height - above))
+        draft = self.drafts[number][side]
+        return np.asarray(self.ribs[number][side] + (2 * side - 1) * draft * (self.height - above))
 
     def _parts(self, width: float, walls: tuple[bool, bool] = (True, True)) -> Array:
         """Places of mesh lines, ends and middles of columns, as parts of a width, m, finer at walls."""

@@ -35,6 +35,7 @@ class Reliability(BaseResult, group="reliability"):
     """
 
     title: ClassVar[str] = "Reliability of the service life"
+    subject: ClassVar[str] = "How long a road lasts, with a probability"
     holds: ClassVar[Holds] = Holds(
         {
             "years_at_risk years_at_risk_first_order risk_factor": "criterion risk",

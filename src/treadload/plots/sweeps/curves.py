@@ -205,7 +205,7 @@ def _draw(
     of: str,
     against: str,
     by: str | None,
-    at: Mapping[str, Any] | None,
+    at: Mapping[str, object] | None,
     letters: int = _WIDE,
 ) -> tuple[list[Line2D], Shown | None]:
     """Lines of a result, and what tells them apart; None where there is one."""
@@ -361,7 +361,7 @@ def is_logarithmic(x: np.ndarray) -> bool:
     return bool(np.ptp(steps) < 0.2 * steps.mean())
 
 
-def logarithmic_tick(value: float, _: Any = None) -> str:
+def logarithmic_tick(value: float, _: object = None) -> str:
     """A number of a logarithmic axis: 0.5, 20, 5×10⁷."""
     return measure(value) if 1e-2 < value < 1e4 else power_of_ten(value).replace(".0×", "×").removeprefix("1×")
 
@@ -371,7 +371,7 @@ def solid(name: str) -> ListedColormap:
     return ListedColormap(sequential(name)(np.linspace(0.12, 1.0, 256)))
 
 
-def _cross(ax: Axes, x: np.ndarray, colour: Any, number: int = 0) -> None:
+def _cross(ax: Axes, x: np.ndarray, colour: object, number: int = 0) -> None:
     """Crosses at the foot of the axes where cases of a line failed, those of the next line above."""
     if x.size:
         ax.plot(x, np.full(x.shape, 0.025 + 0.032 * number), "x", ms=4.5, mew=1.2, color=colour, clip_on=False,

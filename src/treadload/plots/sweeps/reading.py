@@ -95,7 +95,7 @@ class View:
         return matches[0]
 
     def chosen(
-        self, field: xr.DataArray, kept: Sequence[str], at: Mapping[str, Any] | None
+        self, field: xr.DataArray, kept: Sequence[str], at: Mapping[str, object] | None
     ) -> tuple[dict[str, int], list[str]]:
         """Where a field is cut so that only some dimensions stay: index of each other one, and the cut in words.
 

@@ -32,6 +32,7 @@ class Heterogeneous(BaseResult, group="heterogeneous"):
     """
 
     title: ClassVar[str] = "Aggregate-scale response"
+    subject: ClassVar[str] = "Stones in the mortar of a road"
     holds: ClassVar[Holds] = Holds(
         {
             "depth": "depth",

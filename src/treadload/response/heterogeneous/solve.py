@@ -177,7 +177,7 @@ class _Block:
     spacing: tuple[float, float, float]
 
 
-def _groups(stones: Any) -> list[Aggregates]:
+def _groups(stones: object) -> list[Aggregates]:
     groups = [stones] if isinstance(stones, Aggregates) else list(stones) if isinstance(stones, Sequence) else []
     if not groups or not all(isinstance(group, Aggregates) for group in groups):
         raise InputError(
@@ -188,7 +188,7 @@ def _groups(stones: Any) -> list[Aggregates]:
     return groups
 
 
-def _road(mortar: Any) -> tuple[Pavement, Elastic]:
+def _road(mortar: object) -> tuple[Pavement, Elastic]:
     """The road that the mortar's stress comes from, and the mortar."""
     road = mortar if isinstance(mortar, Pavement) else None
     material = road.layers[0].resolved if road is not None else mortar
@@ -234,7 +234,7 @@ def _check_layer(road: Pavement, depth: float) -> None:
         )
 
 
-def _block(groups: Sequence[Aggregates], window: Any, depth: float | None, spacing: float | None) -> _Block:
+def _block(groups: Sequence[Aggregates], window: object, depth: float | None, spacing: float | None) -> _Block:
     scan = groups[0].scanned
     if scan is not None:
         if window is not None or depth is not None or spacing is not None:

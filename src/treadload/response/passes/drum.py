@@ -149,7 +149,7 @@ def roll_drum(
     )
 
 
-def _cell(spacing: Any, drum: Tire) -> tuple[float, float] | None:
+def _cell(spacing: object, drum: Tire) -> tuple[float, float] | None:
     if drum.surface.fixed_grid is not None:
         grid = drum.surface.fixed_grid
         if spacing is not None:

@@ -51,6 +51,7 @@ class Passes(BaseResult, group="passes"):
     """
 
     title: ClassVar[str] = "Load repetitions on a road that yields"
+    subject: ClassVar[str] = "What passes leave in a road"
     holds: ClassVar[Holds] = Holds(
         {
             "pass": "pass", "depth": "depth", "y": "y", "across": "across",

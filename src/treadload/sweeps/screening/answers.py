@@ -23,7 +23,7 @@ from treadload.sweeps.sweep import Sweep, causes_of, sweep
 _MOST_LOST = 0.2
 
 
-def reading_in_words(attrs: Mapping[str, Any]) -> str:
+def reading_in_words(attrs: Mapping[str, object]) -> str:
     """The reading of a screening, its place and its unit. attrs: of the dataset."""
     unit = "" if attrs["unit"] == "1" else str(attrs["unit"])
     return ", ".join(part for part in (str(attrs["of"]), str(attrs["place"]), unit) if part)
@@ -115,7 +115,7 @@ def answer(
     case: Case,
     design: Design,
     of: str,
-    at: Mapping[str, Any] | None,
+    at: Mapping[str, object] | None,
     *,
     logarithmic: bool = False,
     **solving: Unpack[Solving],
@@ -125,7 +125,7 @@ def answer(
     return read(study, of, at, logarithmic=logarithmic)
 
 
-def read(study: Sweep, of: str, at: Mapping[str, Any] | None, *, logarithmic: bool = False) -> Answer:
+def read(study: Sweep, of: str, at: Mapping[str, object] | None, *, logarithmic: bool = False) -> Answer:
     """One number of every case of a study. of: its name. at: dimension → value where it has several."""
     if not study.stats["solved"]:
         reason = study.failures[0][1] if study.failures else "none was tried"

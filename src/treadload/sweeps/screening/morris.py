@@ -81,7 +81,7 @@ def morris(
     trajectories: int = 10,
     logarithmic: bool = False,
     seed: int = 0,
-    at: Mapping[str, Any] | None = None,
+    at: Mapping[str, object] | None = None,
     **solving: Unpack[Solving],
 ) -> Morris:
     """Effects of inputs along random trajectories that change one of them at a time, after Morris (1991).

@@ -90,7 +90,7 @@ def sobol(
     second_order: bool = False,
     logarithmic: bool = False,
     seed: int = 0,
-    at: Mapping[str, Any] | None = None,
+    at: Mapping[str, object] | None = None,
     **solving: Unpack[Solving],
 ) -> Sobol:
     """Share of the variance of a result that is due to each input, by the estimators of Saltelli et al. (2010).

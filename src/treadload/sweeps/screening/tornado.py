@@ -57,7 +57,7 @@ def tornado(
     ranges: Mapping[str, tuple[Any, Any]],
     of: str,
     *,
-    at: Mapping[str, Any] | None = None,
+    at: Mapping[str, object] | None = None,
     **solving: Unpack[Solving],
 ) -> Tornado:
     """Take every input to the low and the high end of its range, one at a time around the case.

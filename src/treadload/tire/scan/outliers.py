@@ -13,8 +13,8 @@ from scipy.sparse.csgraph import connected_components
 
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire.quality import Outlier
-from treadload.tire.scan.meridian import row_quantile
 from treadload.tire.scan.mesh_file import Mesh
+from treadload.tire.unrolled import row_quantile
 
 Indices = NDArray[np.int64]
 

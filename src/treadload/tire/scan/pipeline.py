@@ -13,6 +13,7 @@ from scipy import ndimage
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.tire.cross_section import interrupted_share
 from treadload.tire.quality import Outlier, ScanQuality
 from treadload.tire.scan import cloud_file, laser  # noqa: F401  # their readers register themselves
 from treadload.tire.scan import meridian as unrolling
@@ -26,6 +27,7 @@ from treadload.tire.scan.options import ScanOptions
 from treadload.tire.scan.rays import Caster, radial
 from treadload.tire.scan.surface import DEEPEST, EXTENT_DROP, SECTOR, SMALL_HOLES, STANDARD_SPACING, ScanSurface
 from treadload.tire.scan.units import check_diameter, scale_of
+from treadload.tire.unrolled import SHALLOWEST, WIDEST, find_grooves, median_meridian, top_meridian
 
 POSSIBLE_PROPORTIONS = (0.1, 0.8)  # width over outer diameter
 SMALLEST_ARC, WARNED_ARC = 45, 90  # of the turn, degrees
@@ -104,7 +106,7 @@ class _Unrolled:
         faces = mesh.faces[high[mesh.faces].any(axis=1)]
         caster = Caster(mesh.vertices, faces)
         turn = radial(caster, theta, y, 1.5 * outer, floor)
-        top = unrolling.top_meridian(turn)
+        top = top_meridian(turn)
         sag = unrolling.facet_sag(mesh.vertices, mesh.faces, unrolling.beside(mesh.vertices, y, top))
         largest = float(radius[faces].max()) if len(faces) else math.inf
         return cls(theta, y, turn, top, sag, unrolling.crown(top, sag, turn, largest), caster)
@@ -154,7 +156,7 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
 
     vertices, y = _amid_tread(mesh.vertices, seen)
     rows = seen.top > seen.crown - EXTENT_DROP
-    meridian, envelope, crown = unrolling.median_meridian(seen.turn), seen.top, seen.crown
+    meridian, envelope, crown = median_meridian(seen.turn), seen.top, seen.crown
     steady = unrolling.is_steady(seen.turn, meridian, rows, seen.sag, noise)
     turning, why = decide_revolve(options.revolve, options.smooth, steady, seen.sag, noise)
     warnings += why
@@ -163,8 +165,8 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     floor = scale * axis.radius - 2 * DEEPEST
     ribbed = unrolling.high_meridian(seen.turn, part)
     floored = unrolling.with_floors(ribbed, crown, floor)
-    shallowest = unrolling.SHALLOWEST if steady else unrolling.shallowest_groove(seen.turn, seen.top)
-    grooves = unrolling.find_grooves(y, floored, crown, shallowest)
+    shallowest = SHALLOWEST if steady else unrolling.shallowest_groove(seen.turn, seen.top)
+    grooves = find_grooves(y, floored, crown, shallowest)
     if grooves and floored is not ribbed and (floored == floor).any():
         warnings.append(
             f"no ray met the floor of a groove within {(crown - floor) * 1e3:.0f} mm below the crown: the grooves "
@@ -174,7 +176,7 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
     if void.any():
         warnings.append(
             f"{void.sum() * (y[1] - y[0]) * 1e3:.0f} mm of the width lie in voids wider than the "
-            f"{unrolling.WIDEST * 1e3:.0f} mm of a groove: none of them is listed, and all count as void"
+            f"{WIDEST * 1e3:.0f} mm of a groove: none of them is listed, and all count as void"
         )
     land = unrolling.land_ratio(y, seen.turn, seen.top, rows, grooves)
     if turning:
@@ -210,6 +212,7 @@ def _build(mesh: Mesh, name: str, options: ScanOptions, notes: list[str]) -> Sca
         smoothing=length,
         outliers=tuple(outliers),
         land_ratio=land,
+        interrupted=interrupted_share(y[rows], seen.turn[rows], grooves),
     )
     if mesh.dropped:
         warnings.append(f"{mesh.dropped} triangles without area were left out")
@@ -256,7 +259,7 @@ def _without_outliers(
     outliers = sticking.named(mesh, reference, groups, far, middle)
     if not outliers:
         return mesh, []
-    has_lugs = unrolling.shallowest_groove(seen.turn, seen.top) > unrolling.SHALLOWEST
+    has_lugs = unrolling.shallowest_groove(seen.turn, seen.top) > SHALLOWEST
     are_lugs = wanted == "remove" and len(outliers) > sticking.MOST and noise < LARGEST_NOISE and has_lugs
     if wanted == "keep" or are_lugs:
         return replace(mesh, vertices=far.undone(mesh.vertices)), outliers

@@ -14,12 +14,13 @@ from scipy import ndimage
 from treadload.errors import GeometryError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.tire.cross_section import TreadSection, lateral_obstacle, measured_section
 from treadload.tire.crown import arc_radius
 from treadload.tire.quality import ScanQuality
-from treadload.tire.scan import meridian as unrolling
-from treadload.tire.scan.rays import Caster, revolved, vertical
+from treadload.tire.scan.rays import Caster, radial, revolved, vertical
 from treadload.tire.surface import fingerprint
 from treadload.tire.tread import EXTENT_HEIGHT, EXTENT_MARGIN
+from treadload.tire.unrolled import groove_depth, median_meridian
 
 Choice = bool | Literal["auto"]
 
@@ -33,6 +34,7 @@ SECTOR = math.radians(40)
 STANDARD_SPACING = 3e-3
 FIRST_CONTACT = 0.995
 CROWN_BAND = 0.005
+ALONG_WALLS, MERIDIANS = 0.25e-3, 24  # places across, m, and meridians of which walls of grooves are measured
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +106,27 @@ class ScanSurface:
         drop = self.report.crown_radius - self.envelope
         with np.errstate(invalid="ignore"):
             return arc_radius(self.across, np.where(drop < EXTENT_DROP, drop, np.nan))
+
+    @cached_property
+    def cross_section(self) -> TreadSection:
+        """Ends and circumferential grooves, of the median of some meridians whose places lie 0.25 mm apart."""
+        radius, obstacle = self.report.crown_radius, lateral_obstacle(self.report.interrupted)
+        with np.errstate(invalid="ignore"):
+            rows = self.across[self.envelope > radius - EXTENT_DROP]
+        # As many places to the left of the middle as to the right: an even tread has an even section.
+        half = math.ceil(float(np.abs(rows).max()) / ALONG_WALLS)
+        y = ALONG_WALLS * np.arange(-half, half + 1)
+        y = y[(y > rows[0]) & (y < rows[-1])]
+        if obstacle:
+            return TreadSection(float(y[0]), float(y[-1]), obstacle=obstacle, measured=True)
+        theta = 2 * math.pi * (np.arange(MERIDIANS) + 0.37) / MERIDIANS
+        turn = radial(Caster(self.vertices, self.faces), theta, y, 1.5 * radius, radius - self.deepest)
+        height = median_meridian(turn) - radius
+        if not np.isfinite(height).all():
+            places = ", ".join(f"{1e3 * place:.0f}" for place in y[~np.isfinite(height)][:4])
+            obstacle = f"the floor of a groove at y = {places} mm was not scanned; scan it from more directions"
+            return TreadSection(float(y[0]), float(y[-1]), obstacle=obstacle, measured=True)
+        return measured_section(y, height, self.report.grooves, self.crown_arc_radius)
 
     @property
     def extent(self) -> tuple[float, float]:
@@ -221,16 +244,14 @@ class ScanSurface:
 
     def _in_grooves(self, y: Array) -> BoolArray:
         """(ny,) True where a groove that runs round the tire is deeper than a rib may be uneven."""
-        deep = np.interp(
-            y, self.across, (unrolling.groove_depth(self.across, self.meridian) > RIB_BAND).astype(float)
-        )
+        deep = np.interp(y, self.across, (groove_depth(self.across, self.meridian) > RIB_BAND).astype(float))
         near = np.zeros(len(y), dtype=bool)
         for groove in self.report.grooves:
             near |= np.abs(y - groove.centre) < groove.width
         return np.asarray(near & (deep > 0.5), dtype=bool)
 
     def _refuse_holes(self, grid: Grid, missing: BoolArray, predicted: Array) -> None:
-        grooves = unrolling.groove_depth(self.across, self.meridian) > RIB_BAND
+        grooves = groove_depth(self.across, self.meridian) > RIB_BAND
         rib = np.interp(grid.y, self.across, (~grooves).astype(np.float64)) > 0.5
         with np.errstate(invalid="ignore"):
             contact = (self.first_contact - predicted < CONTACT_GAP) & rib[:, None]

@@ -8,9 +8,9 @@ import numpy as np
 
 from treadload.errors import GeometryError
 from treadload.kernels.arrays import Array
-from treadload.tire.scan import meridian as unrolling
 from treadload.tire.scan.rays import Caster, radial
 from treadload.tire.scan.surface import EXTENT_DROP, ScanSurface
+from treadload.tire.unrolled import groove_depth, row_quantile
 from treadload.tire.wear import Wear
 from treadload.variables import dataset
 
@@ -56,7 +56,7 @@ def wear(new: ScanSurface, reference: ScanSurface) -> Wear:
     theta = np.arange(-math.pi, math.pi, STEP) + 0.3 * STEP
     turn = unroll(new, theta, y)
     before = np.interp(y - shift, reference.across, reference.meridian, left=np.nan, right=np.nan)
-    deep = (unrolling.groove_depth(reference.across, reference.meridian) > RIB_BAND).astype(np.float64)
+    deep = (groove_depth(reference.across, reference.meridian) > RIB_BAND).astype(np.float64)
     low = np.interp(y - shift, reference.across, deep) > 0
     tread = before > reference.report.crown_radius - EXTENT_DROP
     floors = np.zeros(len(y), dtype=bool)
@@ -71,7 +71,7 @@ def wear(new: ScanSurface, reference: ScanSurface) -> Wear:
     worn = np.where(land[:, None], over - datum, np.nan)
     median = np.full(len(y), np.nan)
     seen = np.isfinite(worn).any(axis=1)
-    median[seen] = unrolling.row_quantile(worn[seen], 0.5)
+    median[seen] = row_quantile(worn[seen], 0.5)
     if not seen.any():
         raise GeometryError("the two scans have no rib in common: check that both are of one tire, and their units")
     crown = new.report.crown_radius
