@@ -11,10 +11,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import treadload as tl
+from treadload.plots import new_figure, save
+from treadload.plots.kit.style import styled
 from treadload.validation.ribs import shear_of_ribs
 
 NAME, ROAD = "315/80R22.5", tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
@@ -39,7 +40,7 @@ def tire(tread: str = "ribs", *, pressure: float = 820e3, worn: float = 0.0) -> 
     return tl.Tire.from_profile(profile, inflation_pressure=pressure, belt=belt, tread=tread)
 
 
-def ratios(contact: tl.Contact) -> list[float]:
+def ratios(contact: tl.contact.Contact) -> list[float]:
     """Lateral and longitudinal shear over pressure, the largest of each, times ten."""
     peaks = [float(np.abs(contact.dataset[name]).max()) for name in ("pressure", "traction_y", "traction_x")]
     return [10 * peak / peaks[0] for peak in peaks[1:]]
@@ -69,14 +70,14 @@ def shear(spacing: float) -> dict[str, dict[str, Any]]:
     return table
 
 
-def in_plane(contact: tl.Contact, road: tl.Pavement) -> float:
+def in_plane(contact: tl.contact.Contact, road: tl.Pavement) -> float:
     """Largest tensile strain in the plane of the surface, microstrain, as a mean over cubes of 10 mm."""
     data = tl.solve_response(contact, road, depths=[0.0], mean_over=10e-3).dataset
     along, across, sheared = (data[f"strain_{name}"].to_numpy() for name in ("xx", "yy", "xy"))
     return 1e6 * float((0.5 * (along + across) + np.hypot(0.5 * (along - across), sheared)).max())
 
 
-def surface(layer: tl.Contact, ribs: tl.Contact) -> dict[str, tuple[float, float]]:
+def surface(layer: tl.contact.Contact, ribs: tl.contact.Contact) -> dict[str, tuple[float, float]]:
     """Largest tensile strain in the plane of the surface under the layer and the ribs, mean over cubes of 10 mm."""
     roads = {"half-space of 5.4 GPa": ROAD}
     roads |= {f"French structure, {t:g} °C": STRUCTURE.at_temperature(t) for t in (15.0, 40.0)}
@@ -87,9 +88,11 @@ def surface(layer: tl.Contact, ribs: tl.Contact) -> dict[str, tuple[float, float
     return strains
 
 
-def draw(layer: tl.Contact, ribs: tl.Contact, file: Path) -> None:
+@styled
+def draw(layer: tl.contact.Contact, ribs: tl.contact.Contact, file: Path) -> None:
     """Pressure and lateral shear across the middle of the contact, layer and ribs."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), sharey=True, layout="constrained")
+    figure = new_figure(9.0, 3.4)
+    axes = figure.subplots(1, 2, sharey=True)
     for ax, contact, title in zip(
         axes, (layer, ribs), ("layer without grooves", "ribs with free sides"), strict=True
     ):
@@ -99,8 +102,7 @@ def draw(layer: tl.Contact, ribs: tl.Contact, file: Path) -> None:
         ax.set(title=title, xlabel="to the right of the middle (mm)")
     axes[0].set_ylabel("kPa")
     axes[1].legend(loc="upper right", fontsize="small")
-    figure.savefig(file, dpi=120)
-    plt.close(figure)
+    save(figure, file)
 
 
 def main(folder: Path, spacing: float = 3e-3) -> dict[str, Any]:

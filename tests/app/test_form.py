@@ -161,7 +161,7 @@ def test_the_sentence_of_the_reader_stands_at_its_field(tmp_path, path, text, sa
 ADDED = [
     ("run", "tire.profile", "table", "tire.profile.rolling_radius", "522 mm"),
     ("run", "tire.scan", "", "tire.scan", "example"),
-    ("run", "tire.belt", "", "tire.belt", "315/80R22.5"),
+    ("run", "tire.undertread", "", "tire.undertread", "5 mm"),
     ("run", "pavement.structure", "", "pavement.temperature", 15),
     ("run", "pavement.layers.0.mix", "", "pavement.temperature", 15),
     ("run", "rolling.creepage_x", "", "rolling.tractive_force", None),

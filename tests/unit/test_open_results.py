@@ -22,6 +22,7 @@ from treadload.damage import Climate, Traffic, Wander
 from treadload.damage.climate import TypicalDays
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import miner
+from treadload.damage.pitch import respond_to_pitch
 from treadload.damage.scatter import Scatter
 from treadload.damage.verdict import with_error
 from treadload.life.layered_climate import climate_fields
@@ -34,6 +35,7 @@ from treadload.results.holding import check_dataset
 from treadload.rows import from_json
 from treadload.sweeps.design import product
 from treadload.sweeps.screening import answers
+from treadload.tire.grooves import Groove, LateralGrooves
 from treadload.variables import VARIABLES, dataset, display_of, in_order
 
 RUBBER = tl.Elastic(3e6, 0.5)
@@ -254,7 +256,21 @@ def worn():
     return tl.tire.Wear(dataset(fields, places, datum=0.0, shift=1e-4))
 
 
+def pitch_passage():
+    """Blocks of 34 x 39 mm on a light tire, rolled through one pitch of 40 mm, a pitch as good as the next."""
+    lugs = tl.tire.TreadProfile(
+        rolling_radius=0.3, crown_radius=0.8, width=0.088, grooves=(Groove(0.0, 0.01, 0.016),),
+        lateral=(LateralGrooves(0.04, 0.006, 0.016),),
+    )  # fmt: skip
+    belt = tl.tire.Belt(tread=tl.Elastic(4e6, 0.49), tread_thickness=0.024, arm=0.024)
+    tire = tl.Tire.from_profile(lugs, inflation_pressure=300e3, belt=belt)
+    wheel = tl.Rolling(normal_load=2500.0, friction=0.7)
+    return tl.contact.solve_pitch(tire, ROAD, wheel, spacing=8e-3, positions=4, periodic=0.5)
+
+
 MADE = {
+    "PitchPassage": pitch_passage,
+    "PitchResponse": lambda: respond_to_pitch(pitch_passage(), ROAD, depths=[0.0, 0.02]),
     "Contact": contact,
     "Response": response,
     "Verdict": lambda: with_error(tl.assess(response(), LINE), tl.assess(response(), LINE), CELL),
@@ -313,7 +329,7 @@ FIGURES = {
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",
     "TextureContact": "patch", "Enveloped": "pressure",
-    "Crossing": "history", "Wear": "wear",
+    "Crossing": "history", "Wear": "wear", "PitchPassage": "history", "PitchResponse": "strains",
     "Sweep": lambda plot: plot.curve("worst_strain"), "Tornado": "tornado", "Sobol": "sobol", "Morris": "morris",
 }  # fmt: skip
 

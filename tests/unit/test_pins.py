@@ -110,7 +110,7 @@ def test_a_missing_reading_is_a_hole(tmp_path):
         (HEAD.replace("longitudinal", "longitudnal") + rows_of(), 'did you mean "longitudinal"'),
         (HEAD.replace("x [mm]", "y [mm]") + rows_of(), "the column y occurs twice"),
         (HEAD.replace("x [mm]", "time [s]") + rows_of(), 'write "# speed: 1.2 m/s"'),
-        ("# speed: 0 m/s\n" + HEAD.replace("x [mm]", "time [s]") + rows_of(), "above 0 m/s, got 0"),
+        ("# speed: 0 m/s\n" + HEAD.replace("x [mm]", "time [s]") + rows_of(), "a positive number of m/s, got 0"),
         (HEAD, "a header and no readings"),
         (HEAD + rows_of() + "10,4,1,1,1\n", "was read at this place in line 8 already"),
         (HEAD + rows_of((-10, 0, 13)), "not a whole number of steps"),

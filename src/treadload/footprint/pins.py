@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from treadload.errors import InputError, meant
+from treadload.errors import InputError, meant, positive
 from treadload.footprint.frames import Frames
 from treadload.footprint.spelling import pressure_factor
 from treadload.kernels.arrays import Array
@@ -189,8 +189,7 @@ def _speed(path: Path, speed: float | str | None) -> float:
             'speed="1.2 m/s"'
         )
     value = quantity(speed, "m/s")
-    if not (math.isfinite(value) and value > 0):
-        raise InputError(f"{path}: the speed must be above 0 m/s, got {value:g}; x lies along travel")
+    positive(f"{path}: speed", value, "m/s", "x lies along travel")
     return value
 
 

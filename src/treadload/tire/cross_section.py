@@ -94,7 +94,11 @@ def measured_section(
     channels, caveats = [], []
     for groove in grooves:
         floor = _floor(y, height, groove)
-        sides = [_wall(y, height, groove, floor, side, step) for side in (-1, 1)]
+        walls = (_wall(y, height, groove, floor, side, step) for side in (-1, 1))
+        sides = [wall for wall in walls if wall is not None]
+        if len(sides) < 2:
+            # At the border of a surface that is bent across: no face stands beside it.
+            continue
         left, right = (round(wall.place, _LENGTHS) for wall in sides)
         depth = round(0.5 * sum(wall.height for wall in sides), _LENGTHS)
         slopes = (round(sides[0].slope, _SLOPES), round(sides[1].slope, _SLOPES))
@@ -158,14 +162,16 @@ class _Wall:
     off: float
 
 
-def _wall(y: Array, height: Array, groove: GrooveMeasure, floor: float, side: int, step: float) -> _Wall:
-    """The straight line nearest to a wall. side: -1 for the left one, 1 for the right one."""
+def _wall(y: Array, height: Array, groove: GrooveMeasure, floor: float, side: int, step: float) -> _Wall | None:
+    """The straight line nearest to a wall, None without a face above the floor. side: -1 left, 1 right."""
     # Along `away` the wall rises from the middle of the groove to the face.
     away = side * (y - groove.centre)
     order = np.argsort(away)
     order = order[(away[order] >= 0) & (away[order] <= 0.5 * groove.width + _BESIDE + step)]
     at, rise = away[order], height[order] - floor
     face = float(np.nanmax(rise[at >= 0.5 * groove.width - step]))
+    if not face > 0:
+        return None
     part = rise / face
     on = part[(part > _LOW) & (part < _HIGH) & (at > _crossing(at, part, 0.5) - 2 * face)]
     if len(on) < 2:

@@ -20,7 +20,7 @@ _SOURCE = "a second program of the same equations, on other elements"
 _BLOCKS = ((0.45, 2.163), (0.49, 3.159), (0.495, 3.380), (0.4995, 3.615))
 _SLENDERNESS = 2.67
 # Load, N, friction, and the shear of the middle, the second and the shoulder rib.
-_OTHERS = (
+_LOADS_AND_FRICTION = (
     (35e3, 0.3, (0.260, 0.261, 0.239)),
     (20e3, 0.7, (0.283, 0.274, 0.253)),
     (50e3, 0.7, (0.303, 0.301, 0.254)),
@@ -49,7 +49,7 @@ def rib_checks() -> Iterator[Check]:
     strain = surface_strain(contact, road)
     quantity = "largest tensile strain in the plane of the surface, mean over 10 x 10 mm, microstrain"
     yield relative(group, quantity, strain * 1e6, 41.0, 0.1, _SOURCE)
-    for load, friction, reference in _OTHERS:
+    for load, friction, reference in _LOADS_AND_FRICTION:
         wheel = Rolling(normal_load=load, friction=friction)
         name = f"five ribs, {load / 1e3:g} kN, μ {friction:g}"
         yield from _amplitudes(name, solve_contact(tire, road, wheel), reference)

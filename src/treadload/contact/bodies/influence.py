@@ -176,7 +176,10 @@ class Influence:
         convolved = self.convolved_normal
 
         def both(pressure: Array) -> Array:
-            return convolved(pressure, lambda waves: strips.on_waves(waves, (2,), (2,)))
+            if strips.by_wave:
+                return convolved(pressure, lambda waves: strips.on_waves(waves, (2,), (2,)))
+            by_blocks = strips.displacement(pressure[None], (2,), (2,), pressure.shape[1])[0]
+            return np.asarray(convolved(pressure) + by_blocks)
 
         return both
 

@@ -70,7 +70,13 @@ class CoulombProblem:
             y += x
             return [u_x.view(waves[0].dtype), y.view(waves[0].dtype)]
 
-        u_x, u_y = self.padding.through([q[0], q[1]], mix, None if self.strips is None else self._along)
+        strips = self.strips
+        along = self._along if strips is not None and strips.by_wave else None
+        u_x, u_y = self.padding.through([q[0], q[1]], mix, along)
+        if strips is not None and not strips.by_wave:
+            axes = np.array(self.axes, q.dtype)[:, None, None]
+            moved = axes * strips.displacement(axes * q, (0, 1), (0, 1), u_x.shape[1])
+            u_x, u_y = u_x + moved[0], u_y + moved[1]
         s = np.empty_like(q)
         if not self.rolls:
             s[0], s[1] = u_x, u_y

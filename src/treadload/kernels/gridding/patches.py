@@ -42,6 +42,11 @@ class Patches(Strips):
         """From blocks by their shapes."""
         return cls((), (), 0, patches)
 
+    @property
+    def by_wave(self) -> bool:
+        """False: blocks are not the same along travel."""
+        return False
+
     def displacement(self, loads: Array, by: tuple[int, ...], of: tuple[int, ...], columns: int) -> Array:
         """As of `Strips`; the displacement is that of the loaded cells."""
         key = by, of, loads.dtype.char

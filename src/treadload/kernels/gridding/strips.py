@@ -36,6 +36,11 @@ class Strips:
         default_factory=dict, init=False, repr=False
     )
 
+    @property
+    def by_wave(self) -> bool:
+        """True if `on_waves` gives displacements in waves along travel."""
+        return True
+
     def displacement(self, loads: Array, by: tuple[int, ...], of: tuple[int, ...], columns: int) -> Array:
         """Displacement (of, ny, columns), m, by loads (by, ny, nx), Pa, in the precision of the loads.
 
