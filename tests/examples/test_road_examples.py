@@ -34,9 +34,9 @@ def test_dual_wheels_of_tires_strain_the_base_as_the_standard_discs_do(tmp_path)
     discs = tl.response.dual_wheels(tl.UniformDisc(0.125, 0.662e6), 0.375)
     standard = tl.solve_response(discs, result.road, depths=[0.21], x=[0.0], y=[0.0]).dataset
     assert standard.principal_strain_1.item() == pytest.approx(100.0e-6, abs=0.1e-6)
-    # 21 cm below, it hardly matters that tires press on ribs and over a longer patch.
+    # Ribs on a belt inflated to 0.82 MPa press on a smaller area than the discs of 0.662 MPa: 107.7 microstrain.
     worst = result.verdict.dataset
-    assert float(worst.worst_strain) == pytest.approx(100.0e-6, rel=0.03)
+    assert float(worst.worst_strain) == pytest.approx(107.7e-6, rel=0.02)
     assert abs(float(worst.worst_y)) < 0.012
     # Both wheels are in the map.
     surface = result.response.dataset.sel(depth=0)

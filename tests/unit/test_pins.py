@@ -315,8 +315,8 @@ def test_modulus_and_friction_of_one_rib():
 def test_three_numbers_from_pins_on_other_cells():
     """Pins read a contact on cells of 3 mm with 8 kPa of noise; the fit has cells of 5 mm.
 
-    Known E = 6 MPa, ν = 0.485, μ = 0.2; found 5.59 MPa, 0.470, 0.2016. What cells of 5 mm change of the shear, 0.01 of
-    the pressure, is as much as 7 % of E and 0.015 of ν: error bars do not hold it.
+    E = 6 MPa, ν = 0.485, μ = 0.2 come back as 5.59 MPa, 0.470, 0.2016. What cells of 5 mm change of the shear, 0.01
+    of the pressure, is as much as 7 % of E and 0.015 of ν: error bars do not hold it.
     """
     pins = pins_of(ribbed(3, 6e6, 0.485), 0.2, 15e3, 3e-3, noise=8e3)
     row = Measured(load=15e3, pins=pins)
