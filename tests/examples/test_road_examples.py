@@ -34,8 +34,7 @@ def test_dual_wheels_of_tires_strain_the_base_as_the_standard_discs_do(tmp_path)
     discs = tl.response.dual_wheels(tl.UniformDisc(0.125, 0.662e6), 0.375)
     standard = tl.solve_response(discs, result.road, depths=[0.21], x=[0.0], y=[0.0]).dataset
     assert standard.principal_strain_1.item() == pytest.approx(100.0e-6, abs=0.1e-6)
-    # Ribs on a belt at the same inflation pressure press harder on less area: 107.7 microstrain. (A half-space tire gave
-    # 100 within 3 %.)
+    # Ribs on a belt at the same inflation pressure press harder on less area. (A half-space tire: 100 within 3 %.)
     worst = result.verdict.dataset
     assert float(worst.worst_strain) == pytest.approx(107.7e-6, rel=0.02)
     assert abs(float(worst.worst_y)) < 0.012
