@@ -256,6 +256,7 @@ def worn():
     return tl.tire.Wear(dataset(fields, places, datum=0.0, shift=1e-4))
 
 
+@cache
 def pitch_passage():
     """Blocks of 34 x 39 mm on a light tire, rolled through one pitch of 40 mm, a pitch as good as the next."""
     lugs = tl.tire.TreadProfile(

@@ -19,7 +19,7 @@ from treadload.materials import Prony
 from treadload.tire import TreadProfile
 from treadload.tire.grooves import Groove, LateralGrooves
 from treadload.tire.rib_rows import rows_on_faces
-from treadload.tire.ribs import ribs_of
+from treadload.tire.ribs import ribs_between, section_of
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 BELT = tl.tire.Belt(tread=tl.Elastic(5.5e6, 0.495), bending=(80, 100, 150))
@@ -63,7 +63,7 @@ def amplitudes_of(tire, y, dy, pressure, traction):
 
 
 def test_the_ribs_of_a_tread():
-    groups = ribs_of(tire_on_ribs().surface.profile, 0.020)
+    groups = ribs_between(section_of(tire_on_ribs().surface.profile), 0.020)
     assert [len(group.faces) for group in groups] == [1] * 5
     assert groups[0].faces[0][0] == pytest.approx(-0.141)
     assert groups[2].faces[0] == pytest.approx((-0.02428, 0.02428))
@@ -76,7 +76,7 @@ def test_the_ribs_of_a_tread():
 
 def test_shallow_grooves_join_ribs():
     worn = replace(NARROW, grooves=tuple(replace(groove, depth=0.006) for groove in NARROW.grooves))
-    (group,) = ribs_of(worn, 0.020)
+    (group,) = ribs_between(section_of(worn), 0.020)
     assert len(group.faces) == 3
 
 

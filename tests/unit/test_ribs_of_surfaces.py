@@ -18,7 +18,7 @@ from treadload.grid import Grid
 from treadload.kernels.sections import Section
 from treadload.tire.cross_section import TreadSection, interrupted_share, lateral_obstacle, measured_section
 from treadload.tire.grooves import Groove, LateralGrooves
-from treadload.tire.ribs import ribs_between, ribs_of, section_of
+from treadload.tire.ribs import ribs_between, section_of
 from treadload.tire.unrolled import find_grooves
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
@@ -215,7 +215,7 @@ def test_each_wall_has_its_own_slope():
 
 
 def test_shoulder_ribs_have_upright_outer_walls():
-    first, middle, last = ribs_of(NARROW, 0.020)
+    first, middle, last = ribs_between(section_of(NARROW), 0.020)
     slope = math.tan(0.2)
     assert middle.section.draft == pytest.approx(slope)
     outer = first.section if not first.mirrored else last.section

@@ -237,12 +237,17 @@ def solve_pitch(
     return PitchPassage(data, tire, road, rolling, stats, tuple(_warnings(window, rolling)))
 
 
-def _check(rolling: Rolling, positions: int, tolerance: float, periodic: float) -> None:
+def check_positions(positions: int) -> None:
+    """Refuse numbers of positions in a pitch that no passage has. Raises InputError."""
     if not _FEWEST_POSITIONS <= positions <= _MOST_POSITIONS:
         raise InputError(
             f"positions must lie in [{_FEWEST_POSITIONS}, {_MOST_POSITIONS}], got {positions}; {POSITIONS} is the "
             "default"
         )
+
+
+def _check(rolling: Rolling, positions: int, tolerance: float, periodic: float) -> None:
+    check_positions(positions)
     low, high = _TOLERANCES
     if not low <= tolerance <= high:
         raise InputError(f"tolerance must lie in [{low:g}, {high:g}], got {tolerance:g}; 1e-4 is the default")

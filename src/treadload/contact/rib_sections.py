@@ -6,23 +6,18 @@ from collections.abc import Callable
 
 from treadload.contact.bodies.ribs import cells_section
 from treadload.contact.bodies.section_tables import face_table
-from treadload.contact.bounds import check_ribs, check_spacing
-from treadload.errors import positive
+from treadload.contact.bounds import check_ribs
 from treadload.tire import Tire
 
 
 def prepare_ribs(tire: Tire, cell: float, tell: Callable[[str], None]) -> None:
     """Solve the sections of the ribs of a tire, where they are not kept from an earlier time.
 
-    cell: size of the cells, m; a height map has its own. tell: called with a line of text before each; of a tire
+    cell: size of the cells across, m. tell: called with a line of text before each; of a tire
     without ribs never. Raises InputError for cells that are too wide for the ribs.
     """
     if not tire.ribs or tire.belt is None:
         return
-    if tire.fixed_grid is not None:
-        cell = tire.fixed_grid.dy
-    positive("spacing", cell, "metres", "3 mm is 0.003")
-    check_spacing(cell, cell)
     check_ribs(tire, cell)
     sections = list(dict.fromkeys(cells_section(group, cell) for group in tire.ribs))
     for number, section in enumerate(sections, start=1):

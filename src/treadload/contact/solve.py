@@ -127,7 +127,8 @@ def solve_search(
         check_modulus(name, body)
     if rolling.law.largest > 0:
         bodies.both.check_shear()
-    prepare_ribs(tire, DEFAULT_SPACING if search.spacing is None else search.spacing, tell)
+    if tire.ribs:
+        prepare_ribs(tire, cell_across(tire, search.spacing), tell)
     tell("locating the contact")
     # A tire that remembers makes its largest contact where it rolls slowly.
     over = tire if relief is None else above(tire, relief)
@@ -187,9 +188,7 @@ def place(
         gap = tire.height_map(grid)
         check_numbers(rolling, bodies, grid, gap)
         return grid, gap
-    step = DEFAULT_SPACING if spacing is None else spacing
-    positive("spacing", step, "metres", "3 mm is 0.003")
-    check_spacing(step, step)
+    step = _cell(spacing)
     length, width = tire.extent
     cells = length * width / step**2
     if cells > _MOST_CELLS:
@@ -210,6 +209,19 @@ def place(
         offset=offset,
     )
     return grid, tire.height_map(grid)
+
+
+def cell_across(tire: Tire, spacing: float | None) -> float:
+    """Size across of the cells that a contact has, m. Raises InputError for one that no contact has."""
+    return _cell(spacing) if tire.fixed_grid is None else tire.fixed_grid.dy
+
+
+def _cell(spacing: float | None) -> float:
+    """Size of the cells, m: the default where none is given."""
+    size = DEFAULT_SPACING if spacing is None else spacing
+    positive("spacing", size, "metres", "3 mm is 0.003")
+    check_spacing(size, size)
+    return size
 
 
 def _reaches(tire: Tire, rolling: Rolling, bodies: Body, step: float) -> tuple[float, float]:

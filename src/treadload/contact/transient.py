@@ -25,7 +25,7 @@ from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.snapshot import contact_at, scalars_of
 from treadload.contact.solution import Contact
-from treadload.contact.solve import DEFAULT_SPACING, check_border, place
+from treadload.contact.solve import cell_across, check_border, place
 from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.rolling import rigid_slip
@@ -116,7 +116,8 @@ def solve_transient(
     tell = progress or (lambda text: None)
     ends = _checked_distances(distances)
     wanted = _one_for_each(rolling, ends.size)
-    prepare_ribs(tire, DEFAULT_SPACING if spacing is None else spacing, tell)
+    if tire.ribs:
+        prepare_ribs(tire, cell_across(tire, spacing), tell)
     tell("locating the contact")
     scene = set_scene(tire, road, wanted, spacing, road_compliance)
     stages = [standing(scene, wanted[0])]

@@ -10,6 +10,7 @@ import numpy as np
 from treadload.composing import Source
 from treadload.contact import Contact, solve_contact
 from treadload.contact.bodies.choose import RoadCompliance
+from treadload.contact.solve import Search
 from treadload.contact.tractions import solve_tractions
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -92,15 +93,9 @@ def _coarser_contact(contact: Contact) -> Contact:
 
 def _load_beside(contact: Contact) -> GridLoad:
     """What a contact loads the road with on cells moved by half a cell both ways."""
-    solved = solve_tractions(
-        contact.tire,
-        contact.road,
-        contact.rolling,
-        spacing=float(contact.dataset.attrs["dx"]),
-        offset=(0.5, 0.5),
-        tolerance=_tolerance(contact),
-        road_compliance=_compliance(contact),
-    )
+    cell = float(contact.dataset.attrs["dx"])
+    search = Search(cell, (0.5, 0.5), _tolerance(contact), _compliance(contact))
+    solved = solve_tractions(contact.tire, contact.road, contact.rolling, search)
     return GridLoad(solved.grid, solved.pressure, solved.shear[0], solved.shear[1])
 
 

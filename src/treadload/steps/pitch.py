@@ -12,7 +12,7 @@ from treadload.case.step import Step, numbers_of
 from treadload.citations import BLOCKS
 from treadload.composing import BaseResult
 from treadload.contact import Contact, PitchPassage, solve_pitch
-from treadload.contact.pitch import POSITIONS
+from treadload.contact.pitch import POSITIONS, check_positions
 from treadload.damage.pitch import respond_to_pitch
 from treadload.errors import positive
 from treadload.materials import Prony
@@ -50,8 +50,7 @@ class PitchStep(Step, name="pitch"):
     def _possible(self) -> PitchStep:
         if self.spacing is not None:
             positive("spacing", self.spacing, "metres", "leave it out for that of the case")
-        if not 4 <= self.positions <= 200:
-            raise ValueError(f"positions must lie in [4, 200], got {self.positions}; {POSITIONS} is the default")
+        check_positions(self.positions)
         if self.depths and min(self.depths) < 0:
             raise ValueError(f"depths must be >= 0, got {min(self.depths):g} m; depth counts downwards")
         self.grooves()

@@ -46,11 +46,6 @@ class RibGroup:
         return self.pressed or tuple((left, left, right, right) for left, right in self.faces)
 
 
-def ribs_of(profile: TreadProfile, thickness: float) -> tuple[RibGroup, ...]:
-    """The ribs of a parametric tread of a thickness, m; see `ribs_between`."""
-    return ribs_between(section_of(profile), thickness)
-
-
 def section_of(profile: TreadProfile) -> TreadSection:
     """Cross-section of a parametric tread: its width, its grooves, and lateral ones as an obstacle."""
     channels = tuple(

@@ -6,20 +6,14 @@ a word, where it is missing, damaged, or of another version.
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
-import io
-import os
-import zipfile
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-import platformdirs
 
-from treadload.errors import TreadloadError
-from treadload.files import write_whole
+from treadload.contact.bodies.kept_files import cache_file, keep_arrays, read_arrays
 from treadload.kernels.arrays import Array, IntArray
 from treadload.kernels.sections import Block, FaceCells, block_compliance
 
@@ -68,12 +62,12 @@ def _key_of(cells: FaceCells, side: float) -> tuple[_Key, IntArray]:
 def _table(block: Block, poisson: float, key: _Key) -> Array:
     centres, dx, dy = key
     description = f"treadload block {_VERSION}: {block!r}, poisson {poisson!r}, cells {key!r}"
-    path = _path(description)
+    path = cache_file("blocks", f"{hashlib.sha256(description.encode()).hexdigest()[:32]}.npz")
     table = None if path is None else _read(path, description, 3 * len(centres))
     if table is None:
         table = block_compliance(block, poisson, FaceCells(np.array(centres), dx, dy))
         if path is not None:
-            _write(path, description, table)
+            keep_arrays(path, description, {"compliance": table}, _MOST_FILES)
     table.flags.writeable = False
     return table
 
@@ -96,34 +90,11 @@ def _rounded(block: Block) -> Block:
     )
 
 
-def _path(description: str) -> Path | None:
-    """Where a table lies; None where tables are not kept on the disk."""
-    folder = os.environ.get("TREADLOAD_CACHE")
-    if folder == "":
-        return None
-    place = Path(folder) if folder else platformdirs.user_cache_path("treadload", appauthor=False)
-    return place / "blocks" / f"{hashlib.sha256(description.encode()).hexdigest()[:32]}.npz"
-
-
 def _read(path: Path, description: str, size: int) -> Array | None:
     """The table of a file; None where there is none, or where it does not hold what it should."""
-    try:
-        with np.load(path, allow_pickle=False) as stored:
-            about, compliance = stored["description"], stored["compliance"]
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+    stored = read_arrays(path, ("description", "compliance"))
+    if stored is None:
         return None
+    about, compliance = stored
     sound = str(about) == description and compliance.shape == (size, size) and bool(np.isfinite(compliance).all())
     return np.asarray(compliance) if sound else None
-
-
-def _write(path: Path, description: str, table: Array) -> None:
-    """Write the file of a table, where that can be done, and remove the oldest of many."""
-    content = io.BytesIO()
-    np.savez(content, description=description, compliance=table)
-    # A folder that cannot be written costs time, and no result.
-    with contextlib.suppress(OSError, TreadloadError):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, content.getvalue(), sync=False)
-        files = sorted(path.parent.glob("*.npz"), key=lambda file: file.stat().st_mtime)
-        for file in files[:-_MOST_FILES]:
-            file.unlink(missing_ok=True)

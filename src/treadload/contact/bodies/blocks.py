@@ -16,7 +16,7 @@ import numpy as np
 from treadload.contact.bodies.belt import BeltSheet, BeltString
 from treadload.contact.bodies.block_tables import BlockTable, block_table
 from treadload.contact.bodies.body import Body, Offsets, Sum
-from treadload.contact.bodies.influence import Influence
+from treadload.contact.bodies.influence import Influence, coupling_of
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray, IntArray
@@ -81,7 +81,7 @@ class BlockInfluence(Influence):
     def dundurs(self) -> float:
         """Largest share of a load that couples pressure and shear in a block, in the mean over all loads."""
         assert self.patches is not None
-        return max(_coupling_of(patch) for patch in self.patches.patches)
+        return max(coupling_of(patch.table) for patch in self.patches.patches)
 
     def _means(self, components: tuple[int, ...], index: IntArray) -> Array:
         """Mean displacement of pieces by unit loads on others through belt and road, m/Pa."""
@@ -175,12 +175,3 @@ def _pieces_of(centres: Array) -> IntArray:
     low, size = centres.min(0), np.ptp(centres, axis=0) + _SAME
     place = np.minimum((parts * (centres - low) / size).astype(int), parts - 1)
     return np.asarray(np.unique(place[:, 0] * parts[1] + place[:, 1], return_inverse=True)[1])
-
-
-def _coupling_of(patch: Patch) -> float:
-    """Largest singular value of C_nn^-½ C_nt C_tt^-½ of a block."""
-    count = patch.cells.shape[1]
-    table = patch.compliance.reshape(3 * count, 3 * count)
-    shear, normal = (np.linalg.cholesky(table[part, part]) for part in (slice(2 * count), slice(2 * count, None)))
-    coupling = np.linalg.solve(shear, np.linalg.solve(normal, table[2 * count :, : 2 * count]).T)
-    return float(np.linalg.norm(coupling, 2))

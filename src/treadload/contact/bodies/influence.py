@@ -151,7 +151,7 @@ class Influence:
         that couples, in the mean over a uniform one.
         """
         if self._strips:
-            return max(_coupling_of(strip) for strip in self._strips)
+            return max(coupling_of(strip.table.compliance[0]) for strip in self._strips)
         longest = np.pi / np.hypot(self.shape[0] * self.dy, self.shape[1] * self.dx)
         waves = np.geomspace(longest, np.pi / min(self.dx, self.dy), _WAVES)
         if not self.mirrored:
@@ -176,10 +176,7 @@ class Influence:
         convolved = self.convolved_normal
 
         def both(pressure: Array) -> Array:
-            if strips.by_wave:
-                return convolved(pressure, lambda waves: strips.on_waves(waves, (2,), (2,)))
-            by_blocks = strips.displacement(pressure[None], (2,), (2,), pressure.shape[1])[0]
-            return np.asarray(convolved(pressure) + by_blocks)
+            return strips.added_to(lambda along: [convolved(pressure, along)], pressure[None], (2,))[0]
 
         return both
 
@@ -413,9 +410,9 @@ class Influence:
         return np.roll(kernels(at), (-behind_y, -behind_x), axis=(-2, -1))
 
 
-def _coupling_of(strip: Strip) -> float:
-    """Largest singular value of C_nn^-½ C_nt C_tt^-½ of a group of rows under loads that do not vary along x."""
-    table, split = strip.table.compliance[0], 2 * strip.rows.size
+def coupling_of(table: Array) -> float:
+    """Largest singular value of C_nn^-½ C_nt C_tt^-½ of a compliance (3 n, 3 n) of u_x, u_y, u_n by q_x, q_y, p."""
+    split = 2 * len(table) // 3
     shear, normal = np.linalg.cholesky(table[:split, :split]), np.linalg.cholesky(table[split:, split:])
     coupling = np.linalg.solve(shear, np.linalg.solve(normal, table[split:, :split]).T)
     return float(np.linalg.norm(coupling, 2))

@@ -14,18 +14,14 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import io
-import os
-import zipfile
 from collections.abc import Iterator
 from contextvars import ContextVar
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-import platformdirs
 
-from treadload.errors import TreadloadError
+from treadload.contact.bodies.kept_files import cache_file, content_of, keep_arrays, read_arrays
 from treadload.files import write_whole
 from treadload.kernels.arrays import Array
 from treadload.kernels.sections import FaceTable, Section, face_compliance
@@ -99,7 +95,8 @@ def _table(section: Section, poisson: float) -> FaceTable:
     if table is None:
         table = face_compliance(section, poisson)
         if path is not None:
-            _write(path, table)
+            arrays = {"waves": table.waves, "compliance": table.compliance}
+            keep_arrays(path, _description(section, poisson), arrays, _MOST_FILES)
     return table
 
 
@@ -120,11 +117,7 @@ def _rounded(section: Section) -> Section:
 
 def _path(section: Section, poisson: float) -> Path | None:
     """Where the table of a section lies; None where tables are not kept on the disk."""
-    folder = os.environ.get("TREADLOAD_CACHE")
-    if folder == "":
-        return None
-    place = Path(folder) if folder else platformdirs.user_cache_path("treadload", appauthor=False)
-    return place / "sections" / _file_name(section, poisson)
+    return cache_file("sections", _file_name(section, poisson))
 
 
 def _file_name(section: Section, poisson: float) -> str:
@@ -136,16 +129,10 @@ def ship(section: Section, poisson: float, folder: Path | None = None) -> Path:
     section = _rounded(section)
     table = face_compliance(section, poisson)
     lower = np.tril_indices(table.compliance.shape[1])
-    content = io.BytesIO()
-    np.savez(
-        content,
-        description=_description(section, poisson),
-        waves=table.waves,
-        triangle=table.compliance[:, lower[0], lower[1]].astype(np.float32),
-    )
+    arrays = {"waves": table.waves, "triangle": table.compliance[:, lower[0], lower[1]].astype(np.float32)}
     path = (_SHIPPED if folder is None else folder) / _file_name(section, poisson)
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_whole(path, content.getvalue(), sync=False)
+    write_whole(path, content_of(_description(section, poisson), arrays), sync=False)
     return path
 
 
@@ -156,7 +143,7 @@ def shipped_path(section: Section, poisson: float) -> Path:
 
 def _read_shipped(section: Section, poisson: float) -> FaceTable | None:
     """The table of a section that came with the package; None of a section without one."""
-    stored = _arrays(_SHIPPED / _file_name(section, poisson), ("description", "waves", "triangle"))
+    stored = read_arrays(_SHIPPED / _file_name(section, poisson), ("description", "waves", "triangle"))
     if stored is None or str(stored[0]) != _description(section, poisson):
         return None
     _, waves, triangle = stored
@@ -169,18 +156,9 @@ def _read_shipped(section: Section, poisson: float) -> FaceTable | None:
     return FaceTable(section, poisson, _read_only(waves), _read_only(compliance))
 
 
-def _arrays(path: Path, names: tuple[str, ...]) -> list[Array] | None:
-    """Arrays of a file; None where there is none, or where it is damaged."""
-    try:
-        with np.load(path, allow_pickle=False) as stored:
-            return [stored[name] for name in names]
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
-        return None
-
-
 def _read(path: Path, section: Section, poisson: float) -> FaceTable | None:
     """The table of a file; None where there is none, or where it does not hold what it should."""
-    stored = _arrays(path, ("description", "waves", "compliance"))
+    stored = read_arrays(path, ("description", "waves", "compliance"))
     if stored is None:
         return None
     description, waves, compliance = stored
@@ -192,20 +170,6 @@ def _read(path: Path, section: Section, poisson: float) -> FaceTable | None:
         and bool(np.isfinite(compliance).all())
     )
     return FaceTable(section, poisson, _read_only(waves), _read_only(compliance)) if sound else None
-
-
-def _write(path: Path, table: FaceTable) -> None:
-    """Write the file of a table, where that can be done, and remove the oldest of many."""
-    content = io.BytesIO()
-    description = _description(table.section, table.poisson)
-    np.savez(content, description=description, waves=table.waves, compliance=table.compliance)
-    # A folder that cannot be written costs time, and no result.
-    with contextlib.suppress(OSError, TreadloadError):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, content.getvalue(), sync=False)
-        files = sorted(path.parent.glob("*.npz"), key=lambda file: file.stat().st_mtime)
-        for file in files[:-_MOST_FILES]:
-            file.unlink(missing_ok=True)
 
 
 def _description(section: Section, poisson: float) -> str:

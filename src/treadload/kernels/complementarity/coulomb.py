@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from treadload.kernels.arrays import Array, BoolArray, ComplexArray
-from treadload.kernels.gridding.convolution import Padding
+from treadload.kernels.gridding.convolution import Along, Padding
 from treadload.kernels.gridding.strips import Strips
 
 
@@ -70,13 +70,11 @@ class CoulombProblem:
             y += x
             return [u_x.view(waves[0].dtype), y.view(waves[0].dtype)]
 
-        strips = self.strips
-        along = self._along if strips is not None and strips.by_wave else None
-        u_x, u_y = self.padding.through([q[0], q[1]], mix, along)
-        if strips is not None and not strips.by_wave:
-            axes = np.array(self.axes, q.dtype)[:, None, None]
-            moved = axes * strips.displacement(axes * q, (0, 1), (0, 1), u_x.shape[1])
-            u_x, u_y = u_x + moved[0], u_y + moved[1]
+        def convolved(along: Along | None) -> list[Array]:
+            return self.padding.through([q[0], q[1]], mix, along)
+
+        both = convolved(None) if self.strips is None else self.strips.added_to(convolved, q, (0, 1), self.axes)
+        u_x, u_y = both
         s = np.empty_like(q)
         if not self.rolls:
             s[0], s[1] = u_x, u_y
@@ -84,15 +82,6 @@ class CoulombProblem:
         np.subtract(u_x[:, :-1], u_x[:, 1:], out=s[0])
         np.subtract(u_y[:, :-1], u_y[:, 1:], out=s[1])
         return s
-
-    def _along(self, waves: list[ComplexArray]) -> list[ComplexArray]:
-        """What strips add, in waves along travel, stretched by the axes."""
-        assert self.strips is not None
-        if self.axes == (1.0, 1.0):
-            return self.strips.on_waves(waves, (0, 1), (0, 1))
-        axes = np.array(self.axes, waves[0].real.dtype)
-        moved = self.strips.on_waves([d * wave for d, wave in zip(axes, waves, strict=True)], (0, 1), (0, 1))
-        return [d * wave for d, wave in zip(axes, moved, strict=True)]
 
     @cached_property
     def _symbols(self) -> Array | ComplexArray:

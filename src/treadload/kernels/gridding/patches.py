@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from treadload.kernels.arrays import Array, IntArray
+from treadload.kernels.gridding.convolution import Along
 from treadload.kernels.gridding.strips import StripInverse, Strips
 
 
@@ -26,6 +27,12 @@ class Patch:
 
     cells: IntArray
     compliance: Array
+
+    @property
+    def table(self) -> Array:
+        """The compliance as a matrix (3 n, 3 n)."""
+        size = 3 * self.cells.shape[1]
+        return self.compliance.reshape(size, size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,10 +49,18 @@ class Patches(Strips):
         """From blocks by their shapes."""
         return cls((), (), 0, patches)
 
-    @property
-    def by_wave(self) -> bool:
-        """False: blocks are not the same along travel."""
-        return False
+    def added_to(
+        self,
+        convolved: Callable[[Along | None], list[Array]],
+        loads: Array,
+        components: tuple[int, ...],
+        axes: tuple[float, ...] = (1.0, 1.0, 1.0),
+    ) -> list[Array]:
+        """As of `Strips`: cell by cell, as blocks are not the same along travel."""
+        fields = convolved(None)
+        scale = np.array(axes[: len(components)], loads.dtype)[:, None, None]
+        moved = scale * self.displacement(scale * loads, components, components, fields[0].shape[1])
+        return [field_ + more for field_, more in zip(fields, moved, strict=True)]
 
     def displacement(self, loads: Array, by: tuple[int, ...], of: tuple[int, ...], columns: int) -> Array:
         """As of `Strips`; the displacement is that of the loaded cells."""

@@ -7,6 +7,7 @@ rows of a group are coupled by a matrix, and rows of different groups are not. I
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,6 +15,7 @@ import numpy as np
 
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray, IntArray
+from treadload.kernels.gridding.convolution import Along
 
 # Displacements from those of the frame; loads go the other way, by the conjugate.
 _FRAME = np.array([1j, 1.0, -1.0])
@@ -36,10 +38,27 @@ class Strips:
         default_factory=dict, init=False, repr=False
     )
 
-    @property
-    def by_wave(self) -> bool:
-        """True if `on_waves` gives displacements in waves along travel."""
-        return True
+    def added_to(
+        self,
+        convolved: Callable[[Along | None], list[Array]],
+        loads: Array,
+        components: tuple[int, ...],
+        axes: tuple[float, ...] = (1.0, 1.0, 1.0),
+    ) -> list[Array]:
+        """Displacements (ny, nx), m, of a convolution and of these together.
+
+        convolved: those of the convolution, with what `Padding.through` takes as `along`. loads: (components, ny,
+        nx), Pa. components: of loads and displacements. axes: of each, by which both are stretched for these alone.
+        """
+
+        def along(waves: list[ComplexArray]) -> list[ComplexArray]:
+            if all(axis == 1.0 for axis in axes):
+                return self.on_waves(waves, components, components)
+            scale = np.array(axes[: len(components)], waves[0].real.dtype)
+            moved = self.on_waves([d * wave for d, wave in zip(scale, waves, strict=True)], components, components)
+            return [d * wave for d, wave in zip(scale, moved, strict=True)]
+
+        return convolved(along)
 
     def displacement(self, loads: Array, by: tuple[int, ...], of: tuple[int, ...], columns: int) -> Array:
         """Displacement (of, ny, columns), m, by loads (by, ny, nx), Pa, in the precision of the loads.
