@@ -197,7 +197,7 @@ def test_what_has_weather_in_it_is_left_out_with_a_sentence():
 
 
 def test_a_mix_of_one_frequency_is_left_out_with_a_warning():
-    """Nothing says how it relaxes: the other criteria keep their cycles, and a named relaxation brings its own back."""
+    """Nothing says how it relaxes: other criteria keep their cycles, and a named relaxation gives it cycles."""
     mix = mixes["EB-BBSG3"]
     tenth = mix.frequencies.index(10.0)
     single = replace(mix, frequencies=(10.0,), moduli=(mix.moduli[tenth],))

@@ -69,8 +69,8 @@ class Thermal:
             return f"{material} does not say how it relaxes; {_REMEDY}"
         if len(material.frequencies) < 2:
             return (
-                f"mix {material.name!r} is tabulated at {material.frequencies[0]:g} Hz only, which does not say how it "
-                f"relaxes; {_REMEDY}"
+                f"mix {material.name!r} is tabulated at {material.frequencies[0]:g} Hz only, which does not say "
+                f"how it relaxes; {_REMEDY}"
             )
         return ""
 
