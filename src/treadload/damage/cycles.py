@@ -12,18 +12,18 @@ from collections.abc import Callable
 import numpy as np
 
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.kernels.arrays import Array, IntArray
+from treadload.kernels.arrays import Array
 
 # Readings below this part of the largest of all lines count as rest: less than a hundredth of a thousandth of their
 # damage by a usual law.
 _REST = 0.05
 
 
-def turning_points(read: Array) -> tuple[Array, Array, Array]:
-    """Peaks (n, m), valleys between them (n, m - 1) and columns of the peaks (n, m) of lines of readings (n, nx).
+def turning_points(read: Array) -> tuple[Array, Array]:
+    """Peaks (n, m) and valleys between them (n, m - 1) of lines of readings (n, nx).
 
-    read: >= 0, at rest before the first and behind the last column. Lines with fewer peaks end in zeros; their
-    columns are -1. At least one peak each.
+    read: >= 0, at rest before the first and behind the last column. Lines with fewer peaks end in zeros. At least one
+    peak each.
     """
     lines = np.where(read > _REST * read.max(initial=0.0), read, 0.0)
     lines = np.pad(lines, ((0, 0), (1, 1)))
@@ -36,28 +36,26 @@ def turning_points(read: Array) -> tuple[Array, Array, Array]:
     valley = (slope[:, :-1] < 0) & (slope[:, 1:] > 0)
     counts = peak.sum(axis=1)
     most = max(int(counts.max(initial=0)), 1)
-    peaks, at = np.zeros((len(read), most)), np.full((len(read), most), -1)
+    peaks = np.zeros((len(read), most))
     row, column = np.nonzero(peak)
     place = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
-    peaks[row, place], at[row, place] = lines[row, column + 1], column
+    peaks[row, place] = lines[row, column + 1]
     valleys = np.zeros((len(read), most - 1))
     row, column = np.nonzero(valley)
     between = np.maximum(counts - 1, 0)
     place = np.arange(len(row)) - np.repeat(np.cumsum(between) - between, between)
     valleys[row, place] = lines[row, column + 1]
-    return peaks, valleys, at
+    return peaks, valleys
 
 
-def rainflow(peaks: Array, valleys: Array, labels: Array | None = None) -> tuple[Array, Array, Array]:
-    """Cycles (n, m) of lines of peaks (n, m) and the valleys between them (n, m - 1): peak, valley and label.
+def rainflow(peaks: Array, valleys: Array) -> tuple[Array, Array]:
+    """Cycles (n, m) of lines of peaks (n, m) and the valleys between them (n, m - 1): peak and valley.
 
-    labels: (n, m), of the peaks, which the cycles take along. The largest peak is paired with rest. What is missing
-    in a line are peaks and valleys of zero behind the last.
+    The largest peak is paired with rest. What is missing in a line are peaks and valleys of zero behind the last.
     """
     peaks, valleys = np.array(peaks, dtype=float), np.array(valleys, dtype=float)
-    labels = np.zeros(peaks.shape, dtype=int) if labels is None else np.array(labels)
     n, m = peaks.shape
-    tops, bottoms, which = np.zeros((n, m)), np.zeros((n, m)), np.zeros((n, m), dtype=labels.dtype)
+    tops, bottoms = np.zeros((n, m)), np.zeros((n, m))
     rows = np.arange(n)
     for number in range(m - 1):
         count = m - number
@@ -67,18 +65,17 @@ def rainflow(peaks: Array, valleys: Array, labels: Array | None = None) -> tuple
         valley = smallest % (count - 1)
         peak = valley + (smallest >= count - 1)
         tops[:, number], bottoms[:, number] = peaks[rows, peak], valleys[rows, valley]
-        which[:, number] = labels[rows, peak]
         left = np.arange(count - 1)
         kept = left + (left >= peak[:, None])
-        peaks, labels = np.take_along_axis(peaks, kept, axis=1), np.take_along_axis(labels, kept, axis=1)
+        peaks = np.take_along_axis(peaks, kept, axis=1)
         left = left[:-1]
         valleys = np.take_along_axis(valleys, left + (left >= valley[:, None]), axis=1)
-    tops[:, -1], which[:, -1] = peaks[:, 0], labels[:, 0]
-    return tops, bottoms, which
+    tops[:, -1] = peaks[:, 0]
+    return tops, bottoms
 
 
-def as_turns(tops: Array, bottoms: Array, turns: int, power: float) -> tuple[Array, IntArray]:
-    """Peak, valley, peak, ... (turns, n) of cycles (n, m), those that do most first; and their numbers (cycles, n).
+def as_turns(tops: Array, bottoms: Array, turns: int, power: float) -> Array:
+    """Peak, valley, peak, ... (turns, n) of cycles (n, m), those that do most first.
 
     The first is paired with rest, as the largest of a passage is; of each further one the valley stands before the
     peak. power: of the reading, by which damage grows. What cycles beyond
@@ -95,7 +92,7 @@ def as_turns(tops: Array, bottoms: Array, turns: int, power: float) -> tuple[Arr
     if order.shape[1] == kept:
         last = np.minimum((result[-1] / largest) ** power + left, (result[0] / largest) ** power) ** (1 / power)
         result[-1] = np.where(left > 0, largest * last, result[-1])
-    return result, order.T
+    return result
 
 
 def harm_of(law: FatigueLaw, turns: Array) -> Array:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy import sparse
 
 from treadload.damage.criterion import Criterion, Side
 from treadload.kernels.arrays import Array
@@ -50,7 +51,8 @@ class Lines:
     """Across travel: rows that are solved near the wheels, of y, m; and lines in order, those of a basin among them.
 
     order: of the near rows and the basin's, one after the other. places: of the lines, m. nearest: line of each y.
-    core: y near the wheels, strips there, where readings take them, and the near row of each.
+    core: y near the wheels, with strips where readings take them; onto_core (core, rows) makes their values of those
+    on the rows. evaluated: m, where cycles are counted, the core's and the basin's lines, ordered among the two.
     """
 
     rows: Any
@@ -60,7 +62,9 @@ class Lines:
     nearest: Any
     core: Any
     strips: Strips | None
-    near: Any
+    onto_core: Any
+    evaluated: Array
+    ordered: Any
 
     @classmethod
     def of(cls, plane: Plane, wheels: Wheels, rows: Any, y: Array, basin: Basin | None) -> Lines:
@@ -71,7 +75,21 @@ class Lines:
         near = nearest_of(y[rows], y)
         core = np.flatnonzero(np.abs(y[rows][near] - y) <= wheels.cell) if plane.wide else np.arange(len(y))
         strips = Strips.of(y[rows], y[core]) if fine else None
-        return cls(rows, y, order, places[order], nearest_of(places[order], y), core, strips, near)
+        evaluated = y[core] if basin is None else np.concatenate([y[core], basin.rows])
+        ordered = np.argsort(evaluated, kind="stable")
+        onto = straight(y[rows], y[core])
+        nearest = nearest_of(places[order], y)
+        return cls(rows, y, order, places[order], nearest, core, strips, onto, evaluated[ordered], ordered)
+
+
+def straight(places: Array, y: Array) -> sparse.csr_array:
+    """Weights (ny, n) of values at n rising places in those of straight lines between them, level beyond."""
+    behind = np.clip(np.searchsorted(places, y), 1, len(places) - 1)
+    low = places[behind - 1]
+    part = np.clip((y - low) / (places[behind] - low), 0.0, 1.0)
+    weights = np.stack([1 - part, part], axis=1).ravel()
+    columns = np.stack([behind - 1, behind], axis=1).ravel()
+    return sparse.csr_array((weights, columns, np.arange(0, len(columns) + 1, 2)), shape=(len(y), len(places)))
 
 
 def nearest_of(places: Array, y: Array) -> Any:

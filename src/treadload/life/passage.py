@@ -14,11 +14,11 @@ from scipy.interpolate import CubicSpline, make_interp_spline
 
 from treadload.damage.criterion import Criterion
 from treadload.damage.cycles import as_turns, rainflow, turning_points
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.life.basin import Basin
 from treadload.life.contacts import Counter
 from treadload.life.lines import Lines, Plane, along, nearest_of, rows_of
-from treadload.life.peaks import axle_peaks, over_strips, peaks_and_valleys, readings
+from treadload.life.peaks import over_strips, peaks_and_valleys, readings
 from treadload.life.seasons import Warm
 from treadload.life.wheels import Wheels
 from treadload.response import solve_response
@@ -224,8 +224,7 @@ def _read(
         between = CubicSpline(rows, peaks, axis=1) if smooth else make_interp_spline(rows, peaks, k=1, axis=1)
         inside = (lines.y >= rows[0]) & (lines.y <= rows[-1])
         peaks = np.where(inside, np.maximum(between(lines.y), 0.0), 0.0)
-    tops, bottoms, _ = rainflow(peaks[::2].T, peaks[1::2].T)
-    result[:turns], _ = as_turns(tops, bottoms, turns, power)
+    result[:turns] = as_turns(*rainflow(peaks[::2].T, peaks[1::2].T), turns, power)
     instant = read.argmax(axis=1)
     deep = np.take_along_axis(deepest, instant[:, None], axis=1)[:, 0]
     result[turns + DEPTH] = data["depth"].to_numpy()[deep][lines.nearest]
@@ -253,28 +252,19 @@ def _read_both(
     by_depth = readings(uncut, margin)
     away, beside = basin.lines(criterion.read_uncut(far))
     x, centres = near["x"].to_numpy(), task.wheels.x.mean(axis=1)
-    axle = _axle_of(x, task.wheels)
+    whole = np.concatenate([by_depth, beside], axis=2)
+    read, far_read = whole.max(axis=0), away.max(axis=0)
     x_all = np.concatenate([x, basin.columns[basin.outside]])
     order = np.argsort(x_all, kind="stable")
-    whole = np.concatenate([by_depth, beside], axis=2)
-    read = whole.max(axis=0)
-    peaks, valleys, at = turning_points(read[:, order])
-    labels = np.concatenate([axle, np.full(int(basin.outside.sum()), -1)])[order][at]
-    near_turns, labels = _turns_of(peaks, valleys, np.where(at < 0, -1, labels), turns, power)
-    far_read = away.max(axis=0)
-    peaks, valleys, at = turning_points(far_read)
-    far_turns, _ = _turns_of(peaks, valleys, at, turns, power)
-    on_lines = np.concatenate([near_turns, far_turns], axis=1)[:, lines.order]
-    values = make_interp_spline(lines.places, on_lines, k=1, axis=1)(lines.y)
-    core = axle >= 0
-    part = (x[core], uncut[..., core], None if margin is None else margin[..., core])
-    whose = labels[:, lines.near[lines.core]]
-    means = _between(lines, part, centres, power) if criterion.mean_over is not None else []
-    for number, (ratio, most_of_axle) in enumerate(means):
-        tops = values[::2, lines.core]
-        # Between a row whose largest is below the axle and one whose largest is not, no more than the axle's.
-        raised = np.minimum(tops * ratio, np.maximum(tops, most_of_axle))
-        values[::2, lines.core] = np.where(whose == number, raised, tops)
+    axle = _axle_of(x, task.wheels)
+    on_core = lines.onto_core @ read
+    if criterion.mean_over is not None:
+        under = axle >= 0
+        part = (x[under], uncut[..., under], None if margin is None else margin[..., under])
+        for number, peak in enumerate(_axle_peaks(lines, part, centres, power)):
+            _set_peak(on_core, np.flatnonzero(axle == number), peak)
+    on_lines = np.concatenate([_turns_of(on_core[:, order], turns, power), _turns_of(far_read, turns, power)], axis=1)
+    values = make_interp_spline(lines.evaluated, on_lines[:, lines.ordered], k=1, axis=1)(lines.y)
     result[:turns] = np.maximum(values, 0.0)
     most = np.concatenate([read.argmax(axis=1), far_read.argmax(axis=1)])
     count = len(read)
@@ -298,34 +288,33 @@ def _read_both(
     return {name: (dims, part_of[lines.order]) for name, (dims, part_of) in at_far.items()}
 
 
-def _turns_of(peaks: Array, valleys: Array, labels: Array, turns: int, power: float) -> tuple[Array, Array]:
-    """Turns (turns, n) of lines of peaks and valleys, and the label of each peak among them ((turns + 1)/2, n)."""
-    tops, bottoms, whose = rainflow(peaks, valleys, labels)
-    kept, order = as_turns(tops, bottoms, turns, power)
-    by_cycle: Any = np.full(((turns + 1) // 2, len(tops)), -1)
-    by_cycle[: len(order)] = np.take_along_axis(whose, order.T, axis=1).T
-    return kept, by_cycle
+def _turns_of(read: Array, turns: int, power: float) -> Array:
+    """Turns (turns, n) of lines of readings (n, nx)."""
+    return as_turns(*rainflow(*turning_points(read)), turns, power)
 
 
-def _between(
-    lines: Lines, part: tuple[Array, Array, Array | None], centres: Array, power: float
-) -> list[tuple[Array, Array]]:
-    """By how much, on the core's y, the peak under each axle is above that of the points, and that peak; of means.
+def _axle_peaks(lines: Lines, part: tuple[Array, Array, Array | None], centres: Array, power: float) -> Array:
+    """The peak under each axle (axle, ny) on the core's y, between points too; that of strips where they are given.
 
     part: x of the cells under the axles, uncut and margin there.
     """
     x, uncut, margin = part
     at: dict[str, Any] = {"centres": centres, "turns": 2 * len(centres) - 1}
-    rows, y = lines.y[lines.rows], lines.y[lines.core]
-    points = axle_peaks(x, readings(uncut, margin).max(axis=0), centres)
-    points = np.stack([np.interp(y, rows, line) for line in points])
     if lines.strips is not None:
-        peaks = over_strips(lines.strips, x, uncut, margin, power=power, **at)[::2]
-    else:
-        peaks = peaks_and_valleys(x, uncut, margin, smooth=True, **at)[::2]
-        peaks = np.stack([np.interp(y, rows, line) for line in peaks])
-    ratios = np.divide(peaks, points, out=np.ones_like(points), where=points > 0)
-    return list(zip(ratios, peaks, strict=True))
+        return over_strips(lines.strips, x, uncut, margin, power=power, **at)[::2]
+    return peaks_and_valleys(x, uncut, margin, smooth=True, **at)[::2] @ lines.onto_core.T
+
+
+def _set_peak(read: Array, columns: IntArray, peak: Array) -> None:
+    """Into readings (n, nx), which have a peak (n,) among some columns: larger ones are cut, the largest is raised.
+
+    A reading that stands next to that peak outside the columns stays.
+    """
+    inside = read[:, columns]
+    highest = inside.argmax(axis=1)
+    inside = np.minimum(inside, peak[:, None])
+    inside[np.arange(len(read)), highest] = peak
+    read[:, columns] = inside
 
 
 def _axle_of(x: Array, wheels: Wheels) -> Array:

@@ -190,11 +190,6 @@ def _on_points(x: Array, read: Array, centres: Array, turns: int) -> Array:
     return result
 
 
-def axle_peaks(x: Array, read: Array, centres: Array) -> Array:
-    """The largest reading (axle, ny) of (ny, nx) on the points nearest to each axle."""
-    return np.stack([read[:, inside].max(axis=1) for inside in _axles(x, centres)])
-
-
 def _axles(x: Array, centres: Array) -> list[slice]:
     """The points nearest to each axle."""
     ends = np.concatenate([[-np.inf], 0.5 * (centres[1:] + centres[:-1]), [np.inf]])
