@@ -54,7 +54,7 @@ def test_interpolated_readings_stay_within_the_tolerance():
     assert exact.responses == 18
     assert few.responses < 18
     assert few.interpolation_error <= 0.02
-    # Lesser cycles change places from one temperature to the next, where two do the same; what all of them do does not.
+    # Lesser cycles change places where two do the same; what all of them do together does not jump.
     readings, exact_readings = (each.readings.isel(turn=0) for each in (few, exact))
     error = float((abs(readings - exact_readings).max("y") / exact_readings.max("y")).max())
     # The light class is not the one that chose the temperatures: allow it twice the tolerance.
