@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 from scipy.interpolate import make_interp_spline
 
 from treadload.kernels.arrays import Array
-from treadload.life.peaks import readings
 from treadload.life.wheels import Wheels
 from treadload.response.basin import BEYOND
 
@@ -57,23 +57,25 @@ class Basin:
             x, at_y, columns, _splines(x, columns), rows, _splines(at_y, rows), near, _splines(at_y, near), ~inside
         )
 
-    def lines(self, fields: tuple[Array, Array | None]) -> tuple[Array, Array]:
-        """What is read (nz, ny, nx) on its lines, and (nz, lines, nx) on near rows in columns outside.
+    def lines(self, data: xr.Dataset) -> tuple[xr.Dataset, xr.Dataset]:
+        """Tensors over (depth, y, x) of the basin's points: on its lines, and on near rows in the columns outside.
 
-        fields: uncut and margin (nz, my, mx), see `Criterion.read_uncut`.
+        Components are smooth and follow splines; what is read of them is not, where principal directions change
+        places and where tension begins.
         """
-        return readings(*_onto(fields, self.across, self.along)), readings(
-            *_onto(fields, self.onto, self.along[self.outside])
+        return (
+            _onto(data, self.across, self.along, self.rows, self.columns),
+            _onto(data, self.onto, self.along[self.outside], self.near, self.columns[self.outside]),
         )
 
 
-def _onto(fields: tuple[Array, Array | None], across: Array, along: Array) -> tuple[Array, Array | None]:
-    """Fields (nz, ny, nx) on rows and columns."""
-    uncut, margin = (
-        None if field is None else across @ (field.reshape(-1, *field.shape[-2:]) @ along.T) for field in fields
-    )
-    assert uncut is not None
-    return uncut, margin
+def _onto(data: xr.Dataset, across: Array, along: Array, y: Array, x: Array) -> xr.Dataset:
+    """Fields (depth, y, x) on other y and x, m."""
+    fields = {
+        name: (field.dims, across @ (field.to_numpy().astype(np.float32) @ along.T), field.attrs)
+        for name, field in data.data_vars.items()
+    }
+    return xr.Dataset(fields, {"depth": data["depth"], "y": y, "x": x})
 
 
 def _graded(low: float, high: float, wheels: Array) -> Array:

@@ -17,7 +17,7 @@ from treadload.damage.cycles import as_turns, rainflow, turning_points
 from treadload.kernels.arrays import Array, IntArray
 from treadload.life.basin import Basin
 from treadload.life.contacts import Counter
-from treadload.life.lines import Lines, Plane, along, nearest_of, rows_of
+from treadload.life.lines import Lines, Plane, along, rows_of
 from treadload.life.peaks import over_strips, peaks_and_valleys, readings
 from treadload.life.seasons import Warm
 from treadload.life.wheels import Wheels
@@ -157,18 +157,19 @@ def _pass(
         members.items(), _solved(several, plane, x, y[rows]), far, strict=True
     ):
         task, levels = tasks[number], list(data["depth"].to_numpy())
+        around = None if basin is None or beyond is None else basin.lines(beyond)
         for k in numbers:
             own_rows = [levels.index(depth) for depth in task.depths(k)]
             whole = own_rows == list(range(len(levels)))
             at = data if whole else data.isel(depth=own_rows)
-            around = beyond if whole or beyond is None else beyond.isel(depth=own_rows)
             criterion, result = task.criterion(k), results[number][k]
             if basin is None or around is None:
                 fields, ends = _read(result, criterion, at, task, plane, lines)
                 if ends and plane.margin < task.reach:
                     again.setdefault(number, []).append(k)
             else:
-                fields = _read_both(result, criterion, (at, around), task, lines, basin)
+                far, outside = (part if whole else part.isel(depth=own_rows) for part in around)
+                fields = _read_both(result, criterion, (at, outside, far), task, lines, basin)
             worst.append((criterion, fields, result))
     _add_cracks(worst, lines.nearest, turns)
     return again
@@ -236,21 +237,21 @@ def _read(
 def _read_both(
     result: Array,
     criterion: Criterion,
-    fields: tuple[xr.Dataset, xr.Dataset],
+    fields: tuple[xr.Dataset, xr.Dataset, xr.Dataset],
     task: Passing,
     lines: Lines,
     basin: Basin,
 ) -> Fields:
     """Into (turns + BEHIND, y) what a criterion reads near and far; the fields where it reads most on each line.
 
-    fields: near (depth, rows, x) and of the basin. Lines are followed from rest to rest; peaks under axles are those
-    between the points, or those of strips.
+    fields: near (depth, rows, x); of the basin on the same rows, and on its lines, see `Basin.lines`. Lines are
+    followed from rest to rest; peaks under axles are those between the points, or those of strips.
     """
     turns, power = task.turns, _power(criterion)
-    near, far = fields
+    near, outside, far = fields
     uncut, margin = criterion.read_uncut(near)
     by_depth = readings(uncut, margin)
-    away, beside = basin.lines(criterion.read_uncut(far))
+    away, beside = (readings(*criterion.read_uncut(part)) for part in (far, outside))
     x, centres = near["x"].to_numpy(), task.wheels.x.mean(axis=1)
     whole = np.concatenate([by_depth, beside], axis=2)
     read, far_read = whole.max(axis=0), away.max(axis=0)
@@ -279,13 +280,18 @@ def _read_both(
     ends = (x_most <= basin.columns[0]) | (x_most >= basin.columns[-1])
     ends[count:] |= (basin.rows <= basin.y[0]) | (basin.rows >= basin.y[-1])
     result[turns + BORDER] = ends[lines.order][lines.nearest]
-    inner = np.flatnonzero(most[:count] < len(x))
-    at_near = _at(near, deep[inner], most[inner], inner)
-    y_most = np.concatenate([basin.near, basin.rows])
-    at_far = _at(far, deep, nearest_of(basin.x, x_most), nearest_of(basin.y, y_most))
-    for name, (_, values_far) in at_far.items():
-        values_far[inner] = at_near[name][1]
-    return {name: (dims, part_of[lines.order]) for name, (dims, part_of) in at_far.items()}
+    deep_near, at = deep[:count], most[:count]
+    inner, outer = np.flatnonzero(at < len(x)), np.flatnonzero(at >= len(x))
+    parts = (
+        _at(near, deep_near[inner], at[inner], inner),
+        _at(outside, deep_near[outer], at[outer] - len(x), outer),
+        _at(far, deep[count:], most[count:]),
+    )
+    back = np.argsort(np.concatenate([inner, outer, np.arange(count, len(deep))]), kind="stable")[lines.order]
+    return {
+        name: (dims, np.concatenate([part_of[name][1] for part_of in parts])[back])
+        for name, (dims, _) in parts[0].items()
+    }
 
 
 def _turns_of(read: Array, turns: int, power: float) -> Array:
