@@ -33,8 +33,9 @@ _MEMORY, _SLOW, _LONG_MEMORY = 6, 20, 20
 _TIGHTER = 0.3
 # A change of the pressure below it is round-off.
 _SAME = 1e-14
-# Of ribs: what rolling aims at in the first round, then per change of the pressure; of pressing, over the tolerance.
-_FIRST_AIM, _AIM, _MOST_OF_PRESSING = 1e-2, 0.1, 10.0
+# Of ribs: what pressing and rolling aim at in the first round, and rolling then per change of the pressure. Pressing
+# costs less than rolling, and what it leaves would mislead the mixing: it aims at the tolerance at once.
+_FIRST_PRESSING, _FIRST_AIM, _AIM = 1e-4, 1e-2, 0.1
 
 Progress = Callable[[str], None]
 
@@ -112,7 +113,10 @@ def solve_coupled(
         share = 0.5 if coupled else 1.0
         return solve_normal(influence, gap + by_shear, **control, start=near, tolerance=share * within)
 
-    normal = press(offset, None if start is None else start.pressure, tolerance)
+    # Ribs couple strongly, and no round needs to be much better than the pressure that it starts from.
+    striped = coupled and not influence.material.all()
+    first = max(_FIRST_PRESSING, tolerance) if striped else tolerance
+    normal = press(offset, None if start is None else start.pressure, first)
     check(normal.pressure)
     at_rest = _at_rest(normal.pressure, grid, rolling)
     rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
@@ -120,9 +124,7 @@ def solve_coupled(
         rigid[0] += rows
     mixing = Anderson(_MEMORY)
     within = tolerance
-    # Ribs couple strongly, and no round needs to be much better than the pressure that it starts from.
-    striped = not influence.material.all()
-    aim = _FIRST_AIM if striped else within
+    aim = max(_FIRST_AIM, within) if striped else within
     iterations, newton, krylov, splitting, change = normal.iterations, 0, 0, 0, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
@@ -134,6 +136,10 @@ def solve_coupled(
         newton, krylov = newton + slipping.newton, krylov + slipping.krylov
         splitting += slipping.splitting
         if not coupled or not (last.shear.any() or offset.any()):
+            if normal.residual > within:
+                normal = press(offset, normal.pressure, within)
+                iterations += normal.iterations
+                continue
             check(normal.pressure)
             return Coupled(normal, slipping, rounds, change, iterations, newton, krylov, splitting)
         # The same pressure with the gap and the approach that this very shear makes.
@@ -149,7 +155,7 @@ def solve_coupled(
             mixing.memory = _LONG_MEMORY
         before = normal.pressure
         offset = mixing.next(offset, opening)
-        normal = press(offset, before, min(aim, _MOST_OF_PRESSING * within) if striped else within)
+        normal = press(offset, before, within)
         iterations += normal.iterations
         change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
         aim = max(within, _AIM * change) if striped else within
