@@ -21,6 +21,7 @@ from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.contact.solvers.slipping import SlippingSolution, solve_slipping, strongest
 from treadload.contact.solvers.tangential import TangentialSolution
+from treadload.contact.solvers.window import GrownError, Window
 from treadload.errors import ConvergenceError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
@@ -119,6 +120,13 @@ def solve_coupled(
     normal = press(offset, None if start is None else start.pressure, first)
     check(normal.pressure)
     at_rest = _at_rest(normal.pressure, grid, rolling)
+    window = Window.of(influence, grid, normal.pressure) if striped else None
+    if window is not None:
+        part = Start(normal.pressure, last)
+        solved = _in_window(window, influence, surfaces, rolling, part, tolerance=tolerance, tell=tell)
+        if solved is not None:
+            check(solved.normal.pressure)
+            return replace(solved, normal_iterations=solved.normal_iterations + normal.iterations)
     rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
     if rows is not None:
         rigid[0] += rows
@@ -169,6 +177,40 @@ def solve_coupled(
         "lower the friction or raise the tolerance",
         change,
     )
+
+
+def _in_window(
+    window: Window,
+    influence: Influence,
+    surfaces: Surfaces,
+    rolling: Rolling,
+    start: Start,
+    *,
+    tolerance: float,
+    tell: Progress,
+) -> Coupled | None:
+    """The solution on the whole grid by that in a window; None where the contact does not stay in it."""
+    grid, rows = surfaces.grid, surfaces.rows
+    part = Surfaces(window.grid, window.of_field(surfaces.gap), None if rows is None else rows[window.rows])
+    near = Start(
+        window.of_field(start.pressure),
+        None if start.tangential is None else window.tangential_of(start.tangential),
+    )
+    try:
+        solved = solve_coupled(
+            window.influence, part, rolling, check=window.check, start=near, tolerance=tolerance, tell=tell
+        )
+    except GrownError:
+        return None
+    slipping = window.slipping_on_grid(solved.slipping)
+    normal = window.normal_on_grid(influence, surfaces.gap, solved.normal, slipping.tangential.shear)
+    if normal.residual > tolerance:
+        return None
+    if slipping.temperature is not None:
+        slip = slipping.tangential.slip
+        everywhere = Interface(normal.pressure, slip, grid.x, grid.y, grid.dx, rolling.speed)
+        slipping = replace(slipping, temperature=rolling.law.temperature(everywhere))
+    return replace(solved, normal=normal, slipping=slipping)
 
 
 def _at_rest(pressure: Array, grid: Grid, rolling: Rolling) -> Interface:
