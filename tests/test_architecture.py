@@ -291,9 +291,6 @@ def test_no_public_name_hides_a_module():
 
 # Where else than in `steps/` and `variables.py` two or more steps may be named in a list, with the reason.
 LISTS_OF_STEPS = {
-    "reporting/reading.py": "groups of an opened file that have tables of their own in a report",
-    "reporting/tables.py": "the columns that set several cases side by side",
-    "cli/exports.py": "what a grid of VTK can hold",
     "validation/table.py": "groups of checks, four of which have the name of a step",
 }
 

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult, Holds
+from treadload.composing import BaseResult, Columns, Holds
 from treadload.contact.rolling_state import Rolling
 from treadload.errors import InputError
 from treadload.materials import Orthotropic, Prony, TransverselyIsotropic
@@ -30,6 +30,7 @@ class Contact(BaseResult, group="contact"):
     stats: iterations, residuals, seconds. warnings: sentences for the user.
     """
 
+    columns: ClassVar[Columns] = Columns("Contact", "Contact solver")
     title: ClassVar[str] = "Contact"
     holds: ClassVar[Holds] = Holds(
         {

@@ -12,7 +12,7 @@ import xarray as xr
 
 from treadload import variables
 from treadload.citations import SOLVED_WHOLE
-from treadload.composing import BaseResult, Holds
+from treadload.composing import BaseResult, Columns, Holds
 from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
@@ -60,6 +60,7 @@ class Life(BaseResult, group="life"):
     stats: solves and errors behind the readings. warnings: sentences for the user.
     """
 
+    columns: ClassVar[Columns] = Columns()
     title: ClassVar[str] = "Service life"
     subject: ClassVar[str] = "How long a road lasts"
     holds: ClassVar[Holds] = Holds(

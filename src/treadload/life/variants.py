@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from treadload.contact.friction import Coulomb
+from treadload.contact.friction.laws import FrictionLaw
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import damage_of, wander_of
-from treadload.damage.traffic import Traffic
+from treadload.damage.traffic import AxleClass, Traffic
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Contacts, Counter, Progress
 from treadload.life.passage import Passing, solve_passings, turns_of
@@ -53,6 +55,18 @@ def names_of(road: Pavement) -> list[str]:
     """What tables call the layers: their names, with their numbers where several have one."""
     names = [layer.name or f"layer {k}" for k, layer in enumerate(road.layers, start=1)]
     return [name if names.count(name) == 1 else f"{name} ({k})" for k, name in enumerate(names, start=1)]
+
+
+def each_class(traffic: Traffic, change: Callable[[AxleClass], AxleClass]) -> Traffic:
+    """The traffic with every class of axles changed."""
+    return replace(traffic, classes=tuple(change(row) for row in traffic.classes))
+
+
+def friction_number(friction: float | FrictionLaw) -> float | None:
+    """The one coefficient of a friction; None for a law that has more numbers."""
+    if isinstance(friction, Coulomb):
+        return friction.number
+    return float(friction) if isinstance(friction, int | float) else None
 
 
 def most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:

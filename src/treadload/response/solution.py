@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult, Holds
+from treadload.composing import BaseResult, Columns, Holds
 from treadload.contact import Contact
 from treadload.pavement import Pavement, methods_of
 from treadload.response.fields import COMPONENTS, angle_in_words, direction_in_words, kind_of_points, layer_in_words
@@ -38,6 +38,9 @@ class Response(BaseResult, group="response"):
     """
 
     title: ClassVar[str] = "Strain in the road"
+    sections: ClassVar[tuple[str, ...]] = ("slice_along", "slice_across", "bowl")
+    also: ClassVar[tuple[str, ...]] = ("points", "slice")
+    columns: ClassVar[Columns] = Columns(stats="Response")
 
     # On a grid, or at a list of points.
     holds: ClassVar[Holds] = Holds(
