@@ -158,9 +158,7 @@ def draw_one_rib(file: Path) -> dict[float, list[float]]:
         edges = 1e3 * (np.append(rib.places[:, 0], rib.width) - rib.width / 2)
         across.stairs(1e-3 * pressure, edges, baseline=None, color=colour, lw=1.6, label=f"pressure, μ {friction:g}")
         # The road feels the opposite of the rib.
-        across.stairs(
-            -1e-3 * shear, edges, baseline=None, color=colour, lw=1.6, ls="--", label=f"shear, μ {friction:g}"
-        )
+        across.stairs(-1e-3 * shear, edges, baseline=None, color=colour, lw=1.6, ls="--", label=f"shear, μ {friction:g}")
     across.axhline(0, color=MUTED, lw=0.8)
     across.set(xlabel="to the right of the rib's middle (mm)", ylabel="on the road (kPa)", ylim=(-900, 1800))
     across.legend(loc="upper center", ncols=2)

@@ -1,9 +1,11 @@
 """K of a group at the surface against layers solved wave by wave, on periodic boxes, with a rainflow of its own.
 
-The solver here shares nothing with the package: stiffness matrices of layers in plane strain for each wave (Kausel and
-Roësset 1981, in their static limit, from two potentials and a Papkovich function), a fast Fourier transform of
+The solver here shares nothing with the package: stiffness matrices of layers in plane strain for each wave (Kausel
+and Roesset 1981 in their static limit, from a potential and a Papkovich function), a fast Fourier transform of
 vertical pressure on a box, and the reduction of turning points by a stack.
 """
+
+import itertools
 
 import numpy as np
 import pytest
@@ -40,7 +42,7 @@ def load():
 
 
 def solutions(k, modulus, poisson, z, sign):
-    """Two fields that fade with sign·z: (along, down, shear, normal traction) of a wave e^{ikx}, along and shear by i."""
+    """Two fields that fade with sign·z of a wave e^{ikx}: along (by i), down, shear (by i) and normal traction."""
     shear = modulus / 2 / (1 + poisson)
     lame = 2 * shear * poisson / (1 - 2 * poisson)
     s, c = -sign * k, 3 - 4 * poisson
@@ -128,9 +130,7 @@ def damage(line):
             total += abs(stack[-2] ** POWER - stack[-3] ** POWER)
             del stack[-3:-1]
     # What is left rises to its largest and falls from it.
-    return total + sum(
-        max(after**POWER - before**POWER, 0.0) for before, after in zip(stack, stack[1:], strict=False)
-    )
+    return total + sum(max(after**POWER - before**POWER, 0.0) for before, after in itertools.pairwise(stack))
 
 
 def factor_by_waves(box):
