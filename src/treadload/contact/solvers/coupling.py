@@ -115,7 +115,7 @@ def solve_coupled(
         return solve_normal(influence, gap + by_shear, **control, start=near, tolerance=share * within)
 
     # Ribs couple strongly, and no round needs to be much better than the pressure that it starts from.
-    striped = coupled and not influence.material.all()
+    striped = coupled and influence.has_strips
     first = max(_FIRST_PRESSING, tolerance) if striped else tolerance
     normal = press(offset, None if start is None else start.pressure, first)
     check(normal.pressure)
