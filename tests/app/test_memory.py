@@ -17,11 +17,12 @@ def closed_pages(kind, folder, count):
     """Weak references to the page, form, session and client of tabs that were opened and closed, one by one."""
 
     async def visited():
+        about = {"type": "http", "method": "GET", "path": kind.address, "query_string": b"", "headers": []}
         core.loop = asyncio.get_running_loop()
         sessions, left = Sessions(Engines(), folder, lingers=0.0), []
         for number in range(count):
             session, gone = sessions.tab(str(number))
-            client = Client(ui.page(kind.address), request=Request({"type": "http", "headers": []}))
+            client = Client(ui.page(kind.address), request=Request(about))
             client.on_delete(gone)
             with client:
                 build(session, kind, list(OURS))

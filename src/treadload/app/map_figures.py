@@ -122,9 +122,11 @@ def field_of(parts: Parts, name: str, depth: int = 0) -> Field:
 
 
 def cut_of(parts: Parts, line: Sequence[float] | None) -> Cut:
-    """The line of the slice."""
+    """The line of the slice, inside the map."""
     source = parts.get("contact") or next(iter(parts.values()))
-    return Cut.along(source) if line is None else Cut((line[0], line[1]), (line[2], line[3]))
+    if line is None:
+        return Cut.along(source)
+    return Cut((line[0], line[1]), (line[2], line[3])).within(source)
 
 
 def along(

@@ -35,6 +35,7 @@ from treadload.damage.words import (
 )
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.rows import Row, row
 
 
@@ -332,8 +333,8 @@ def miner(
 def _worst(yearly: Array, readings: Array, margin: int) -> int:
     """Column of the largest damage; where none is done that of the largest reading, margin columns further."""
     if yearly.max() > 0:
-        return int(yearly.argmax())
-    return margin + int(readings.max(axis=(0, 1, 2)).argmax())
+        return index_of_largest(yearly)[0]
+    return margin + index_of_largest(readings.max(axis=(0, 1, 2)))[0]
 
 
 def _utilisation(laws: Sequence[Sequence[FatigueLaw]], readings: Array, traffic: Traffic) -> float:

@@ -13,6 +13,7 @@ import xarray as xr
 from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.plots.interactive.drawing import Trace, figure
 from treadload.plots.interactive.theme import Theme, colour_scale, theme_of
 from treadload.plots.kit.layers import Layers
@@ -51,6 +52,18 @@ class Cut:
         plan = Plan.of(fields_of(source))
         at = _largest(source)[0] if x is None else x
         return cls((at, plan.y_edges[0] / MM), (at, plan.y_edges[-1] / MM))
+
+    def within(self, source: Source) -> Cut:
+        """The line with each end inside the outer edges of a map; through its largest value where nothing is left."""
+        plan = Plan.of(fields_of(source))
+        first, last = (
+            tuple(
+                float(min(max(at, side[0] / MM), side[-1] / MM))
+                for at, side in zip(end, (plan.x_edges, plan.y_edges), strict=True)
+            )
+            for end in (self.start, self.end)
+        )
+        return type(self).along(source) if first == last else Cut((first[0], first[1]), (last[0], last[1]))
 
     @property
     def length(self) -> float:
@@ -326,8 +339,7 @@ def _largest(source: Source) -> tuple[float, float]:
     for name in ("pressure", *VARIABLE.values(), "extension_strain"):
         if name in data:
             sheet = data.isel(depth=0) if "depth" in data[name].dims else data
-            values = np.nan_to_num(plane(sheet, name), nan=-np.inf)
-            row, column = np.unravel_index(int(values.argmax()), values.shape)
+            row, column = index_of_largest(plane(sheet, name))
             return float(data["x"][column]), float(data["y"][row])
     return float(data["x"].mean()), float(data["y"].mean())
 
