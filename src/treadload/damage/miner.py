@@ -16,6 +16,7 @@ from treadload.composing import BaseResult, Columns, Holds
 from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
+from treadload.damage.cycles import harm_of
 from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.thermal import DailyCycles, years_until
@@ -204,7 +205,9 @@ def miner(
     was fitted to roads on which wheels wander, it would count twice: a warning gives both lives. The years are those
     after which the damage at the worst place is 1. Raises InputError for wrong shapes.
     """
-    values = np.asarray(readings, dtype=float)
+    values = np.asarray(readings)
+    # Single numbers stay: of many classes and seasons they are most of what a life keeps.
+    values = values if values.dtype == np.float32 else np.asarray(values, dtype=float)
     expected = (len(criteria), len(traffic.classes), len(climate.seasons))
     if values.ndim not in (4, 5) or values.shape[:3] != expected:
         raise InputError(
@@ -370,11 +373,8 @@ def damage_of(
         * np.array([season.share for season in climate.seasons])
     )
     damage = np.empty(np.delete(readings.shape, 3))
-    sign = np.where(np.arange(readings.shape[3]) % 2, -1.0, 1.0)[:, None]
     for (k, c, s), cycle in np.ndenumerate(np.broadcast_to(cycles, damage.shape[:3])):
-        each = (sign / np.asarray(laws[k][c][s].allowable_passes(readings[k, c, s]))).sum(axis=0)
-        # Where axles merge into one peak, round-off may leave less than nothing.
-        damage[k, c, s] = cycle * np.maximum(each, 0.0)
+        damage[k, c, s] = cycle * harm_of(laws[k][c][s], readings[k, c, s])
     return damage
 
 

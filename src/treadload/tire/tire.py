@@ -42,6 +42,11 @@ if TYPE_CHECKING:
 
 POISSON_OF_RUBBER = 0.5
 Tread = Literal["layer", "ribs"]
+# Why there is no tread = "blocks".
+BLOCKS_ROLL = (
+    "blocks follow from lateral grooves, of the profile, of a scan or given, and do not roll steadily: leave tread out "
+    "and solve the passage of a pitch, with the table [pitch] of a case or solve_pitch(...)"
+)
 RibSides = Literal["free", "filled", "unknown", "none"]
 # Rubber below the deepest groove of a measured tread, m, where nobody gives it: that of the catalogue's 315/80R22.5,
 # 20 mm of tread with grooves of 15 mm.
@@ -123,7 +128,8 @@ class Tire:
                     "Belt(tread=...)"
                 )
         if self.tread not in get_args(Tread):
-            raise InputError(f'tread must be "layer" or "ribs", got {self.tread!r}')
+            remedy = f"; {BLOCKS_ROLL}" if self.tread == "blocks" else ""
+            raise InputError(f'tread must be "layer" or "ribs", got {self.tread!r}{remedy}')
         if self.tread == "ribs":
             if self.belt is None:
                 raise InputError(
