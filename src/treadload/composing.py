@@ -119,7 +119,7 @@ class BaseResult(Described):
             """Fields by name, with units and long names."""
 
         @property
-        def stats(self) -> Mapping[str, Any]:
+        def stats(self) -> Mapping[str, object]:
             """How it was solved: iterations, residuals, seconds."""
             return MappingProxyType({})
     else:

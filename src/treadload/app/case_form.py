@@ -25,8 +25,8 @@ class CaseForm(Uploads):
     """
 
     def __init__(
-        self, session: Session, room: str, changed: Callable[[Form], Any],
-        files: dict[str, tuple[tuple[str, ...], Callable[[str], Any]]] | None = None,
+        self, session: Session, room: str, changed: Callable[[Form], object],
+        files: dict[str, tuple[tuple[str, ...], Callable[[str], object]]] | None = None,
     ) -> None:  # fmt: skip
         super().__init__(session)
         self._room, self._changed, self._files = room, changed, files or {}
@@ -189,7 +189,7 @@ class CaseForm(Uploads):
             return
         self.again(form)
 
-    def _takes_file(self, path: str) -> Callable[[str], Any]:
+    def _takes_file(self, path: str) -> Callable[[str], object]:
         return lambda name: self.again(self.form.with_added(path, self._folder, name))
 
     @property

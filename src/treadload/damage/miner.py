@@ -400,7 +400,7 @@ def _cracks(
     spacing: float,
     columns: Sequence[int],
     peak: Array,
-) -> dict[str, tuple[tuple[str, ...], Any]]:
+) -> dict[str, tuple[tuple[str, ...], object]]:
     """The first crack of every criterion, and the shares of orientations in the damage at its worst place.
 
     columns: of the damage after wander at each criterion's worst y, as `Wander.spread_at` counts them.

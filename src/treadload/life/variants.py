@@ -18,7 +18,7 @@ from treadload.damage.traffic import AxleClass, Traffic
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Contacts, Counter, Progress
 from treadload.life.passage import Passing, solve_passings, turns_of
-from treadload.life.seasons import layer_temperatures, warmed
+from treadload.life.seasons import Warm, layer_temperatures, warmed
 from treadload.life.wheels import Wheels, across, states_of, wheels_of
 from treadload.materials import Anisotropic, Elastic, Mix
 from treadload.pavement import Pavement
@@ -80,7 +80,7 @@ def most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
 
 def in_seasons(
     question: Question, criterion: Criterion, pairs: Sequence[tuple[int, int]]
-) -> dict[tuple[int, int], Any]:
+) -> dict[tuple[int, int], Warm]:
     """The road and the criterion of the pairs (class, season), shared by classes without a frequency of their own."""
     road, traffic, climate = question
     shared = {s: warmed(road, (criterion,), climate.seasons[s]) for s in dict.fromkeys(s for _, s in pairs)}

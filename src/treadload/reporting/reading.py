@@ -184,7 +184,7 @@ class ReportCase:
         texts = [str(text) for data in datasets for text in read_json(data.attrs.get("warnings"), [])]
         return list(dict.fromkeys(texts))
 
-    def statistics(self, group: str) -> dict[str, Any]:
+    def statistics(self, group: str) -> dict[str, object]:
         """Statistics of the solver of a group."""
         data = self.group(group)
         return dict(read_json(data.attrs.get("stats"), {})) if data is not None else {}
@@ -261,7 +261,7 @@ def groups_in_columns() -> dict[str, Columns]:
     return groups
 
 
-def kind_of(name: str, attrs: Mapping[Any, Any]) -> str:
+def kind_of(name: str, attrs: Mapping[object, object]) -> str:
     """Kind of the result in a group: as it says, else as it is called."""
     result_name = attrs.get("result")
     return result_name if isinstance(result_name, str) and result_name else name

@@ -83,7 +83,10 @@ def rolling_checks() -> Iterator[Check]:
     wheel = Rolling(normal_load=_LOAD, friction=_FRICTION)
     ribs, layer = (
         solve_contact(
-            Tire.from_profile(smooth, inflation_pressure=_PRESSURE, belt=belt, tread=tread), _ROAD, wheel, spacing=5e-3
+            Tire.from_profile(smooth, inflation_pressure=_PRESSURE, belt=belt, tread=tread),
+            _ROAD,
+            wheel,
+            spacing=5e-3,
         )
         for tread in ("ribs", "layer")
     )
@@ -100,7 +103,9 @@ def block_checks() -> Iterator[Check]:
     free = _pitch(tire, Rolling(normal_load=_BLOCK_LOAD, friction=_FRICTION), 0.01)
     data = free.dataset
     loads = np.abs(data.normal_load.to_numpy() / _BLOCK_LOAD - 1)
-    yield absolute(group, "load over the given load, less 1, worst position", loads.max(), 0.0, 1e-6, "balance of forces")
+    yield absolute(
+        group, "load over the given load, less 1, worst position", loads.max(), 0.0, 1e-6, "balance of forces"
+    )
     forces = np.hypot(data.tractive_force, data.lateral_force) / _BLOCK_LOAD
     yield absolute(group, "horizontal force over load, free rolling", forces.max(), 0.0, 1e-6, "balance of forces")
     quantity = "difference from the mirror image over the largest pressure"
@@ -152,7 +157,9 @@ def _slab_checks() -> Iterator[Check]:
     for number, (symbol, words) in enumerate(zip(symbols, ("along", "across", "down"), strict=True)):
         quantity = f"own displacement of a cell {words} over that of the layer, 50 waves/m"
         exact = float((weight * symbol).sum())
-        yield relative("slab without grooves", quantity, own[number, number] / exact, 1.0, 0.01, "closed form of a layer")
+        yield relative(
+            "slab without grooves", quantity, own[number, number] / exact, 1.0, 0.01, "closed form of a layer"
+        )
 
 
 def _on_cells(dy: float) -> GridLoad:

@@ -188,7 +188,7 @@ def synthesise_cells(
     across: tuple[Array, Array],
     at: Points | None = None,
     components: Sequence[int] = range(9),
-    precision: type[np.floating[Any]] = np.float64,
+    precision: type[np.floating] = np.float64,
 ) -> Array:
     """Stress and displacement of elastic layers under gridded loads.
 

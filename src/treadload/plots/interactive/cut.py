@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
 from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.kernels.largest import index_of_largest
 from treadload.plots.interactive.drawing import Trace, figure
 from treadload.plots.interactive.theme import Theme, colour_scale, theme_of
@@ -21,6 +21,9 @@ from treadload.plots.kit.plan import DEPTH_LABEL, KPA, MM, Plan, edges, fields_o
 from treadload.plots.kit.shown import shown
 from treadload.plots.kit.style import signed
 from treadload.plots.response import VARIABLE
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
 
 # Points on a line: two a cell, and no more.
 _MOST_POINTS = 1200
@@ -136,7 +139,7 @@ def profiles(
     overlaid: Mapping[str, Source] | None = None,
     names: Mapping[str, str] | None = None,
     theme: str | Theme = "light",
-) -> Any:
+) -> Figure:
     """Profiles along a line, as a Figure of plotly.
 
     source: a contact (pressure, shear, friction times pressure, cell by cell, kPa) or a response (largest extension
@@ -164,7 +167,7 @@ def depth_slice(
     theme: str | Theme = "light",
     height: float = _HEIGHT,
     whole: bool = False,
-) -> Any:
+) -> Figure:
     """A vertical section of a response below a line, as a Figure of plotly, depth down the page in true scale.
 
     response: over (depth, y, x), or over (depth, point) where the points follow a line. cut: of a map of two
@@ -324,7 +327,7 @@ def _curve(
     return trace
 
 
-def _profile_layout(label: str, unit: str) -> dict[str, Any]:
+def _profile_layout(label: str, unit: str) -> dict[str, object]:
     return {
         "height": _HEIGHT, "margin": {"l": 62, "r": 18, "t": 40, "b": 50}, "hovermode": "x unified",
         "showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"},
@@ -353,7 +356,7 @@ def _step(data: xr.Dataset) -> float:
     return Plan.of(data).cell / MM
 
 
-def _between(centres: Array, at: Array) -> tuple[Any, Array]:
+def _between(centres: Array, at: Array) -> tuple[IntArray, Array]:
     """Number of the centre below, and the share of the way to the next."""
     if len(centres) == 1:
         return np.zeros(np.shape(at), dtype=int), np.zeros(np.shape(at))
