@@ -647,9 +647,9 @@ _DISPLAYS_LIFE = {
     "trial_thickness": Display("thickness", "mm", ".0f"),
     "trial_years": Display("service life at it", "", years_in_words),
     "asked_years": Display("design life", "", years_in_words),
-    "road_years": Display("service life of the road", "", years_in_words),
+    "road_years": Display("road lasts", "", years_in_words),
     "years_won": Display("years won", "", "+z.3g"),
-    "remedy_years": Display("service life with it", "", years_in_words),
+    "remedy_years": Display("years by", "", years_in_words),
     "best_remedy": Display("helps"),
     "not_applicable": Display("not applicable"),
 }
@@ -893,9 +893,9 @@ SAMPLE: Mapping[str, Display] = {
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
-    "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
-    "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure", "mode",
-    "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "groove", "step", "position", "pass",
+    "trial", "remedy", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading",
+    "unknown", "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure",
+    "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "groove", "step", "position", "pass",
     "interface", "depth", "profile_depth", "sublayer", "point", "row", "column", "y", "across", "wheel_angle", "x",
     "road_x", "component", "orientation",
 )  # fmt: skip

@@ -14,7 +14,7 @@ import xarray as xr
 from treadload.composing import BaseResult, Holds
 from treadload.rows import Row, row
 from treadload.units import LASTS, years_in_words
-from treadload.variables import Display
+from treadload.variables import Display, display_of
 
 # Remedies that a criterion's sentence lists, and the part of a life that is worth a mention.
 _LISTED, _WORTH = 3, 0.01
@@ -94,7 +94,7 @@ class Remedies(BaseResult, group="remedies"):
             rows += [row("road_years", data["road_years"][k], group=name)]
             rows += [row("years_won", data["years_won"][k], group=name)]
             rows += [
-                row("remedy_years", years, group=name, display=Display(criterion, "", years_in_words))
+                row("remedy_years", years, group=name, label=f"{display_of('remedy_years').label} {criterion}")
                 for criterion, years in zip(criteria, data["remedy_years"].to_numpy()[k], strict=True)
             ]
         rows += [row("best_remedy", self._helps(name), label=f"helps {name}") for name in criteria]

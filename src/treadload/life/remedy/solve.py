@@ -180,7 +180,7 @@ def _warned(design: Design, life: Life, solved: _Solved) -> list[str]:
         before, after = _beyond(life, number), _beyond(solved.life, number)
         if after and not before:
             texts.append(f"{remedy.name}: it leaves the range of the law of {criterion.name}: {after}")
-    known = {
+    before_too = {
         *traffic_doubts(design.tire, design.traffic, design.climate),
         *beyond_tables(design.road, design.climate),
     }

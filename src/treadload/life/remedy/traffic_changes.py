@@ -20,6 +20,8 @@ from treadload.tire.tread import ProfileSurface
 
 # At which laws are asked whether they include wander.
 _ANY_TEMPERATURE = 15.0
+# Round-off of a speed that is one step.
+_SAME = 1e-9
 
 
 def more_wander(design: Design, steps: RemedySteps) -> Iterator[Change]:
@@ -91,7 +93,7 @@ def other_speeds(design: Design, steps: RemedySteps) -> Iterator[Change]:
     slowest = min(classes, key=lambda row: row.speed or 0.0)
     for sign, word in ((-1, "slower"), (1, "faster")):
         title = f"{words} {word}"
-        if (slowest.speed or 0.0) + sign * steps.speed <= 0:
+        if sign < 0 and (slowest.speed or 0.0) <= steps.speed * (1 + _SAME):
             yield NotApplicable(title, f"{slowest.name} rolls at {(slowest.speed or 0.0) * 3.6:g} km/h")
             continue
         try:
