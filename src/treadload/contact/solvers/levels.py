@@ -55,9 +55,7 @@ def _refined(field: Array, axis: int) -> Array:
     return finer
 
 
-def interpolate(
-    field: Array, valid: BoolArray, shape: tuple[int, int], axes: tuple[int, ...] = BOTH
-) -> Array:
+def interpolate(field: Array, valid: BoolArray, shape: tuple[int, int], axes: tuple[int, ...] = BOTH) -> Array:
     """Field (…, ny, nx) on cells of half the size along axes, linear between the known cells (⌈ny/2⌉, ⌈nx/2⌉)."""
     weight = valid.astype(field.dtype)
     total, share = refine(field * weight, shape, axes), refine(weight, shape, axes)

@@ -53,9 +53,7 @@ class Window:
         ny, nx = rows.stop - rows.start, columns.stop - columns.start
         if ny * nx > _MOST * grid.nx * grid.ny:
             return None
-        small = replace(
-            grid, nx=nx, ny=ny, x0=grid.x0 + first * grid.dx, y0=influence.first_y + rows.start * grid.dy
-        )
+        small = replace(grid, nx=nx, ny=ny, x0=grid.x0 + first * grid.dx, y0=influence.first_y + rows.start * grid.dy)
         part = operators((ny, nx), grid.dx, grid.dy, influence.pair, small.y0)
         if not np.array_equal(part.material, influence.material[rows]):
             return None
