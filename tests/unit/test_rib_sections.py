@@ -112,7 +112,9 @@ def test_worn_narrow_and_wide_ribs(rib, shear):
 
 @pytest.mark.parametrize(("poisson", "shear"), [(0.47, 0.288), (0.49, 0.284), (0.495, 0.283), (0.4995, 0.282)])
 def test_the_sides_and_not_poissons_ratio_make_the_shear(poisson, shear):
-    assert outer_third(PressedRib(width=0.045, poisson=poisson, friction=0.3, edge=1e-6)) == pytest.approx(shear, rel=0.03)
+    assert outer_third(PressedRib(width=0.045, poisson=poisson, friction=0.3, edge=1e-6)) == pytest.approx(
+        shear, rel=0.03
+    )
 
 
 def test_cells_of_3_and_of_1_5_mm_agree():
