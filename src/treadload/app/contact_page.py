@@ -90,12 +90,12 @@ class ContactPage(Page):
 
     # The run that is shown.
 
-    def view_options(self) -> dict[str, Any]:
+    def view_options(self) -> dict[str, object]:
         """The maps of a part as soon as it is there."""
         self._pair = None
         return {"view": self._seen()}
 
-    def _seen(self) -> dict[str, Any]:
+    def _seen(self) -> dict[str, object]:
         return {**self._view, "width": self.width, "line": self._slice.line}
 
     def name_of(self, form: Form) -> str:

@@ -395,7 +395,7 @@ def value_at(table: object, path: str) -> Any:
     return here
 
 
-def _get(table: object, key: str) -> Any:
+def _get(table: object, key: str) -> object:
     return table.get(key) if isinstance(table, Mapping) else None
 
 
@@ -409,5 +409,5 @@ def _join(path: str, key: str) -> str:
 
 
 @functools.cache
-def _starts() -> dict[str, Any]:
+def _starts() -> dict[str, object]:
     return parse_toml(text_of(_STARTS, "starts"), _STARTS.name)

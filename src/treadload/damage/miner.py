@@ -12,10 +12,11 @@ import xarray as xr
 
 from treadload import variables
 from treadload.citations import SOLVED_WHOLE
-from treadload.composing import BaseResult, Holds
+from treadload.composing import BaseResult, Columns, Holds
 from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
+from treadload.damage.cycles import harm_of
 from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.thermal import DailyCycles, years_until
@@ -34,6 +35,7 @@ from treadload.damage.words import (
 )
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.rows import Row, row
 
 
@@ -59,6 +61,7 @@ class Life(BaseResult, group="life"):
     stats: solves and errors behind the readings. warnings: sentences for the user.
     """
 
+    columns: ClassVar[Columns] = Columns()
     title: ClassVar[str] = "Service life"
     subject: ClassVar[str] = "How long a road lasts"
     holds: ClassVar[Holds] = Holds(
@@ -203,7 +206,9 @@ def miner(
     was fitted to roads on which wheels wander, it would count twice: a warning gives both lives. The years are those
     after which the damage at the worst place is 1. Raises InputError for wrong shapes.
     """
-    values = np.asarray(readings, dtype=float)
+    values = np.asarray(readings)
+    # Single numbers stay: of many classes and seasons they are most of what a life keeps.
+    values = values if values.dtype == np.float32 else np.asarray(values, dtype=float)
     expected = (len(criteria), len(traffic.classes), len(climate.seasons))
     if values.ndim not in (4, 5) or values.shape[:3] != expected:
         raise InputError(
@@ -328,8 +333,8 @@ def miner(
 def _worst(yearly: Array, readings: Array, margin: int) -> int:
     """Column of the largest damage; where none is done that of the largest reading, margin columns further."""
     if yearly.max() > 0:
-        return int(yearly.argmax())
-    return margin + int(readings.max(axis=(0, 1, 2)).argmax())
+        return index_of_largest(yearly)[0]
+    return margin + index_of_largest(readings.max(axis=(0, 1, 2)))[0]
 
 
 def _utilisation(laws: Sequence[Sequence[FatigueLaw]], readings: Array, traffic: Traffic) -> float:
@@ -369,11 +374,8 @@ def damage_of(
         * np.array([season.share for season in climate.seasons])
     )
     damage = np.empty(np.delete(readings.shape, 3))
-    sign = np.where(np.arange(readings.shape[3]) % 2, -1.0, 1.0)[:, None]
     for (k, c, s), cycle in np.ndenumerate(np.broadcast_to(cycles, damage.shape[:3])):
-        each = (sign / np.asarray(laws[k][c][s].allowable_passes(readings[k, c, s]))).sum(axis=0)
-        # Where axles merge into one peak, round-off may leave less than nothing.
-        damage[k, c, s] = cycle * np.maximum(each, 0.0)
+        damage[k, c, s] = cycle * harm_of(laws[k][c][s], readings[k, c, s])
     return damage
 
 
@@ -398,7 +400,7 @@ def _cracks(
     spacing: float,
     columns: Sequence[int],
     peak: Array,
-) -> dict[str, tuple[tuple[str, ...], Any]]:
+) -> dict[str, tuple[tuple[str, ...], object]]:
     """The first crack of every criterion, and the shares of orientations in the damage at its worst place.
 
     columns: of the damage after wander at each criterion's worst y, as `Wander.spread_at` counts them.

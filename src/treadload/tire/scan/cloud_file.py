@@ -6,6 +6,7 @@ import re
 import struct
 import warnings
 from pathlib import Path
+from types import ModuleType
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -97,7 +98,7 @@ def _of_las(path: Path) -> Triangles:
     return _checked(np.asarray(points, dtype=np.float64), path)
 
 
-def _unpacker(laspy: Any) -> Any:
+def _unpacker(laspy: ModuleType) -> Any:
     """The one of LAZ that goes through the file; the parallel one reserves what a damaged table asks for."""
     return laspy.LazBackend.Lazrs if laspy.LazBackend.Lazrs.is_available() else None
 
