@@ -23,6 +23,7 @@ import treadload as tl
 from treadload.contact import PitchPassage, solve_pitch
 from treadload.damage.pitch import respond_to_pitch
 from treadload.plots import pitch_history, pitch_maps, pitch_strains, save
+from treadload.tire.tread import ProfileSurface
 
 CASE = Path(__file__).parent / "blocks.toml"
 DEPTHS = (0.0, 0.02)
@@ -30,9 +31,9 @@ DEPTHS = (0.0, 0.02)
 
 def ribs_of(tire: tl.Tire) -> tl.Tire:
     """The same tread without lateral grooves."""
-    assert isinstance(tire.profile, tl.tire.TreadProfile)
+    assert isinstance(tire.surface, ProfileSurface)
     return tl.Tire.from_profile(
-        replace(tire.profile, lateral=()), inflation_pressure=tire.inflation_pressure, belt=tire.belt, tread="ribs"
+        replace(tire.surface.profile, lateral=()), inflation_pressure=tire.inflation_pressure, belt=tire.belt, tread="ribs"
     )
 
 
