@@ -1,11 +1,11 @@
 """A tread of blocks over one pitch: what changes from position to position, and what it does to a road.
 
-`blocks.toml` describes the tread: two circumferential grooves, and lateral grooves every 70 mm, those of the shoulders
-half a pitch from those of the middle. Steady rolling does not exist on it: the wheel rolls until a pitch repeats the
-one before. Beside it the same tread without lateral grooves, as three ribs in steady rolling.
+`blocks.toml` describes the tread: two circumferential grooves, and lateral grooves every 70 mm, those of the
+shoulders half a pitch from those of the middle. Steady rolling does not exist on it: the wheel rolls until a pitch
+repeats the one before. Beside it the same tread without lateral grooves, as three ribs in steady rolling.
 
-The mesh `feda_tire_fine.obj` of Project Chrono was no source of blocks, although its pattern is called one of 70 mm
-pitch: each of its 25 circles of vertices, 64 to 77 of them round the tire, has one radius within 0.0012 mm, so that it
+The mesh `feda_tire_fine.obj` of Project Chrono is not a source of blocks, although a pitch of 70 mm was expected of
+it: on each of its 25 circles of vertices, 64 to 77 round the tire, the radius varies by 0.0012 mm at most, so that it
 has four ribs and no lugs.
 
     python examples/blocks/run.py [folder] [--coarse]
@@ -23,6 +23,7 @@ import treadload as tl
 from treadload.contact import PitchPassage, solve_pitch
 from treadload.damage.pitch import respond_to_pitch
 from treadload.plots import pitch_history, pitch_maps, pitch_strains, save
+from treadload.tire.tread import ProfileSurface
 
 CASE = Path(__file__).parent / "blocks.toml"
 DEPTHS = (0.0, 0.02)
@@ -30,9 +31,9 @@ DEPTHS = (0.0, 0.02)
 
 def ribs_of(tire: tl.Tire) -> tl.Tire:
     """The same tread without lateral grooves."""
-    assert isinstance(tire.profile, tl.tire.TreadProfile)
+    assert isinstance(tire.surface, ProfileSurface)
     return tl.Tire.from_profile(
-        replace(tire.profile, lateral=()), inflation_pressure=tire.inflation_pressure, belt=tire.belt, tread="ribs"
+        replace(tire.surface.profile, lateral=()), inflation_pressure=tire.inflation_pressure, belt=tire.belt, tread="ribs"
     )
 
 
@@ -75,8 +76,8 @@ def main(folder: Path, spacing: float | None = None, positions: int = 12) -> dic
         f"\nfrom a pitch to the next shear changes by {numbers['change']:.2%} at most; load within "
         f"{numbers['load']:.0e}, net horizontal force {numbers['net_force']:.0e} of the load, mirror image within "
         f"{numbers['asymmetry']:.1e} of the largest pressure\n"
-        f"contact area {numbers['area']:.0%} and deflection {numbers['approach']:.1%} of those of ribs; the area varies "
-        f"by {numbers['area_range']:.1%} over a pitch\n"
+        f"contact area {numbers['area']:.0%} and deflection {numbers['approach']:.1%} of those of ribs; the area "
+        f"varies by {numbers['area_range']:.1%} over a pitch\n"
         f"strain in the plane of the surface: worst {numbers['strain_worst'] * 1e6:.0f}, mean over the pitch "
         f"{numbers['strain_mean'] * 1e6:.0f} microstrain"
     )

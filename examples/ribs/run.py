@@ -39,7 +39,7 @@ PUBLISHED = {
     "de Beer, Fisher and Jooste (1997), pins": (0.36, 0.14),
     "Illinois contact model": (0.40, None),
 }
-# The outer third of one rib over its mean pressure by friction: a second program of the same equations, other elements.
+# The outer third of one rib over its mean pressure, by friction: a second program of the same equations.
 SECOND_PROGRAM = {
     15: {0.15: 0.139, 0.3: 0.278, 0.5: 0.396, 0.7: 0.408, 0.9: 0.408},
     10: {0.5: 0.353},
@@ -118,9 +118,9 @@ def five_ribs(spacing: float) -> dict[str, Any]:
 
 
 def strains(contact: Contact, road: tl.Pavement) -> tuple[float, float]:
-    """In the plane of the surface, mean over 10 mm, microstrain: the largest, and the largest that `assess` evaluates.
+    """Of the plane of the surface, mean over 10 mm, microstrain: the largest strain, and the largest evaluated.
 
-    Evaluated are places with a tensile principal stress; 0 where there is none.
+    `assess` evaluates places with a tensile principal stress; 0 where there is none.
     """
     data = tl.solve_response(contact, road, depths=[0.0], mean_over=10e-3).dataset
     along, across, sheared = (data[f"strain_{name}"].to_numpy() for name in ("xx", "yy", "xy"))
@@ -158,7 +158,9 @@ def draw_one_rib(file: Path) -> dict[float, list[float]]:
         edges = 1e3 * (np.append(rib.places[:, 0], rib.width) - rib.width / 2)
         across.stairs(1e-3 * pressure, edges, baseline=None, color=colour, lw=1.6, label=f"pressure, μ {friction:g}")
         # The road feels the opposite of the rib.
-        across.stairs(-1e-3 * shear, edges, baseline=None, color=colour, lw=1.6, ls="--", label=f"shear, μ {friction:g}")
+        across.stairs(
+            -1e-3 * shear, edges, baseline=None, color=colour, lw=1.6, ls="--", label=f"shear, μ {friction:g}"
+        )
     across.axhline(0, color=MUTED, lw=0.8)
     across.set(xlabel="to the right of the rib's middle (mm)", ylabel="on the road (kPa)", ylim=(-900, 1800))
     across.legend(loc="upper center", ncols=2)

@@ -44,8 +44,8 @@ POISSON_OF_RUBBER = 0.5
 Tread = Literal["layer", "ribs"]
 # Why there is no tread = "blocks".
 BLOCKS_ROLL = (
-    "blocks follow from lateral grooves, of the profile, of a scan or given, and do not roll steadily: leave tread out "
-    "and solve the passage of a pitch, with the table [pitch] of a case or solve_pitch(...)"
+    "blocks follow from lateral grooves, of the profile, of a scan or given, and do not roll steadily: leave tread "
+    "out and solve the passage of a pitch, with the table [pitch] of a case or solve_pitch(...)"
 )
 RibSides = Literal["free", "filled", "unknown", "none"]
 # Rubber below the deepest groove of a measured tread, m, where nobody gives it: that of the catalogue's 315/80R22.5,
