@@ -8,7 +8,7 @@ import numpy as np
 
 from treadload.damage.cycles import harm_of
 from treadload.damage.laws.equivalence import GROUP_FACTORS
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Counter
 from treadload.life.passage import Passing, solve_passings
