@@ -84,7 +84,7 @@ def solve_tangential(
         # A rigid slip that is known now is not an unknown, whatever it was in the start.
         unknown = [force is not None for force in forces]
         q, xi = start.shear[:, rows, columns], np.where(unknown, start.rigid, 0.0)
-    elif small.has_strips and g.shape[1] >= _COARSEST or not striped and min(g.shape) >= _COARSEST:
+    elif (g.shape[1] if small.has_strips else 0 if striped else min(g.shape)) >= _COARSEST:
         q, xi = _start(small, g, w, forces, rolls, axes, max(_START_TOLERANCE, tolerance))
     else:
         # Without shear the cells stick, and the first step is that of full adhesion; a force that is known takes an
@@ -236,7 +236,7 @@ def _start(
     axes: Axes,
     tolerance: float,
 ) -> tuple[Array, Array]:
-    """Shear and rigid slips of the solution on half the grid; on cells twice as long where rows are known as wholes."""
+    """Shear and rigid slips of the solution on half the grid; of strips on the same rows of cells twice as long."""
     striped = influence.has_strips
     axes_halved, halved = (ALONG, halve_along) if striped else (BOTH, halve)
     coarse_bound = np.nan_to_num(halved(bound))
