@@ -169,8 +169,8 @@ def _pass(
                 if ends and plane.margin < task.reach:
                     again.setdefault(number, []).append(k)
             else:
-                far, outside = (part if whole else part.isel(depth=own_rows) for part in around)
-                fields = _read_both(result, criterion, (at, outside, far), task, lines, basin)
+                away, outside = (part if whole else part.isel(depth=own_rows) for part in around)
+                fields = _read_both(result, criterion, (at, outside, away), task, lines, basin)
             worst.append((criterion, fields, result))
     _add_cracks(worst, lines.nearest, turns)
     return again
@@ -316,7 +316,8 @@ def _axle_peaks(lines: Lines, part: tuple[Array, Array, Array | None], centres: 
     at: dict[str, Any] = {"centres": centres, "turns": 2 * len(centres) - 1}
     if lines.strips is not None:
         return over_strips(lines.strips, x, uncut, margin, power=power, **at)[::2]
-    return peaks_and_valleys(x, uncut, margin, smooth=True, **at)[::2] @ lines.onto_core.T
+    peaks: Array = peaks_and_valleys(x, uncut, margin, smooth=True, **at)[::2] @ lines.onto_core.T
+    return peaks
 
 
 def _set_peak(read: Array, columns: IntArray, peak: Array) -> None:

@@ -101,7 +101,7 @@ class Tire:
                     "Belt(tread=...)"
                 )
         if self.tread not in get_args(Tread):
-            remedy = f"; {BLOCKS_ROLL}" if self.tread == "blocks" else ""
+            remedy = f"; {BLOCKS_ROLL}" if str(self.tread) == "blocks" else ""
             raise InputError(f'tread must be "layer" or "ribs", got {self.tread!r}{remedy}')
         if self.tread == "ribs":
             if self.belt is None:
