@@ -17,7 +17,8 @@ def test_top_down(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "Bus stop, half-space" in said
     assert "Bus stop, belt" in said
-    names = {"bus_stop_half-space", "bus_stop_belt"}
+    assert "Bus stop, ribs" in said
+    names = {"bus_stop_half-space", "bus_stop_belt", "bus_stop_ribs"}
     written = {f"{name}.{kind}" for name in names for kind in ("nc", "html")} | {"depth_against_years.png"}
     assert {path.name for path in tmp_path.iterdir()} == written
     opened = tl.open_results(tmp_path / "bus_stop_belt.nc")

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.composing import BaseResult, Holds, Source
+from treadload.composing import BaseResult, Columns, Holds, Source
 from treadload.damage.cracks import (
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
@@ -52,6 +52,7 @@ class Verdict(BaseResult, group="damage"):
     strain: the strain that the verdict reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
     """
 
+    columns: ClassVar[Columns] = Columns("Fatigue and cracks")
     title: ClassVar[str] = "Fatigue"
     holds: ClassVar[Holds] = Holds(
         {"depth": "depth", "worst_x worst_y worst_depth worst_strain worst_passes": "",

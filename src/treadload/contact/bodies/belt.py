@@ -7,6 +7,7 @@ the tread along. Formulas in `kernels.belt`.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -25,6 +26,8 @@ from treadload.tire.belt import InflatedBelt, LateralBelt
 
 # Directions over which a coupling that differs along and across is averaged.
 _DIRECTIONS = 16
+# Treads whose fitted images are kept: only with the same images are bodies of equal tires equal and share operators.
+_KEPT = 8
 
 
 @dataclass(frozen=True)
@@ -103,8 +106,7 @@ def belt_surface(inflated: InflatedBelt, speed: float | None = None) -> Body:
     belt = inflated.belt
 
     def tread(material: Elastic) -> Body:
-        stack = Stack([material.shear_modulus], [material.poisson], [belt.tread_thickness], [], rigid=True)
-        return Sum.of(HalfSpaces.of(material, None), Layering(images_of(stack), is_tire=True))
+        return _on_rigid_base(material, belt.tread_thickness)
 
     if inflated.ribs:
         if not isinstance(belt.tread, Elastic):
@@ -119,3 +121,10 @@ def belt_surface(inflated: InflatedBelt, speed: float | None = None) -> Body:
     if belt.lateral is not None:
         parts.append(BeltString(belt.lateral))
     return Sum.of(*parts)
+
+
+@lru_cache(maxsize=_KEPT)
+def _on_rigid_base(material: Elastic, thickness: float) -> Body:
+    """A layer of a tread, thickness in m, on a rigid base: body 1."""
+    stack = Stack([material.shear_modulus], [material.poisson], [thickness], [], rigid=True)
+    return Sum.of(HalfSpaces.of(material, None), Layering(images_of(stack), is_tire=True))

@@ -27,13 +27,17 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray, IntArray
+from treadload.kernels.gridding.strips import shortened
 from treadload.kernels.sections import CellTable
+
+# Loads on strips repeat after no less than this, m: at half of it a rib feels nothing of them, so that grids of any
+# length have the same operator.
+_PERIOD = 0.6
 
 
 @dataclass(frozen=True)
@@ -134,7 +138,10 @@ class Strip:
 
         ahead: distance of the displacement from the cells, m.
         """
-        block = self.table.on_lattice(cells, dx, ahead) / self.modulus
+        whole = max(cells, 2 * math.ceil(0.5 * _PERIOD / dx))
+        block = self.table.on_lattice(whole, dx, ahead) / self.modulus
+        if whole > cells:
+            block = shortened(block, whole, cells)
         if not self.mirrored:
             return block
         count = self.rows.size
@@ -220,7 +227,7 @@ class Body(ABC):
         """Refuse shear on a surface that drifts under it without limit. Raises InputError."""
 
     @property
-    def stats(self) -> Mapping[str, Any]:
+    def stats(self) -> Mapping[str, object]:
         """What was approximated, for the statistics of a contact."""
         return {}
 
@@ -312,7 +319,7 @@ class Sum(Body):
             part.check_shear()
 
     @property
-    def stats(self) -> Mapping[str, Any]:
+    def stats(self) -> Mapping[str, object]:
         """Of all of them."""
         return {name: value for part in self.parts for name, value in part.stats.items()}
 

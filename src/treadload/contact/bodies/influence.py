@@ -96,6 +96,11 @@ class Influence:
         return bool(self._strips)
 
     @property
+    def has_strips(self) -> bool:
+        """True if groups of rows are the same along travel only."""
+        return bool(self._strips)
+
+    @property
     def material(self) -> BoolArray:
         """(ny,) rows that have material: all of a pair without strips."""
         if not self._strips:

@@ -9,19 +9,22 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from treadload.contact.bodies.body import Body, Offsets, Rows, Strip, Waves
 from treadload.contact.bodies.section_tables import face_table
 from treadload.kernels.arrays import Array
-from treadload.kernels.sections import Section
+from treadload.kernels.sections import CellTable, Section
 from treadload.materials import Elastic
 from treadload.tire.rib_rows import rows_on_faces
 from treadload.tire.ribs import RibGroup
 
 # Wider cells, as those on which a contact is located, share the elements of these, m.
 _WIDEST = 3e-3
+# Tables of rows that are kept, and decimals of a metre to which their ends are rounded: mirrored ribs share a table.
+_KEPT, _DECIMALS = 16, 12
 
 
 def cells_section(group: RibGroup, cell: float) -> Section:
@@ -78,7 +81,13 @@ class Ribs(Body):
             relative = np.concatenate([face.parts for face in faces]) - group.centre
             if group.mirrored:
                 relative = -relative[::-1, ::-1]
-            section = cells_section(group, rows.dy)
-            table = face_table(section, self.material.poisson).on_cells(relative, rows.dy)
+            edges = tuple(np.round(relative, _DECIMALS).ravel().tolist())
+            table = _rows_table(cells_section(group, rows.dy), self.material.poisson, edges, rows.dy)
             strips.append(Strip(number, table, self.material.modulus, group.mirrored))
         return tuple(strips)
+
+
+@lru_cache(maxsize=_KEPT)
+def _rows_table(section: Section, poisson: float, edges: tuple[float, ...], dy: float) -> CellTable:
+    """Table of rows of dy, m, of a section. edges: left and right end of every row in turn, m."""
+    return face_table(section, poisson).on_cells(np.reshape(edges, (-1, 2)), dy)

@@ -21,6 +21,7 @@ from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.contact.solvers.slipping import SlippingSolution, solve_slipping, strongest
 from treadload.contact.solvers.tangential import TangentialSolution
+from treadload.contact.solvers.window import GrownError, Window
 from treadload.errors import ConvergenceError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
@@ -33,8 +34,9 @@ _MEMORY, _SLOW, _LONG_MEMORY = 6, 20, 20
 _TIGHTER = 0.3
 # A change of the pressure below it is round-off.
 _SAME = 1e-14
-# Of ribs: what rolling aims at in the first round, then per change of the pressure; of pressing, over the tolerance.
-_FIRST_AIM, _AIM, _MOST_OF_PRESSING = 1e-2, 0.1, 10.0
+# Of ribs: what pressing and rolling aim at in the first round, and rolling then per change of the pressure. Pressing
+# costs less than rolling, and what it leaves would mislead the mixing: it aims at the tolerance at once.
+_FIRST_PRESSING, _FIRST_AIM, _AIM = 1e-4, 1e-2, 0.1
 
 Progress = Callable[[str], None]
 
@@ -112,17 +114,25 @@ def solve_coupled(
         share = 0.5 if coupled else 1.0
         return solve_normal(influence, gap + by_shear, **control, start=near, tolerance=share * within)
 
-    normal = press(offset, None if start is None else start.pressure, tolerance)
+    # Ribs couple strongly, and no round needs to be much better than the pressure that it starts from.
+    striped = coupled and influence.has_strips
+    first = max(_FIRST_PRESSING, tolerance) if striped else tolerance
+    normal = press(offset, None if start is None else start.pressure, first)
     check(normal.pressure)
     at_rest = _at_rest(normal.pressure, grid, rolling)
+    window = Window.of(influence, grid, normal.pressure) if striped else None
+    if window is not None:
+        part = Start(normal.pressure, last)
+        solved = _in_window(window, influence, surfaces, rolling, part, tolerance=tolerance, tell=tell)
+        if solved is not None:
+            check(solved.normal.pressure)
+            return replace(solved, normal_iterations=solved.normal_iterations + normal.iterations)
     rigid = rigid_slip(grid.x, grid.y, grid.dx, rolling.creepages, rolling.spin)
     if rows is not None:
         rigid[0] += rows
     mixing = Anderson(_MEMORY)
     within = tolerance
-    # Ribs couple strongly, and no round needs to be much better than the pressure that it starts from.
-    striped = not influence.material.all()
-    aim = _FIRST_AIM if striped else within
+    aim = max(_FIRST_AIM, within) if striped else within
     iterations, newton, krylov, splitting, change = normal.iterations, 0, 0, 0, 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         tell(f"rolling contact, round {rounds}" if coupled else "rolling contact")
@@ -134,6 +144,10 @@ def solve_coupled(
         newton, krylov = newton + slipping.newton, krylov + slipping.krylov
         splitting += slipping.splitting
         if not coupled or not (last.shear.any() or offset.any()):
+            if normal.residual > within:
+                normal = press(offset, normal.pressure, within)
+                iterations += normal.iterations
+                continue
             check(normal.pressure)
             return Coupled(normal, slipping, rounds, change, iterations, newton, krylov, splitting)
         # The same pressure with the gap and the approach that this very shear makes.
@@ -149,7 +163,7 @@ def solve_coupled(
             mixing.memory = _LONG_MEMORY
         before = normal.pressure
         offset = mixing.next(offset, opening)
-        normal = press(offset, before, min(aim, _MOST_OF_PRESSING * within) if striped else within)
+        normal = press(offset, before, within)
         iterations += normal.iterations
         change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
         aim = max(within, _AIM * change) if striped else within
@@ -163,6 +177,40 @@ def solve_coupled(
         "lower the friction or raise the tolerance",
         change,
     )
+
+
+def _in_window(
+    window: Window,
+    influence: Influence,
+    surfaces: Surfaces,
+    rolling: Rolling,
+    start: Start,
+    *,
+    tolerance: float,
+    tell: Progress,
+) -> Coupled | None:
+    """The solution on the whole grid by that in a window; None where the contact does not stay in it."""
+    grid, rows = surfaces.grid, surfaces.rows
+    part = Surfaces(window.grid, window.of_field(surfaces.gap), None if rows is None else rows[window.rows])
+    near = Start(
+        window.of_field(start.pressure),
+        None if start.tangential is None else window.tangential_of(start.tangential),
+    )
+    try:
+        solved = solve_coupled(
+            window.influence, part, rolling, check=window.check, start=near, tolerance=tolerance, tell=tell
+        )
+    except GrownError:
+        return None
+    slipping = window.slipping_on_grid(solved.slipping)
+    normal = window.normal_on_grid(influence, surfaces.gap, solved.normal, slipping.tangential.shear)
+    if normal.residual > tolerance:
+        return None
+    if slipping.temperature is not None:
+        slip = slipping.tangential.slip
+        everywhere = Interface(normal.pressure, slip, grid.x, grid.y, grid.dx, rolling.speed)
+        slipping = replace(slipping, temperature=rolling.law.temperature(everywhere))
+    return replace(solved, normal=normal, slipping=slipping)
 
 
 def _at_rest(pressure: Array, grid: Grid, rolling: Rolling) -> Interface:

@@ -6,6 +6,16 @@ import numpy as np
 
 from treadload.kernels.arrays import Array, BoolArray
 
+# Axes along which cells are joined: both, or along travel alone.
+BOTH, ALONG = (-2, -1), (-1,)
+
+
+def halve_along(field: Array) -> Array:
+    """Means of two cells along travel (…, ny, ⌈nx/2⌉); the last cell of an odd number stays as it is."""
+    if field.shape[-1] % 2:
+        field = np.concatenate([field, field[..., -1:]], axis=-1)
+    return np.asarray(0.5 * (field[..., ::2] + field[..., 1::2]))
+
 
 def halve(field: Array) -> Array:
     """Means of 2 x 2 cells (…, ⌈ny/2⌉, ⌈nx/2⌉); NaN cells do not count, and only NaN gives NaN."""
@@ -24,9 +34,14 @@ def _of_four(field: Array) -> Array:
     return np.asarray(along[..., ::2, :] + along[..., 1::2, :])
 
 
-def refine(field: Array, shape: tuple[int, int]) -> Array:
-    """Field (…, ny, nx) on cells of half the size, linear between the centres of the cells (⌈ny/2⌉, ⌈nx/2⌉)."""
-    return _refined(_refined(field, -2), -1)[..., : shape[0], : shape[1]]
+def refine(field: Array, shape: tuple[int, int], axes: tuple[int, ...] = BOTH) -> Array:
+    """Field (…, ny, nx) on cells of half the size, linear between the centres of the cells (⌈ny/2⌉, ⌈nx/2⌉).
+
+    axes: along which the cells are of half the size.
+    """
+    for axis in axes:
+        field = _refined(field, axis)
+    return field[..., : shape[0], : shape[1]]
 
 
 def _refined(field: Array, axis: int) -> Array:
@@ -40,8 +55,8 @@ def _refined(field: Array, axis: int) -> Array:
     return finer
 
 
-def interpolate(field: Array, valid: BoolArray, shape: tuple[int, int]) -> Array:
-    """Field (…, ny, nx) on cells of half the size, linear between the known cells (⌈ny/2⌉, ⌈nx/2⌉)."""
+def interpolate(field: Array, valid: BoolArray, shape: tuple[int, int], axes: tuple[int, ...] = BOTH) -> Array:
+    """Field (…, ny, nx) on cells of half the size along axes, linear between the known cells (⌈ny/2⌉, ⌈nx/2⌉)."""
     weight = valid.astype(field.dtype)
-    total, share = refine(field * weight, shape), refine(weight, shape)
+    total, share = refine(field * weight, shape, axes), refine(weight, shape, axes)
     return np.divide(total, share, out=np.zeros_like(total), where=share > 0)

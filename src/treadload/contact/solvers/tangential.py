@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from treadload.contact.bodies.influence import Influence
-from treadload.contact.solvers.levels import halve, interpolate
+from treadload.contact.bodies.influence import Influence, operators
+from treadload.contact.solvers.levels import ALONG, BOTH, halve, halve_along, interpolate
 from treadload.errors import ConvergenceError
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, BoolArray
@@ -84,8 +84,8 @@ def solve_tangential(
         # A rigid slip that is known now is not an unknown, whatever it was in the start.
         unknown = [force is not None for force in forces]
         q, xi = start.shear[:, rows, columns], np.where(unknown, start.rigid, 0.0)
-    elif min(g.shape) >= _COARSEST and not striped:
-        q, xi = _start(small, g, w, forces, rolls, axes)
+    elif (small.has_strips and g.shape[1] >= _COARSEST) or (not striped and min(g.shape) >= _COARSEST):
+        q, xi = _start(small, g, w, forces, rolls, axes, max(_START_TOLERANCE, tolerance))
     else:
         # Without shear the cells stick, and the first step is that of full adhesion; a force that is known takes an
         # equal share of friction everywhere, so that the first steps need not look for it, nor for its rigid slip.
@@ -228,27 +228,38 @@ def _summed_ahead(shear: Array) -> Array:
 
 
 def _start(
-    influence: Influence, bound: Array, rigid: Array, forces: Forces, rolls: bool, axes: Axes
+    influence: Influence,
+    bound: Array,
+    rigid: Array,
+    forces: Forces,
+    rolls: bool,
+    axes: Axes,
+    tolerance: float,
 ) -> tuple[Array, Array]:
-    """Shear and rigid slips of the solution on half the grid."""
-    coarse_bound = np.nan_to_num(halve(bound))
+    """Shear and rigid slips of the solution on half the grid; of strips on the same rows of cells twice as long."""
+    striped = influence.has_strips
+    axes_halved, halved = (ALONG, halve_along) if striped else (BOTH, halve)
+    coarse_bound = np.nan_to_num(halved(bound))
     # The border cells of an odd grid keep their share of the friction force, not their mean.
-    coarse_bound *= bound.sum() / (4 * coarse_bound.sum())
-    coarse = replace(influence, shape=coarse_bound.shape, dx=2 * influence.dx, dy=2 * influence.dy)
+    coarse_bound *= bound.sum() / (2 ** len(axes_halved) * coarse_bound.sum())
+    if striped:
+        coarse = operators(coarse_bound.shape, 2 * influence.dx, influence.dy, influence.pair, influence.first_y)
+    else:
+        coarse = replace(influence, shape=coarse_bound.shape, dx=2 * influence.dx, dy=2 * influence.dy)
     step = 2 if rolls else 1
     rough = solve_tangential(
         coarse,
         coarse_bound,
-        step * np.nan_to_num(halve(rigid)),
+        step * np.nan_to_num(halved(rigid)),
         forces,
         rolls=rolls,
         axes=axes,
-        tolerance=_START_TOLERANCE,
+        tolerance=tolerance,
     )
     # The share of friction that is used varies smoothly; shear itself jumps at every edge.
     loaded = coarse_bound > 0
     share = rough.shear / np.where(loaded, coarse_bound, 1.0)
-    return interpolate(share, loaded, bound.shape) * bound, np.asarray(rough.rigid)
+    return interpolate(share, loaded, bound.shape, axes_halved) * bound, np.asarray(rough.rigid)
 
 
 def _bounding_box(mask: BoolArray) -> tuple[slice, slice] | None:

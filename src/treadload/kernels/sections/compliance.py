@@ -24,17 +24,18 @@ _SHIFT = 0.8
 _ALIASES, _UNSEEN = 2, 1e-20
 
 
-def face_compliance(section: Section, poisson: float) -> FaceTable:
+def face_compliance(section: Section, poisson: float, waves: Array | None = None) -> FaceTable:
     """Displacement of the face of a section of E = 1 Pa under waves of load.
 
-    poisson: ν, below ½. Raises ValueError for one that is not.
+    poisson: ν, below ½. waves: k ≥ 0, 1/m; 27 that a table interpolates between if left out. Raises ValueError for
+    a ν that is not below ½.
     """
     if not -1 < poisson < 0.5:
         raise ValueError(f"Poisson's ratio must lie between -1 and below 0.5, got {poisson:g}")
     mesh = section.mesh
     shear_modulus = 0.5 / (1 + poisson)
     lame = poisson / ((1 + poisson) * (1 - 2 * poisson))
-    waves = _WAVES / section.height
+    waves = _WAVES / section.height if waves is None else waves
     return FaceTable(section, poisson, waves, _swept(mesh, shear_modulus, lame, waves))
 
 
@@ -83,9 +84,7 @@ class CellTable:
 
     def at(self, k: Array) -> Array:
         """Compliance (m, 3 strips, 3 strips) at waves k (m,) ≥ 0, 1/m; beyond those of the table it falls as 1/k."""
-        shift = _SHIFT / self.height
-        inside = np.minimum(k, self.waves[-1])
-        return np.asarray(self._spline(np.log(inside + shift)) / (k + shift)[:, None, None])
+        return self._combined(self._weights(k))
 
     def on_lattice(self, cells: int, dx: float, ahead: float = 0.0) -> Array | ComplexArray:
         """Mean displacement of cells of length dx, m, by uniform loads on others, periodic after so many cells.
@@ -96,28 +95,41 @@ class CellTable:
         """
         count = self.compliance.shape[1]
         number = np.arange(cells // 2 + 1)
-        # Loads and displacements along travel turn round with the direction of a wave.
-        turned = np.ones((count, count))
-        third = count // 3
-        turned[:third, third:] = turned[third:, :third] = -1.0
-        total = np.zeros((number.size, count, count), complex if ahead else float)
+        # Every wave of the lattice is a sum of those of the table; those against the direction of travel apart.
+        forth = np.zeros((number.size, self.waves.size), complex if ahead else float)
+        back = np.zeros_like(forth)
         for alias in range(-_ALIASES, _ALIASES + 1):
             waves = number / cells + alias
             weight = np.sinc(waves) ** 2
             seen = np.flatnonzero(weight > _UNSEEN)
-            part = self.at(2 * np.pi / dx * np.abs(waves[seen])) * weight[seen, None, None]
-            if alias < 0:
-                part = part * turned
+            part = self._weights(2 * np.pi / dx * np.abs(waves[seen])) * weight[seen, None]
             if ahead:
                 # Half way round, a wave and its image are one: of both together only what is real is left.
-                part = part * np.exp(2j * np.pi * ahead / dx * waves[seen])[:, None, None]
-            total[seen] += part
+                part = part * np.exp(2j * np.pi * ahead / dx * waves[seen])[:, None]
+            (back if alias < 0 else forth)[seen] += part
+        # Loads and displacements along travel turn round with the direction of a wave.
+        total = self._combined(forth + back)
+        turns = self._combined(forth - back)
+        third = count // 3
+        total[:, :third, third:] = turns[:, :third, third:]
+        total[:, third:, :third] = turns[:, third:, :third]
         return total
+
+    def _weights(self, k: Array) -> Array:
+        """(m, n) of the waves of the table in C(k), k (m,) ≥ 0, 1/m: the spline is linear in what it joins."""
+        shift = _SHIFT / self.height
+        inside = np.minimum(k, self.waves[-1])
+        return np.asarray(self._spline(np.log(inside + shift)) / (k + shift)[:, None])
+
+    def _combined(self, weights: Array | ComplexArray) -> Array | ComplexArray:
+        """Sums (m, 3 strips, 3 strips) of the compliance at the waves of the table by weights (m, n)."""
+        flat = self.compliance.reshape(self.waves.size, -1)
+        return np.asarray(weights @ flat).reshape(-1, *self.compliance.shape[1:])
 
     @cached_property
     def _spline(self) -> CubicSpline:
         shift = _SHIFT / self.height
-        return CubicSpline(np.log(self.waves + shift), self.compliance * (self.waves + shift)[:, None, None], axis=0)
+        return CubicSpline(np.log(self.waves + shift), np.diag(self.waves + shift), axis=0)
 
 
 def _shares(mesh: Mesh, edges: Array) -> Array:

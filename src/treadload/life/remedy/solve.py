@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from treadload import variables
-from treadload.damage.miner import Life, miner
+from treadload.damage.life import Life
+from treadload.damage.miner import miner
 from treadload.damage.words import RUT
 from treadload.errors import InputError, TreadloadError
 from treadload.kernels.arrays import Array
